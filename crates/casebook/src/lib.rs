@@ -1,0 +1,139 @@
+//! Exact reference numbers that the tests of the workspace compare with.
+//!
+//! The table `casebook.json` was computed with 40-digit arithmetic outside this workspace, every number in two
+//! independent ways. Each case has inputs, expected values and the relative tolerance that a good f64 implementation
+//! reaches.
+
+use std::fmt::Write as _;
+
+use serde_json::Value;
+
+/// One row of the casebook.
+#[derive(Debug, Clone)]
+pub struct Case(Value);
+
+/// The cases of one group, for example `"FRI-01"`.
+///
+/// # Panics
+/// When the group is empty: a test that checks nothing must fail.
+#[must_use]
+pub fn group(name: &str) -> Vec<Case> {
+    let book: Value =
+        serde_json::from_str(include_str!("../casebook.json")).expect("the casebook is valid JSON");
+    let cases: Vec<Case> = book["cases"]
+        .as_array()
+        .expect("the casebook has a list of cases")
+        .iter()
+        .filter(|case| case["id"].as_str().is_some_and(|id| id.split('/').next() == Some(name)))
+        .cloned()
+        .map(Case)
+        .collect();
+    assert!(!cases.is_empty(), "the casebook has no group {name}");
+    cases
+}
+
+impl Case {
+    /// Full name, `group/case`.
+    #[must_use]
+    pub fn id(&self) -> &str {
+        self.0["id"].as_str().unwrap_or_default()
+    }
+
+    /// Whether an input of this name exists.
+    #[must_use]
+    pub fn has_input(&self, name: &str) -> bool {
+        !self.0["inputs"][name].is_null()
+    }
+
+    /// A numeric input.
+    ///
+    /// # Panics
+    /// When there is no such number.
+    #[must_use]
+    pub fn input(&self, name: &str) -> f64 {
+        number(&self.0["inputs"][name]).unwrap_or_else(|| panic!("{} has no number {name}", self.id()))
+    }
+
+    /// A list of numbers among the inputs.
+    ///
+    /// # Panics
+    /// When there is no such list.
+    #[must_use]
+    pub fn input_list(&self, name: &str) -> Vec<f64> {
+        list(&self.0["inputs"][name]).unwrap_or_else(|| panic!("{} has no list {name}", self.id()))
+    }
+
+    /// A text among the inputs, empty when absent.
+    #[must_use]
+    pub fn input_text(&self, name: &str) -> &str {
+        self.0["inputs"][name].as_str().unwrap_or_default()
+    }
+
+    /// A number among the expected values.
+    #[must_use]
+    pub fn expected(&self, name: &str) -> Option<f64> {
+        number(&self.0["expected"][name])
+    }
+
+    /// A list of numbers among the expected values.
+    #[must_use]
+    pub fn expected_list(&self, name: &str) -> Option<Vec<f64>> {
+        list(&self.0["expected"][name])
+    }
+
+    /// The name of the error that a program must return, when the case asks for one.
+    #[must_use]
+    pub fn expected_error(&self) -> Option<&str> {
+        self.0["expected"]["error"].as_str()
+    }
+
+    /// Relative tolerance of the case.
+    #[must_use]
+    pub fn relative_tolerance(&self) -> f64 {
+        number(&self.0["rel_tol"]).unwrap_or(1e-12)
+    }
+
+    /// Asserts that `actual` is the expected number `name` within the tolerance of the case.
+    ///
+    /// # Panics
+    /// When it is not, with both numbers and the inputs; or when nothing of that name is expected.
+    pub fn check(&self, name: &str, actual: f64) {
+        self.check_within(name, actual, self.relative_tolerance());
+    }
+
+    /// Like [`Case::check`] with a tolerance of the caller's.
+    ///
+    /// # Panics
+    /// Like [`Case::check`].
+    pub fn check_within(&self, name: &str, actual: f64, relative_tolerance: f64) {
+        let expected =
+            self.expected(name).unwrap_or_else(|| panic!("{} expects no number {name}", self.id()));
+        let allowed = relative_tolerance * expected.abs() + number(&self.0["abs_tol"]).unwrap_or(0.0);
+        let difference = (actual - expected).abs();
+        let mut report = String::new();
+        let _ = write!(
+            report,
+            "{}: {name} = {actual:e}, expected {expected:e}, off by {difference:e}, allowed {allowed:e}; inputs {}",
+            self.id(),
+            self.0["inputs"]
+        );
+        // A difference of exactly zero is allowed when the expected value is zero; NaN never passes.
+        assert!(difference <= allowed, "{report}");
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::String(text) => match text.as_str() {
+            "inf" => Some(f64::INFINITY),
+            "-inf" => Some(f64::NEG_INFINITY),
+            "nan" => Some(f64::NAN),
+            _ => None,
+        },
+        other => other.as_f64(),
+    }
+}
+
+fn list(value: &Value) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(number).collect()
+}

@@ -1,0 +1,122 @@
+//! Bodies of revolution and their equivalent lines.
+//!
+//! ```text
+//! h̃(x) = |x| ∫₀^|x| h'(r) / √(x² − r²) dr        (Heß 2011; Kürschner 2014, Eq. 8 for powers)
+//! ```
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::IndenterError;
+use crate::quadrature::integrate;
+
+/// A jump of the slope h' at a radius greater than zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kink {
+    /// Where the slope jumps, [m].
+    pub radius: f64,
+    /// h'(r + 0) − h'(r − 0).
+    pub slope_jump: f64,
+}
+
+/// A body of revolution, given by the height h(r) of its surface above its lowest point.
+///
+/// Implementors give the profile and two derivatives; the equivalent line follows by quadrature. Shapes with a closed
+/// form override [`line_height`](Self::line_height) and [`line_slope`](Self::line_slope).
+pub trait Axisymmetric {
+    /// Height h(r) above the lowest point, [m], at a `radius` r ≥ 0 [m]; `+∞` where the body has ended.
+    fn height(&self, radius: f64) -> f64;
+
+    /// Slope h'(r), at a `radius` r with 0 < r < [`max_radius`](Self::max_radius).
+    fn slope(&self, radius: f64) -> f64;
+
+    /// Second derivative h''(r), [1/m], away from kinks.
+    fn curvature(&self, radius: f64) -> f64;
+
+    /// Leading exponent p of h ∼ c r^p at the apex; `+∞` for a flat end.
+    fn apex_exponent(&self) -> f64;
+
+    /// Radius at which the body ends, [m]; `+∞` if it does not.
+    fn max_radius(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Jumps of the slope inside the body, by increasing radius.
+    fn kinks(&self) -> Vec<Kink> {
+        Vec::new()
+    }
+
+    /// Height of the equivalent line h̃(x), [m]; even in x, `+∞` where the body has ended.
+    fn line_height(&self, x: f64) -> f64 {
+        abel_height(self, x)
+    }
+
+    /// Slope of the equivalent line h̃'(x); odd in x.
+    fn line_slope(&self, x: f64) -> f64 {
+        abel_slope(self, x)
+    }
+
+    /// Height h(r), [m].
+    ///
+    /// # Errors
+    /// [`IndenterError::OutOfDomain`] when `radius` is negative, not a number, or the body has ended before it.
+    fn checked_height(&self, radius: f64) -> Result<f64, IndenterError> {
+        within(self, radius).map(|radius| self.height(radius))
+    }
+
+    /// Height of the equivalent line h̃(x), [m].
+    ///
+    /// # Errors
+    /// [`IndenterError::OutOfDomain`] when `x` is not a number or the body has ended before |x|.
+    fn checked_line_height(&self, x: f64) -> Result<f64, IndenterError> {
+        within(self, x.abs()).map(|radius| self.line_height(radius))
+    }
+}
+
+fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, IndenterError> {
+    let upper = body.max_radius();
+    // A body of finite radius without a finite height there (the sphere at its equator) has ended.
+    if radius >= 0.0 && radius <= upper && body.height(radius).is_finite() {
+        return Ok(radius);
+    }
+    Err(IndenterError::OutOfDomain { position: radius, lower: 0.0, upper })
+}
+
+/// The transform by quadrature: with r = x sin φ the root under the integral disappears,
+/// h̃(x) = x ∫₀^{π/2} h'(x sin φ) dφ.
+///
+/// This is what [`Axisymmetric::line_height`] does unless a shape overrides it.
+pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
+    let x = x.abs();
+    if x > body.max_radius() {
+        return f64::INFINITY;
+    }
+    if x == 0.0 {
+        return 0.0;
+    }
+    x * quarter_turn(body, x, |radius| body.slope(radius))
+}
+
+/// The derivative of the transform by quadrature: a kink of h' at b adds Δh' b / √(x² − b²) to
+/// ∫₀^{π/2} (h' + r h'')(x sin φ) dφ.
+///
+/// This is what [`Axisymmetric::line_slope`] does unless a shape overrides it.
+pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
+    let radius = x.abs();
+    let smooth = quarter_turn(body, radius, |r| body.slope(r) + r * body.curvature(r));
+    let kinks: f64 = body
+        .kinks()
+        .iter()
+        .filter(|kink| kink.radius < radius)
+        .map(|kink| kink.slope_jump * kink.radius / ((radius - kink.radius) * (radius + kink.radius)).sqrt())
+        .sum();
+    x.signum() * (smooth + kinks)
+}
+
+/// ∫₀^{π/2} f(x sin φ) dφ, split where the radius passes a kink.
+fn quarter_turn(body: &(impl Axisymmetric + ?Sized), x: f64, integrand: impl Fn(f64) -> f64) -> f64 {
+    let mut angles = vec![0.0];
+    angles.extend(body.kinks().iter().filter(|kink| kink.radius < x).map(|kink| (kink.radius / x).asin()));
+    angles.push(FRAC_PI_2);
+    let piece = |ends: &[f64]| integrate(|phi| integrand(x * phi.sin()), [ends[0], ends[1]], 1e-14).value;
+    angles.windows(2).map(piece).sum()
+}

@@ -1,0 +1,95 @@
+//! What can be wrong with an indenter, its load, or a question about it.
+
+use thiserror::Error;
+
+/// Why an indenter, a load or a geometric question is refused.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum IndenterError {
+    /// A parameter is not a number, or outside the range it may take.
+    #[error("{parameter} must be {allowed}, but is {value}")]
+    InvalidParameter {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// Two lists that belong together have different lengths.
+    #[error("{first} has {first_length} entries but {second} has {second_length}")]
+    LengthMismatch {
+        /// Name of the first list.
+        first: &'static str,
+        /// Its length.
+        first_length: usize,
+        /// Name of the second list.
+        second: &'static str,
+        /// Its length.
+        second_length: usize,
+    },
+    /// A list has too few entries.
+    #[error("{list} must have at least {needed} entries, but has {length}")]
+    TooFew {
+        /// Name of the list.
+        list: &'static str,
+        /// The smallest length that makes sense.
+        needed: usize,
+        /// Its length.
+        length: usize,
+    },
+    /// The positions of a table do not increase from entry to entry.
+    #[error("{list} must increase strictly, but entry {index} is {value} after {previous}")]
+    NotIncreasing {
+        /// Name of the list.
+        list: &'static str,
+        /// Index of the offending entry, counted from 0.
+        index: usize,
+        /// The offending entry.
+        value: f64,
+        /// The entry before it.
+        previous: f64,
+    },
+    /// The body does not reach as far as the position asked for.
+    #[error("position {position} lies outside the body, which reaches from {lower} to {upper}")]
+    OutOfDomain {
+        /// The position asked for, [m].
+        position: f64,
+        /// Where the body begins, [m].
+        lower: f64,
+        /// Where it ends, [m].
+        upper: f64,
+    },
+    /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
+    /// single circle and the method of dimensionality reduction does not answer.
+    #[error(
+        "the equivalent line rises only up to radius {limiting_radius}, where its height is {limiting_depth}; \
+         a depth of {depth} was asked for"
+    )]
+    NonMonotoneLine {
+        /// Radius at which the equivalent line stops rising, [m].
+        limiting_radius: f64,
+        /// Its height there, [m].
+        limiting_depth: f64,
+        /// The depth asked for, [m].
+        depth: f64,
+    },
+    /// The body or its leading edge ends below the depth asked for.
+    #[error("the line rises only {available} above its lowest point, but a depth of {depth} was asked for")]
+    NotHighEnough {
+        /// Height of the leading edge above its lowest point, [m].
+        available: f64,
+        /// The depth asked for, [m].
+        depth: f64,
+    },
+}
+
+/// Checks that `value` is finite and greater than zero.
+///
+/// # Errors
+/// [`IndenterError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(IndenterError::InvalidParameter { parameter, value, allowed: "finite and greater than 0" })
+}

@@ -1,0 +1,44 @@
+//! Rigid lines of the one-dimensional model.
+
+use crate::Axisymmetric;
+
+/// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
+pub trait RigidLine {
+    /// Height h̃(x), [m], at a position of the domain; `+∞` outside.
+    fn height(&self, x: f64) -> f64;
+
+    /// Slope h̃'(x); at a kink the slope towards positive x.
+    fn slope(&self, x: f64) -> f64;
+
+    /// The interval X on which the line is given, [m]. Its ends may be infinite.
+    fn domain(&self) -> [f64; 2];
+
+    /// Positions inside the domain at which the slope jumps or is singular, increasing.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// The equivalent line of a body of revolution, `h̃(x)`, with its apex at `x = 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EquivalentLine<'a, P: ?Sized>(pub &'a P);
+
+impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
+    fn height(&self, x: f64) -> f64 {
+        self.0.line_height(x)
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        self.0.line_slope(x)
+    }
+
+    fn domain(&self) -> [f64; 2] {
+        [-self.0.max_radius(), self.0.max_radius()]
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        let radii: Vec<f64> = self.0.kinks().iter().map(|kink| kink.radius).collect();
+        let mirrored = radii.iter().rev().map(|radius| -radius);
+        mirrored.chain(std::iter::once(0.0)).chain(radii.iter().copied()).collect()
+    }
+}

@@ -1,0 +1,106 @@
+//! Power profiles, the family of the paper.
+//!
+//! ```text
+//! h(r) = c r^p                (7)
+//! h̃(x) = κ(p) c |x|^p         (8)
+//! ```
+
+use crate::error::positive;
+use crate::{Axisymmetric, IndenterError, stretch};
+
+/// A body of revolution `h(r) = c r^p` with any p > 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PowerProfile {
+    coefficient: f64,
+    exponent: f64,
+    /// κ(p), kept because every height of the line needs it.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    stretch: f64,
+}
+
+impl PowerProfile {
+    /// The profile `coefficient · r^exponent`; the coefficient c > 0 has the unit [m^(1−p)].
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
+    pub fn new(coefficient: f64, exponent: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            coefficient: positive("coefficient", coefficient)?,
+            exponent: positive("exponent", exponent)?,
+            stretch: stretch(exponent)?,
+        })
+    }
+
+    /// The cone `slope · r`, slope > 0.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the slope is not finite and greater than zero.
+    pub fn cone(slope: f64) -> Result<Self, IndenterError> {
+        Self::new(positive("slope", slope)?, 1.0)
+    }
+
+    /// The paraboloid of revolution `curvature · r²`, curvature > 0 in [1/m]; its radius of curvature is
+    /// `1 / (2 curvature)`.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the curvature is not finite and greater than zero.
+    pub fn paraboloid(curvature: f64) -> Result<Self, IndenterError> {
+        Self::new(positive("curvature", curvature)?, 2.0)
+    }
+
+    /// Coefficient c, [m^(1−p)].
+    #[must_use]
+    pub const fn coefficient(&self) -> f64 {
+        self.coefficient
+    }
+
+    /// Exponent p.
+    #[must_use]
+    pub const fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// Stretch κ(p) of the equivalent line, (9).
+    #[must_use]
+    pub const fn stretch(&self) -> f64 {
+        self.stretch
+    }
+
+    /// Position x > 0 [m] at which the equivalent line has the `height` [m]: `x = (height / (κ c))^(1/p)`.
+    ///
+    /// For large p the power c x^p overflows long before x does.
+    #[must_use]
+    pub fn line_position(&self, height: f64) -> f64 {
+        if height == 0.0 {
+            return 0.0;
+        }
+        ((height.ln() - self.stretch.ln() - self.coefficient.ln()) / self.exponent).exp()
+    }
+}
+
+impl Axisymmetric for PowerProfile {
+    fn height(&self, radius: f64) -> f64 {
+        self.coefficient * radius.powf(self.exponent)
+    }
+
+    fn slope(&self, radius: f64) -> f64 {
+        self.coefficient * self.exponent * radius.powf(self.exponent - 1.0)
+    }
+
+    fn curvature(&self, radius: f64) -> f64 {
+        self.coefficient * self.exponent * (self.exponent - 1.0) * radius.powf(self.exponent - 2.0)
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    fn line_height(&self, x: f64) -> f64 {
+        self.stretch * self.height(x.abs())
+    }
+
+    fn line_slope(&self, x: f64) -> f64 {
+        x.signum() * self.stretch * self.slope(x.abs())
+    }
+}

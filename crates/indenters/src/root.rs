@@ -1,0 +1,74 @@
+//! A bracketed root, to a relative tolerance.
+//!
+//! Chandrupatla's method: inverse quadratic interpolation where it is safe, bisection elsewhere (Chandrupatla 1997,
+//! Adv. Eng. Softw. 28, 145).
+
+/// Finds x with `function(x) = 0` between two positions at which the function has opposite signs (or is zero).
+///
+/// The position is found to a few units in the last place. Returns `None` when the signs at both ends agree or one of
+/// them is NaN.
+pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
+    let [mut b, mut a] = bracket;
+    let (mut fa, mut fb) = (function(a), function(b));
+    if fa == 0.0 {
+        return Some(a);
+    }
+    if fb == 0.0 {
+        return Some(b);
+    }
+    if !(fa * fb.signum() < 0.0) {
+        return None;
+    }
+    let mut fraction = 0.5;
+    for _ in 0..MAX_ITERATIONS {
+        let x = a + fraction * (b - a);
+        let fx = function(x);
+        let (c, fc);
+        if (fx > 0.0) == (fa > 0.0) {
+            (c, fc) = (a, fa);
+        } else {
+            (c, fc) = (b, fb);
+            (b, fb) = (a, fa);
+        }
+        (a, fa) = (x, fx);
+        let best = if fa.abs() < fb.abs() { a } else { b };
+        let tolerance = f64::EPSILON * best.abs() / (b - a).abs();
+        if fa == 0.0 || tolerance >= 0.5 || a == b {
+            return Some(best);
+        }
+        let position = (a - b) / (c - b);
+        let phi = (fa - fb) / (fc - fb);
+        let interpolated =
+            fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
+        let safe = phi * phi < position && (1.0 - phi) * (1.0 - phi) < 1.0 - position;
+        fraction = if safe && interpolated.is_finite() { interpolated } else { 0.5 };
+        fraction = fraction.clamp(tolerance, 1.0 - tolerance);
+    }
+    Some(if fa.abs() < fb.abs() { a } else { b })
+}
+
+/// Bisection alone needs about 2100 halvings between the smallest and the largest number.
+const MAX_ITERATIONS: usize = 2200;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tiny_root_is_as_accurate_as_a_large_one() {
+        for scale in [1e-250, 1e-9, 1.0, 1e200] {
+            let root = bracketed_root(|x| (x / scale).powi(3) - 2.0, [0.0, 5.0 * scale]);
+            let exact = 2.0_f64.cbrt() * scale;
+            let relative = root.map(|x| (x / exact - 1.0).abs());
+            assert!(
+                relative.is_some_and(|error| error < 4e-16),
+                "scale {scale}: {root:?} instead of {exact}"
+            );
+        }
+    }
+
+    #[test]
+    fn equal_signs_are_refused() {
+        assert_eq!(bracketed_root(|x| x * x + 1.0, [-1.0, 1.0]), None, "x^2 + 1 has no root");
+    }
+}

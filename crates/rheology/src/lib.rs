@@ -1,0 +1,7 @@
+//! rheology
+
+mod error;
+mod viscous;
+
+pub use error::RheologyError;
+pub use viscous::Viscous;
