@@ -24,7 +24,11 @@ pub fn group(name: &str) -> Vec<Case> {
         .as_array()
         .expect("the casebook has a list of cases")
         .iter()
-        .filter(|case| case["id"].as_str().is_some_and(|id| id.split('/').next() == Some(name)))
+        .filter(|case| {
+            case["id"]
+                .as_str()
+                .is_some_and(|id| id.split('/').next() == Some(name))
+        })
         .cloned()
         .map(Case)
         .collect();
@@ -51,7 +55,8 @@ impl Case {
     /// When there is no such number.
     #[must_use]
     pub fn input(&self, name: &str) -> f64 {
-        number(&self.0["inputs"][name]).unwrap_or_else(|| panic!("{} has no number {name}", self.id()))
+        number(&self.0["inputs"][name])
+            .unwrap_or_else(|| panic!("{} has no number {name}", self.id()))
     }
 
     /// A list of numbers among the inputs.
@@ -106,9 +111,11 @@ impl Case {
     /// # Panics
     /// Like [`Case::check`].
     pub fn check_within(&self, name: &str, actual: f64, relative_tolerance: f64) {
-        let expected =
-            self.expected(name).unwrap_or_else(|| panic!("{} expects no number {name}", self.id()));
-        let allowed = relative_tolerance * expected.abs() + number(&self.0["abs_tol"]).unwrap_or(0.0);
+        let expected = self
+            .expected(name)
+            .unwrap_or_else(|| panic!("{} expects no number {name}", self.id()));
+        let allowed =
+            relative_tolerance * expected.abs() + number(&self.0["abs_tol"]).unwrap_or(0.0);
         let difference = (actual - expected).abs();
         let mut report = String::new();
         let _ = write!(

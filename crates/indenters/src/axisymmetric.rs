@@ -78,7 +78,11 @@ fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, Inden
     if radius >= 0.0 && radius <= upper && body.height(radius).is_finite() {
         return Ok(radius);
     }
-    Err(IndenterError::OutOfDomain { position: radius, lower: 0.0, upper })
+    Err(IndenterError::OutOfDomain {
+        position: radius,
+        lower: 0.0,
+        upper,
+    })
 }
 
 /// The transform by quadrature: with r = x sin φ the root under the integral disappears,
@@ -107,16 +111,28 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
         .kinks()
         .iter()
         .filter(|kink| kink.radius < radius)
-        .map(|kink| kink.slope_jump * kink.radius / ((radius - kink.radius) * (radius + kink.radius)).sqrt())
+        .map(|kink| {
+            kink.slope_jump * kink.radius / ((radius - kink.radius) * (radius + kink.radius)).sqrt()
+        })
         .sum();
     x.signum() * (smooth + kinks)
 }
 
 /// ∫₀^{π/2} f(x sin φ) dφ, split where the radius passes a kink.
-fn quarter_turn(body: &(impl Axisymmetric + ?Sized), x: f64, integrand: impl Fn(f64) -> f64) -> f64 {
+fn quarter_turn(
+    body: &(impl Axisymmetric + ?Sized),
+    x: f64,
+    integrand: impl Fn(f64) -> f64,
+) -> f64 {
     let mut angles = vec![0.0];
-    angles.extend(body.kinks().iter().filter(|kink| kink.radius < x).map(|kink| (kink.radius / x).asin()));
+    angles.extend(
+        body.kinks()
+            .iter()
+            .filter(|kink| kink.radius < x)
+            .map(|kink| (kink.radius / x).asin()),
+    );
     angles.push(FRAC_PI_2);
-    let piece = |ends: &[f64]| integrate(|phi| integrand(x * phi.sin()), [ends[0], ends[1]], 1e-14).value;
+    let piece =
+        |ends: &[f64]| integrate(|phi| integrand(x * phi.sin()), [ends[0], ends[1]], 1e-14).value;
     angles.windows(2).map(piece).sum()
 }

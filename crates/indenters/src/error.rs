@@ -74,7 +74,9 @@ pub enum IndenterError {
         depth: f64,
     },
     /// The body or its leading edge ends below the depth asked for.
-    #[error("the line rises only {available} above its lowest point, but a depth of {depth} was asked for")]
+    #[error(
+        "the line rises only {available} above its lowest point, but a depth of {depth} was asked for"
+    )]
     NotHighEnough {
         /// Height of the leading edge above its lowest point, [m].
         available: f64,
@@ -91,5 +93,9 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Inden
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
-    Err(IndenterError::InvalidParameter { parameter, value, allowed: "finite and greater than 0" })
+    Err(IndenterError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and greater than 0",
+    })
 }

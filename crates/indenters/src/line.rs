@@ -39,6 +39,9 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
     fn kinks(&self) -> Vec<f64> {
         let radii: Vec<f64> = self.0.kinks().iter().map(|kink| kink.radius).collect();
         let mirrored = radii.iter().rev().map(|radius| -radius);
-        mirrored.chain(std::iter::once(0.0)).chain(radii.iter().copied()).collect()
+        mirrored
+            .chain(std::iter::once(0.0))
+            .chain(radii.iter().copied())
+            .collect()
     }
 }

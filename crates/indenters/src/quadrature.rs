@@ -48,14 +48,25 @@ pub fn integrate_from_ends(
             break;
         }
     }
-    Integral { value: previous, error }
+    Integral {
+        value: previous,
+        error,
+    }
 }
 
 /// Integrates `integrand(x)` over an interval; see [`integrate_from_ends`].
 ///
 /// A singular end at `x = 0` is resolved fully, any other one up to the rounding of `x`.
-pub fn integrate(integrand: impl Fn(f64) -> f64, interval: [f64; 2], relative_tolerance: f64) -> Integral {
-    integrate_from_ends(|end, distance| integrand(end + distance), interval, relative_tolerance)
+pub fn integrate(
+    integrand: impl Fn(f64) -> f64,
+    interval: [f64; 2],
+    relative_tolerance: f64,
+) -> Integral {
+    integrate_from_ends(
+        |end, distance| integrand(end + distance),
+        interval,
+        relative_tolerance,
+    )
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -72,7 +83,11 @@ impl NodeSums {
 }
 
 /// Weighted sum of the integrand over the nodes t = ±(first + k step).
-fn node_sums(integrand: &impl Fn(f64, f64) -> f64, interval: [f64; 2], [first, step]: [f64; 2]) -> NodeSums {
+fn node_sums(
+    integrand: &impl Fn(f64, f64) -> f64,
+    interval: [f64; 2],
+    [first, step]: [f64; 2],
+) -> NodeSums {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut sums = NodeSums::default();
     let mut k = 0_u32;
@@ -110,19 +125,28 @@ mod tests {
     fn a_singular_end_costs_no_accuracy() {
         let integral = integrate(|x| x.powf(-0.9), [0.0, 2.0], 1e-13);
         let exact = 10.0 * 2.0_f64.powf(0.1);
-        assert!((integral.value / exact - 1.0).abs() < 1e-12, "{integral:?} instead of {exact}");
+        assert!(
+            (integral.value / exact - 1.0).abs() < 1e-12,
+            "{integral:?} instead of {exact}"
+        );
     }
 
     #[test]
     fn a_smooth_integrand_reaches_rounding() {
         let integral = integrate(f64::exp, [-1.0, 3.0], 1e-14);
         let exact = 3.0_f64.exp() - (-1.0_f64).exp();
-        assert!((integral.value / exact - 1.0).abs() < 1e-14, "{integral:?} instead of {exact}");
+        assert!(
+            (integral.value / exact - 1.0).abs() < 1e-14,
+            "{integral:?} instead of {exact}"
+        );
     }
 
     #[test]
     fn the_error_estimate_admits_a_failure() {
         let integral = integrate(|x| 1.0 / x, [0.0, 1.0], 1e-10);
-        assert!(integral.error > 1e-5 * integral.value.abs(), "{integral:?} of a divergent integral");
+        assert!(
+            integral.error > 1e-5 * integral.value.abs(),
+            "{integral:?} of a divergent integral"
+        );
     }
 }

@@ -41,7 +41,11 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Optio
         let interpolated =
             fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
         let safe = phi * phi < position && (1.0 - phi) * (1.0 - phi) < 1.0 - position;
-        fraction = if safe && interpolated.is_finite() { interpolated } else { 0.5 };
+        fraction = if safe && interpolated.is_finite() {
+            interpolated
+        } else {
+            0.5
+        };
         fraction = fraction.clamp(tolerance, 1.0 - tolerance);
     }
     Some(if fa.abs() < fb.abs() { a } else { b })
@@ -69,6 +73,10 @@ mod tests {
 
     #[test]
     fn equal_signs_are_refused() {
-        assert_eq!(bracketed_root(|x| x * x + 1.0, [-1.0, 1.0]), None, "x^2 + 1 has no root");
+        assert_eq!(
+            bracketed_root(|x| x * x + 1.0, [-1.0, 1.0]),
+            None,
+            "x^2 + 1 has no root"
+        );
     }
 }

@@ -25,5 +25,9 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Rheol
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
-    Err(RheologyError::InvalidParameter { parameter, value, allowed: "finite and greater than 0" })
+    Err(RheologyError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and greater than 0",
+    })
 }

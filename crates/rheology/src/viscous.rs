@@ -20,7 +20,9 @@ impl Viscous {
     /// # Errors
     /// [`RheologyError::InvalidParameter`] when the viscosity is not finite and greater than zero.
     pub fn new(viscosity: f64) -> Result<Self, RheologyError> {
-        Ok(Self { viscosity: positive("viscosity", viscosity)? })
+        Ok(Self {
+            viscosity: positive("viscosity", viscosity)?,
+        })
     }
 
     /// Shear viscosity η, [Pa s].
