@@ -1,0 +1,164 @@
+//! Contact at one instant.
+//!
+//! ```text
+//! gap = separation + α/(4π) K P − d,        P ≥ 0,  gap ≥ 0,  P · gap = 0
+//! ```
+//!
+//! The separation is the height of the rigid surface minus the displacement of the half space before the step, α the
+//! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
+//! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
+
+mod iteration;
+mod state;
+
+use std::f64::consts::PI;
+
+use crate::{BemError, Convolution};
+use iteration::Iteration;
+pub use state::ContactState;
+
+/// What is prescribed at the instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// Normal force, [N]; the depth follows.
+    NormalForce(f64),
+    /// Indentation depth d, [m]; the normal force follows.
+    IndentationDepth(f64),
+}
+
+/// One contact problem.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactProblem<'a> {
+    /// The grid and its influence coefficients.
+    pub convolution: &'a Convolution,
+    /// Height of the rigid surface minus displacement of the half space, [m], one value per element; `+∞` where no
+    /// contact is possible.
+    pub separation: &'a [f64],
+    /// Compliance α of the half space in this step, [1/Pa].
+    pub compliance: f64,
+    /// Force or depth.
+    pub control: Control,
+}
+
+/// When the iteration stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactOptions {
+    /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement that the
+    /// pressure causes.
+    pub tolerance: f64,
+    /// Iterations, of one convolution each, after which the solver gives up.
+    pub max_iterations: usize,
+}
+
+impl Default for ContactOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-9,
+            max_iterations: 2000,
+        }
+    }
+}
+
+/// A solved contact; the pressure is in the [`ContactState`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Contact {
+    /// Indentation depth d, [m].
+    pub indentation_depth: f64,
+    /// Normal force, [N].
+    pub normal_force: f64,
+    /// Number of elements in contact.
+    pub n_contact: usize,
+    /// Iterations made, of one convolution each.
+    pub iterations: usize,
+    /// Residual reached, in the sense of [`ContactOptions::tolerance`].
+    pub residual: f64,
+}
+
+/// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
+///
+/// Conjugate gradients projected onto the contact, which loses elements under tension and gains elements that
+/// penetrate (Polonsky & Keer 1999, Wear 231, 206), with one convolution per iteration where the contact stands.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and
+/// non-negative or a depth that is not finite; [`BemError::LengthMismatch`], [`BemError::InvalidHeight`];
+/// [`BemError::ContactNotConverged`] with the residual reached.
+pub fn solve_contact(
+    problem: &ContactProblem,
+    state: &mut ContactState,
+    options: &ContactOptions,
+) -> Result<Contact, BemError> {
+    validate(problem, state)?;
+    // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
+    let load_per_pressure = problem.compliance / (4.0 * PI);
+    let area = problem.convolution.grid().element_area();
+    let control = match problem.control {
+        Control::NormalForce(force) => Control::NormalForce(force * load_per_pressure / area),
+        depth @ Control::IndentationDepth(_) => depth,
+    };
+    state.scale_load(load_per_pressure);
+    let outcome = Iteration::new(problem, control, state).run(options);
+    state.scale_load(1.0 / load_per_pressure);
+    let outcome = outcome?;
+    Ok(Contact {
+        indentation_depth: outcome.indentation_depth,
+        normal_force: outcome.total_load * area / load_per_pressure,
+        n_contact: state.contact().len(),
+        iterations: outcome.iterations,
+        residual: outcome.residual,
+    })
+}
+
+fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
+    let grid = problem.convolution.grid();
+    crate::error::positive("compliance", problem.compliance)?;
+    let lengths = [
+        ("separation", problem.separation.len()),
+        ("pressure", state.pressure().len()),
+    ];
+    for (field, length) in lengths {
+        if length != grid.n_elements() {
+            return Err(BemError::LengthMismatch {
+                field,
+                length,
+                elements: grid.n_elements(),
+            });
+        }
+    }
+    let invalid = |&height: &f64| height.is_nan() || height == f64::NEG_INFINITY;
+    if let Some(index) = problem.separation.iter().position(invalid) {
+        let n_y = grid.shape()[1];
+        let value = problem.separation[index];
+        return Err(BemError::InvalidHeight {
+            row: index / n_y,
+            column: index % n_y,
+            value,
+        });
+    }
+    match problem.control {
+        Control::NormalForce(value) if !(value.is_finite() && value >= 0.0) => {
+            let allowed = "finite and not negative (there is no adhesion)";
+            Err(BemError::InvalidParameter {
+                parameter: "normal_force",
+                value,
+                allowed,
+            })
+        }
+        Control::IndentationDepth(value) if !value.is_finite() => Err(BemError::InvalidParameter {
+            parameter: "indentation_depth",
+            value,
+            allowed: "finite",
+        }),
+        _ if problem.separation.iter().all(|height| !height.is_finite()) => {
+            let allowed = "below infinity in at least one element";
+            Err(BemError::InvalidParameter {
+                parameter: "separation",
+                value: f64::INFINITY,
+                allowed,
+            })
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,124 @@
+//! What can be wrong with a question to the half space, and what was reached when it could not be answered.
+
+use indenters::IndenterError;
+use thiserror::Error;
+
+/// Why the half space gives no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum BemError {
+    /// A parameter is not a number, or outside the range it may take.
+    #[error("{parameter} must be {allowed}, but is {value}")]
+    InvalidParameter {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// A field does not have one value per element.
+    #[error("{field} has {length} values, but the grid has {elements} elements")]
+    LengthMismatch {
+        /// Name of the field.
+        field: &'static str,
+        /// Its length.
+        length: usize,
+        /// Number of elements of the grid.
+        elements: usize,
+    },
+    /// A height of the indenter is NaN or −∞ (`+∞` means that there is no body).
+    #[error(
+        "height {value} at element ({row}, {column}): it must be a number, or +inf where there is no body"
+    )]
+    InvalidHeight {
+        /// Index along x.
+        row: usize,
+        /// Index along y.
+        column: usize,
+        /// The refused height, [m].
+        value: f64,
+    },
+    /// The grid would have more elements than can be handled.
+    #[error(
+        "the grid would have {elements:e} elements, but at most {limit:e} are allowed; take a larger spacing"
+    )]
+    GridTooLarge {
+        /// Number of elements asked for.
+        elements: f64,
+        /// The largest number allowed.
+        limit: f64,
+    },
+    /// The stationary contact covers too few elements for its friction to mean anything.
+    #[error(
+        "the contact covers {elements} elements along x, but at least {needed} are needed; take a smaller spacing"
+    )]
+    GridTooCoarse {
+        /// Number of elements of the contact along x.
+        elements: usize,
+        /// The smallest number allowed.
+        needed: usize,
+    },
+    /// The contact reaches the boundary of the footprint in which it was allowed.
+    #[error(
+        "after sliding {sliding_distance} m the contact reaches the boundary of the footprint \
+         x {x_min}..{x_max}, y {y_min}..{y_max} m; take a larger footprint"
+    )]
+    ContactReachesBoundary {
+        /// Sliding distance at which it happened, [m]; 0 without sliding.
+        sliding_distance: f64,
+        /// Footprint, [m].
+        x_min: f64,
+        /// Footprint, [m].
+        x_max: f64,
+        /// Footprint, [m].
+        y_min: f64,
+        /// Footprint, [m].
+        y_max: f64,
+    },
+    /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
+    #[error(
+        "the contact was not solved: after {iterations} iterations the residual is {residual:e}, \
+         the tolerance {tolerance:e}"
+    )]
+    ContactNotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Residual reached; see `ContactOptions`.
+        residual: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+    },
+    /// The friction coefficient still changes at the end of the sliding distance.
+    #[error(
+        "no stationary state after sliding {sliding_distance} m: over the last half of that distance the friction \
+         coefficient changed by {drift:e} of its value {friction_coefficient}, the tolerance is {tolerance:e}"
+    )]
+    NotStationary {
+        /// Sliding distance reached, [m].
+        sliding_distance: f64,
+        /// Relative change of the friction coefficient over the second half of the distance.
+        drift: f64,
+        /// Friction coefficient at the end.
+        friction_coefficient: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+    },
+    /// The rigid body refuses the question.
+    #[error(transparent)]
+    Indenter(#[from] IndenterError),
+}
+
+/// Checks that `value` is finite and greater than zero.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(BemError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and greater than 0",
+    })
+}

@@ -1,0 +1,81 @@
+//! Rectangular elements in a regular grid.
+
+use crate::BemError;
+use crate::error::positive;
+
+/// More elements than this would not fit into the memory of a large machine.
+const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
+
+/// A regular grid of rectangular elements, stored row-major with y fastest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Grid {
+    shape: [usize; 2],
+    spacing: [f64; 2],
+}
+
+impl Grid {
+    /// `shape` = [n_x, n_y] elements with edges of length `spacing` = [Δx, Δy], [m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for an empty grid or a spacing that is not finite and greater than zero;
+    /// [`BemError::GridTooLarge`] above 2^28 elements.
+    pub fn new(shape: [usize; 2], spacing: [f64; 2]) -> Result<Self, BemError> {
+        positive("spacing along x", spacing[0])?;
+        positive("spacing along y", spacing[1])?;
+        positive("number of elements along x", shape[0] as f64)?;
+        positive("number of elements along y", shape[1] as f64)?;
+        let elements = shape[0] as f64 * shape[1] as f64;
+        if elements > MAX_ELEMENTS {
+            return Err(BemError::GridTooLarge {
+                elements,
+                limit: MAX_ELEMENTS,
+            });
+        }
+        Ok(Self { shape, spacing })
+    }
+
+    /// Number of elements [n_x, n_y].
+    #[must_use]
+    pub const fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// Edges of an element [Δx, Δy], [m].
+    #[must_use]
+    pub const fn spacing(&self) -> [f64; 2] {
+        self.spacing
+    }
+
+    /// Number of elements.
+    #[must_use]
+    pub const fn n_elements(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Area of an element, [m²].
+    #[must_use]
+    pub fn element_area(&self) -> f64 {
+        self.spacing[0] * self.spacing[1]
+    }
+}
+
+/// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
+///
+/// # Errors
+/// [`BemError::GridTooLarge`] when the number is beyond any grid.
+pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
+    let elements = (length / spacing).ceil();
+    if elements > MAX_ELEMENTS || elements.is_nan() {
+        return Err(BemError::GridTooLarge {
+            elements,
+            limit: MAX_ELEMENTS,
+        });
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 <= elements <= 2^28"
+    )]
+    Ok(elements.max(0.0) as usize)
+}
