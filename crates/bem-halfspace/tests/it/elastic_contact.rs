@@ -25,7 +25,7 @@ fn contact_at_given_depth_is_the_unique_discrete_solution() {
         let n = case.input("N") as usize;
         let heights = centred_heights(&indenter(&case), n, 1.0);
         let (contact, state) =
-            elastic_contact(&heights, n, Control::IndentationDepth(case.input("d")));
+            elastic_contact(&heights, [n, n], Control::IndentationDepth(case.input("d")));
         case.check("F", contact.normal_force);
         case.check_within("n_contact", contact.n_contact as f64, 0.0);
         let centre = if n % 2 == 1 {
@@ -48,7 +48,7 @@ fn contact_at_given_force_has_the_depth_that_causes_the_force() {
         let n = case.input("N") as usize;
         let heights = centred_heights(&indenter(&case), n, 1.0);
         let force = case.expected("F").expect("a force");
-        let (contact, _) = elastic_contact(&heights, n, Control::NormalForce(force));
+        let (contact, _) = elastic_contact(&heights, [n, n], Control::NormalForce(force));
         let depth = case.input("d");
         let difference = (contact.indentation_depth / depth - 1.0).abs();
         assert!(

@@ -1,6 +1,14 @@
 //! The claims of the crate, one file each.
 
+mod bad_input;
+mod contact_limits;
+mod convolution_is_the_sum;
+mod dense_reference;
 mod elastic_contact;
 mod influence_coefficients;
+mod normal_indentation;
+mod sliding_converges;
+mod sliding_invariance;
 mod square_punch;
+mod stationary_state;
 mod support;

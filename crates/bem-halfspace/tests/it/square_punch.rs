@@ -15,7 +15,7 @@ fn stiffness_of_a_square_punch() {
         )]
         let n = case.input("N") as usize;
         let heights = vec![0.0; n * n];
-        let (contact, state) = elastic_contact(&heights, n, Control::IndentationDepth(1.0));
+        let (contact, state) = elastic_contact(&heights, [n, n], Control::IndentationDepth(1.0));
         case.check("F_over_GdL", contact.normal_force / n as f64);
         if case.expected("p_centre_over_G").is_some() {
             case.check("p_centre_over_G", state.pressure()[n * n / 2]);

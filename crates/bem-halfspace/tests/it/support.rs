@@ -1,28 +1,34 @@
-//! Grids and contact problems that several claims share.
+//! Grids, contact problems and sliding scenes that several claims share.
 
+use bem_halfspace::slide::{SlideOptions, Transient, slide};
 use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
     solve_contact,
 };
-use indenters::Surface;
+use indenters::{PowerProfile, SlidingLoad, Surface};
+use rheology::Viscous;
 
 /// Tight enough that the contact set and ten digits are those of the exact discrete solution.
-pub const TIGHT: ContactOptions = ContactOptions {
+pub(crate) const TIGHT: ContactOptions = ContactOptions {
     tolerance: 1e-13,
     max_iterations: 5000,
 };
 
 /// Heights over `n` × `n` square elements of the given edge, with the apex over the centre of the grid.
-pub fn centred_heights(surface: &impl Surface, n: usize, spacing: f64) -> Vec<f64> {
+pub(crate) fn centred_heights(surface: &impl Surface, n: usize, spacing: f64) -> Vec<f64> {
     let position = |index: usize| (index as f64 - 0.5 * (n as f64 - 1.0)) * spacing;
     (0..n * n)
         .map(|index| surface.height([position(index / n), position(index % n)]))
         .collect()
 }
 
-/// Solves an elastic contact (compliance 1/G) on a square grid of unit elements.
-pub fn elastic_contact(heights: &[f64], n: usize, control: Control) -> (Contact, ContactState) {
-    let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
+/// Solves an elastic contact of shear modulus 1 on unit elements.
+pub(crate) fn elastic_contact(
+    heights: &[f64],
+    shape: [usize; 2],
+    control: Control,
+) -> (Contact, ContactState) {
+    let grid = Grid::new(shape, [1.0, 1.0]).expect("a valid grid");
     let convolution = Convolution::new(&grid);
     let mut state = ContactState::new(&convolution);
     let problem = ContactProblem {
@@ -33,4 +39,55 @@ pub fn elastic_contact(heights: &[f64], n: usize, control: Control) -> (Contact,
     };
     let contact = solve_contact(&problem, &mut state, &TIGHT).expect("a solved contact");
     (contact, state)
+}
+
+/// A power profile h = c r^p on a viscous half space.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scene {
+    pub(crate) body: PowerProfile,
+    pub(crate) material: Viscous,
+    pub(crate) load: SlidingLoad,
+}
+
+impl Scene {
+    pub(crate) fn new(
+        [coefficient, exponent]: [f64; 2],
+        viscosity: f64,
+        [force, velocity]: [f64; 2],
+    ) -> Self {
+        Self {
+            body: PowerProfile::new(coefficient, exponent).expect("a valid profile"),
+            material: Viscous::new(viscosity).expect("a valid material"),
+            load: SlidingLoad::new(force, velocity).expect("a valid load"),
+        }
+    }
+
+    /// Every number of order one.
+    pub(crate) fn unit(exponent: f64) -> Self {
+        Self::new([0.3, exponent], 2.0, [0.5, 0.7])
+    }
+
+    /// Stationary contact length of the one-dimensional model, [m].
+    pub(crate) fn contact_length(&self) -> f64 {
+        let depth =
+            0.25 * self.load.normal_force() / self.material.viscosity() / self.load.velocity();
+        self.body.line_position(depth)
+    }
+
+    /// Square elements, `elements` along the contact length, sliding over `lengths` of it.
+    pub(crate) fn options(&self, elements: f64, lengths: f64) -> SlideOptions {
+        let spacing = self.contact_length() / elements;
+        SlideOptions {
+            spacing: [spacing, spacing],
+            footprint: Footprint::of_body(&self.body, &self.material, &self.load)
+                .expect("a footprint"),
+            sliding_distance: lengths * self.contact_length(),
+            contact: ContactOptions::default(),
+        }
+    }
+
+    pub(crate) fn slide(&self, elements: f64, lengths: f64) -> Transient {
+        let options = self.options(elements, lengths);
+        slide(&self.body, &self.material, &self.load, &options).expect("a transient")
+    }
 }

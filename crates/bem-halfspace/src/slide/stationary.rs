@@ -1,0 +1,88 @@
+//! The stationary state behind a transient.
+//!
+//! The surface ahead of the indenter sinks like ln t, so the friction coefficient approaches its limit only like the
+//! reciprocal of the sliding distance S:
+//!
+//! ```text
+//! μ(S) = μ_∞ + m₁/S + m₂/S² + …
+//! ```
+
+use crate::BemError;
+use crate::slide::{SlideStep, Transient};
+
+/// The limit of the friction coefficient for an infinite sliding distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct StationaryFriction {
+    /// μ_∞, extrapolated from the distances S, S/2 and S/4.
+    pub friction_coefficient: f64,
+    /// Estimated absolute error of the extrapolation: what the term 1/S² changes. The error of the grid is not in it.
+    pub distance_error: f64,
+    /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
+    /// order, the relative difference between its last value and the limit.
+    pub drift: f64,
+}
+
+impl Transient {
+    /// The last step.
+    ///
+    /// # Panics
+    /// Never for a transient that [`slide`](crate::slide::slide) returned: it has at least one step.
+    #[must_use]
+    pub fn last(&self) -> &SlideStep {
+        &self.steps[self.steps.len() - 1]
+    }
+
+    /// The stationary friction coefficient, with the slope averaged over each step.
+    ///
+    /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
+    /// value over the second half of the sliding distance.
+    ///
+    /// # Errors
+    /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
+    pub fn stationary(&self, drift_tolerance: f64) -> Result<StationaryFriction, BemError> {
+        let n = self.steps.len();
+        let last = self.last();
+        let value = last.friction_coefficient;
+        let not_stationary = |drift| BemError::NotStationary {
+            sliding_distance: last.sliding_distance,
+            drift,
+            friction_coefficient: value,
+            tolerance: drift_tolerance,
+        };
+        if n < 4 {
+            return Err(not_stationary(1.0));
+        }
+        let points = [n, n / 2, n / 4].map(|count| {
+            let step = &self.steps[count - 1];
+            (1.0 / step.sliding_distance, step.friction_coefficient)
+        });
+        let drift = ((value - points[1].1) / value).abs();
+        if drift <= drift_tolerance {
+            let friction_coefficient = value_at_zero(&points);
+            let distance_error = (friction_coefficient - value_at_zero(&points[..2])).abs();
+            return Ok(StationaryFriction {
+                friction_coefficient,
+                distance_error,
+                drift,
+            });
+        }
+        Err(not_stationary(drift))
+    }
+}
+
+/// Value at zero of the polynomial through the points (Lagrange).
+fn value_at_zero(points: &[(f64, f64)]) -> f64 {
+    let term = |&(position, value): &(f64, f64)| {
+        let others = points
+            .iter()
+            .map(|&(other, _)| other)
+            .filter(|other| other.total_cmp(&position).is_ne());
+        value
+            * others
+                .map(|other| other / (other - position))
+                .product::<f64>()
+    };
+    points.iter().map(term).sum()
+}

@@ -1,0 +1,56 @@
+//! What a sliding simulation returns.
+
+use crate::Grid;
+
+/// The state after one step of sliding.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SlideStep {
+    /// Sliding distance since first touch, `[m]`.
+    pub sliding_distance: f64,
+    /// Time since first touch, `[s]`.
+    pub time: f64,
+    /// Depth of the lowest point below the undeformed surface, `[m]`. It grows like the logarithm of the distance: a
+    /// viscous half space has no stationary depth.
+    pub indentation_depth: f64,
+    /// Friction coefficient: the pressure of the step times the mean slope over the step.
+    pub friction_coefficient: f64,
+    /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term.
+    pub friction_coefficient_end_of_step: f64,
+    /// Area of the elements in contact, `[m²]`.
+    pub contact_area: f64,
+    /// Rear and front of the contact relative to the lowest point, `[m]`.
+    pub contact_x: [f64; 2],
+    /// Sides of the contact relative to the lowest point, `[m]`.
+    pub contact_y: [f64; 2],
+    /// Number of elements in contact.
+    pub n_contact: usize,
+    /// Iterations of the contact solver.
+    pub iterations: usize,
+}
+
+/// Pressure over the contact at the end of a simulation.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PressureField {
+    /// The grid of the field.
+    pub grid: Grid,
+    /// Centre of the first element relative to the lowest point of the indenter, `[m]`.
+    pub origin: [f64; 2],
+    /// Pressure P ≥ 0, `[Pa]`, row-major with y fastest. Along the front edge it is singular: its maximum grows without
+    /// limit on refinement.
+    pub pressure: Vec<f64>,
+}
+
+/// A sliding simulation from first touch on.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Transient {
+    /// One entry per step, by increasing distance; never empty.
+    pub steps: Vec<SlideStep>,
+    /// Pressure in the last step.
+    pub pressure: PressureField,
+    /// Number of elements of the half space whose displacement was followed.
+    pub n_elements: usize,
+}

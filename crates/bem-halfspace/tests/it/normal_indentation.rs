@@ -1,0 +1,114 @@
+//! Normal indentation of the viscous half space follows the exact law d(t), which is also that of the line model.
+
+use bem_halfspace::indent::{IndentOptions, indent};
+use bem_halfspace::{ContactOptions, Footprint};
+use casebook::group;
+use indenters::PowerProfile;
+use rheology::Viscous;
+
+use crate::support::TIGHT;
+
+/// Exact depth of a power profile under a constant force (casebook MDR-01).
+fn exact_depth(body: &PowerProfile, impulse_over_viscosity: f64) -> f64 {
+    let p = body.exponent();
+    let line = body.stretch() * body.coefficient();
+    ((p + 1.0) / p * line.powf(1.0 / p) * impulse_over_viscosity / 8.0).powf(p / (p + 1.0))
+}
+
+#[test]
+fn the_impulse_rule_holds_on_any_grid_with_any_steps() {
+    for case in group("BEM-05") {
+        let body = PowerProfile::paraboloid(0.5 / case.input("R")).expect("a paraboloid");
+        let material = Viscous::new(case.input("eta")).expect("a material");
+        let half = 0.5 * case.input("N");
+        // Room beyond the contact changes nothing: elements without pressure do not matter.
+        let options = IndentOptions {
+            spacing: [1.0, 1.0],
+            footprint: Footprint::square(half + 1.0),
+            contact: TIGHT,
+        };
+        let end = case.expected("t").expect("a time");
+        for times in [vec![end], vec![1e-6 * end, 0.1 * end, 0.35 * end, end]] {
+            let steps = indent(&body, &material, (case.input("F"), &times), &options)
+                .expect("an indentation");
+            let depth = steps[steps.len() - 1].indentation_depth;
+            let expected = case.input("d");
+            let error = (depth / expected - 1.0).abs();
+            assert!(
+                error < 1e-9,
+                "{} in {} steps: depth {depth} instead of {expected}",
+                case.id(),
+                times.len()
+            );
+        }
+    }
+}
+
+/// Root-mean-square relative error of the depth over a decade of time, which averages over the position of the edge of
+/// the contact inside its elements.
+fn depth_error(exponent: f64, elements: f64) -> f64 {
+    let body = PowerProfile::new(0.4, exponent).expect("a power profile");
+    let material = Viscous::new(50.0).expect("a material");
+    let force = 2.0;
+    let times: Vec<f64> = (0..24)
+        .map(|k| 0.5 * 10.0_f64.powf(f64::from(k) / 24.0))
+        .collect();
+    let largest_depth = exact_depth(&body, force * 5.0 / 50.0);
+    let radius = body.line_position(largest_depth);
+    let options = IndentOptions {
+        spacing: [radius / elements; 2],
+        footprint: Footprint::square(1.2 * radius),
+        contact: ContactOptions::default(),
+    };
+    let steps = indent(&body, &material, (force, &times), &options).expect("an indentation");
+    let squares = steps.iter().map(|step| {
+        (step.indentation_depth / exact_depth(&body, force * step.time / 50.0) - 1.0).powi(2)
+    });
+    (squares.sum::<f64>() / times.len() as f64).sqrt()
+}
+
+/// The piecewise constant pressure makes a second-order error in the depth once the position of the edge is averaged.
+#[test]
+fn depth_converges_to_the_exact_law_with_second_order() {
+    for exponent in [1.0, 2.0, 4.0] {
+        let errors = [8.0, 16.0, 32.0].map(|elements| depth_error(exponent, elements));
+        let order = (errors[0] / errors[2]).log2() / 2.0;
+        assert!(
+            (order - 2.0).abs() < 0.35,
+            "p = {exponent}: order {order} from errors {errors:?}"
+        );
+        assert!(errors[2] < 2e-4, "p = {exponent}: errors {errors:?}");
+    }
+}
+
+/// The contact radius grows as the line model says; the area of whole elements resolves it to an element.
+#[test]
+fn contact_radius_grows_like_that_of_the_line() {
+    for case in group("MDR-01")
+        .iter()
+        .filter(|case| case.has_input("p") && case.input("t") > 1.0)
+    {
+        let p = case.input("p");
+        if p < 1.0 {
+            continue;
+        }
+        let body = PowerProfile::new(case.input("c"), p).expect("a power profile");
+        let material = Viscous::new(case.input("eta")).expect("a material");
+        let radius = case.expected("a").expect("a radius");
+        let spacing = radius / 24.0;
+        let options = IndentOptions {
+            spacing: [spacing; 2],
+            footprint: Footprint::square(1.2 * radius),
+            contact: ContactOptions::default(),
+        };
+        let load = (case.input("F"), &[case.input("t")][..]);
+        let steps = indent(&body, &material, load, &options).expect("an indentation");
+        case.check_within("d", steps[0].indentation_depth, 1e-3);
+        let actual = (steps[0].contact_area / std::f64::consts::PI).sqrt();
+        assert!(
+            (actual - radius).abs() < 0.5 * spacing,
+            "{}: radius {actual} instead of {radius}",
+            case.id()
+        );
+    }
+}
