@@ -35,7 +35,7 @@ pub enum BemError {
         row: usize,
         /// Index along y.
         column: usize,
-        /// The refused height, `[m]`.
+        /// The refused height, \[m].
         value: f64,
     },
     /// The grid would have more elements than can be handled.
@@ -64,15 +64,15 @@ pub enum BemError {
          x {x_min}..{x_max}, y {y_min}..{y_max} m; take a larger footprint"
     )]
     ContactReachesBoundary {
-        /// Sliding distance at which it happened, `[m]`; 0 without sliding.
+        /// Sliding distance at which it happened, \[m]; 0 without sliding.
         sliding_distance: f64,
-        /// Footprint, `[m]`.
+        /// Footprint, \[m].
         x_min: f64,
-        /// Footprint, `[m]`.
+        /// Footprint, \[m].
         x_max: f64,
-        /// Footprint, `[m]`.
+        /// Footprint, \[m].
         y_min: f64,
-        /// Footprint, `[m]`.
+        /// Footprint, \[m].
         y_max: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
@@ -94,7 +94,7 @@ pub enum BemError {
          coefficient changed by {drift:e} of its value {friction_coefficient}, the tolerance is {tolerance:e}"
     )]
     NotStationary {
-        /// Sliding distance reached, `[m]`.
+        /// Sliding distance reached, \[m].
         sliding_distance: f64,
         /// Relative change of the friction coefficient over the second half of the distance.
         drift: f64,

@@ -6,7 +6,7 @@ use rheology::Viscous;
 use crate::BemError;
 use crate::grid::elements_along;
 
-/// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, `[m]`.
+/// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Footprint {
@@ -76,7 +76,7 @@ impl Footprint {
     }
 }
 
-/// D = F_N / (4 η v), the depth scale of viscous sliding, `[m]`.
+/// D = F_N / (4 η v), the depth scale of viscous sliding, \[m].
 pub(crate) fn depth_scale(material: &Viscous, load: &SlidingLoad) -> f64 {
     // Divided one by one, because η v may overflow where the quotient does not.
     0.25 * load.normal_force() / material.viscosity() / load.velocity()

@@ -15,7 +15,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `shape` = (n_x, n_y) elements with edges of length `spacing` = (Δx, Δy), `[m]`.
+    /// `shape` = (n_x, n_y) elements with edges of length `spacing` = (Δx, Δy), \[m].
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for an empty grid or a spacing that is not finite and greater than zero;
@@ -41,7 +41,7 @@ impl Grid {
         self.shape
     }
 
-    /// Edges of an element [Δx, Δy], `[m]`.
+    /// Edges of an element [Δx, Δy], \[m].
     #[must_use]
     pub const fn spacing(&self) -> [f64; 2] {
         self.spacing
@@ -53,7 +53,7 @@ impl Grid {
         self.shape[0] * self.shape[1]
     }
 
-    /// Area of an element, `[m²]`.
+    /// Area of an element, \[m²].
     #[must_use]
     pub fn element_area(&self) -> f64 {
         self.spacing[0] * self.spacing[1]

@@ -15,7 +15,7 @@ use crate::{
 /// Resolution of an indentation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndentOptions {
-    /// Edges of an element [Δx, Δy], `[m]`.
+    /// Edges of an element [Δx, Δy], \[m].
     pub spacing: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
@@ -26,19 +26,19 @@ pub struct IndentOptions {
 /// The state at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct IndentStep {
-    /// Time since first touch, `[s]`.
+pub struct IndentRow {
+    /// Time since first touch, \[s].
     pub time: f64,
-    /// Depth of the lowest point, `[m]`.
+    /// Depth of the lowest point, \[m].
     pub indentation_depth: f64,
-    /// Area of the elements in contact, `[m²]`.
+    /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
     /// Number of elements in contact.
     pub n_contact: usize,
 }
 
-/// Presses `surface` into an undeformed viscous half space with the constant `normal_force` `[N]`; returns the state at
-/// each of the `times` `[s]`, which must increase and be greater than zero.
+/// Presses `surface` into an undeformed viscous half space with the constant `normal_force` \[N]; returns the state at
+/// each of the `times` \[s], which must increase and be greater than zero.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a force or a time out of range; [`BemError::GridTooLarge`];
@@ -48,7 +48,7 @@ pub fn indent(
     material: &Viscous,
     (normal_force, times): (f64, &[f64]),
     options: &IndentOptions,
-) -> Result<Vec<IndentStep>, BemError> {
+) -> Result<Vec<IndentRow>, BemError> {
     positive("normal_force", normal_force)?;
     positive("spacing along x", options.spacing[0])?;
     positive("spacing along y", options.spacing[1])?;
@@ -74,7 +74,7 @@ pub fn indent(
         for (separation, displacement) in separation.iter_mut().zip(state.displacement()) {
             *separation += displacement;
         }
-        Ok(IndentStep {
+        Ok(IndentRow {
             time,
             indentation_depth: contact.indentation_depth,
             contact_area: contact.n_contact as f64 * grid.element_area(),

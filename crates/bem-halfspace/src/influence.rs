@@ -20,10 +20,10 @@ const GAUSS: [(f64, f64); 4] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
 
-/// Integral of 1/r over a rectangle, `[m]`.
+/// Integral of 1/r over a rectangle, \[m].
 ///
 /// `offset` is the position of the field point relative to the centre of the rectangle and `edges` its edges, both
-/// [x, y] in `[m]`. The surface of an elastic half space under the uniform pressure P moves by `P K / (4 π G)`, the
+/// [x, y] in \[m]. The surface of an elastic half space under the uniform pressure P moves by `P K / (4 π G)`, the
 /// surface of a viscous one at the rate `P K / (4 π η)`.
 #[must_use]
 pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {

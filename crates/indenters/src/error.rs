@@ -52,11 +52,11 @@ pub enum IndenterError {
     /// The body does not reach as far as the position asked for.
     #[error("position {position} lies outside the body, which reaches from {lower} to {upper}")]
     OutOfDomain {
-        /// The position asked for, [m].
+        /// The position asked for, \[m].
         position: f64,
-        /// Where the body begins, [m].
+        /// Where the body begins, \[m].
         lower: f64,
-        /// Where it ends, [m].
+        /// Where it ends, \[m].
         upper: f64,
     },
     /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
@@ -66,11 +66,11 @@ pub enum IndenterError {
          a depth of {depth} was asked for"
     )]
     NonMonotoneLine {
-        /// Radius at which the equivalent line stops rising, [m].
+        /// Radius at which the equivalent line stops rising, \[m].
         limiting_radius: f64,
-        /// Its height there, [m].
+        /// Its height there, \[m].
         limiting_depth: f64,
-        /// The depth asked for, [m].
+        /// The depth asked for, \[m].
         depth: f64,
     },
     /// The body or its leading edge ends below the depth asked for.
@@ -78,10 +78,22 @@ pub enum IndenterError {
         "the line rises only {available} above its lowest point, but a depth of {depth} was asked for"
     )]
     NotHighEnough {
-        /// Height of the leading edge above its lowest point, [m].
+        /// Height of the leading edge above its lowest point, \[m].
         available: f64,
-        /// The depth asked for, [m].
+        /// The depth asked for, \[m].
         depth: f64,
+    },
+    /// An integral did not reach the accuracy asked for.
+    #[error(
+        "the integral {value} is known only to {reached} of itself, but {relative_tolerance} was asked for"
+    )]
+    NotConverged {
+        /// The value reached.
+        value: f64,
+        /// Its estimated relative error.
+        reached: f64,
+        /// The relative error asked for.
+        relative_tolerance: f64,
     },
 }
 
@@ -97,5 +109,20 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Inden
         parameter,
         value,
         allowed: "finite and greater than 0",
+    })
+}
+
+/// Checks that `value` is finite.
+///
+/// # Errors
+/// [`IndenterError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(IndenterError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite",
     })
 }

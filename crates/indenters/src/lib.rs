@@ -1,20 +1,80 @@
-//! indenters
+//! Rigid indenters: their profiles, the equivalent lines of the method of dimensionality reduction, and the part of a
+//! moving line that touches.
+//!
+//! A body of revolution `h(r)` ([`Axisymmetric`]) is replaced by a line `h̃(x)` ([`RigidLine`]) that answers the same
+//! contact question in one dimension. All lengths are in metres.
+//!
+//! The equivalent line of a cone is steeper by κ₁ = π/2, that of a paraboloid by κ₂ = 2 (Kürschner 2014, Eq. 9):
+//!
+//! ```
+//! use indenters::{AnalyticLine, Axisymmetric, PowerProfile, contact_line, contact_radius};
+//!
+//! # fn main() -> Result<(), indenters::IndenterError> {
+//! let cone = PowerProfile::cone(0.1)?;
+//! assert!((cone.line_slope(0.02) - 0.1 * std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+//!
+//! let paraboloid = PowerProfile::paraboloid(50.0)?;
+//! let depth = 1e-3;
+//! let radius = contact_radius(&paraboloid, depth)?;
+//! assert!((radius / (depth / (2.0 * 50.0)).sqrt() - 1.0).abs() < 1e-12);
+//!
+//! // Definition 2: a line with a dip touches on two intervals, [0, 1/2[ and [2, 5/2].
+//! let height = |x: f64| x * (x * (x / 3.0 - 1.5) + 2.0);
+//! let line = AnalyticLine::new(height, |x| (x - 1.0) * (x - 2.0), [0.0, 3.0])?;
+//! assert_eq!(contact_line(&line, 5.0 / 6.0)?.intervals.len(), 2);
+//! # Ok(())
+//! # }
+//! ```
 
+mod analytic_line;
 mod axisymmetric;
+mod contact_radius;
+mod discrete_edge;
 mod error;
+mod flat_cone;
+mod flat_punch;
+mod hyperboloid;
+mod inverse_abel;
+mod leading_edge;
 mod line;
 mod load;
+mod monotone_breaks;
+mod piecewise_linear;
 mod power;
 pub mod quadrature;
+mod right_triangle;
 mod root;
+mod round_tipped_cone;
+mod sampled_line;
+mod sphere;
 mod stretch;
+mod superposition;
 mod surface;
+mod table;
+mod truncated_paraboloid;
 
+pub use analytic_line::AnalyticLine;
 pub use axisymmetric::{Axisymmetric, Kink, abel_height, abel_slope};
+pub use contact_radius::contact_radius;
+pub use discrete_edge::{leading_indices, running_minimum};
 pub use error::IndenterError;
+pub use flat_cone::FlatCone;
+pub use flat_punch::FlatPunch;
+pub use hyperboloid::Hyperboloid;
+pub use inverse_abel::inverse_abel;
+pub use leading_edge::{
+    ContactLine, LeadingEdge, LeadingEdgeOptions, contact_line, contact_line_with, leading_edge,
+    leading_edge_with,
+};
 pub use line::{EquivalentLine, RigidLine};
 pub use load::SlidingLoad;
+pub use piecewise_linear::PiecewiseLinearProfile;
 pub use power::PowerProfile;
 pub use root::bracketed_root;
+pub use round_tipped_cone::RoundTippedCone;
+pub use sampled_line::SampledLine;
+pub use sphere::Sphere;
 pub use stretch::stretch;
+pub use superposition::{PowerTerm, Superposition};
 pub use surface::Surface;
+pub use truncated_paraboloid::TruncatedParaboloid;

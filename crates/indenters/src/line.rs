@@ -1,21 +1,30 @@
 //! Rigid lines of the one-dimensional model.
 
 use crate::Axisymmetric;
+use crate::monotone_breaks::find_breaks;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
 pub trait RigidLine {
-    /// Height h̃(x), [m], at a position of the domain; `+∞` outside.
+    /// Height h̃(x), \[m], at a position of the domain; `+∞` outside.
     fn height(&self, x: f64) -> f64;
 
-    /// Slope h̃'(x); at a kink the slope towards positive x.
+    /// Slope h̃'(x), at a position of the domain; at a kink one of the two one-sided slopes, finite where one of them is.
     fn slope(&self, x: f64) -> f64;
 
-    /// The interval X on which the line is given, [m]. Its ends may be infinite.
+    /// The interval X on which the line is given, \[m]. Its ends may be infinite.
     fn domain(&self) -> [f64; 2];
 
     /// Positions inside the domain at which the slope jumps or is singular, increasing.
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// Positions, increasing, from end to end of the finite domain, between which the line only rises or only falls.
+    ///
+    /// Found by looking for one change of sign of the slope in each of `samples` equal intervals. A line that knows its
+    /// turning points overrides this.
+    fn monotone_breaks(&self, samples: usize) -> Vec<f64> {
+        find_breaks(self, samples)
     }
 }
 

@@ -12,7 +12,7 @@ pub struct SlidingLoad {
 }
 
 impl SlidingLoad {
-    /// Pressed with `normal_force` F_N > 0 [N], moved with `velocity` v > 0 [m/s] towards positive x.
+    /// Pressed with `normal_force` F_N > 0 \[N], moved with `velocity` v > 0 \[m/s] towards positive x.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero. A body at rest never
@@ -24,13 +24,13 @@ impl SlidingLoad {
         })
     }
 
-    /// Normal force F_N, [N].
+    /// Normal force F_N, \[N].
     #[must_use]
     pub const fn normal_force(&self) -> f64 {
         self.normal_force
     }
 
-    /// Sliding speed v, [m/s].
+    /// Sliding speed v, \[m/s].
     #[must_use]
     pub const fn velocity(&self) -> f64 {
         self.velocity

@@ -40,7 +40,7 @@ impl PowerProfile {
         Self::new(positive("slope", slope)?, 1.0)
     }
 
-    /// The paraboloid of revolution `curvature · r²`, curvature > 0 in [1/m]; its radius of curvature is
+    /// The paraboloid of revolution `curvature · r²`, curvature > 0 in \[1/m]; its radius of curvature is
     /// `1 / (2 curvature)`.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl PowerProfile {
         self.stretch
     }
 
-    /// Position x > 0 [m] at which the equivalent line has the `height` [m]: `x = (height / (κ c))^(1/p)`.
+    /// Position x > 0 \[m] at which the equivalent line has the `height` ≥ 0 \[m]: `x = (height / (κ c))^(1/p)`.
     ///
     /// For large p the power c x^p overflows long before x does.
     #[must_use]
@@ -81,15 +81,20 @@ impl PowerProfile {
 
 impl Axisymmetric for PowerProfile {
     fn height(&self, radius: f64) -> f64 {
-        self.coefficient * radius.powf(self.exponent)
+        scaled_power(self.coefficient, radius, self.exponent)
     }
 
     fn slope(&self, radius: f64) -> f64 {
-        self.coefficient * self.exponent * radius.powf(self.exponent - 1.0)
+        scaled_power(
+            self.coefficient * self.exponent,
+            radius,
+            self.exponent - 1.0,
+        )
     }
 
     fn curvature(&self, radius: f64) -> f64 {
-        self.coefficient * self.exponent * (self.exponent - 1.0) * radius.powf(self.exponent - 2.0)
+        let factor = self.coefficient * self.exponent * (self.exponent - 1.0);
+        scaled_power(factor, radius, self.exponent - 2.0)
     }
 
     fn apex_exponent(&self) -> f64 {
@@ -103,4 +108,17 @@ impl Axisymmetric for PowerProfile {
     fn line_slope(&self, x: f64) -> f64 {
         x.signum() * self.stretch * self.slope(x.abs())
     }
+}
+
+/// `factor · radius^exponent`, also where the power alone leaves the range of numbers and the product does not.
+pub(crate) fn scaled_power(factor: f64, radius: f64, exponent: f64) -> f64 {
+    if factor == 0.0 {
+        return 0.0;
+    }
+    let power = radius.powf(exponent);
+    if power.is_normal() {
+        return factor * power;
+    }
+    let half = radius.powf(0.5 * exponent);
+    factor * half * half
 }

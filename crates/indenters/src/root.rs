@@ -16,7 +16,9 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Optio
     if fb == 0.0 {
         return Some(b);
     }
-    if !(fa * fb.signum() < 0.0) {
+    // False also when one of them is NaN.
+    let opposite = fa * fb.signum() < 0.0;
+    if !opposite {
         return None;
     }
     let mut fraction = 0.5;
@@ -33,7 +35,7 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Optio
         (a, fa) = (x, fx);
         let best = if fa.abs() < fb.abs() { a } else { b };
         let tolerance = f64::EPSILON * best.abs() / (b - a).abs();
-        if fa == 0.0 || tolerance >= 0.5 || a == b {
+        if fa == 0.0 || tolerance >= 0.5 || b - a == 0.0 {
             return Some(best);
         }
         let position = (a - b) / (c - b);

@@ -27,7 +27,7 @@ pub fn stretch(exponent: f64) -> Result<f64, IndenterError> {
 
 /// Γ(x + 1) / (Γ(x + 1/2) √x) for large x (NIST DLMF 5.11.13); the first term left out is below 1e-16 from x = 32.
 fn half_step_series(x: f64) -> f64 {
-    const COEFFICIENTS: [f64; 7] = [
+    const COEFFICIENTS: [f64; 9] = [
         1.0,
         1.0 / 8.0,
         1.0 / 128.0,
@@ -35,6 +35,8 @@ fn half_step_series(x: f64) -> f64 {
         -21.0 / 32768.0,
         399.0 / 262_144.0,
         869.0 / 4_194_304.0,
+        -39_325.0 / 33_554_432.0,
+        -334_477.0 / 2_147_483_648.0,
     ];
     COEFFICIENTS
         .iter()

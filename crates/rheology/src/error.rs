@@ -31,3 +31,18 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Rheol
         allowed: "finite and greater than 0",
     })
 }
+
+/// Checks that `value` is finite and not negative.
+///
+/// # Errors
+/// [`RheologyError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(RheologyError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and at least 0",
+    })
+}

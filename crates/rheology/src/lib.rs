@@ -1,7 +1,31 @@
-//! rheology
+//! Linear viscoelastic materials as friction of rubber needs them.
+//!
+//! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3); [`StandardSolid`] is the elastomer whose
+//! middle frequency range it stands for (Eq. 2, Fig. 1). Each gives its moduli over the frequency, its creep
+//! compliance, and the compliance of one time step, which is all that a contact solver asks of a material.
+//!
+//! ```
+//! use rheology::{RheologyError, StandardSolid, StandardSolidParameters, Viscous};
+//!
+//! let rubber = StandardSolid::new(StandardSolidParameters {
+//!     equilibrium_modulus: 1e4,
+//!     maxwell_modulus: 1e7,
+//!     viscosity: 1e5,
+//! })?;
+//! // Eq. (2) with γ = 0.001: the loss tangent is largest where Ω² = γ/(1 + γ).
+//! let peak = rubber.loss_peak();
+//! assert!((peak.loss_tangent - 15.803_488_531_025_35).abs() < 1e-12);
+//! // Far below Ω = 1 the loss modulus is that of the dashpot alone.
+//! let dashpot = Viscous::new(rubber.viscosity())?;
+//! let ratio = rubber.loss_modulus(0.1)? / dashpot.loss_modulus(0.1)?;
+//! assert!((ratio - 1.0).abs() < 1.1e-6);
+//! # Ok::<(), RheologyError>(())
+//! ```
 
 mod error;
+mod standard_solid;
 mod viscous;
 
 pub use error::RheologyError;
+pub use standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
 pub use viscous::Viscous;

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::RheologyError;
-use crate::error::positive;
+use crate::error::{not_negative, positive};
 
 /// An incompressible, linearly viscous material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,22 +31,24 @@ impl Viscous {
         self.viscosity
     }
 
-    /// Creep compliance J(t) = t/η, [1/Pa], at a time t ≥ 0 [s] after the stress was applied.
+    /// Creep compliance J(t) = t/η, \[1/Pa], at a time t ≥ 0 \[s] after the stress was applied.
     #[must_use]
     pub fn creep_compliance(&self, time: f64) -> f64 {
         time / self.viscosity
     }
 
-    /// Compliance α of one step, [1/Pa]: held at the load potential w over the step, the surface moves to
+    /// Compliance α of one step, \[1/Pa]: held at the load potential w over the step, the surface moves to
     /// `u_new = α w + history`, and the history of a dashpot is its displacement before the step.
     #[must_use]
     pub fn step_compliance(&self, time_step: f64) -> f64 {
         self.creep_compliance(time_step)
     }
 
-    /// Loss modulus G'' = ω η, [Pa], at an angular frequency ω ≥ 0 [rad/s]; the storage modulus is zero.
-    #[must_use]
-    pub fn loss_modulus(&self, angular_frequency: f64) -> f64 {
-        angular_frequency * self.viscosity
+    /// Loss modulus G'' = ω η, \[Pa], at an angular frequency ω ≥ 0 \[rad/s]; the storage modulus is zero.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn loss_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        Ok(not_negative("angular_frequency", angular_frequency)? * self.viscosity)
     }
 }

@@ -16,7 +16,7 @@ pub(super) struct Iteration<'a> {
     separation: &'a [f64],
     control: Control,
     state: &'a mut ContactState,
-    /// Displacement of an element under its own unit load, `[m]`.
+    /// Displacement of an element under its own unit load, \[m].
     self_influence: f64,
     indentation_depth: f64,
     /// Squared norm of the gap over the contact in the previous iteration; 0 starts a new set of directions.

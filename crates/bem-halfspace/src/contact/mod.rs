@@ -20,9 +20,9 @@ pub use state::ContactState;
 /// What is prescribed at the instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Normal force, `[N]`; the depth follows.
+    /// Normal force, \[N]; the depth follows.
     NormalForce(f64),
-    /// Indentation depth d, `[m]`; the normal force follows.
+    /// Indentation depth d, \[m]; the normal force follows.
     IndentationDepth(f64),
 }
 
@@ -31,10 +31,10 @@ pub enum Control {
 pub struct ContactProblem<'a> {
     /// The grid and its influence coefficients.
     pub convolution: &'a Convolution,
-    /// Height of the rigid surface plus displacement of the half space, `[m]`, one value per element; `+∞` where no
+    /// Height of the rigid surface plus displacement of the half space, \[m], one value per element; `+∞` where no
     /// contact is possible.
     pub separation: &'a [f64],
-    /// Compliance α of the half space in this step, `[1/Pa]`.
+    /// Compliance α of the half space in this step, \[1/Pa].
     pub compliance: f64,
     /// Force or depth.
     pub control: Control,
@@ -64,9 +64,9 @@ impl Default for ContactOptions {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct Contact {
-    /// Indentation depth d, `[m]`.
+    /// Indentation depth d, \[m].
     pub indentation_depth: f64,
-    /// Normal force, `[N]`.
+    /// Normal force, \[N].
     pub normal_force: f64,
     /// Number of elements in contact.
     pub n_contact: usize,

@@ -31,13 +31,13 @@ impl ContactState {
         }
     }
 
-    /// Pressure P ≥ 0, `[Pa]`, row-major.
+    /// Pressure P ≥ 0, \[Pa], row-major.
     #[must_use]
     pub fn pressure(&self) -> &[f64] {
         &self.load
     }
 
-    /// The pressure to start from, `[Pa]`, row-major. Negative values count as zero.
+    /// The pressure to start from, \[Pa], row-major. Negative values count as zero.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
         &mut self.load
     }
@@ -48,7 +48,7 @@ impl ContactState {
         &self.contact
     }
 
-    /// Displacement of the surface under the pressure of the last solve, without what it was before, `[m]`, row-major.
+    /// Displacement of the surface under the pressure of the last solve, without what it was before, \[m], row-major.
     #[must_use]
     pub fn displacement(&self) -> &[f64] {
         &self.displacement

@@ -11,7 +11,7 @@ use crate::footprint::depth_scale;
 use crate::grid::elements_along;
 use crate::slide::contact_box::{Bounds, ContactBox};
 use crate::slide::sampled_indenter::SampledIndenter;
-use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField, SlideOptions, SlideStep, Transient};
+use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField, SlideOptions, SlideRow, Transient};
 use crate::{BemError, Contact, Convolution, ConvolutionWorkspace, Grid};
 
 /// The simulation between two steps. Heights are in units of the depth scale, lengths in units of Δx.
@@ -75,7 +75,7 @@ impl March {
     }
 
     /// Advances the indenter by one element and solves the contact at its new position.
-    pub(super) fn step(&mut self) -> Result<SlideStep, BemError> {
+    pub(super) fn step(&mut self) -> Result<SlideRow, BemError> {
         self.steps_done += 1;
         loop {
             self.set_separation();
@@ -177,13 +177,13 @@ impl March {
             .boundary_reached(self.steps_done as f64 * self.options.spacing[0]))
     }
 
-    fn record(&self, contact: &Contact, bounds: &Bounds) -> SlideStep {
+    fn record(&self, contact: &Contact, bounds: &Bounds) -> SlideRow {
         let [dx, dy] = self.options.spacing;
         let sliding_distance = self.steps_done as f64 * dx;
         let edge = |axis: usize, element: usize| {
             (element as f64 - self.apex[axis] as f64 - 0.5) * self.options.spacing[axis]
         };
-        SlideStep {
+        SlideRow {
             sliding_distance,
             time: sliding_distance / self.load.velocity(),
             indentation_depth: contact.indentation_depth * self.depth_scale,
@@ -208,7 +208,7 @@ impl March {
     }
 
     /// Closes the simulation after its last step.
-    pub(super) fn finish(self, steps: Vec<SlideStep>) -> Result<Transient, BemError> {
+    pub(super) fn finish(self, rows: Vec<SlideRow>) -> Result<Transient, BemError> {
         let bounds = self.contact_bounds();
         let elements = bounds.shape()[0].min(bounds.shape()[1]);
         if elements < MIN_CONTACT_ELEMENTS {

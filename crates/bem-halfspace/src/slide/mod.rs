@@ -22,16 +22,16 @@ use rheology::Viscous;
 use crate::{BemError, ContactOptions, Footprint};
 use march::March;
 pub use stationary::StationaryFriction;
-pub use transient::{PressureField, SlideStep, Transient};
+pub use transient::{PressureField, SlideRow, Transient};
 
 /// Resolution of a sliding simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlideOptions {
-    /// Edges of an element [Δx, Δy], `[m]`.
+    /// Edges of an element [Δx, Δy], \[m].
     pub spacing: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
-    /// How far the indenter slides, `[m]`.
+    /// How far the indenter slides, \[m].
     pub sliding_distance: f64,
     /// How exactly each step is solved.
     pub contact: ContactOptions,
@@ -52,10 +52,10 @@ pub fn slide(
     options: &SlideOptions,
 ) -> Result<Transient, BemError> {
     let mut march = March::new(surface, material, load, options)?;
-    let steps = (0..march.n_steps())
+    let rows = (0..march.n_steps())
         .map(|_| march.step())
         .collect::<Result<Vec<_>, _>>()?;
-    march.finish(steps)
+    march.finish(rows)
 }
 
 /// A contact of fewer elements along x or across it has no meaningful friction.

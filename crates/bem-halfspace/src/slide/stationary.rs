@@ -8,7 +8,7 @@
 //! ```
 
 use crate::BemError;
-use crate::slide::{SlideStep, Transient};
+use crate::slide::{SlideRow, Transient};
 
 /// The limit of the friction coefficient for an infinite sliding distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +30,8 @@ impl Transient {
     /// # Panics
     /// Never for a transient that [`slide`](crate::slide::slide) returned: it has at least one step.
     #[must_use]
-    pub fn last(&self) -> &SlideStep {
-        &self.steps[self.steps.len() - 1]
+    pub fn last(&self) -> &SlideRow {
+        &self.rows[self.rows.len() - 1]
     }
 
     /// The stationary friction coefficient, with the slope averaged over each step.
@@ -42,7 +42,7 @@ impl Transient {
     /// # Errors
     /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
     pub fn stationary(&self, drift_tolerance: f64) -> Result<StationaryFriction, BemError> {
-        let n = self.steps.len();
+        let n = self.rows.len();
         let last = self.last();
         let value = last.friction_coefficient;
         let not_stationary = |drift| BemError::NotStationary {
@@ -55,7 +55,7 @@ impl Transient {
             return Err(not_stationary(1.0));
         }
         let points = [n, n / 2, n / 4].map(|count| {
-            let step = &self.steps[count - 1];
+            let step = &self.rows[count - 1];
             (1.0 / step.sliding_distance, step.friction_coefficient)
         });
         let drift = ((value - points[1].1) / value).abs();

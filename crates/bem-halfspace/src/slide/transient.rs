@@ -5,23 +5,23 @@ use crate::Grid;
 /// The state after one step of sliding.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct SlideStep {
-    /// Sliding distance since first touch, `[m]`.
+pub struct SlideRow {
+    /// Sliding distance since first touch, \[m].
     pub sliding_distance: f64,
-    /// Time since first touch, `[s]`.
+    /// Time since first touch, \[s].
     pub time: f64,
-    /// Depth of the lowest point below the undeformed surface, `[m]`. It grows like the logarithm of the distance: a
+    /// Depth of the lowest point below the undeformed surface, \[m]. It grows like the logarithm of the distance: a
     /// viscous half space has no stationary depth.
     pub indentation_depth: f64,
     /// Friction coefficient: the pressure of the step times the mean slope over the step.
     pub friction_coefficient: f64,
     /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term.
     pub friction_coefficient_end_of_step: f64,
-    /// Area of the elements in contact, `[m²]`.
+    /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
-    /// Rear and front of the contact relative to the lowest point, `[m]`.
+    /// Rear and front of the contact relative to the lowest point, \[m].
     pub contact_x: [f64; 2],
-    /// Sides of the contact relative to the lowest point, `[m]`.
+    /// Sides of the contact relative to the lowest point, \[m].
     pub contact_y: [f64; 2],
     /// Number of elements in contact.
     pub n_contact: usize,
@@ -35,9 +35,9 @@ pub struct SlideStep {
 pub struct PressureField {
     /// The grid of the field.
     pub grid: Grid,
-    /// Centre of the first element relative to the lowest point of the indenter, `[m]`.
+    /// Centre of the first element relative to the lowest point of the indenter, \[m].
     pub origin: [f64; 2],
-    /// Pressure P ≥ 0, `[Pa]`, row-major with y fastest. Along the front edge it is singular: its maximum grows without
+    /// Pressure P ≥ 0, \[Pa], row-major with y fastest. Along the front edge it is singular: its maximum grows without
     /// limit on refinement.
     pub pressure: Vec<f64>,
 }
@@ -48,7 +48,7 @@ pub struct PressureField {
 #[must_use]
 pub struct Transient {
     /// One entry per step, by increasing distance; never empty.
-    pub steps: Vec<SlideStep>,
+    pub rows: Vec<SlideRow>,
     /// Pressure in the last step.
     pub pressure: PressureField,
     /// Number of elements of the half space whose displacement was followed.

@@ -48,7 +48,7 @@ fn results_are_invariant_under_a_change_of_units() {
             [0.5 * newton, 0.7 * metre / second],
         );
         let transient = scene.slide(6.0, 3.0);
-        for (actual, expected) in transient.steps.iter().zip(&reference.steps) {
+        for (actual, expected) in transient.rows.iter().zip(&reference.rows) {
             let ratios = [
                 actual.friction_coefficient / expected.friction_coefficient,
                 actual.indentation_depth / metre / expected.indentation_depth,

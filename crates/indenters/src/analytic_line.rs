@@ -1,0 +1,71 @@
+//! Rigid lines given by formulas.
+
+use std::fmt;
+
+use crate::error::finite;
+use crate::{IndenterError, RigidLine};
+
+/// A rigid line whose height and slope are functions of the position.
+#[derive(Clone)]
+pub struct AnalyticLine<H, S> {
+    height: H,
+    slope: S,
+    domain: [f64; 2],
+}
+
+impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> AnalyticLine<H, S> {
+    /// The line with the given `height` \[m] and `slope`, which is the derivative of the height, on the closed interval
+    /// `domain` \[m].
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] or [`IndenterError::NotIncreasing`] when the domain is not finite or empty, and
+    /// `InvalidParameter` when the height at one of its ends is not finite. Inside, heights are checked by the functions
+    /// that sample them.
+    pub fn new(height: H, slope: S, domain: [f64; 2]) -> Result<Self, IndenterError> {
+        for end in domain {
+            finite("end of the domain", end)?;
+        }
+        if domain[1] <= domain[0] {
+            return Err(IndenterError::NotIncreasing {
+                list: "domain",
+                index: 1,
+                value: domain[1],
+                previous: domain[0],
+            });
+        }
+        for end in domain {
+            finite("height of the line", height(end))?;
+        }
+        Ok(Self {
+            height,
+            slope,
+            domain,
+        })
+    }
+}
+
+impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> RigidLine for AnalyticLine<H, S> {
+    fn height(&self, x: f64) -> f64 {
+        if x >= self.domain[0] && x <= self.domain[1] {
+            return (self.height)(x);
+        }
+        f64::INFINITY
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        (self.slope)(x)
+    }
+
+    fn domain(&self) -> [f64; 2] {
+        self.domain
+    }
+}
+
+impl<H, S> fmt::Debug for AnalyticLine<H, S> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("AnalyticLine")
+            .field("domain", &self.domain)
+            .finish_non_exhaustive()
+    }
+}

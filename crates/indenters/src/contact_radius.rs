@@ -1,0 +1,203 @@
+//! Contact radius of a body of revolution at a given depth.
+//!
+//! ```text
+//! h̃(a) = d,   h̃ rising on [0, a]
+//! ```
+
+use crate::error::positive;
+use crate::{Axisymmetric, IndenterError, bracketed_root};
+
+/// Step of the search, the eighth part of an octave.
+const STEP: f64 = 1.090_507_732_665_257_7;
+/// Octaves over which the line must follow its leading power before all below counts as the apex.
+const APEX_OCTAVES: u32 = 40;
+/// How closely it must do so there, relative to the exponent.
+const APEX_DEVIATION: f64 = 1e-2;
+/// A fall below this, relative to height over radius, is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Radius a \[m] of the contact circle at an indentation `depth` d > 0 \[m]: the smallest with h̃(a) = d.
+///
+/// A body that is flat to its end, as [`FlatPunch`](crate::FlatPunch), has its own radius at every depth. The line is
+/// searched from the apex outwards in steps of a tenth of the radius; valleys narrower than that are not seen unless they
+/// begin at a kink. Asked for an unreachable depth, the function tells the limiting radius by its error.
+///
+/// # Errors
+/// [`IndenterError::NonMonotoneLine`] when the line turns down first, `NotHighEnough` when the body ends first,
+/// `InvalidParameter` when the depth is out of its range, already exceeded at the smallest radius that is a number, or the
+/// line is not a number somewhere.
+pub fn contact_radius(
+    body: &(impl Axisymmetric + ?Sized),
+    depth: f64,
+) -> Result<f64, IndenterError> {
+    let depth = positive("depth", depth)?;
+    let search = Search::new(body, depth);
+    let mut inner = search.apex_side()?;
+    loop {
+        if search.edges.contains(&inner) {
+            return Err(search.turns_down_at(inner));
+        }
+        let outer = search.next_station(inner);
+        if outer <= inner || outer.is_infinite() {
+            return search.end_of_body(inner);
+        }
+        if let Some(turn) = search.turning_point([inner, outer])? {
+            if search.line(turn)? >= depth {
+                return search.crossing([inner, turn]);
+            }
+            return Err(search.turns_down_at(turn));
+        }
+        if search.line(outer)? >= depth {
+            return search.crossing([inner, outer]);
+        }
+        inner = outer;
+    }
+}
+
+struct Search<'a, P: ?Sized> {
+    body: &'a P,
+    depth: f64,
+    end: f64,
+    /// Where the slope jumps downwards; just outside the line falls.
+    edges: Vec<f64>,
+}
+
+impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
+    fn new(body: &'a P, depth: f64) -> Self {
+        let falling = |kink: &crate::Kink| kink.slope_jump < 0.0;
+        let kinks = body.kinks().into_iter();
+        Self {
+            body,
+            depth,
+            end: body.max_radius(),
+            edges: kinks.filter(falling).map(|kink| kink.radius).collect(),
+        }
+    }
+
+    fn line(&self, x: f64) -> Result<f64, IndenterError> {
+        let value = self.body.line_height(x);
+        if !value.is_nan() {
+            return Ok(value);
+        }
+        Err(not_a_number(value))
+    }
+
+    /// A radius below the contact radius, inside which the line rises like its leading power.
+    fn apex_side(&self) -> Result<f64, IndenterError> {
+        // Where the descent begins has no influence on what it finds; 1 m stands for "anywhere".
+        let first_kink = self.body.kinks().first().map(|kink| kink.radius);
+        let anywhere = first_kink.unwrap_or(1.0);
+        let mut x = if self.end.is_finite() {
+            self.end
+        } else {
+            anywhere
+        };
+        let mut candidate = None;
+        let mut octaves = 0;
+        while octaves < APEX_OCTAVES && x >= f64::MIN_POSITIVE {
+            let height = self.line(x)?;
+            if height == 0.0 {
+                candidate = candidate.or(Some(x));
+                break;
+            }
+            if height < self.depth && self.follows_apex(x, height) {
+                candidate = candidate.or(Some(x));
+                octaves += 1;
+            } else {
+                (candidate, octaves) = (None, 0);
+            }
+            x *= 0.5;
+        }
+        candidate.ok_or(IndenterError::InvalidParameter {
+            parameter: "depth",
+            value: self.depth,
+            allowed: "greater than the height of the line at the smallest positive radius",
+        })
+    }
+
+    fn follows_apex(&self, x: f64, height: f64) -> bool {
+        let exponent = x * self.body.line_slope(x) / height;
+        (exponent / self.body.apex_exponent() - 1.0).abs() <= APEX_DEVIATION
+    }
+
+    fn next_station(&self, x: f64) -> f64 {
+        let next = (x * STEP).min(self.end);
+        let edge = self.edges.iter().find(|edge| **edge > x);
+        edge.map_or(next, |edge| next.min(*edge))
+    }
+
+    /// The highest point inside the interval when the line falls somewhere in it.
+    fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
+        let Some(falling) = self.falling_point([inner, outer])? else {
+            return Ok(None);
+        };
+        // Where the line is still flat (or its height underflows) it has not turned yet.
+        let slope = |x: f64| match self.body.line_slope(x) {
+            0.0 => f64::MIN_POSITIVE,
+            other => other,
+        };
+        // One step outside, because at a kink the slope is the one inside.
+        let first = inner.next_up();
+        if slope(first) < 0.0 {
+            return Ok(Some(inner));
+        }
+        let turn = bracketed_root(slope, [first, falling]);
+        turn.map(Some).ok_or_else(|| not_a_number(f64::NAN))
+    }
+
+    fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
+        let [mut start, mut end] = [inner, outer];
+        while !self.falls(end)? {
+            let lost = self.line(start)? - self.line(end)?;
+            let middle = 0.5 * (start + end);
+            let lowered = lost > ROUNDING * self.line(start)?;
+            if !lowered || middle <= start || middle >= end {
+                return Ok(None);
+            }
+            // The line falls over at least one half.
+            if self.line(middle)? < self.line(start)? {
+                end = middle;
+            } else {
+                start = middle;
+            }
+        }
+        Ok(Some(end))
+    }
+
+    fn falls(&self, x: f64) -> Result<bool, IndenterError> {
+        Ok(x * self.body.line_slope(x) < -ROUNDING * self.line(x)?)
+    }
+
+    fn crossing(&self, bracket: [f64; 2]) -> Result<f64, IndenterError> {
+        let excess = |x: f64| self.body.line_height(x) - self.depth;
+        bracketed_root(excess, bracket).ok_or_else(|| not_a_number(f64::NAN))
+    }
+
+    fn turns_down_at(&self, radius: f64) -> IndenterError {
+        IndenterError::NonMonotoneLine {
+            limiting_radius: radius,
+            limiting_depth: self.body.line_height(radius),
+            depth: self.depth,
+        }
+    }
+
+    fn end_of_body(&self, radius: f64) -> Result<f64, IndenterError> {
+        let available = self.line(radius)?;
+        let flat = available == 0.0 && self.body.apex_exponent() == f64::INFINITY;
+        if flat && radius >= self.end {
+            return Ok(radius);
+        }
+        Err(IndenterError::NotHighEnough {
+            available,
+            depth: self.depth,
+        })
+    }
+}
+
+fn not_a_number(value: f64) -> IndenterError {
+    IndenterError::InvalidParameter {
+        parameter: "height of the equivalent line",
+        value,
+        allowed: "a number",
+    }
+}

@@ -1,0 +1,69 @@
+//! The hyperboloid: a cone with a smoothly rounded tip.
+//!
+//! ```text
+//! h(r) = t (√(r² + b²) − b)        h̃(x) = t x arctan(x / b)
+//! ```
+
+use crate::error::positive;
+use crate::{Axisymmetric, IndenterError};
+
+/// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Hyperboloid {
+    radius: f64,
+    slope: f64,
+}
+
+impl Hyperboloid {
+    /// A tip of the size `radius` b > 0 \[m] on a cone of `slope` t > 0; the radius of curvature of the tip is b / t.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
+    pub fn new(radius: f64, slope: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            radius: positive("radius", radius)?,
+            slope: positive("slope", slope)?,
+        })
+    }
+
+    /// Size b of the tip, \[m].
+    #[must_use]
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Slope t of the cone that the body approaches.
+    #[must_use]
+    pub const fn cone_slope(&self) -> f64 {
+        self.slope
+    }
+}
+
+impl Axisymmetric for Hyperboloid {
+    fn height(&self, radius: f64) -> f64 {
+        self.slope * radius * (radius / (radius.hypot(self.radius) + self.radius))
+    }
+
+    fn slope(&self, radius: f64) -> f64 {
+        self.slope * (radius / radius.hypot(self.radius))
+    }
+
+    fn curvature(&self, radius: f64) -> f64 {
+        let distance = radius.hypot(self.radius);
+        self.slope * (self.radius / distance).powi(2) / distance
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
+
+    fn line_height(&self, x: f64) -> f64 {
+        self.slope * x * (x / self.radius).atan()
+    }
+
+    fn line_slope(&self, x: f64) -> f64 {
+        let distance = x.hypot(self.radius);
+        self.slope * ((x / self.radius).atan() + (x / distance) * (self.radius / distance))
+    }
+}

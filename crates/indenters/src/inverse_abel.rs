@@ -1,0 +1,93 @@
+//! From the equivalent line back to the body.
+//!
+//! ```text
+//! h(r) = (2 / π) ∫₀^r h̃(x) / √(r² − x²) dx  =  (2 / π) ∫₀^{π/2} h̃(r sin φ) dφ
+//! ```
+
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
+use crate::error::{finite, positive};
+use crate::quadrature::integrate;
+use crate::{IndenterError, RigidLine};
+
+/// How often intervals may be halved, all in all, in search of kinks nobody told about; one kink takes about 30.
+const MAX_BISECTIONS: usize = 1000;
+
+/// Height h(r) \[m] of the body of revolution whose equivalent line is the right half of `line`, at a `radius` r > 0 \[m].
+///
+/// Kinks of the line are found even when it does not name them; named ones cost nothing. The tolerance bounds the
+/// estimated error relative to the integral of |h̃|; 1e-9 is a good value.
+///
+/// # Errors
+/// [`IndenterError::OutOfDomain`] when the line does not reach from 0 to `radius`, `InvalidParameter` when a number is out
+/// of its range or a height not finite, `NotConverged` when the tolerance is not reached.
+pub fn inverse_abel(
+    line: &(impl RigidLine + ?Sized),
+    radius: f64,
+    relative_tolerance: f64,
+) -> Result<f64, IndenterError> {
+    let radius = positive("radius", radius)?;
+    positive("relative_tolerance", relative_tolerance)?;
+    let [lower, upper] = line.domain();
+    if lower > 0.0 || radius > upper {
+        return Err(IndenterError::OutOfDomain {
+            position: if lower > 0.0 { 0.0 } else { radius },
+            lower,
+            upper,
+        });
+    }
+    let height = |phi: f64| line.height(radius * phi.sin());
+    average(height, &angles(line, radius), relative_tolerance)
+}
+
+/// 0, the angles of the known kinks, and a quarter turn.
+fn angles(line: &(impl RigidLine + ?Sized), radius: f64) -> Vec<f64> {
+    let inner = line.kinks().into_iter();
+    let inner = inner.filter(|kink| *kink > 0.0 && *kink < radius);
+    std::iter::once(0.0)
+        .chain(inner.map(|kink| (kink / radius).asin()))
+        .chain(std::iter::once(FRAC_PI_2))
+        .collect()
+}
+
+/// (2 / π) ∫ f dφ between the first and the last angle; halves every interval that does not converge as a whole.
+fn average(
+    function: impl Fn(f64) -> f64,
+    angles: &[f64],
+    relative_tolerance: f64,
+) -> Result<f64, IndenterError> {
+    let piece = |ends: [f64; 2]| integrate(&function, ends, 0.01 * relative_tolerance);
+    let mut open: Vec<[f64; 2]> = angles.windows(2).map(|a| [a[0], a[1]]).collect();
+    let scale = magnitude(&function, &open);
+    finite("height of the line", scale)?;
+    let (mut value, mut error, mut bisections) = (0.0, 0.0, 0);
+    while let Some(ends) = open.pop() {
+        let integral = piece(ends);
+        finite("height of the line", integral.value)?;
+        // Each of the intervals around a kink may have its share; their number grows with the logarithm of the accuracy.
+        if integral.error > 0.01 * relative_tolerance * scale && bisections < MAX_BISECTIONS {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            open.extend([[ends[0], middle], [middle, ends[1]]]);
+            bisections += 1;
+            continue;
+        }
+        value += integral.value;
+        error += integral.error;
+    }
+    if error > relative_tolerance * scale {
+        return Err(IndenterError::NotConverged {
+            value: FRAC_2_PI * value,
+            reached: error / scale,
+            relative_tolerance,
+        });
+    }
+    Ok(FRAC_2_PI * value)
+}
+
+/// ∫ |f| dφ, roughly.
+fn magnitude(function: impl Fn(f64) -> f64, intervals: &[[f64; 2]]) -> f64 {
+    intervals
+        .iter()
+        .map(|ends| integrate(|phi| function(phi).abs(), *ends, 0.01).value)
+        .sum()
+}

@@ -1,0 +1,194 @@
+//! Bodies of revolution given by a table of radii and heights.
+//!
+//! ```text
+//! h̃(x) = x Σ m_i [arcsin(min(r_(i+1), x) / x) − arcsin(min(r_i, x) / x)]        m_i slope of piece i
+//! ```
+
+use crate::right_triangle::{arc_sine_difference, leg};
+use crate::table::{Column, check_table};
+use crate::{Axisymmetric, IndenterError, Kink};
+
+/// A body of revolution with a straight profile between the rows of a table; it ends at the last radius.
+///
+/// Every knot is a ring-shaped edge. Where the slope jumps upwards the slope of the equivalent line is singular; where it
+/// jumps downwards the line itself turns down. A table of a smooth body therefore is not a good model of its friction.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PiecewiseLinearProfile {
+    radii: Vec<f64>,
+    heights: Vec<f64>,
+    /// Slope of each piece, and the jumps between them.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    slopes: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    kinks: Vec<Kink>,
+}
+
+impl PiecewiseLinearProfile {
+    /// The profile through the points (`radii[i]`, `heights[i]`), \[m]; both lists begin with 0, the radii increase and no
+    /// height is negative.
+    ///
+    /// # Errors
+    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing` or `InvalidParameter`.
+    pub fn new(radii: Vec<f64>, heights: Vec<f64>) -> Result<Self, IndenterError> {
+        check_table(
+            &Column {
+                name: "radii",
+                values: &radii,
+            },
+            &Column {
+                name: "heights",
+                values: &heights,
+            },
+        )?;
+        starts_at_zero("first radius", radii[0])?;
+        starts_at_zero("first height", heights[0])?;
+        refuse_negative(&heights)?;
+        let slopes: Vec<f64> = radii
+            .windows(2)
+            .zip(heights.windows(2))
+            .map(|(r, h)| (h[1] - h[0]) / (r[1] - r[0]))
+            .collect();
+        let kinks = find_kinks(&radii, &heights, &slopes);
+        Ok(Self {
+            radii,
+            heights,
+            slopes,
+            kinks,
+        })
+    }
+
+    /// Radii of the table, \[m].
+    #[must_use]
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
+    /// Heights of the table, \[m].
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// Index of the piece whose half-open interval ]r_i, r_(i+1)] holds the radius.
+    fn piece(&self, radius: f64) -> usize {
+        let inner_knots = &self.radii[1..self.radii.len() - 1];
+        inner_knots.partition_point(|knot| *knot < radius)
+    }
+
+    /// Σ m_i × angle of piece i, as seen from x.
+    fn turned_slope(&self, x: f64) -> f64 {
+        self.radii
+            .windows(2)
+            .zip(&self.slopes)
+            .take_while(|(ends, _)| ends[0] < x)
+            .map(|(ends, slope)| slope * arc_sine_difference([ends[0], ends[1].min(x)], x))
+            .sum()
+    }
+}
+
+fn starts_at_zero(parameter: &'static str, value: f64) -> Result<(), IndenterError> {
+    if value == 0.0 {
+        return Ok(());
+    }
+    Err(IndenterError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "0",
+    })
+}
+
+fn refuse_negative(heights: &[f64]) -> Result<(), IndenterError> {
+    match heights.iter().find(|height| **height < 0.0) {
+        None => Ok(()),
+        Some(value) => Err(IndenterError::InvalidParameter {
+            parameter: "heights",
+            value: *value,
+            allowed: "at least 0, the height of the lowest point",
+        }),
+    }
+}
+
+/// The jumps of the slope, without those that are only the rounding of collinear heights.
+fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
+    let is_kink = |i: &usize| {
+        let jump = slopes[*i] - slopes[i - 1];
+        let narrow = (radii[*i] - radii[i - 1]).min(radii[i + 1] - radii[*i]);
+        let high = heights[i - 1].max(heights[*i]).max(heights[i + 1]);
+        jump.abs() > ROUNDING * high / narrow
+    };
+    (1..slopes.len())
+        .filter(is_kink)
+        .map(|i| Kink {
+            radius: radii[i],
+            slope_jump: slopes[i] - slopes[i - 1],
+        })
+        .collect()
+}
+
+/// Two slopes with one rounding of each height, of the difference and of the quotient.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+impl Axisymmetric for PiecewiseLinearProfile {
+    fn height(&self, radius: f64) -> f64 {
+        if radius > self.max_radius() {
+            return f64::INFINITY;
+        }
+        let i = self.piece(radius);
+        let fraction = (radius - self.radii[i]) / (self.radii[i + 1] - self.radii[i]);
+        self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i])
+    }
+
+    fn slope(&self, radius: f64) -> f64 {
+        if radius > self.max_radius() {
+            return f64::INFINITY;
+        }
+        self.slopes[self.piece(radius)]
+    }
+
+    fn curvature(&self, _radius: f64) -> f64 {
+        0.0
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        if self.slopes[0] == 0.0 {
+            return f64::INFINITY;
+        }
+        1.0
+    }
+
+    fn max_radius(&self) -> f64 {
+        self.radii[self.radii.len() - 1]
+    }
+
+    fn kinks(&self) -> Vec<Kink> {
+        self.kinks.clone()
+    }
+
+    fn line_height(&self, x: f64) -> f64 {
+        let x = x.abs();
+        if x > self.max_radius() {
+            return f64::INFINITY;
+        }
+        x * self.turned_slope(x)
+    }
+
+    fn line_slope(&self, x: f64) -> f64 {
+        let distance = x.abs();
+        if distance > self.max_radius() {
+            return x.signum() * f64::INFINITY;
+        }
+        let singular: f64 = self
+            .kinks
+            .iter()
+            .take_while(|kink| kink.radius < distance)
+            .map(|kink| kink.slope_jump * (kink.radius / leg(distance, kink.radius)))
+            .sum();
+        let smooth = if distance == 0.0 {
+            self.slopes[0] * std::f64::consts::FRAC_PI_2
+        } else {
+            self.turned_slope(distance)
+        };
+        x.signum() * (smooth + singular)
+    }
+}

@@ -1,0 +1,63 @@
+//! Right triangles with a given hypotenuse, without cancellation where they are nearly flat.
+
+/// √(x² − b²) for 0 ≤ b ≤ x; neither the difference nor the squares lose digits.
+pub(crate) fn leg(hypotenuse: f64, other_leg: f64) -> f64 {
+    (hypotenuse - other_leg).sqrt() * (hypotenuse + other_leg).sqrt()
+}
+
+/// arccos(b / x) for 0 ≤ b ≤ x, accurate to rounding also where b is close to x.
+pub(crate) fn arc_cosine(adjacent: f64, hypotenuse: f64) -> f64 {
+    leg(hypotenuse, adjacent).atan2(adjacent)
+}
+
+/// arcsin(r₂ / x) − arcsin(r₁ / x) for 0 ≤ r₁ ≤ r₂ ≤ x: a sum of positive terms only.
+///
+/// With u = r / x and c = √(1 − u²) it is the angle of sine u₂c₁ − u₁c₂ = (u₂² − u₁²) / (u₂c₁ + u₁c₂) and of cosine
+/// c₁c₂ + u₁u₂.
+pub(crate) fn arc_sine_difference([inner, outer]: [f64; 2], hypotenuse: f64) -> f64 {
+    if inner >= outer {
+        return 0.0;
+    }
+    let (u1, u2) = (inner / hypotenuse, outer / hypotenuse);
+    let (c1, c2) = (
+        leg(hypotenuse, inner) / hypotenuse,
+        leg(hypotenuse, outer) / hypotenuse,
+    );
+    let difference = (outer - inner) / hypotenuse * (u1 + u2);
+    (difference / (u2 * c1 + u1 * c2)).atan2(c1 * c2 + u1 * u2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thin_slice_keeps_its_digits() {
+        // arcsin(1) − arcsin(1 − ε) = √(2ε) (1 + ε/12 + …); 1 − ε is exact for this ε.
+        let epsilon = 2.0_f64.powi(-40);
+        let expected = (2.0 * epsilon).sqrt() * (1.0 + epsilon / 12.0);
+        for actual in [
+            arc_sine_difference([1.0 - epsilon, 1.0], 1.0),
+            arc_cosine(1.0 - epsilon, 1.0),
+        ] {
+            assert!(
+                (actual / expected - 1.0).abs() < 4e-16,
+                "{actual} instead of {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn slices_add_up_to_a_quarter_turn() {
+        let x = 3.0;
+        let slices: f64 = [0.0, 1e-9, 0.5, 2.0, 3.0]
+            .windows(2)
+            .map(|ends| arc_sine_difference([ends[0], ends[1]], x))
+            .sum();
+        let expected = std::f64::consts::FRAC_PI_2;
+        assert!(
+            (slices / expected - 1.0).abs() < 1e-15,
+            "{slices} instead of {expected}"
+        );
+    }
+}

@@ -1,0 +1,89 @@
+//! Rigid lines given by a table, straight between its rows.
+
+use crate::table::{Column, check_table};
+use crate::{IndenterError, RigidLine};
+
+/// A piecewise linear rigid line.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SampledLine {
+    positions: Vec<f64>,
+    heights: Vec<f64>,
+}
+
+impl SampledLine {
+    /// The line through the points (`positions[i]`, `heights[i]`), \[m], with increasing positions.
+    ///
+    /// # Errors
+    /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing`, or `InvalidParameter` for a
+    /// number that is not finite.
+    pub fn new(positions: Vec<f64>, heights: Vec<f64>) -> Result<Self, IndenterError> {
+        check_table(
+            &Column {
+                name: "positions",
+                values: &positions,
+            },
+            &Column {
+                name: "heights",
+                values: &heights,
+            },
+        )?;
+        Ok(Self { positions, heights })
+    }
+
+    /// Positions of the table, \[m].
+    #[must_use]
+    pub fn positions(&self) -> &[f64] {
+        &self.positions
+    }
+
+    /// Heights of the table, \[m].
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// Index of the piece whose half-open interval [x_i, x_(i+1)[ holds the position.
+    fn piece(&self, x: f64) -> usize {
+        let inner = &self.positions[1..self.positions.len() - 1];
+        inner.partition_point(|position| *position <= x)
+    }
+
+    fn holds(&self, x: f64) -> bool {
+        let [lower, upper] = self.domain();
+        x >= lower && x <= upper
+    }
+}
+
+impl RigidLine for SampledLine {
+    fn height(&self, x: f64) -> f64 {
+        if !self.holds(x) {
+            return f64::INFINITY;
+        }
+        let i = self.piece(x);
+        let [left, right] = [self.positions[i], self.positions[i + 1]];
+        // The last knot must give back its height to the last bit, or a plateau would not be one.
+        if x >= right {
+            return self.heights[i + 1];
+        }
+        let fraction = (x - left) / (right - left);
+        self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i])
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        let i = self.piece(x);
+        (self.heights[i + 1] - self.heights[i]) / (self.positions[i + 1] - self.positions[i])
+    }
+
+    fn domain(&self) -> [f64; 2] {
+        [self.positions[0], self.positions[self.positions.len() - 1]]
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.positions[1..self.positions.len() - 1].to_vec()
+    }
+
+    fn monotone_breaks(&self, _samples: usize) -> Vec<f64> {
+        self.positions.clone()
+    }
+}

@@ -1,0 +1,140 @@
+//! Sums of power profiles.
+//!
+//! ```text
+//! h(r) = Σ c_k r^(p_k)        h̃(x) = Σ κ(p_k) c_k |x|^(p_k)
+//! ```
+
+use crate::error::{finite, positive};
+use crate::power::scaled_power;
+use crate::{Axisymmetric, IndenterError, stretch};
+
+/// One term `coefficient · r^exponent` of a [`Superposition`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PowerTerm {
+    /// Coefficient c, [m^(1−p)]; finite, not zero, of either sign.
+    pub coefficient: f64,
+    /// Exponent p, finite and greater than zero.
+    pub exponent: f64,
+}
+
+/// A body of revolution whose profile is a sum of powers, all with different exponents.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Superposition {
+    /// By increasing exponent.
+    terms: Vec<PowerTerm>,
+    /// The terms of the equivalent line.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    line_terms: Vec<PowerTerm>,
+}
+
+impl Superposition {
+    /// The sum of the `terms`, given in any order.
+    ///
+    /// Negative coefficients are allowed except for the lowest exponent, which shapes the apex.
+    ///
+    /// # Errors
+    /// [`IndenterError::TooFew`] without a term; [`IndenterError::InvalidParameter`] when a number is out of its range
+    /// or two exponents agree.
+    pub fn new(mut terms: Vec<PowerTerm>) -> Result<Self, IndenterError> {
+        for term in &terms {
+            positive("exponent", term.exponent)?;
+            nonzero("coefficient", term.coefficient)?;
+        }
+        terms.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
+        let leading = terms.first().ok_or(IndenterError::TooFew {
+            list: "terms",
+            needed: 1,
+            length: 0,
+        })?;
+        positive("coefficient of the lowest exponent", leading.coefficient)?;
+        refuse_repeated_exponents(&terms)?;
+        let line_terms = terms.iter().map(line_term).collect::<Result<_, _>>()?;
+        Ok(Self { terms, line_terms })
+    }
+
+    /// The terms by increasing exponent.
+    #[must_use]
+    pub fn terms(&self) -> &[PowerTerm] {
+        &self.terms
+    }
+}
+
+fn nonzero(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
+    if value != 0.0 {
+        return finite(parameter, value);
+    }
+    Err(IndenterError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and not 0",
+    })
+}
+
+fn refuse_repeated_exponents(terms: &[PowerTerm]) -> Result<(), IndenterError> {
+    match terms
+        .windows(2)
+        .find(|pair| pair[0].exponent >= pair[1].exponent)
+    {
+        None => Ok(()),
+        Some(pair) => Err(IndenterError::InvalidParameter {
+            parameter: "exponent",
+            value: pair[1].exponent,
+            allowed: "different from the exponents of the other terms",
+        }),
+    }
+}
+
+fn line_term(term: &PowerTerm) -> Result<PowerTerm, IndenterError> {
+    Ok(PowerTerm {
+        coefficient: stretch(term.exponent)? * term.coefficient,
+        exponent: term.exponent,
+    })
+}
+
+impl Axisymmetric for Superposition {
+    fn height(&self, radius: f64) -> f64 {
+        sum(&self.terms, 0.0, |_| 1.0, radius)
+    }
+
+    fn slope(&self, radius: f64) -> f64 {
+        sum(&self.terms, 1.0, |p| p, radius)
+    }
+
+    fn curvature(&self, radius: f64) -> f64 {
+        sum(&self.terms, 2.0, |p| p * (p - 1.0), radius)
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        self.terms[0].exponent
+    }
+
+    fn line_height(&self, x: f64) -> f64 {
+        sum(&self.line_terms, 0.0, |_| 1.0, x.abs())
+    }
+
+    fn line_slope(&self, x: f64) -> f64 {
+        x.signum() * sum(&self.line_terms, 1.0, |p| p, x.abs())
+    }
+}
+
+/// Σ c w(p) r^(p − order), the derivative of the given order.
+fn sum(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radius: f64) -> f64 {
+    let power = |term: &PowerTerm, shift: f64| {
+        let coefficient = term.coefficient * weight(term.exponent);
+        scaled_power(coefficient, radius, term.exponent - shift)
+    };
+    let plain: f64 = terms.iter().map(|term| power(term, order)).sum();
+    if !plain.is_nan() {
+        return plain;
+    }
+    // ∞ − ∞: far out the highest power decides the sign, at the apex the lowest.
+    let shift = match terms {
+        [.., last] if radius > 1.0 => last.exponent,
+        [first, ..] => first.exponent,
+        [] => return plain,
+    };
+    let mantissa: f64 = terms.iter().map(|term| power(term, shift)).sum();
+    scaled_power(mantissa, radius, shift - order)
+}

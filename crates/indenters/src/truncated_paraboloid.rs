@@ -1,0 +1,94 @@
+//! The paraboloid with a flat end.
+//!
+//! ```text
+//! h(r) = c (r² − b²)        h̃(x) = 2 c x √(x² − b²)        outside the flat end of radius b
+//! ```
+
+use crate::error::positive;
+use crate::right_triangle::leg;
+use crate::{Axisymmetric, IndenterError, Kink};
+
+/// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct TruncatedParaboloid {
+    radius: f64,
+    curvature: f64,
+}
+
+impl TruncatedParaboloid {
+    /// Flat up to the `radius` b > 0 \[m], then `curvature · (r² − b²)`, curvature c > 0 in \[1/m]; the radius of
+    /// curvature is `1 / (2 curvature)`.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
+    pub fn new(radius: f64, curvature: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            radius: positive("radius", radius)?,
+            curvature: positive("curvature", curvature)?,
+        })
+    }
+
+    /// Radius b of the flat end, \[m].
+    #[must_use]
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// Coefficient c of the paraboloid, \[1/m].
+    #[must_use]
+    pub const fn paraboloid_curvature(&self) -> f64 {
+        self.curvature
+    }
+}
+
+impl Axisymmetric for TruncatedParaboloid {
+    fn height(&self, radius: f64) -> f64 {
+        if radius <= self.radius {
+            return 0.0;
+        }
+        self.curvature * (radius - self.radius) * (radius + self.radius)
+    }
+
+    fn slope(&self, radius: f64) -> f64 {
+        if radius <= self.radius {
+            return 0.0;
+        }
+        2.0 * self.curvature * radius
+    }
+
+    fn curvature(&self, radius: f64) -> f64 {
+        if radius <= self.radius {
+            return 0.0;
+        }
+        2.0 * self.curvature
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn kinks(&self) -> Vec<Kink> {
+        vec![Kink {
+            radius: self.radius,
+            slope_jump: 2.0 * self.curvature * self.radius,
+        }]
+    }
+
+    fn line_height(&self, x: f64) -> f64 {
+        let x = x.abs();
+        if x <= self.radius {
+            return 0.0;
+        }
+        2.0 * self.curvature * x * leg(x, self.radius)
+    }
+
+    fn line_slope(&self, x: f64) -> f64 {
+        let distance = x.abs();
+        if distance <= self.radius {
+            return 0.0;
+        }
+        let leg = leg(distance, self.radius);
+        x.signum() * 2.0 * self.curvature * (leg + distance * (distance / leg))
+    }
+}

@@ -1,0 +1,113 @@
+//! The bodies named by the casebook.
+
+use casebook::Case;
+use indenters::{
+    Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone,
+    Sphere, Superposition, TruncatedParaboloid,
+};
+
+/// A paraboloid with a cosine on it; its line is left to the numerical transform.
+struct WavyParaboloid {
+    radius_of_curvature: f64,
+    amplitude: f64,
+    wave_number: f64,
+}
+
+impl Axisymmetric for WavyParaboloid {
+    fn height(&self, r: f64) -> f64 {
+        let half_phase = 0.5 * self.wave_number * r;
+        0.5 * r * r / self.radius_of_curvature + 2.0 * self.amplitude * half_phase.sin().powi(2)
+    }
+
+    fn slope(&self, r: f64) -> f64 {
+        let k = self.wave_number;
+        r / self.radius_of_curvature + self.amplitude * k * (k * r).sin()
+    }
+
+    fn curvature(&self, r: f64) -> f64 {
+        let k = self.wave_number;
+        1.0 / self.radius_of_curvature + self.amplitude * k * k * (k * r).cos()
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
+}
+
+/// 1 − exp(−(r/s)²) in units of the length s; its line is left to the numerical transform.
+pub(crate) struct GaussianDip {
+    pub(crate) length: f64,
+}
+
+impl Axisymmetric for GaussianDip {
+    fn height(&self, r: f64) -> f64 {
+        -self.length * (-(r / self.length).powi(2)).exp_m1()
+    }
+
+    fn slope(&self, r: f64) -> f64 {
+        let y = r / self.length;
+        2.0 * y * (-y * y).exp()
+    }
+
+    fn curvature(&self, r: f64) -> f64 {
+        let y = r / self.length;
+        (2.0 - 4.0 * y * y) * (-y * y).exp() / self.length
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
+}
+
+pub(crate) fn superposition(terms: &[(f64, f64)]) -> Superposition {
+    let terms = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
+        coefficient,
+        exponent,
+    });
+    Superposition::new(terms.collect()).unwrap()
+}
+
+/// The body of a row of IND-02, IND-03, IND-05.
+pub(crate) fn body(case: &Case) -> Box<dyn Axisymmetric> {
+    let radius_of_curvature = |name| 0.5 / case.input(name);
+    let flat = |case: &Case| [case.input("b"), case.input("tan_theta")];
+    match case.input_text("shape") {
+        "power" => Box::new(PowerProfile::new(case.input("c"), case.input("p")).unwrap()),
+        "sphere" => Box::new(Sphere::new(case.input("R")).unwrap()),
+        // The casebook names this one in the title of its row only.
+        "" => Box::new(FlatPunch::new(case.input("a")).unwrap()),
+        "flat-ended cone" => {
+            let [radius, slope] = flat(case);
+            Box::new(FlatCone::new(radius, slope).unwrap())
+        }
+        "round-tipped cone" => {
+            let [radius, slope] = flat(case);
+            Box::new(RoundTippedCone::new(radius, slope).unwrap())
+        }
+        "truncated paraboloid" => {
+            Box::new(TruncatedParaboloid::new(case.input("b"), radius_of_curvature("R")).unwrap())
+        }
+        "hyperboloid" => {
+            let radius = case.input("b");
+            Box::new(Hyperboloid::new(radius, case.input("L") / radius).unwrap())
+        }
+        other => unnamed_body(case, other),
+    }
+}
+
+fn unnamed_body(case: &Case, shape: &str) -> Box<dyn Axisymmetric> {
+    match shape.split(' ').next() {
+        Some("polynomial") => Box::new(superposition(&[
+            (case.input("c1"), 1.0),
+            (case.input("c2"), 2.0),
+            (case.input("c4"), 4.0),
+        ])),
+        Some("wavy") => Box::new(WavyParaboloid {
+            radius_of_curvature: case.input("R"),
+            amplitude: case.input("A"),
+            wave_number: case.input("k"),
+        }),
+        Some("Gaussian") => Box::new(GaussianDip { length: 1.0 }),
+        _ => panic!("{} names no known shape", case.id()),
+    }
+}

@@ -1,0 +1,203 @@
+use indenters::{
+    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, IndenterError,
+    PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone, SampledLine, SlidingLoad,
+    Sphere, Superposition, TruncatedParaboloid, contact_line, contact_radius, inverse_abel,
+    leading_edge, stretch,
+};
+
+const BAD: [f64; 6] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+fn assert_names<T: std::fmt::Debug>(result: Result<T, IndenterError>, name: &str, bad: f64) {
+    match result {
+        Err(IndenterError::InvalidParameter {
+            parameter, value, ..
+        }) => {
+            assert_eq!(parameter, name, "the refused value was {bad}");
+            assert_eq!(value.to_bits(), bad.to_bits(), "value named for {name}");
+        }
+        other => panic!("{name} = {bad}: {other:?}"),
+    }
+}
+
+/// EXT-01 rows 09, 10, 11: zero, negative, NaN and infinite parameters.
+#[test]
+fn every_parameter_of_every_shape_is_checked() {
+    for bad in BAD {
+        assert_names(stretch(bad), "exponent", bad);
+        assert_names(PowerProfile::new(1.0, bad), "exponent", bad);
+        assert_names(PowerProfile::new(bad, 1.0), "coefficient", bad);
+        assert_names(PowerProfile::cone(bad), "slope", bad);
+        assert_names(PowerProfile::paraboloid(bad), "curvature", bad);
+        assert_names(Sphere::new(bad), "radius", bad);
+        assert_names(FlatPunch::new(bad), "radius", bad);
+        assert_names(FlatCone::new(bad, 1.0), "radius", bad);
+        assert_names(FlatCone::new(1.0, bad), "slope", bad);
+        assert_names(TruncatedParaboloid::new(bad, 1.0), "radius", bad);
+        assert_names(TruncatedParaboloid::new(1.0, bad), "curvature", bad);
+        assert_names(RoundTippedCone::new(bad, 1.0), "radius", bad);
+        assert_names(RoundTippedCone::new(1.0, bad), "slope", bad);
+        assert_names(Hyperboloid::new(bad, 1.0), "radius", bad);
+        assert_names(Hyperboloid::new(1.0, bad), "slope", bad);
+        assert_names(SlidingLoad::new(bad, 1.0), "normal_force", bad);
+        assert_names(SlidingLoad::new(1.0, bad), "velocity", bad);
+    }
+}
+
+#[test]
+fn questions_are_checked_too() {
+    let cone = PowerProfile::cone(0.1).unwrap();
+    let line = SampledLine::new(vec![0.0, 1.0], vec![0.0, 1.0]).unwrap();
+    for bad in BAD {
+        assert_names(contact_radius(&cone, bad), "depth", bad);
+        assert_names(contact_line(&line, bad), "depth", bad);
+        assert_names(inverse_abel(&line, bad, 1e-9), "radius", bad);
+        assert_names(inverse_abel(&line, 0.5, bad), "relative_tolerance", bad);
+    }
+}
+
+#[test]
+fn superpositions_need_a_body() {
+    let term = |coefficient, exponent| PowerTerm {
+        coefficient,
+        exponent,
+    };
+    assert_eq!(
+        Superposition::new(Vec::new()),
+        Err(IndenterError::TooFew {
+            list: "terms",
+            needed: 1,
+            length: 0
+        }),
+        "no term"
+    );
+    for bad in BAD {
+        let exponent = Superposition::new(vec![term(1.0, 1.0), term(1.0, bad)]);
+        assert_names(exponent, "exponent", bad);
+    }
+    for bad in [0.0, -0.0, f64::NAN, f64::INFINITY] {
+        let coefficient = Superposition::new(vec![term(1.0, 1.0), term(bad, 2.0)]);
+        assert_names(coefficient, "coefficient", bad);
+    }
+    let apex_downwards = Superposition::new(vec![term(1.0, 2.0), term(-1.0, 1.0)]);
+    assert_names(apex_downwards, "coefficient of the lowest exponent", -1.0);
+    let repeated = Superposition::new(vec![term(1.0, 2.0), term(3.0, 2.0)]);
+    assert_names(repeated, "exponent", 2.0);
+}
+
+/// EXT-01 rows 17, 18, 19.
+#[test]
+fn tables_are_checked_row_by_row() {
+    type New = fn(Vec<f64>, Vec<f64>) -> Result<(), IndenterError>;
+    let kinds: [(&str, New); 2] = [
+        ("radii", |x, h| PiecewiseLinearProfile::new(x, h).map(drop)),
+        ("positions", |x, h| SampledLine::new(x, h).map(drop)),
+    ];
+    for (list, new) in kinds {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_names(new(vec![0.0, 1.0], vec![0.0, bad]), "heights", bad);
+            assert_names(new(vec![0.0, bad], vec![0.0, 1.0]), list, bad);
+        }
+        let mismatch = IndenterError::LengthMismatch {
+            first: list,
+            first_length: 2,
+            second: "heights",
+            second_length: 1,
+        };
+        assert_eq!(new(vec![0.0, 1.0], vec![0.0]), Err(mismatch), "lengths");
+        let short = IndenterError::TooFew {
+            list,
+            needed: 2,
+            length: 1,
+        };
+        assert_eq!(new(vec![0.0], vec![0.0]), Err(short), "one row");
+        for value in [1.0, 0.5] {
+            let stuck = IndenterError::NotIncreasing {
+                list,
+                index: 2,
+                value,
+                previous: 1.0,
+            };
+            let result = new(vec![0.0, 1.0, value], vec![0.0; 3]);
+            assert_eq!(result, Err(stuck), "{list} ending with 1, {value}");
+        }
+    }
+}
+
+#[test]
+fn a_profile_table_starts_at_the_apex() {
+    let new = |r: f64, h: f64| PiecewiseLinearProfile::new(vec![r, 1.0], vec![h, 1.0]);
+    assert_names(new(0.1, 0.0), "first radius", 0.1);
+    assert_names(new(0.0, 0.1), "first height", 0.1);
+    let sunken = PiecewiseLinearProfile::new(vec![0.0, 1.0], vec![0.0, -0.1]);
+    assert_names(sunken, "heights", -0.1);
+}
+
+/// EXT-01 row 20.
+#[test]
+fn the_sphere_ends_at_its_equator() {
+    let sphere = Sphere::new(1.0).unwrap();
+    for radius in [1.0, 1.5, -0.1] {
+        let expected = IndenterError::OutOfDomain {
+            position: radius,
+            lower: 0.0,
+            upper: 1.0,
+        };
+        let actual = sphere.checked_height(radius);
+        assert_eq!(actual, Err(expected), "height at {radius}");
+    }
+    assert!(
+        sphere.checked_height(f64::NAN).is_err() && sphere.checked_line_height(1.0).is_err(),
+        "NaN and the equator are outside"
+    );
+}
+
+#[test]
+fn lines_need_a_finite_domain_and_finite_heights() {
+    let on = |domain: [f64; 2]| AnalyticLine::new(|x| x, |_| 1.0, domain);
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_names(on([0.0, bad]), "end of the domain", bad);
+        assert_names(on([bad, 0.0]), "end of the domain", bad);
+    }
+    for upper in [1.0, 0.5] {
+        let expected = IndenterError::NotIncreasing {
+            list: "domain",
+            index: 1,
+            value: upper,
+            previous: 1.0,
+        };
+        assert_eq!(
+            on([1.0, upper]).map(|_| ()),
+            Err(expected),
+            "[1, {upper}] is empty"
+        );
+    }
+    let endless = AnalyticLine::new(f64::ln, f64::recip, [0.0, 1.0]);
+    assert_names(endless, "height of the line", f64::NEG_INFINITY);
+    let gap = AnalyticLine::new(
+        |x| if (0.4..0.6).contains(&x) { f64::NAN } else { x },
+        |_| 1.0,
+        [0.0, 1.0],
+    );
+    let result = leading_edge(&gap.unwrap());
+    assert!(
+        matches!(result, Err(IndenterError::InvalidParameter { value, .. }) if value.is_nan()),
+        "{result:?}"
+    );
+    // Finite at both ends, with a pole at the turning point 1/2.
+    let pole = AnalyticLine::new(
+        |x| 1.0 / (x - 0.5).powi(2),
+        |x| if x < 0.5 { 1.0 } else { -1.0 },
+        [0.0, 1.0],
+    );
+    let result = leading_edge(&pole.unwrap());
+    assert!(
+        matches!(
+            result,
+            Err(IndenterError::InvalidParameter {
+                parameter: "height of the line",
+                ..
+            })
+        ),
+        "{result:?}"
+    );
+}

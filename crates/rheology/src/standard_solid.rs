@@ -1,0 +1,211 @@
+//! The three-element solid of the paper's Fig. 1: a spring parallel to a spring and a dashpot in series.
+//!
+//! ```text
+//! G'(ω) = G₂ (γ + Ω²/(1 + Ω²))    G''(ω) = G₂ Ω/(1 + Ω²)    tan δ = Ω/(Ω² + γ (1 + Ω²))        (2)
+//! γ = G₁/G₂    Ω = ω η/G₂
+//! ```
+//!
+//! The paper defines Ω as ω G₂/η, which has the dimension 1/s²; its formulas and its figure are right with
+//! Ω = ω η/G₂ = ω τ, and that is what is used here.
+
+use std::f64::consts::SQRT_2;
+
+use crate::RheologyError;
+use crate::error::{not_negative, positive};
+
+/// What a [`StandardSolid`] is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StandardSolidParameters {
+    /// Shear modulus G₁ of the spring that stands alone, \[Pa]; what is left after a long time.
+    pub equilibrium_modulus: f64,
+    /// Shear modulus G₂ of the spring in series with the dashpot, \[Pa].
+    pub maxwell_modulus: f64,
+    /// Shear viscosity η of the dashpot, [Pa s].
+    pub viscosity: f64,
+}
+
+/// The standard linear solid, incompressible.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StandardSolid {
+    parameters: StandardSolidParameters,
+}
+
+/// The maximum of the loss tangent over all frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LossPeak {
+    /// Where it lies, \[rad/s].
+    pub angular_frequency: f64,
+    /// Its height.
+    pub loss_tangent: f64,
+}
+
+impl StandardSolid {
+    /// Largest stiffness ratio γ below which the loss tangent exceeds one anywhere, (√2 − 1)/2.
+    pub const LARGEST_VISCOUS_RATIO: f64 = 0.5 * (SQRT_2 - 1.0);
+
+    /// The solid with these parameters, all greater than zero.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when a parameter, or a time, ratio or sum that follows from them, is not
+    /// finite and greater than zero.
+    pub fn new(parameters: StandardSolidParameters) -> Result<Self, RheologyError> {
+        positive("equilibrium_modulus", parameters.equilibrium_modulus)?;
+        positive("maxwell_modulus", parameters.maxwell_modulus)?;
+        positive("viscosity", parameters.viscosity)?;
+        let solid = Self { parameters };
+        // Three legal numbers may still be too many decades apart for their quotients to exist.
+        positive("glass_modulus", solid.glass_modulus())?;
+        positive("stiffness_ratio", solid.stiffness_ratio())?;
+        positive("relaxation_time", solid.relaxation_time())?;
+        positive("retardation_time", solid.retardation_time())?;
+        Ok(solid)
+    }
+
+    /// Equilibrium modulus G₁, \[Pa].
+    #[must_use]
+    pub const fn equilibrium_modulus(&self) -> f64 {
+        self.parameters.equilibrium_modulus
+    }
+
+    /// Modulus G₂ of the Maxwell branch, \[Pa].
+    #[must_use]
+    pub const fn maxwell_modulus(&self) -> f64 {
+        self.parameters.maxwell_modulus
+    }
+
+    /// Viscosity η of the Maxwell branch, [Pa s].
+    #[must_use]
+    pub const fn viscosity(&self) -> f64 {
+        self.parameters.viscosity
+    }
+
+    /// Modulus of the first instant G₁ + G₂, \[Pa].
+    #[must_use]
+    pub fn glass_modulus(&self) -> f64 {
+        self.equilibrium_modulus() + self.maxwell_modulus()
+    }
+
+    /// Stiffness ratio γ = G₁/G₂.
+    #[must_use]
+    pub fn stiffness_ratio(&self) -> f64 {
+        self.equilibrium_modulus() / self.maxwell_modulus()
+    }
+
+    /// Time τ = η/G₂ in which the stress relaxes at constant strain, \[s].
+    #[must_use]
+    pub fn relaxation_time(&self) -> f64 {
+        self.viscosity() / self.maxwell_modulus()
+    }
+
+    /// Time λ = η/G₁ + η/G₂ in which the strain creeps at constant stress, \[s].
+    #[must_use]
+    pub fn retardation_time(&self) -> f64 {
+        self.viscosity() / self.equilibrium_modulus() + self.relaxation_time()
+    }
+
+    /// Storage modulus G'(ω), (2), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn storage_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        let omega = self.dimensionless_frequency(angular_frequency)?;
+        // The squares overflow long before the fraction differs from 1.
+        let fraction = if omega <= 1.0 {
+            omega * omega / (1.0 + omega * omega)
+        } else {
+            1.0 / (1.0 + omega.recip().powi(2))
+        };
+        Ok(self.equilibrium_modulus() + self.maxwell_modulus() * fraction)
+    }
+
+    /// Loss modulus G''(ω), (2), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn loss_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        let omega = self.dimensionless_frequency(angular_frequency)?;
+        // Unchanged when Ω is replaced by its inverse.
+        let below_one = if omega <= 1.0 { omega } else { omega.recip() };
+        Ok(self.maxwell_modulus() * below_one / (1.0 + below_one * below_one))
+    }
+
+    /// Loss tangent tan δ = G''/G', (2), at an angular frequency ω ≥ 0 \[rad/s].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        let omega = self.dimensionless_frequency(angular_frequency)?;
+        let gamma = self.stiffness_ratio();
+        // Divided by Ω the denominator of (2) has no square that could vanish or overflow.
+        Ok((omega * (1.0 + gamma) + gamma / omega).recip())
+    }
+
+    /// Ω = ω η/G₂. The paper's ω G₂/η is dimensionally wrong.
+    fn dimensionless_frequency(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        Ok(not_negative("angular_frequency", angular_frequency)? * self.relaxation_time())
+    }
+
+    /// Where the loss tangent is largest, Ω² = γ/(1 + γ), and how large: 1/(2 √(γ (1 + γ))).
+    #[must_use]
+    pub fn loss_peak(&self) -> LossPeak {
+        let gamma = self.stiffness_ratio();
+        LossPeak {
+            angular_frequency: (gamma / (1.0 + gamma)).sqrt() / self.relaxation_time(),
+            loss_tangent: 0.5 / (gamma.sqrt() * (1.0 + gamma).sqrt()),
+        }
+    }
+
+    /// Lower and upper angular frequency between which tan δ > 1, \[rad/s], the viscosity dominated range of the
+    /// paper; `None` from γ = [`Self::LARGEST_VISCOUS_RATIO`] up.
+    ///
+    /// The bounds are the roots of (1 + γ) Ω² − Ω + γ = 0.
+    #[must_use]
+    pub fn viscous_window(&self) -> Option<[f64; 2]> {
+        let gamma = self.stiffness_ratio();
+        let margin = Self::LARGEST_VISCOUS_RATIO - gamma;
+        if margin <= 0.0 {
+            return None;
+        }
+        // 1 − 4 γ (1 + γ), factored so that it keeps its digits where the window closes.
+        let discriminant = 4.0 * margin * (margin + 2.0 * gamma + 1.0);
+        let sum = 1.0 + discriminant.sqrt();
+        let tau = self.relaxation_time();
+        // The lower root from the product of both, which does not cancel.
+        Some([2.0 * gamma / sum / tau, 0.5 * sum / (1.0 + gamma) / tau])
+    }
+
+    /// Relaxation modulus G(t) = G₁ + G₂ e^(−t/τ), \[Pa], at a time t ≥ 0 \[s] after the strain was applied.
+    #[must_use]
+    pub fn relaxation_modulus(&self, time: f64) -> f64 {
+        let decay = (-time / self.relaxation_time()).exp();
+        self.equilibrium_modulus() + self.maxwell_modulus() * decay
+    }
+
+    /// Creep compliance J(t) = 1/(G₁ + G₂) + G₂/(G₁ (G₁ + G₂)) (1 − e^(−t/λ)), \[1/Pa], at a time t ≥ 0 \[s] after the
+    /// stress was applied.
+    #[must_use]
+    pub fn creep_compliance(&self, time: f64) -> f64 {
+        let glass_modulus = self.glass_modulus();
+        let maxwell_share = self.maxwell_modulus() / glass_modulus;
+        // Written as the flow of the dashpot over a time that ends at λ: as G₁ vanishes this becomes t/η, while 1/G₁
+        // overflows and its product with 1 − e^(−t/λ) loses its digits.
+        let lambda = self.retardation_time();
+        let x = time / lambda;
+        let flow_time = if x < f64::EPSILON {
+            time
+        } else {
+            -lambda * (-x).exp_m1()
+        };
+        glass_modulus.recip() + flow_time * maxwell_share / self.viscosity() * maxwell_share
+    }
+
+    /// Compliance α of one step, \[1/Pa]: held at the load potential w over the step, the surface moves to
+    /// `u_new = α w + history`; exact for any ratio of `time_step` \[s] and λ.
+    #[must_use]
+    pub fn step_compliance(&self, time_step: f64) -> f64 {
+        self.creep_compliance(time_step)
+    }
+}

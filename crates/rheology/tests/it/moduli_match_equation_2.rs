@@ -1,0 +1,60 @@
+use rheology::Viscous;
+
+use crate::support::{assert_close, solid};
+
+#[test]
+fn moduli_match_equation_2() {
+    for case in casebook::group("RHE-01") {
+        let solid = solid(["G1", "G2", "eta"].map(|name| case.input(name)));
+        let omega = case.input("omega");
+        case.check("G_storage", solid.storage_modulus(omega).unwrap());
+        case.check("G_loss", solid.loss_modulus(omega).unwrap());
+        case.check("tan_delta", solid.loss_tangent(omega).unwrap());
+    }
+}
+
+#[test]
+fn elementary_models_match_the_textbook() {
+    for case in casebook::group("RHE-03") {
+        match case.id() {
+            "RHE-03/viscous" => {
+                let viscous = Viscous::new(case.input("eta")).unwrap();
+                case.check("J_t", viscous.creep_compliance(case.input("t")));
+                case.check("G_loss", viscous.loss_modulus(case.input("omega")).unwrap());
+            }
+            "RHE-03/sls" => {
+                let solid = solid(["G1", "G2", "eta"].map(|name| case.input(name)));
+                let (t, omega) = (case.input("t"), case.input("omega"));
+                case.check("tau", solid.relaxation_time());
+                case.check("tau_c", solid.retardation_time());
+                case.check("G_t", solid.relaxation_modulus(t));
+                case.check("J_t", solid.creep_compliance(t));
+                case.check("G_storage", solid.storage_modulus(omega).unwrap());
+                case.check("G_loss", solid.loss_modulus(omega).unwrap());
+                case.check("tan_delta", solid.loss_tangent(omega).unwrap());
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Over 600 decades the three functions agree with one another and with their leading terms.
+#[test]
+fn no_frequency_overflows() {
+    for gamma in [1e-12, 1e-3, 0.2, 1.0, 1e6] {
+        let solid = solid([gamma, 1.0, 1.0]);
+        for exponent in -300..=300 {
+            let omega = 10_f64.powi(exponent);
+            let storage = solid.storage_modulus(omega).unwrap();
+            let loss = solid.loss_modulus(omega).unwrap();
+            let tangent = solid.loss_tangent(omega).unwrap();
+            let what = format!("tan δ at Ω = {omega:e}, γ = {gamma:e}");
+            // Each of the three is rounded a handful of times.
+            assert_close(&what, tangent, loss / storage, 2e-15);
+            let asymptote = omega.min(omega.recip());
+            let deviation = asymptote * asymptote;
+            let what = format!("G'' at Ω = {omega:e}, γ = {gamma:e}");
+            assert_close(&what, loss, asymptote / (1.0 + deviation), 1e-15);
+        }
+    }
+}
