@@ -1,1 +1,62 @@
-//! friction-analytic
+//! Friction of rigid bodies that slide over a viscous foundation: the theorems of Kürschner (2014, ZAMM) and the exact
+//! solutions around them.
+//!
+//! - Stationary sliding: depth (12), contact line and coefficient of friction (16), for [power profiles](power_sliding),
+//!   their [sums](superposition_sliding), any [body of revolution](axisymmetric_sliding) and any [line](line_sliding).
+//! - The way there: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
+//!   paraboloid from first touch.
+//! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too.
+//! - A solid instead of a fluid: friction at [low](low_speed_friction) and [high](high_speed_friction) speed.
+//!
+//! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the answer is
+//! [`FrictionError::FrictionDiverges`] with its cause.
+//!
+//! ```
+//! use friction_analytic::power_sliding;
+//! use indenters::{PowerProfile, SlidingLoad};
+//! use rheology::Viscous;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let elastomer = Viscous::new(50.0)?;
+//! let load = SlidingLoad::new(2.0, 0.1)?;
+//! // Eq. (21): the friction of a cone is π/2 times its slope, at every load and speed.
+//! let cone = power_sliding(&PowerProfile::cone(0.1)?, &elastomer, &load)?;
+//! assert!((cone.friction_coefficient - 0.157_079_632_679_489_66).abs() < 1e-15);
+//! // Eq. (22): that of a paraboloid is 2/3 √(2 c F/(η v)).
+//! let paraboloid = power_sliding(&PowerProfile::paraboloid(0.4)?, &elastomer, &load)?;
+//! assert!((paraboloid.friction_coefficient - 0.377_123_616_632_825_34).abs() < 1e-15);
+//! assert!((paraboloid.indentation_depth - 0.1).abs() < 1e-16);
+//! # Ok(())
+//! # }
+//! ```
+
+mod axisymmetric;
+mod elastic_limit;
+mod error;
+mod indentation;
+mod line;
+mod pieces;
+mod power;
+mod sinking;
+mod slope_energy;
+mod stationary;
+mod superposition;
+mod transient;
+
+pub use axisymmetric::axisymmetric_sliding;
+pub use elastic_limit::{
+    ElasticContact, ElasticLimitFriction, high_speed_friction, low_speed_friction,
+};
+pub use error::{DivergenceCause, FrictionError};
+pub use indentation::{
+    Indentation, impulse_to_depth, indentation_after_impulse, power_indentation_after_impulse,
+    time_to_depth,
+};
+pub use line::line_sliding;
+pub use power::power_sliding;
+pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
+pub use stationary::{StationarySliding, stationary_depth};
+pub use superposition::superposition_sliding;
+pub use transient::{
+    TransientSliding, cone_depth_by_equation_15, sliding_distance_to_depth, transient_sliding,
+};

@@ -219,7 +219,7 @@ impl March {
         }
         let n_elements = self.track.grid().n_elements();
         Ok(Transient {
-            steps,
+            rows,
             pressure: self.pressure_field(&bounds)?,
             n_elements,
         })

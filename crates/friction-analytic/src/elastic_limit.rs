@@ -1,0 +1,129 @@
+//! Friction of a solid at very low and very high speed, where the contact is elastic.
+//!
+//! ```text
+//! F_N = 8 G ∫₀^a x h̃' dx,   G = G_∞ (slow) or G(0+) (fast)
+//! slow:  F_h = 8 η_0 v ∫₀^a h̃'² dx on the line, exactly half of it on the half space,   η_0 = ∫₀^∞ (G(t) − G_∞) dt
+//! fast:  F_h = (8 α/v) ∫₀^a (d − h̃)² dx on both,                                        α = −dG/dt(0+)
+//! ```
+//!
+//! Slow, on the half space: inside the contact the pressure is the elastic one, shifted by x_s = η_0 v/G_∞, so that
+//! F_h = (x_s/2) ∫ p ∇²h dA, and ∫ p ∇²h dA = 8 G ∫₀^a h̃'² dx. Fast: F_h = 2 (α/G) W/v with the elastic energy W, which
+//! is the same in both models.
+
+use indenters::{Axisymmetric, contact_radius};
+use rheology::StandardSolid;
+
+use crate::FrictionError;
+use crate::error::{positive, representable};
+use crate::indentation::moment;
+use crate::pieces::{accepted, over_pieces};
+use crate::slope_energy::{divergence_cause, ends_outside_apex, slope_energy};
+
+/// A contact of given size that slides over a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ElasticContact {
+    /// Radius a of the contact circle, \[m]; half the contact length on the line.
+    pub contact_radius: f64,
+    /// Sliding speed v, \[m/s].
+    pub velocity: f64,
+}
+
+/// Leading term of the friction in an elastic limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct ElasticLimitFriction {
+    /// Normal force of the elastic contact, \[N].
+    pub normal_force: f64,
+    /// Coefficient of friction of the one-dimensional model.
+    pub line: f64,
+    /// Coefficient of friction of the half space.
+    pub half_space: f64,
+}
+
+/// Friction at low speed, v τ ≪ a: proportional to the speed, and on the half space exactly half of that on the line.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be;
+/// [`FrictionError::FrictionDiverges`] where ∫ h̃'² dx does; [`FrictionError::NotConverged`] when an integral is known to
+/// less than ten digits.
+pub fn low_speed_friction(
+    body: &(impl Axisymmetric + ?Sized),
+    solid: &StandardSolid,
+    contact: ElasticContact,
+) -> Result<ElasticLimitFriction, FrictionError> {
+    let (radius, depth) = checked(body, contact)?;
+    if let Some(cause) = divergence_cause(body, radius, depth) {
+        return Err(FrictionError::FrictionDiverges {
+            cause,
+            indentation_depth: depth,
+            contact_length: 2.0 * radius,
+        });
+    }
+    let moment = positive_moment(body, radius)?;
+    let shift = solid.viscosity() * contact.velocity / solid.equilibrium_modulus();
+    let line = shift * (slope_energy(body, radius)?.value / moment);
+    let line = representable("friction coefficient", line)?;
+    Ok(ElasticLimitFriction {
+        normal_force: representable("normal force", 8.0 * solid.equilibrium_modulus() * moment)?,
+        line,
+        half_space: 0.5 * line,
+    })
+}
+
+/// Friction at high speed, v τ ≫ a: inversely proportional to the speed, and the same on half space and line.
+///
+/// It exists for every profile, also where the viscous friction diverges.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be;
+/// [`FrictionError::NotConverged`] when an integral is known to less than ten digits.
+pub fn high_speed_friction(
+    body: &(impl Axisymmetric + ?Sized),
+    solid: &StandardSolid,
+    contact: ElasticContact,
+) -> Result<ElasticLimitFriction, FrictionError> {
+    let (radius, depth) = checked(body, contact)?;
+    let moment = positive_moment(body, radius)?;
+    let glass = solid.glass_modulus();
+    // α/G(0+) = G₂/(τ (G₁ + G₂)).
+    let rate = solid.maxwell_modulus() / glass / solid.relaxation_time();
+    let energy = squared_compression(body, radius, depth)?;
+    let friction = rate / contact.velocity * (energy / moment);
+    let friction = representable("friction coefficient", friction)?;
+    Ok(ElasticLimitFriction {
+        normal_force: representable("normal force", 8.0 * glass * moment)?,
+        line: friction,
+        half_space: friction,
+    })
+}
+
+/// Radius and depth of a contact that the body can have.
+fn checked(
+    body: &(impl Axisymmetric + ?Sized),
+    contact: ElasticContact,
+) -> Result<(f64, f64), FrictionError> {
+    positive("velocity", contact.velocity)?;
+    let radius = positive("contact_radius", contact.contact_radius)?;
+    let depth = representable("indentation depth", body.checked_line_height(radius)?)?;
+    // Tells whether the line rises all the way.
+    contact_radius(body, depth)?;
+    Ok((radius, depth))
+}
+
+fn positive_moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, FrictionError> {
+    Ok(accepted("contact moment", moment(body, radius))?.value)
+}
+
+/// ∫₀^a (d − h̃)² dx.
+fn squared_compression(
+    body: &(impl Axisymmetric + ?Sized),
+    radius: f64,
+    depth: f64,
+) -> Result<f64, FrictionError> {
+    let mut ends = ends_outside_apex(body, radius);
+    ends.insert(0, 0.0);
+    let sum = over_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
+    Ok(accepted("squared compression", sum)?.value)
+}

@@ -1,0 +1,185 @@
+//! Why a question about friction has no answer.
+
+use std::fmt;
+
+use indenters::IndenterError;
+use thiserror::Error;
+
+/// Why the friction integral has no finite value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum DivergenceCause {
+    /// The profile rises from its apex like `r^exponent` with an exponent of at most 1/2.
+    ApexExponent {
+        /// The exponent.
+        exponent: f64,
+    },
+    /// The slope of the profile jumps upwards inside the contact; the line behind it is as steep as the inverse root
+    /// of the distance, and the integral diverges like a logarithm.
+    SlopeJump {
+        /// Where it jumps, \[m].
+        radius: f64,
+        /// By how much.
+        jump: f64,
+    },
+    /// The contact reaches a vertical wall.
+    VerticalWall {
+        /// Radius of the wall, \[m].
+        radius: f64,
+    },
+}
+
+impl fmt::Display for DivergenceCause {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ApexExponent { exponent } => write!(
+                formatter,
+                "the profile rises from its apex with exponent {exponent}, more than 0.5 is needed"
+            ),
+            Self::SlopeJump { radius, jump } => write!(
+                formatter,
+                "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
+            ),
+            Self::VerticalWall { radius } => {
+                write!(
+                    formatter,
+                    "the contact reaches a vertical wall at radius {radius}"
+                )
+            }
+        }
+    }
+}
+
+/// Why friction, depth or sinking velocity cannot be given.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FrictionError {
+    /// The geometry refuses.
+    #[error(transparent)]
+    Indenter(#[from] IndenterError),
+    /// A parameter is not a number, or outside the range it may take.
+    #[error("{parameter} must be {allowed}, but is {value}")]
+    InvalidParameter {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// The integral of the squared slope is infinite, though depth and contact exist.
+    #[error(
+        "the friction of the one-dimensional model is infinite: {cause}; \
+         depth {indentation_depth} and contact length {contact_length} exist"
+    )]
+    FrictionDiverges {
+        /// What makes it diverge.
+        cause: DivergenceCause,
+        /// Indentation depth, \[m].
+        indentation_depth: f64,
+        /// Length of the contact line, \[m].
+        contact_length: f64,
+    },
+    /// The leading edge does not reach the stationary depth, Remark 4.
+    #[error(
+        "no stationary state: a depth of {needed_depth} is needed, but the leading edge rises only {available_depth}"
+    )]
+    NoStationaryState {
+        /// The depth F/(4 η v), (12), \[m].
+        needed_depth: f64,
+        /// What the leading edge offers, \[m].
+        available_depth: f64,
+    },
+    /// A numerical integral or root did not reach the accuracy that counts as an answer.
+    #[error("{quantity} is {value} with an estimated error of {error}, which is too large")]
+    NotConverged {
+        /// What was computed.
+        quantity: &'static str,
+        /// The value reached.
+        value: f64,
+        /// Its estimated absolute error.
+        error: f64,
+    },
+    /// A result is too large or too small for a floating-point number.
+    #[error("{quantity} leaves the range of floating-point numbers: {value}")]
+    OutOfRange {
+        /// What was computed.
+        quantity: &'static str,
+        /// What came out: zero, infinite, or not a number.
+        value: f64,
+    },
+    /// The exact solution exists only for other exponents.
+    #[error("the closed form needs the exponent {supported}, but the profile has {exponent}")]
+    UnsupportedExponent {
+        /// Exponent of the profile.
+        exponent: f64,
+        /// The exponents for which there is a closed form.
+        supported: &'static str,
+    },
+    /// A contact interval is empty, reversed, or not in front of the one before it.
+    #[error(
+        "contact interval {index} must lie in front of {lower}, but reaches from {start} to {end}"
+    )]
+    InvalidContact {
+        /// Index of the interval, counted from 0.
+        index: usize,
+        /// End of the interval before it, \[m].
+        lower: f64,
+        /// Where it starts, \[m].
+        start: f64,
+        /// Where it ends, \[m].
+        end: f64,
+    },
+    /// The contact is not the part of the leading edge that Eq. (15) presumes.
+    #[error(
+        "Eq. (15) needs a contact that starts at the lowest point and rises by the whole depth {depth}, \
+         but this contact rises by {rise}"
+    )]
+    NotOneSided {
+        /// Present depth, \[m].
+        depth: f64,
+        /// Sum of the heights gained over the contact intervals, \[m].
+        rise: f64,
+    },
+    /// The body is deeper than the stationary depth, so that Eq. (15) does not describe sinking.
+    #[error(
+        "Eq. (15) describes sinking up to the depth {stationary_depth}, but the body is {depth} deep"
+    )]
+    BeyondStationaryDepth {
+        /// Present depth, \[m].
+        depth: f64,
+        /// F/(4 η v), (12), \[m].
+        stationary_depth: f64,
+    },
+}
+
+/// Checks that `value` is finite and greater than zero.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(FrictionError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and greater than 0",
+    })
+}
+
+/// Checks that `value` is finite and not negative.
+pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(FrictionError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and at least 0",
+    })
+}
+
+/// Checks that a result which is positive on paper is so in floating-point numbers.
+pub(crate) fn representable(quantity: &'static str, value: f64) -> Result<f64, FrictionError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(FrictionError::OutOfRange { quantity, value })
+}

@@ -1,0 +1,207 @@
+//! Normal indentation of a viscous half space without sliding; exact in three dimensions too.
+//!
+//! ```text
+//! ∫ F_N dt = 8 η ∫₀^a x h̃'(x) dx = 8 η ∫₀^a h'(r) r² / √(a² − r²) dr,     d = h̃(a)
+//! ```
+//!
+//! So force enters only through its impulse, and any force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
+//! 15, 270, for power profiles; Radok 1957 for the principle). Where the force vanishes, the body rests.
+
+use indenters::quadrature::Integral;
+use indenters::{Axisymmetric, PowerProfile, bracketed_root, contact_radius};
+use rheology::Viscous;
+
+use crate::FrictionError;
+use crate::error::{not_negative, positive, representable};
+use crate::pieces::{accepted, over_pieces};
+use crate::stationary::quotient;
+
+/// The contact of a body pressed into a half space without sliding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Indentation {
+    /// Radius a of the contact circle, \[m].
+    pub contact_radius: f64,
+    /// Indentation depth d, \[m].
+    pub indentation_depth: f64,
+}
+
+impl Indentation {
+    const NONE: Self = Self {
+        contact_radius: 0.0,
+        indentation_depth: 0.0,
+    };
+}
+
+/// Contact of a power profile after an `impulse` ∫ F_N dt ≥ 0 \[N s], in closed form:
+/// `a^(p+1) = (1 + 1/p) I/(8 η κ c)`, `d = (1 + 1/p) I/(8 η a)`.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::OutOfRange`] when
+/// a result overflows or underflows.
+pub fn power_indentation_after_impulse(
+    profile: &PowerProfile,
+    material: &Viscous,
+    impulse: f64,
+) -> Result<Indentation, FrictionError> {
+    if not_negative("impulse", impulse)? == 0.0 {
+        return Ok(Indentation::NONE);
+    }
+    let p = profile.exponent();
+    let eta = material.viscosity();
+    // In logarithms, because for large p the power a^(p+1) overflows long before a does.
+    let stiffness =
+        (8.0 * p / (p + 1.0)).ln() + eta.ln() + profile.stretch().ln() + profile.coefficient().ln();
+    let radius = ((impulse.ln() - stiffness) / (p + 1.0)).exp();
+    let radius = representable("contact radius", radius)?;
+    let depth = 0.125 * (1.0 + p.recip()) * quotient(impulse, [eta, radius]);
+    Ok(Indentation {
+        contact_radius: radius,
+        indentation_depth: representable("indentation depth", depth)?,
+    })
+}
+
+/// Contact of any body of revolution after an `impulse` ∫ F_N dt ≥ 0 \[N s]; for a constant force, force times time.
+///
+/// No impulse, no contact: both results are zero then, also for a flat end.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::Indenter`] when
+/// the line of the body turns downwards or ends inside the contact; [`FrictionError::NotConverged`] when the integral is
+/// known to less than ten digits.
+pub fn indentation_after_impulse(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &Viscous,
+    impulse: f64,
+) -> Result<Indentation, FrictionError> {
+    if not_negative("impulse", impulse)? == 0.0 {
+        return Ok(Indentation::NONE);
+    }
+    let target = representable("impulse over 8 η", 0.125 * impulse / material.viscosity())?;
+    let Some(radius) = radius_of_moment(body, target)? else {
+        return at_the_rim(body, target);
+    };
+    accepted("contact moment", moment(body, radius))?;
+    let depth = representable("indentation depth", body.line_height(radius))?;
+    // Tells whether the line rises all the way.
+    contact_radius(body, depth)?;
+    Ok(Indentation {
+        contact_radius: radius,
+        indentation_depth: depth,
+    })
+}
+
+/// Impulse ∫ F_N dt \[N s] that presses a body to an indentation `depth` > 0 \[m].
+///
+/// # Errors
+/// [`FrictionError::Indenter`] when the depth is out of its range or the line of the body turns downwards or ends before
+/// it; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
+pub fn impulse_to_depth(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &Viscous,
+    depth: f64,
+) -> Result<f64, FrictionError> {
+    let radius = contact_radius(body, depth)?;
+    let moment = accepted("contact moment", moment(body, radius))?.value;
+    // Zero up to rounding except for a flat punch, which sinks with a constant contact.
+    let beyond = radius * (depth - body.line_height(radius));
+    representable("impulse", 8.0 * material.viscosity() * (moment + beyond))
+}
+
+/// Time \[s] in which a constant `normal_force` \[N] presses a body to an indentation `depth` > 0 \[m].
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for a force that is not finite and greater than zero; otherwise like
+/// [`impulse_to_depth`].
+pub fn time_to_depth(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &Viscous,
+    depth: f64,
+    normal_force: f64,
+) -> Result<f64, FrictionError> {
+    let normal_force = positive("normal_force", normal_force)?;
+    Ok(impulse_to_depth(body, material, depth)? / normal_force)
+}
+
+/// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.
+///
+/// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs neither the line nor a difference of heights.
+pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Integral {
+    let integrand = |psi: f64| {
+        let cosine = psi.cos();
+        body.slope(radius * cosine) * cosine * cosine
+    };
+    let kinks = body.kinks().into_iter().map(|kink| kink.radius);
+    let angle = |b: f64| ((radius - b) * (radius + b)).sqrt().atan2(b);
+    let inside = kinks.filter(|b| *b < radius);
+    // From the apex at ψ = π/2 to the rim at ψ = 0, then the other way round.
+    let mut angles: Vec<f64> = [0.0].into_iter().chain(inside).map(angle).collect();
+    angles.push(0.0);
+    angles.reverse();
+    let angular = over_pieces(integrand, &angles);
+    // One factor at a time, because the square alone underflows for small bodies.
+    Integral {
+        value: radius * (radius * angular.value),
+        error: radius * (radius * angular.error),
+    }
+}
+
+/// The contact radius whose moment is `target`, or `None` when the whole body does not have as much.
+fn radius_of_moment(
+    body: &(impl Axisymmetric + ?Sized),
+    target: f64,
+) -> Result<Option<f64>, FrictionError> {
+    let excess = |radius: f64| moment(body, radius).value - target;
+    let end = body.max_radius();
+    if end.is_finite() {
+        // A body that never ends in height (the sphere) has an infinite moment at its end, whatever a sum gives there.
+        let endless = body.line_height(end).is_infinite();
+        let signed = |radius: f64| {
+            if endless && radius >= end {
+                return f64::INFINITY;
+            }
+            excess(radius)
+        };
+        if signed(end) < 0.0 {
+            return Ok(None);
+        }
+        return root(signed, [0.0, end]).map(Some);
+    }
+    root(excess, bracket(&excess)).map(Some)
+}
+
+/// Two radii between which the moment passes its target. The search starts at 1 m, which stands for "anywhere".
+fn bracket(excess: &impl Fn(f64) -> f64) -> [f64; 2] {
+    const STEP: f64 = 64.0;
+    let mut upper = 1.0;
+    while excess(upper) < 0.0 && upper < f64::MAX / STEP {
+        upper *= STEP;
+    }
+    let mut lower = upper / STEP;
+    while excess(lower) > 0.0 && lower > f64::MIN_POSITIVE {
+        upper = lower;
+        lower /= STEP;
+    }
+    [lower, upper]
+}
+
+fn root(excess: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Result<f64, FrictionError> {
+    bracketed_root(excess, bracket).ok_or(FrictionError::OutOfRange {
+        quantity: "contact radius",
+        value: bracket[1],
+    })
+}
+
+/// Beyond the moment of the whole body only a flat punch goes on; any other one is not high enough.
+fn at_the_rim(
+    body: &(impl Axisymmetric + ?Sized),
+    target: f64,
+) -> Result<Indentation, FrictionError> {
+    let end = body.max_radius();
+    let depth = body.line_height(end) + (target - moment(body, end).value) / end;
+    Ok(Indentation {
+        contact_radius: contact_radius(body, depth)?,
+        indentation_depth: depth,
+    })
+}

@@ -1,0 +1,70 @@
+//! Stationary sliding of an arbitrary rigid line, Theorems 3 and 6.
+//!
+//! ```text
+//! d = F_N/(4 η v)        (12)        μ = (1/d) Σ_i ∫_{A_i} h̃'(x)² dx,   A_d = ∪ A_i        (11), (16)
+//! ```
+
+use indenters::quadrature::Integral;
+use indenters::{RigidLine, SlidingLoad, contact_line};
+use rheology::Viscous;
+
+use crate::axisymmetric::no_stationary_state;
+use crate::pieces::{accepted, over_pieces};
+use crate::stationary::checked_depth;
+use crate::{FrictionError, StationarySliding};
+
+/// Stationary depth, contact line and coefficient of friction of a rigid line on a finite interval.
+///
+/// Only the leading edge carries load, so the contact may be several intervals.
+///
+/// # Errors
+/// [`FrictionError::NoStationaryState`] when the leading edge ends below the stationary depth, Remark 4;
+/// [`FrictionError::NotConverged`] when the integral is known to less than ten digits, as where it diverges;
+/// [`FrictionError::Indenter`] when the line has no finite domain or no finite height.
+pub fn line_sliding(
+    line: &(impl RigidLine + ?Sized),
+    material: &Viscous,
+    load: &SlidingLoad,
+) -> Result<StationarySliding, FrictionError> {
+    let depth = checked_depth(material, load)?;
+    let contact = contact_line(line, depth).map_err(no_stationary_state)?;
+    let energy = slope_energy(line, &contact.intervals)?;
+    let ends: f64 = contact
+        .intervals
+        .iter()
+        .map(|[_, end]| end_term(line, *end))
+        .sum();
+    Ok(StationarySliding {
+        indentation_depth: depth,
+        contact_line: contact.intervals,
+        friction_coefficient: energy.value / depth,
+        error: (energy.error + 4.0 * f64::EPSILON * (energy.value + ends)) / depth,
+    })
+}
+
+/// What the rounding of a contact end, which is that of its position and of its height, is multiplied with.
+fn end_term(line: &(impl RigidLine + ?Sized), end: f64) -> f64 {
+    let slope = line.slope(end).abs();
+    slope * (slope * end.abs() + line.height(end).abs())
+}
+
+/// ∫ h̃'² dx over the intervals, (11), between the kinks of the line.
+fn slope_energy(
+    line: &(impl RigidLine + ?Sized),
+    intervals: &[[f64; 2]],
+) -> Result<Integral, FrictionError> {
+    let kinks = line.kinks();
+    let square = |x: f64| line.slope(x).powi(2);
+    let mut sum = Integral {
+        value: 0.0,
+        error: 0.0,
+    };
+    for [start, end] in intervals.iter().copied() {
+        let inside = kinks.iter().copied().filter(|x| start < *x && *x < end);
+        let ends: Vec<f64> = [start].into_iter().chain(inside).chain([end]).collect();
+        let part = over_pieces(square, &ends);
+        sum.value += part.value;
+        sum.error += part.error;
+    }
+    accepted("integral of the squared slope", sum)
+}

@@ -1,0 +1,41 @@
+//! Integrals over several pieces, and when they count as known.
+
+use indenters::quadrature::{Integral, integrate};
+
+use crate::FrictionError;
+
+/// Relative accuracy asked of an integral. Slopes that are integrals themselves are known to 1e-14, so that less could
+/// not be told from noise.
+const REQUESTED_ACCURACY: f64 = 1e-12;
+/// Relative accuracy from which on an integral counts as known.
+const ACCEPTED_ACCURACY: f64 = 1e-10;
+
+/// The integral over the pieces between successive `ends`.
+pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Integral {
+    let mut sum = Integral {
+        value: 0.0,
+        error: 0.0,
+    };
+    for piece in ends.windows(2) {
+        let part = integrate(&integrand, [piece[0], piece[1]], REQUESTED_ACCURACY);
+        sum.value += part.value;
+        sum.error += part.error;
+    }
+    sum
+}
+
+/// The integral, if its error is small enough to count as an answer.
+pub(crate) fn accepted(
+    quantity: &'static str,
+    integral: Integral,
+) -> Result<Integral, FrictionError> {
+    let Integral { value, error } = integral;
+    if value.is_finite() && error <= ACCEPTED_ACCURACY * value.abs() {
+        return Ok(integral);
+    }
+    Err(FrictionError::NotConverged {
+        quantity,
+        value,
+        error,
+    })
+}

@@ -1,0 +1,68 @@
+//! The stationary state of sliding on a viscous line.
+//!
+//! ```text
+//! d = F_N / (4 η v)        (12)
+//! ```
+
+use indenters::SlidingLoad;
+use rheology::Viscous;
+
+use crate::FrictionError;
+use crate::error::representable;
+
+/// Stationary sliding of a rigid line over a viscous foundation.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct StationarySliding {
+    /// Indentation depth d of the lowest point, (12), \[m].
+    pub indentation_depth: f64,
+    /// Intervals of the contact line, from the rear to the front, in the frame of the body, \[m].
+    pub contact_line: Vec<[f64; 2]>,
+    /// Coefficient of friction μ = F_h/F_N, (16).
+    pub friction_coefficient: f64,
+    /// Estimated absolute error of the coefficient of friction; for a closed form, of its rounding.
+    pub error: f64,
+}
+
+impl StationarySliding {
+    /// Length of the contact line, \[m].
+    #[must_use]
+    pub fn contact_length(&self) -> f64 {
+        self.contact_line
+            .iter()
+            .map(|[start, end]| end - start)
+            .sum()
+    }
+}
+
+/// Stationary indentation depth F_N/(4 η v), (12), \[m]; it does not depend on the shape.
+#[must_use]
+pub fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> f64 {
+    quotient(
+        0.25 * load.normal_force(),
+        [material.viscosity(), load.velocity()],
+    )
+}
+
+/// The stationary depth, or the reason why it is not a number.
+pub(crate) fn checked_depth(material: &Viscous, load: &SlidingLoad) -> Result<f64, FrictionError> {
+    representable("indentation depth", stationary_depth(material, load))
+}
+
+/// The numerator over both divisors, all positive, without an intermediate result outside the range of numbers unless
+/// the quotient itself lies there.
+pub(crate) fn quotient(numerator: f64, [one, other]: [f64; 2]) -> f64 {
+    // A numerator below one must not shrink first, one above must not grow first.
+    let first = if numerator < 1.0 {
+        one.min(other)
+    } else {
+        one.max(other)
+    };
+    let second = if numerator < 1.0 {
+        one.max(other)
+    } else {
+        one.min(other)
+    };
+    numerator / first / second
+}

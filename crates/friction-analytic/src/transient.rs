@@ -1,0 +1,257 @@
+//! Sinking in while sliding, from the first touch to the stationary state, exact for cone and paraboloid.
+//!
+//! At first both flanks carry load; the one behind lifts off at the time t*. With `h̃ = s |x|` or `h̃ = k x²`, the
+//! stationary depth D, the stationary contact length x_d, and `y e^(−y) = ½ e^(−1/2 − T)`, `T = v (t − t*)/x_d`:
+//!
+//! ```text
+//! cone        t ≤ t* = x_d/(4v):  d = √(D s v t),           μ = 2 s d/D,     contact from −d/s to d/s
+//!             t > t*:             d = D (1 − y),            μ = s,           contact from 0 to d/s
+//! paraboloid  t ≤ t* = x_d/(6v):  d = (¾ D √k v t)^(2/3),   μ = 2 k v t,     contact from −√(d/k) to √(d/k)
+//!             t > t*:             d = D (1 − y)²,  μ = ⁴⁄₃ √(k D) (1 − 3y/2),  contact from −y x_d to (1 − y) x_d
+//! ```
+//!
+//! This is the solution of the balance behind (15) with the load of the trailing flank, which (15) leaves out.
+
+use std::f64::consts::LN_2;
+
+use indenters::{PowerProfile, SlidingLoad, bracketed_root};
+use rheology::Viscous;
+
+use crate::FrictionError;
+use crate::error::{not_negative, representable};
+use crate::stationary::checked_depth;
+
+/// A moment of sliding before the stationary state is reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct TransientSliding {
+    /// Present indentation depth, \[m].
+    pub indentation_depth: f64,
+    /// Rear and front end of the contact, measured from the apex, \[m].
+    pub contact_line: [f64; 2],
+    /// Present coefficient of friction.
+    pub friction_coefficient: f64,
+}
+
+/// The two profiles whose transient has a closed form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Cone,
+    Paraboloid,
+}
+
+/// What the transient depends on.
+struct Scales {
+    shape: Shape,
+    /// D, (12).
+    depth: f64,
+    /// x_d.
+    length: f64,
+}
+
+/// State at a `time` ≥ 0 \[s] after a cone or paraboloid, already sliding, has touched the foundation.
+///
+/// # Errors
+/// [`FrictionError::UnsupportedExponent`] unless the exponent of the profile is 1 or 2;
+/// [`FrictionError::InvalidParameter`] for a time that is negative or not finite; [`FrictionError::OutOfRange`] when
+/// depth or contact length overflow or underflow.
+pub fn transient_sliding(
+    profile: &PowerProfile,
+    material: &Viscous,
+    load: &SlidingLoad,
+    time: f64,
+) -> Result<TransientSliding, FrictionError> {
+    let scales = Scales::new(profile, material, load)?;
+    let slid = load.velocity() * not_negative("time", time)? / scales.length;
+    Ok(match scales.shape {
+        Shape::Cone => scales.cone_at(slid),
+        Shape::Paraboloid => scales.paraboloid_at(slid),
+    })
+}
+
+/// Sliding distance from first touch until the depth is the given `fraction` of the stationary one, \[m].
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] unless 0 ≤ fraction < 1; otherwise like [`transient_sliding`].
+pub fn sliding_distance_to_depth(
+    profile: &PowerProfile,
+    material: &Viscous,
+    load: &SlidingLoad,
+    fraction: f64,
+) -> Result<f64, FrictionError> {
+    let scales = Scales::new(profile, material, load)?;
+    if !(0.0..1.0).contains(&fraction) {
+        return Err(FrictionError::InvalidParameter {
+            parameter: "fraction",
+            value: fraction,
+            allowed: "at least 0 and less than 1",
+        });
+    }
+    Ok(scales.length
+        * match scales.shape {
+            Shape::Cone if fraction <= 0.5 => fraction * fraction,
+            Shape::Cone => Shape::Cone.lift_off() + distance_since_lift_off(1.0 - fraction),
+            Shape::Paraboloid if fraction <= 0.25 => 4.0 / 3.0 * fraction * fraction.sqrt(),
+            Shape::Paraboloid => {
+                let missing_root = (1.0 - fraction) / (1.0 + fraction.sqrt());
+                Shape::Paraboloid.lift_off() + distance_since_lift_off(missing_root)
+            }
+        })
+}
+
+/// Depth of a cone by Eq. (15) as the paper prints it, at a `time` ≥ 0 \[s] after first touch: \[m], from
+/// `−d/D − ln(1 − d/D) = v t/x_d`.
+///
+/// It presumes that only the leading flank touches, which is true from d = D/2 on; before, it gives up to √2 times the
+/// depth of [`transient_sliding`].
+///
+/// # Errors
+/// [`FrictionError::UnsupportedExponent`] unless the profile is a cone; otherwise like [`transient_sliding`].
+pub fn cone_depth_by_equation_15(
+    profile: &PowerProfile,
+    material: &Viscous,
+    load: &SlidingLoad,
+    time: f64,
+) -> Result<f64, FrictionError> {
+    let scales = Scales::new(profile, material, load)?;
+    if scales.shape != Shape::Cone {
+        return Err(FrictionError::UnsupportedExponent {
+            exponent: profile.exponent(),
+            supported: "1",
+        });
+    }
+    let slid = load.velocity() * not_negative("time", time)? / scales.length;
+    let fraction = bracketed_root(|q| missing_logarithm(q) - slid, [0.0, 1.0]);
+    let fraction = fraction.ok_or(FrictionError::OutOfRange {
+        quantity: "sliding distance",
+        value: slid,
+    })?;
+    Ok(scales.depth * fraction)
+}
+
+impl Scales {
+    fn new(
+        profile: &PowerProfile,
+        material: &Viscous,
+        load: &SlidingLoad,
+    ) -> Result<Self, FrictionError> {
+        let depth = checked_depth(material, load)?;
+        Ok(Self {
+            shape: Shape::of(profile)?,
+            depth,
+            length: representable("contact length", profile.line_position(depth))?,
+        })
+    }
+
+    /// `slid` is the sliding distance over x_d.
+    fn cone_at(&self, slid: f64) -> TransientSliding {
+        let slope = self.depth / self.length;
+        let two_sided = is_two_sided(Shape::Cone, slid);
+        // d/D, which is also the front end over x_d; while both flanks touch, its square is v t/x_d.
+        let fraction = if two_sided {
+            slid.sqrt()
+        } else {
+            1.0 - missing_fraction(slid - Shape::Cone.lift_off())
+        };
+        let front = self.length * fraction;
+        TransientSliding {
+            indentation_depth: self.depth * fraction,
+            contact_line: [if two_sided { -front } else { 0.0 }, front],
+            friction_coefficient: if two_sided {
+                2.0 * slope * fraction
+            } else {
+                slope
+            },
+        }
+    }
+
+    fn paraboloid_at(&self, slid: f64) -> TransientSliding {
+        // k = D/x_d², so that √(k D) = k x_d = D/x_d.
+        let slope = self.depth / self.length;
+        if is_two_sided(Shape::Paraboloid, slid) {
+            // d/D = (¾ v t/x_d)^(2/3); its root is the half width over x_d.
+            let half_width = (0.75 * slid).cbrt();
+            return TransientSliding {
+                indentation_depth: self.depth * half_width * half_width,
+                contact_line: [-half_width * self.length, half_width * self.length],
+                friction_coefficient: 2.0 * slope * slid,
+            };
+        }
+        let y = missing_fraction(slid - Shape::Paraboloid.lift_off());
+        TransientSliding {
+            indentation_depth: self.depth * (1.0 - y) * (1.0 - y),
+            contact_line: [-y * self.length, (1.0 - y) * self.length],
+            friction_coefficient: 4.0 / 3.0 * slope * (1.0 - 1.5 * y),
+        }
+    }
+}
+
+impl Shape {
+    fn of(profile: &PowerProfile) -> Result<Self, FrictionError> {
+        let exponent = profile.exponent();
+        let is = |value: f64| exponent.total_cmp(&value).is_eq();
+        if is(1.0) {
+            return Ok(Self::Cone);
+        }
+        if is(2.0) {
+            return Ok(Self::Paraboloid);
+        }
+        Err(FrictionError::UnsupportedExponent {
+            exponent,
+            supported: "1 or 2",
+        })
+    }
+
+    /// v t*/x_d.
+    const fn lift_off(self) -> f64 {
+        match self {
+            Self::Cone => 0.25,
+            Self::Paraboloid => 1.0 / 6.0,
+        }
+    }
+}
+
+/// The instant t* itself belongs to the two-sided state, also when rounding puts it a few units later.
+fn is_two_sided(shape: Shape, slid: f64) -> bool {
+    slid <= shape.lift_off() * (1.0 + 16.0 * f64::EPSILON)
+}
+
+/// T(y) = y − ln y − ½ − ln 2, the sliding distance after t* over x_d.
+fn distance_since_lift_off(y: f64) -> f64 {
+    y - y.ln() - 0.5 - LN_2
+}
+
+/// −ln of less than the smallest positive number.
+const SMALLEST_LOGARITHM: f64 = 746.0;
+
+/// y ≤ ½ with y e^(−y) = ½ e^(−1/2 − T), T ≥ 0, the lower branch of −W₀(−½ e^(−1/2 − T)).
+///
+/// Newton's method for z = ln y in e^z − z = c, c = ½ + ln 2 + T: the function is convex and falls where y < 1, so from
+/// z = −c, which is left of the root, the steps approach it from one side, and neither late nor early times lose digits.
+fn missing_fraction(since_lift_off: f64) -> f64 {
+    let c = 0.5 + LN_2 + since_lift_off;
+    if c > SMALLEST_LOGARITHM {
+        return 0.0;
+    }
+    let mut z = -c;
+    // Quadratic convergence from a start that is within e^z < ½ of the root: 6 steps reach rounding.
+    for _ in 0..8 {
+        let y = z.exp();
+        z -= (y - z - c) / (y - 1.0);
+    }
+    z.exp()
+}
+
+/// −q − ln(1 − q) for 0 ≤ q ≤ 1, without cancellation at small q.
+fn missing_logarithm(q: f64) -> f64 {
+    if q > 0.1 {
+        return -q - (-q).ln_1p();
+    }
+    // q²/2 + q³/3 + …; at q = 0.1 the first term left out is below 1e-17 of the first.
+    (2..=18_u32)
+        .rev()
+        .fold(0.0, |sum, k| sum * q + f64::from(k).recip())
+        * q
+        * q
+}

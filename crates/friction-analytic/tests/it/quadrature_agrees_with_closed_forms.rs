@@ -1,0 +1,226 @@
+use friction_analytic::{
+    FrictionError, StationarySliding, axisymmetric_sliding, power_sliding, superposition_sliding,
+};
+use indenters::{
+    Axisymmetric, IndenterError, PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition,
+};
+use proptest::prelude::*;
+
+use crate::support::{Bare, assert_close, body, fixed_cases, with_depth};
+
+fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
+    let (material, load) = with_depth(depth);
+    axisymmetric_sliding(body, &material, &load).expect("the body has a stationary state")
+}
+
+#[test]
+fn sphere_round_tipped_cone_and_hyperboloid_match() {
+    for case in casebook::group("FRI-02") {
+        let state = slide(body(&case).as_ref(), case.input("D"));
+        case.check("x_d", state.contact_length());
+        case.check("mu", state.friction_coefficient);
+        let estimate = state.error / state.friction_coefficient;
+        assert!(
+            estimate < 1e-10,
+            "{}: estimated error {estimate:e}",
+            case.id()
+        );
+    }
+}
+
+/// Behind the end of the tip the slope of the line rises like a root: μ from ∫ over both parts, by hand for the tip,
+/// by Simpson's rule in u = √(x − b) for the rest.
+#[test]
+fn a_jump_of_the_curvature_costs_no_accuracy() {
+    let (b, t) = (0.5_f64, 0.3);
+    let cone = RoundTippedCone::new(b, t).unwrap();
+    let depth = 0.4;
+    let state = slide(&cone, depth);
+    let a = state.contact_length();
+    assert!(a > b, "the contact {a} ends inside the tip");
+    let tip = 4.0 * t * t * b / 3.0;
+    let n = 2000_u32;
+    let width = (a - b).sqrt() / f64::from(n);
+    let integrand = |u: f64| {
+        let x = b + u * u;
+        let leg = u * (x + b).sqrt();
+        let slope = t * (leg.atan2(b) + 2.0 * b / (x + leg));
+        2.0 * u * slope * slope
+    };
+    let outside: f64 = (0..n)
+        .map(|k| {
+            let [left, right] = [k, k + 1].map(|k| width * f64::from(k));
+            width / 6.0
+                * (integrand(left) + 4.0 * integrand(0.5 * (left + right)) + integrand(right))
+        })
+        .sum();
+    // Simpson's rule leaves (1/2000)^4, that is 1e-13.
+    assert_close(
+        "μ",
+        state.friction_coefficient,
+        (tip + outside) / depth,
+        1e-11,
+    );
+    // The transform by quadrature knows the slope to 1e-14, and near the kink to 1e-12.
+    assert_close(
+        "μ of the bare body",
+        slide(&Bare(&cone), depth).friction_coefficient,
+        state.friction_coefficient,
+        1e-10,
+    );
+}
+
+/// The one with p = 0.51 has 98 per cent of its integral below 1e-300 of the contact length.
+#[test]
+fn quadrature_agrees_with_the_closed_form_for_every_exponent() {
+    for p in [
+        0.500_001, 0.501, 0.51, 0.55, 0.6, 0.7, 0.75, 0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0,
+        20.0, 40.0, 64.0,
+    ] {
+        // A coefficient [m^(1 − p)] of a large exponent leaves the range of numbers before 12 decades are reached.
+        let decades = 12_f64.min(250.0 / p);
+        for scale in [-decades, 0.0, decades].map(|log| 10_f64.powf(log)) {
+            // The contact length is scale · 0.8 whatever the exponent.
+            let depth = 0.1 * scale;
+            let kappa = indenters::stretch(p).unwrap();
+            let c = depth / kappa * (0.8 * scale).powf(-p);
+            let profile = PowerProfile::new(c, p).unwrap();
+            let (material, load) = with_depth(depth);
+            let exact = power_sliding(&profile, &material, &load).unwrap();
+            let numerical = slide(&profile, depth);
+            let what = format!("μ for p = {p}, scale {scale:e}");
+            // Both start from a rounded p, which weighs 1/(2p − 1); x_d of the closed form is rounded in logarithms.
+            let tolerance = 1e-12 + f64::EPSILON / (2.0 * p - 1.0);
+            assert_close(
+                &what,
+                numerical.friction_coefficient,
+                exact.friction_coefficient,
+                tolerance,
+            );
+            let difference = (numerical.friction_coefficient - exact.friction_coefficient).abs();
+            let claimed = numerical.error + exact.error;
+            assert!(
+                difference <= claimed + f64::EPSILON / (2.0 * p - 1.0) * exact.friction_coefficient,
+                "{what}: off by {difference:e}, claimed {claimed:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_transform_by_quadrature_gives_the_same_friction() {
+    for p in [0.75, 1.0, 1.5, 2.0, 6.0] {
+        let profile = PowerProfile::new(0.4, p).unwrap();
+        let with_form = slide(&profile, 0.1);
+        let bare = slide(&Bare(&profile), 0.1);
+        let what = format!("μ for p = {p}");
+        assert_close(
+            &what,
+            bare.friction_coefficient,
+            with_form.friction_coefficient,
+            1e-11,
+        );
+    }
+    let sphere = Sphere::new(2.0).unwrap();
+    let (with_form, bare) = (slide(&sphere, 0.1), slide(&Bare(&sphere), 0.1));
+    assert_close(
+        "μ of the sphere",
+        bare.friction_coefficient,
+        with_form.friction_coefficient,
+        1e-11,
+    );
+}
+
+#[test]
+fn a_single_term_slides_like_its_power() {
+    for p in [0.51, 0.75, 1.0, 2.0, 7.5, 64.0] {
+        let (c, depth) = (0.4, 0.1);
+        let (material, load) = with_depth(depth);
+        let power = power_sliding(&PowerProfile::new(c, p).unwrap(), &material, &load).unwrap();
+        let sum = Superposition::new(vec![PowerTerm {
+            coefficient: c,
+            exponent: p,
+        }])
+        .unwrap();
+        let sum = superposition_sliding(&sum, &material, &load).unwrap();
+        // c x^p is rounded in proportion to p.
+        let tolerance = 1e-14 + 4.0 * f64::EPSILON * p;
+        assert_close(
+            &format!("μ, p = {p}"),
+            sum.friction_coefficient,
+            power.friction_coefficient,
+            tolerance,
+        );
+        assert_close(
+            &format!("x_d, p = {p}"),
+            sum.contact_length(),
+            power.contact_length(),
+            1e-14,
+        );
+    }
+}
+
+#[test]
+fn a_sum_that_turns_downwards_is_refused() {
+    let terms = vec![
+        PowerTerm {
+            coefficient: 1.0,
+            exponent: 1.0,
+        },
+        PowerTerm {
+            coefficient: -1.0,
+            exponent: 2.0,
+        },
+    ];
+    let sum = Superposition::new(terms).unwrap();
+    // h̃ = (π/2) x − 2 x² has its maximum π²/32 at π/8.
+    let limit = std::f64::consts::PI.powi(2) / 32.0;
+    let (material, load) = with_depth(limit * (1.0 + 1e-6));
+    let refused = superposition_sliding(&sum, &material, &load);
+    assert!(
+        matches!(
+            refused,
+            Err(FrictionError::Indenter(
+                IndenterError::NonMonotoneLine { .. }
+            ))
+        ),
+        "{refused:?}"
+    );
+    let (material, load) = with_depth(0.9 * limit);
+    let closed = superposition_sliding(&sum, &material, &load).unwrap();
+    let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
+    assert_close(
+        "μ",
+        closed.friction_coefficient,
+        numerical.friction_coefficient,
+        1e-11,
+    );
+}
+
+proptest! {
+    #![proptest_config(fixed_cases(48))]
+
+    #[test]
+    fn the_double_sum_agrees_with_quadrature(
+        coefficients in prop::array::uniform3(0.01_f64..10.0),
+        lowest in 0.55_f64..1.5,
+        gaps in prop::array::uniform2(0.12_f64..4.0),
+        log_scale in -12.0_f64..12.0,
+    ) {
+        let scale = 10_f64.powf(log_scale);
+        let exponents = [lowest, lowest + gaps[0], lowest + gaps[0] + gaps[1]];
+        let terms = coefficients.iter().zip(exponents).map(|(c, exponent)| PowerTerm {
+            coefficient: c * scale.powf(1.0 - exponent),
+            exponent,
+        });
+        let sum = Superposition::new(terms.collect()).unwrap();
+        let (material, load) = with_depth(0.3 * scale);
+        let closed = superposition_sliding(&sum, &material, &load).unwrap();
+        let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
+        assert_close("μ", closed.friction_coefficient, numerical.friction_coefficient, 1e-11);
+        // Cauchy and Schwarz: the steepest use of a given depth is a constant slope.
+        let smallest = closed.indentation_depth / closed.contact_length();
+        prop_assert!(closed.friction_coefficient >= smallest * (1.0 - 1e-12),
+            "μ = {} below d/x_d = {smallest}", closed.friction_coefficient);
+    }
+}
