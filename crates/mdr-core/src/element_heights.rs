@@ -1,0 +1,278 @@
+//! The heights of a rigid line over the elements of a chain.
+//!
+//! One element lies at the lowest point of the line. A kink there (the apex of a cone, the cusp of a power p < 1) then
+//! falls between two steps and never inside one, so that the slopes on its two sides are not mixed.
+
+use indenters::RigidLine;
+
+use crate::MdrError;
+use crate::error::positive;
+
+/// The most elements that a chain may have.
+pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
+/// On an infinite domain the line is looked at this many times farther out than where it was last seen below the
+/// ceiling.
+const OUTLOOK: usize = 1024;
+/// Beyond this many elements the look-out strides by one part in as many of the distance.
+const LOOKOUT_STRIDE: usize = 64;
+/// Relative margin above the height asked for, so that rounding cannot lift the contact over the last element.
+const MARGIN: f64 = 1e-9;
+
+/// The part of a line that a chain can touch.
+#[derive(Debug, Clone)]
+pub(crate) struct ElementHeights {
+    /// Heights above the lowest element, \[m], from the rear to the front.
+    pub(crate) heights: Vec<f64>,
+    /// Height of the lowest element on the line, \[m].
+    pub(crate) lowest_height: f64,
+    anchor: f64,
+    anchor_index: usize,
+    spacing: f64,
+}
+
+impl ElementHeights {
+    /// All elements at which the line lies at most `height` above its lowest point, those between them, and one more
+    /// on each side where the domain has one.
+    ///
+    /// Parts that come down to that height again farther out are found when they are wider than 1/64 of their distance
+    /// from the lowest point.
+    pub(crate) fn below(
+        line: &(impl RigidLine + ?Sized),
+        spacing: f64,
+        height: f64,
+    ) -> Result<Self, MdrError> {
+        positive("spacing", spacing)?;
+        let start = lowest_candidate(line)?;
+        let sampled = Self::around(line, start, spacing, height)?;
+        let lowest = sampled.lowest_index();
+        if lowest == sampled.anchor_index {
+            return Ok(sampled);
+        }
+        let position = sampled.position(lowest);
+        let refined = refine_lowest(line, position, spacing);
+        Self::around(line, refined, spacing, height)
+    }
+
+    /// Position of an element on the line, \[m].
+    pub(crate) fn position(&self, element: usize) -> f64 {
+        // One of the two differences is zero; their signs differ, and indices have none.
+        let ahead = element.saturating_sub(self.anchor_index) as f64;
+        let behind = self.anchor_index.saturating_sub(element) as f64;
+        self.anchor + (ahead - behind) * self.spacing
+    }
+
+    /// Σ max(0, level − h_i) Δx, \[m²].
+    pub(crate) fn area_below(&self, level: f64) -> f64 {
+        let sum: f64 = self.heights.iter().map(|h| (level - h).max(0.0)).sum();
+        sum * self.spacing
+    }
+
+    /// Height above the lowest element of the lower of the two points `n_elements` away from it, \[m]; `+∞` beyond the
+    /// ends.
+    pub(crate) fn rise_within(&self, line: &(impl RigidLine + ?Sized), n_elements: usize) -> f64 {
+        let distance = n_elements as f64 * self.spacing;
+        let [rear_end, front_end] = line.domain();
+        let height_inside = |position: f64| {
+            if position < rear_end || position > front_end {
+                f64::INFINITY
+            } else {
+                line.height(position)
+            }
+        };
+        let [rear, front] = [-distance, distance].map(|offset| height_inside(self.anchor + offset));
+        rear.min(front) - self.lowest_height
+    }
+
+    /// The lowest element; the anchor, if it is among the lowest.
+    fn lowest_index(&self) -> usize {
+        let mut lowest = self.anchor_index;
+        for (index, height) in self.heights.iter().enumerate() {
+            if *height < self.heights[lowest] {
+                lowest = index;
+            }
+        }
+        lowest
+    }
+
+    fn around(
+        line: &(impl RigidLine + ?Sized),
+        anchor: f64,
+        spacing: f64,
+        height: f64,
+    ) -> Result<Self, MdrError> {
+        let resolved = anchor + spacing > anchor && anchor - spacing < anchor;
+        if !resolved {
+            return Err(MdrError::InvalidParameter {
+                parameter: "spacing",
+                value: spacing,
+                allowed: "large enough to tell neighbouring positions on the line apart",
+            });
+        }
+        let anchor_height = checked_height(line, anchor)?;
+        let ray = |step| Ray {
+            line,
+            anchor,
+            step,
+            ceiling: anchor_height + height * (1.0 + MARGIN),
+        };
+        let too_many = || MdrError::TooManyElements {
+            allowed: MAX_ELEMENTS,
+            spacing,
+            height,
+        };
+        let rear = ray(-spacing).heights()?.ok_or_else(too_many)?;
+        let front = ray(spacing).heights()?.ok_or_else(too_many)?;
+        let anchor_index = rear.len();
+        let mut heights: Vec<f64> = rear.into_iter().rev().collect();
+        heights.push(anchor_height);
+        heights.extend(front);
+        let lowest_height = heights.iter().copied().fold(anchor_height, f64::min);
+        for height in &mut heights {
+            *height -= lowest_height;
+        }
+        Ok(Self {
+            heights,
+            lowest_height,
+            anchor,
+            anchor_index,
+            spacing,
+        })
+    }
+}
+
+/// The elements on one side of the anchor, numbered from 1.
+struct Ray<'a, L: ?Sized> {
+    line: &'a L,
+    anchor: f64,
+    step: f64,
+    ceiling: f64,
+}
+
+impl<L: RigidLine + ?Sized> Ray<'_, L> {
+    /// The heights up to one element beyond the last one below the ceiling; `None` when there are too many.
+    fn heights(&self) -> Result<Option<Vec<f64>>, MdrError> {
+        let Some(n_needed) = self.look_out()? else {
+            return Ok(None);
+        };
+        let mut heights = Vec::with_capacity(n_needed);
+        let mut last_below = 0;
+        for element in 1..=n_needed {
+            let Some(position) = self.position(element) else {
+                break;
+            };
+            let height = checked_height(self.line, position)?;
+            if height <= self.ceiling {
+                last_below = element;
+            }
+            heights.push(height);
+        }
+        heights.truncate(last_below + 1);
+        Ok(Some(heights))
+    }
+
+    /// Number of elements beyond which no height below the ceiling was seen.
+    fn look_out(&self) -> Result<Option<usize>, MdrError> {
+        let bounded = self.end().is_finite();
+        let mut element = 1;
+        let (mut last_below, mut n_needed) = (0, 1);
+        while let Some(position) = self.position(element) {
+            let next = element.saturating_add(1 + element / LOOKOUT_STRIDE);
+            if checked_height(self.line, position)? <= self.ceiling {
+                (last_below, n_needed) = (element, next);
+            }
+            if n_needed > MAX_ELEMENTS {
+                return Ok(None);
+            }
+            if next == usize::MAX || !bounded && element > OUTLOOK * (last_below + 1) {
+                break;
+            }
+            element = next;
+        }
+        Ok(Some(n_needed))
+    }
+
+    /// Position of an element, if the line reaches as far.
+    fn position(&self, element: usize) -> Option<f64> {
+        // A last element that misses the end of the domain by rounding only lies on the end.
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let end = self.end();
+        let distance = element as f64 * self.step;
+        let available = end - self.anchor;
+        if distance.abs() > available.abs() * (1.0 + ROUNDING) {
+            return None;
+        }
+        let position = self.anchor + distance;
+        Some(if self.step > 0.0 {
+            position.min(end)
+        } else {
+            position.max(end)
+        })
+    }
+
+    fn end(&self) -> f64 {
+        let [rear, front] = self.line.domain();
+        if self.step > 0.0 { front } else { rear }
+    }
+}
+
+/// The lowest among the kinks, the ends of the domain, and x = 0; the foremost of several, where the leading edge
+/// begins.
+fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, MdrError> {
+    let [rear, front] = line.domain();
+    let mut candidates = line.kinks();
+    candidates.extend([0.0, rear, front]);
+    let inside = |x: &f64| x.is_finite() && *x >= rear && *x <= front;
+    let lowest = candidates
+        .into_iter()
+        .filter(inside)
+        .map(|x| (line.height(x), x))
+        .filter(|(height, _)| height.is_finite())
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    match lowest {
+        Some((_, position)) => Ok(position),
+        None => Err(MdrError::InvalidHeight {
+            position: rear,
+            value: line.height(rear),
+        }),
+    }
+}
+
+/// The lowest point within one spacing of the lowest sample, by golden section.
+fn refine_lowest(line: &(impl RigidLine + ?Sized), position: f64, spacing: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    // Each pass shortens the bracket by the golden ratio; 80 passes exhaust the digits.
+    const PASSES: usize = 80;
+    let [rear, front] = line.domain();
+    let mut left = (position - spacing).max(rear);
+    let mut right = (position + spacing).min(front);
+    for _ in 0..PASSES {
+        let inner_left = right - GOLDEN * (right - left);
+        let inner_right = left + GOLDEN * (right - left);
+        if line.height(inner_left) <= line.height(inner_right) {
+            right = inner_right;
+        } else {
+            left = inner_left;
+        }
+    }
+    let middle = left.midpoint(right);
+    if line.height(middle) <= line.height(position) {
+        middle
+    } else {
+        position
+    }
+}
+
+/// Height of the line; `+∞` is allowed (no body there), `−∞` and NaN are not.
+pub(crate) fn checked_height(
+    line: &(impl RigidLine + ?Sized),
+    position: f64,
+) -> Result<f64, MdrError> {
+    let height = line.height(position);
+    if height.is_nan() || height == f64::NEG_INFINITY {
+        return Err(MdrError::InvalidHeight {
+            position,
+            value: height,
+        });
+    }
+    Ok(height)
+}

@@ -1,0 +1,178 @@
+//! Why a chain is refused, or does not answer.
+
+use indenters::IndenterError;
+use thiserror::Error;
+
+use crate::SlideRow;
+
+/// Why a chain is refused, or does not answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MdrError {
+    /// A parameter is not a number, or outside the range it may take.
+    #[error("{parameter} must be {allowed}, but is {value}")]
+    InvalidParameter {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// Two lists that belong together have different lengths.
+    #[error("{first} has {first_length} entries but {second} has {second_length}")]
+    LengthMismatch {
+        /// Name of the first list.
+        first: &'static str,
+        /// Its length.
+        first_length: usize,
+        /// Name of the second list.
+        second: &'static str,
+        /// Its length.
+        second_length: usize,
+    },
+    /// A list has no entries.
+    #[error("{list} must have at least one entry")]
+    Empty {
+        /// Name of the list.
+        list: &'static str,
+    },
+    /// An element of the chain has a height or displacement that is not a number, or no element has a finite one.
+    #[error("{quantity} of element {element} must be {allowed}, but is {value}")]
+    InvalidElement {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Index of the element, counted from 0 at the rear.
+        element: usize,
+        /// The refused value, \[m].
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// The line has no usable height where it is needed: not a number, −∞, or no body at its candidate lowest point.
+    #[error("the line must have a height at position {position}, but has {value}")]
+    InvalidHeight {
+        /// Position on the line, \[m].
+        position: f64,
+        /// The refused height, \[m].
+        value: f64,
+    },
+    /// More elements than allowed lie below the height that the contact may reach: the line does not rise, or the
+    /// spacing is too fine for it.
+    #[error(
+        "more than {allowed} elements of spacing {spacing} lie less than {height} above the lowest point of the line"
+    )]
+    TooManyElements {
+        /// The most elements that a chain may have.
+        allowed: usize,
+        /// Spacing of the elements, \[m].
+        spacing: f64,
+        /// Height above the lowest point of the line, \[m].
+        height: f64,
+    },
+    /// The leading edge is not as high as the stationary depth (12), so that no stationary state exists (Remark 4).
+    #[error(
+        "the stationary depth is {stationary_depth}, but the leading edge rises only {available} above the lowest point"
+    )]
+    NoStationaryState {
+        /// Depth F_N / (4 η v) that a stationary state would need, \[m].
+        stationary_depth: f64,
+        /// Height of the leading edge above its lowest point, \[m].
+        available: f64,
+    },
+    /// The contact has reached an end of the line, beyond which the line is not given.
+    #[error(
+        "the contact reached the last element, at position {position}, at depth {indentation_depth} and time {time}"
+    )]
+    ContactReachesBoundary {
+        /// Position of the last element on the line, \[m].
+        position: f64,
+        /// Indentation depth at that instant, \[m].
+        indentation_depth: f64,
+        /// Time since first touch, \[s].
+        time: f64,
+    },
+    /// Too few elements are in contact at the end for the result to mean anything.
+    #[error(
+        "at least {needed} elements must be in contact at spacing {spacing}, but only {n_contact} are"
+    )]
+    TooCoarse {
+        /// Elements in contact.
+        n_contact: usize,
+        /// Elements needed.
+        needed: usize,
+        /// Spacing of the elements, \[m].
+        spacing: f64,
+    },
+    /// The sliding distance allowed was used up before the drift fell below its tolerance.
+    #[error(
+        "after sliding over {sliding_distance} the drift is {drift}, and the tolerance {drift_tolerance}"
+    )]
+    NotStationary {
+        /// Relative change over the last contact length; 1 while the body has not slid over one.
+        drift: f64,
+        /// The tolerance asked for.
+        drift_tolerance: f64,
+        /// Distance slid, \[m].
+        sliding_distance: f64,
+        /// The transient up to there.
+        rows: Vec<SlideRow>,
+    },
+    /// A quantity left the range of floating-point numbers.
+    #[error("{quantity} became {value} at time {time}")]
+    NonFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Time since first touch, \[s].
+        time: f64,
+    },
+    /// The body refuses the question for its contact radius.
+    #[error(transparent)]
+    Indenter(#[from] IndenterError),
+}
+
+/// Checks that `value` is finite and greater than zero.
+///
+/// # Errors
+/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(MdrError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and greater than 0",
+    })
+}
+
+/// Checks that `value` is finite and not negative.
+///
+/// # Errors
+/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(MdrError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "finite and not negative",
+    })
+}
+
+/// Checks a computed `value` that belongs to a `time`.
+///
+/// # Errors
+/// [`MdrError::NonFinite`] naming `quantity` when it is infinite or not a number.
+pub(crate) fn finite(quantity: &'static str, value: f64, time: f64) -> Result<f64, MdrError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(MdrError::NonFinite {
+        quantity,
+        value,
+        time,
+    })
+}

@@ -1,0 +1,13 @@
+//! What the chain claims, one file per claim.
+
+mod bad_input_is_refused;
+mod contact_balances_the_force;
+mod depth_is_exact_at_every_spacing;
+mod every_body_of_revolution_slides;
+mod friction_converges_to_the_theorem;
+mod indentation_obeys_the_impulse_rule;
+mod several_contact_intervals;
+mod stationary_means_converged;
+mod support;
+mod transient_follows_the_exact_solution;
+mod units_do_not_matter;
