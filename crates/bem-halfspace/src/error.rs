@@ -103,6 +103,19 @@ pub enum BemError {
         /// Tolerance asked for.
         tolerance: f64,
     },
+    /// The friction coefficient was not reached to the error asked for.
+    #[error(
+        "the friction coefficient was not reached to the relative error {relative_error:e}: it is \
+         {friction_coefficient} with an error of {error:e}"
+    )]
+    FrictionNotReached {
+        /// Best value reached.
+        friction_coefficient: f64,
+        /// Its absolute error.
+        error: f64,
+        /// Relative error asked for.
+        relative_error: f64,
+    },
     /// The rigid body refuses the question.
     #[error(transparent)]
     Indenter(#[from] IndenterError),

@@ -27,8 +27,8 @@ impl Footprint {
     }
 
     /// The square that holds the contact of a body of revolution from first touch on: up to the height
-    /// 1.5 F_N / (4 η v). The sides of the contact reach 1.2 of that scale for h ∼ r^0.6, 0.9 for the cone and 0.6
-    /// for the paraboloid.
+    /// 1.5 F_N / (4 η v), or twice that for a cusp sharper than r^(3/4). The front of the contact reaches 1.4 of that
+    /// scale for h ∼ r^0.6, 1.1 for the cone and 0.8 for the paraboloid.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] when the body has no radius that could be found for this load.
@@ -38,7 +38,12 @@ impl Footprint {
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let depth = depth_scale(material, load);
-        let radius = radius_at_height(body, 1.5 * depth).filter(|radius| *radius > 0.0);
+        let height = if body.apex_exponent() < 0.75 {
+            3.0
+        } else {
+            1.5
+        };
+        let radius = radius_at_height(body, height * depth).filter(|radius| *radius > 0.0);
         radius.map(Self::square).ok_or(BemError::InvalidParameter {
             parameter: "F_N / (4 η v)",
             value: depth,

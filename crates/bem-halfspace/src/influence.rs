@@ -10,7 +10,7 @@
 //! as accurate as squares.
 
 /// From this many edges on the Gauss rule errs by less than (1/16)^16 of the integrand.
-const FAR: f64 = 8.0;
+pub(crate) const FAR: f64 = 8.0;
 
 /// Positive nodes and weights of the Gauss–Legendre rule with eight points on [−1, 1] (NIST DLMF 3.5).
 const GAUSS: [(f64, f64); 4] = [
@@ -53,7 +53,7 @@ fn corner(x: f64, y: f64) -> f64 {
 }
 
 /// x asinh(y / |x|), continued by 0 to x = 0.
-fn product_asinh(x: f64, y: f64) -> f64 {
+pub(crate) fn product_asinh(x: f64, y: f64) -> f64 {
     if x == 0.0 {
         0.0
     } else {
@@ -72,7 +72,7 @@ fn strip(x: f64, edge: f64, height: f64) -> f64 {
 }
 
 /// Integral of a function over the edge around `centre`.
-fn gauss(centre: f64, edge: f64, function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn gauss(centre: f64, edge: f64, function: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * edge;
     let pair = |&(node, weight): &(f64, f64)| {
         weight * (function(centre - half * node) + function(centre + half * node))

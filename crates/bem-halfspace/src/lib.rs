@@ -40,6 +40,7 @@ mod grid;
 pub mod indent;
 mod influence;
 pub mod slide;
+pub mod steady;
 
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Control, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};

@@ -42,6 +42,27 @@ pub struct PressureField {
     pub pressure: Vec<f64>,
 }
 
+impl PressureField {
+    /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
+    #[must_use]
+    pub fn at(&self, position: [f64; 2]) -> f64 {
+        let [rows, columns] = self.grid.shape();
+        let index =
+            |axis: usize| (position[axis] - self.origin[axis]) / self.grid.spacing()[axis] + 0.5;
+        let [row, column] = [index(0).floor(), index(1).floor()];
+        if !(row >= 0.0 && row < rows as f64 && column >= 0.0 && column < columns as f64) {
+            return 0.0;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "inside the field"
+        )]
+        let index = row as usize * columns + column as usize;
+        self.pressure[index]
+    }
+}
+
 /// A sliding simulation from first touch on.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

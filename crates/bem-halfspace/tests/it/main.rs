@@ -11,4 +11,8 @@ mod sliding_converges;
 mod sliding_invariance;
 mod square_punch;
 mod stationary_state;
+mod steady_bad_input;
+mod steady_estimate;
+mod steady_invariance;
 mod support;
+mod wake_kernel;

@@ -3,9 +3,9 @@
 
 use crate::support::Scene;
 
-/// Friction coefficients [mean slope, slope at the end] after six contact lengths.
+/// Friction coefficients [mean slope, slope at the end] after two contact lengths.
 fn friction(exponent: f64, elements: f64) -> [f64; 2] {
-    let transient = Scene::unit(exponent).slide(elements, 6.0);
+    let transient = Scene::unit(exponent).slide(elements, 2.0);
     let last = transient.last();
     [
         last.friction_coefficient,

@@ -1,0 +1,254 @@
+//! The stationary problem on a grid: the elements that may touch, their heights, kernel, symmetry.
+//!
+//! Between the rear edges of two neighbouring elements the gap changes by ∫w/(ηv) − (rise of the body). Where the body
+//! does not rise, the gap at the rear is therefore larger than at the front, and no element there can touch: only
+//! rising elements are kept.
+
+use std::f64::consts::PI;
+
+use indenters::{SlidingLoad, Surface};
+
+use crate::error::positive;
+use crate::steady::SteadyOptions;
+use crate::steady::kernel::wake_influence;
+use crate::steady::pivoting::Solution;
+use crate::{BemError, Grid};
+
+/// How grid and body mirror in y.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mirror {
+    /// No symmetry, or none that the grid shares.
+    None,
+    /// About the centre of a column.
+    Centre,
+    /// About the edge between two columns.
+    Edge,
+}
+
+/// An element that may touch.
+#[derive(Debug, Clone, Copy)]
+struct Element {
+    row: usize,
+    column: usize,
+    /// Height at the rear edge, in units of the depth scale.
+    height: f64,
+    /// Mean of ∂h/∂x.
+    slope: f64,
+}
+
+/// The problem in units of D = F_N/(4ηv) for heights and Δx for lengths, with the load P Δx²/(4πηvD) of an element.
+#[derive(Debug)]
+pub(super) struct Mesh {
+    pub(super) options: SteadyOptions,
+    /// Number of rows and columns of the footprint.
+    shape: [usize; 2],
+    /// Position of the row and the column 0 in elements from the lowest point.
+    origin: [f64; 2],
+    mirror: Mirror,
+    elements: Vec<Element>,
+    /// Displacement at the rear edge, by offset in rows (shifted to be non-negative) and distance in columns.
+    kernel: Vec<f64>,
+}
+
+impl Mesh {
+    pub(super) fn new(
+        surface: &impl Surface,
+        options: &SteadyOptions,
+        depth_scale: f64,
+    ) -> Result<Self, BemError> {
+        positive("spacing along x", options.spacing[0])?;
+        positive("spacing along y", options.spacing[1])?;
+        for value in options.phase {
+            if !(-0.5..=0.5).contains(&value) {
+                let allowed = "between -1/2 and 1/2";
+                return Err(BemError::InvalidParameter {
+                    parameter: "phase",
+                    value,
+                    allowed,
+                });
+            }
+        }
+        let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
+        let mut mesh = Self {
+            options: *options,
+            shape: [behind + ahead + 1, right + left + 1],
+            origin: [
+                options.phase[0] - behind as f64,
+                options.phase[1] - right as f64,
+            ],
+            mirror: Mirror::None,
+            elements: Vec::new(),
+            kernel: Vec::new(),
+        };
+        // Refuses what is too large before it is sampled.
+        Grid::new(mesh.shape, options.spacing)?;
+        mesh.sample(surface, depth_scale)?;
+        mesh.find_mirror(surface);
+        mesh.tabulate_kernel();
+        Ok(mesh)
+    }
+
+    pub(super) const fn n_elements(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Centre of a row (axis 0) or column (axis 1) relative to the lowest point, \[m].
+    pub(super) fn centre(&self, axis: usize, index: usize) -> f64 {
+        (self.origin[axis] + index as f64) * self.options.spacing[axis]
+    }
+
+    /// Centre of an element relative to the lowest point, \[m].
+    pub(super) fn position(&self, element: usize) -> [f64; 2] {
+        let Element { row, column, .. } = self.elements[element];
+        [self.centre(0, row), self.centre(1, column)]
+    }
+
+    fn sample(&mut self, surface: &impl Surface, depth_scale: f64) -> Result<(), BemError> {
+        let dx = self.options.spacing[0];
+        for row in 0..self.shape[0] {
+            for column in 0..self.shape[1] {
+                let [x, y] = [self.centre(0, row), self.centre(1, column)];
+                let [rear, front] = [x - 0.5 * dx, x + 0.5 * dx].map(|x| surface.height([x, y]));
+                let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
+                if let Some(value) = [rear, front].into_iter().find(invalid) {
+                    return Err(BemError::InvalidHeight { row, column, value });
+                }
+                if front > rear && front.is_finite() {
+                    let [height, slope] = [rear / depth_scale, (front - rear) / dx];
+                    self.elements.push(Element {
+                        row,
+                        column,
+                        height,
+                        slope,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the elements at y ≥ 0 when the others mirror them.
+    fn find_mirror(&mut self, surface: &impl Surface) {
+        let phase = self.options.phase[1].abs();
+        let candidate = if phase == 0.0 {
+            Mirror::Centre
+        } else {
+            Mirror::Edge
+        };
+        if phase > 0.0 && phase < 0.5 {
+            return;
+        }
+        let mirrored = |element: &Element| {
+            let [x, y] = [self.centre(0, element.row), self.centre(1, element.column)];
+            [
+                x - 0.5 * self.options.spacing[0],
+                x + 0.5 * self.options.spacing[0],
+            ]
+            .iter()
+            .all(|&x| {
+                surface
+                    .height([x, y])
+                    .total_cmp(&surface.height([x, -y]))
+                    .is_eq()
+            })
+        };
+        if !self.elements.iter().all(mirrored) {
+            return;
+        }
+        self.mirror = candidate;
+        let origin = self.origin[1];
+        self.elements
+            .retain(|element| origin + element.column as f64 >= 0.0);
+    }
+
+    fn tabulate_kernel(&mut self) {
+        let aspect = self.options.spacing[1] / self.options.spacing[0];
+        let [rows, columns] = self.shape;
+        for row in 0..2 * rows - 1 {
+            // From the centre of the loaded element to the rear edge of the other one.
+            let x = row as f64 - (rows - 1) as f64 - 0.5;
+            let displacement = |column| -wake_influence([x, column as f64 * aspect], [1.0, aspect]);
+            self.kernel.extend((0..columns).map(displacement));
+        }
+    }
+
+    /// Column that mirrors `column`.
+    fn image(&self, column: usize) -> usize {
+        // The whole distance between the two is an integer, because the phase is 0 or 1/2.
+        let distance = 2.0 * (self.origin[1] + column as f64);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number of columns"
+        )]
+        let distance = distance.round() as usize;
+        column - distance
+    }
+
+    fn is_on_axis(&self, element: &Element) -> bool {
+        self.mirror == Mirror::Centre && self.image(element.column) == element.column
+    }
+
+    /// Displacement at the rear edge of one element by the unit load of another and of its mirror image.
+    pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
+        let [to, from] = [&self.elements[to], &self.elements[from]];
+        let line = &self.kernel[(to.row + self.shape[0] - 1 - from.row) * self.shape[1]..];
+        let direct = line[to.column.abs_diff(from.column)];
+        if self.mirror == Mirror::None || self.is_on_axis(from) {
+            return direct;
+        }
+        direct + line[to.column - self.image(from.column)]
+    }
+
+    /// How many elements of the whole an element stands for.
+    pub(super) fn weight(&self, element: usize) -> f64 {
+        let alone = self.mirror == Mirror::None || self.is_on_axis(&self.elements[element]);
+        if alone { 1.0 } else { 2.0 }
+    }
+
+    /// Height at the rear edge of an element.
+    pub(super) fn height(&self, element: usize) -> f64 {
+        self.elements[element].height
+    }
+
+    /// Sum of all loads: F_N in the units of the mesh.
+    pub(super) fn total_load(&self) -> f64 {
+        self.options.spacing[0] / self.options.spacing[1] / PI
+    }
+
+    /// Pressure of the unit load, \[Pa].
+    pub(super) fn pressure_unit(&self, load: &SlidingLoad) -> f64 {
+        PI * load.normal_force() / self.options.spacing[0] / self.options.spacing[0]
+    }
+
+    /// Mean slope weighted with the load.
+    pub(super) fn friction(&self, solution: &Solution) -> f64 {
+        let (mut tangential, mut normal) = (0.0, 0.0);
+        for &(element, load) in &solution.loads {
+            tangential += self.weight(element) * load * self.elements[element].slope;
+            normal += self.weight(element) * load;
+        }
+        tangential / normal
+    }
+
+    /// Row, column and load of every loaded element of the whole.
+    pub(super) fn loaded(&self, solution: &Solution) -> Vec<([usize; 2], f64)> {
+        let mut loaded = Vec::new();
+        for &(element, load) in &solution.loads {
+            let Element { row, column, .. } = self.elements[element];
+            loaded.push(([row, column], load));
+            if self.weight(element) > 1.0 {
+                loaded.push(([row, self.image(column)], load));
+            }
+        }
+        loaded
+    }
+
+    /// Whether a range of rows and one of columns lie inside the footprint, away from its boundary.
+    pub(super) fn holds(&self, bounds: [[usize; 2]; 2]) -> bool {
+        bounds
+            .iter()
+            .zip(self.shape)
+            .all(|(&[first, last], n)| first > 0 && last + 1 < n)
+    }
+}

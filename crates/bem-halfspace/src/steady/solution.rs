@@ -1,0 +1,98 @@
+//! What the stationary solver returns.
+
+use indenters::SlidingLoad;
+
+use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField};
+use crate::steady::mesh::Mesh;
+use crate::steady::pivoting::Solution;
+use crate::{BemError, Grid};
+
+/// A stationary solution on one grid.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct SteadySliding {
+    /// Friction coefficient μ = F_h/F_N.
+    pub friction_coefficient: f64,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: f64,
+    /// Rear and front of the contact relative to the lowest point, \[m].
+    pub contact_x: [f64; 2],
+    /// Sides of the contact relative to the lowest point, \[m].
+    pub contact_y: [f64; 2],
+    /// Number of unknown pressures: elements in contact, of one half where the scene is mirror symmetric.
+    pub unknowns: usize,
+    /// Contact sets tried.
+    pub iterations: usize,
+    /// Largest |gap| in the contact relative to F_N/(4ηv), left by the factorisation.
+    pub residual: f64,
+    /// Pressure over the contact.
+    pub pressure: PressureField,
+}
+
+impl SteadySliding {
+    /// Turns a solution in the units of the mesh into one in SI.
+    pub(super) fn new(
+        mesh: &Mesh,
+        solution: &Solution,
+        load: &SlidingLoad,
+    ) -> Result<Self, BemError> {
+        let loaded = mesh.loaded(solution);
+        let bounds = checked_bounds(mesh, &loaded)?;
+        let shape = bounds.map(|[first, last]| last + 1 - first);
+        let spacing = mesh.options.spacing;
+        let grid = Grid::new(shape, spacing)?;
+        let mut pressure = vec![0.0; grid.n_elements()];
+        for ([row, column], value) in &loaded {
+            pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] =
+                value * mesh.pressure_unit(load);
+        }
+        let edges = [0, 1].map(|axis| {
+            let half = 0.5 * spacing[axis];
+            [
+                mesh.centre(axis, bounds[axis][0]) - half,
+                mesh.centre(axis, bounds[axis][1]) + half,
+            ]
+        });
+        let origin = [0, 1].map(|axis| mesh.centre(axis, bounds[axis][0]));
+        Ok(Self {
+            friction_coefficient: mesh.friction(solution),
+            contact_area: loaded.len() as f64 * grid.element_area(),
+            contact_x: edges[0],
+            contact_y: edges[1],
+            unknowns: solution.loads.len(),
+            iterations: solution.iterations,
+            residual: solution.residual,
+            pressure: PressureField {
+                grid,
+                origin,
+                pressure,
+            },
+        })
+    }
+}
+
+/// First and last loaded row and column.
+fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 2]; 2], BemError> {
+    let mut bounds = [[usize::MAX, 0]; 2];
+    for (position, _) in loaded {
+        for (bound, index) in bounds.iter_mut().zip(position) {
+            *bound = [bound[0].min(*index), bound[1].max(*index)];
+        }
+    }
+    let elements = bounds
+        .iter()
+        .map(|[first, last]| (last + 1).saturating_sub(*first))
+        .min()
+        .unwrap_or(0);
+    if elements < MIN_CONTACT_ELEMENTS {
+        return Err(BemError::GridTooCoarse {
+            elements,
+            needed: MIN_CONTACT_ELEMENTS,
+        });
+    }
+    if !mesh.holds(bounds) {
+        return Err(mesh.options.footprint.boundary_reached(0.0));
+    }
+    Ok(bounds)
+}

@@ -1,0 +1,132 @@
+//! The stationary solver refuses bad input with typed errors.
+
+use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
+use bem_halfspace::{BemError, Footprint};
+
+use crate::support::Scene;
+
+fn good(scene: &Scene) -> SteadyOptions {
+    let spacing = scene.contact_length() / 6.0;
+    let footprint = scene.options(6.0, 1.0).footprint;
+    SteadyOptions {
+        spacing: [spacing; 2],
+        phase: [0.0, 0.0],
+        footprint,
+        max_iterations: 100,
+    }
+}
+
+fn refused(options: &SteadyOptions) -> BemError {
+    let Scene {
+        body,
+        material,
+        load,
+    } = Scene::unit(2.0);
+    match steady(&body, &material, &load, options) {
+        Err(error) => error,
+        Ok(solution) => panic!("accepted {options:?}: {solution:?}"),
+    }
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let good = good(&Scene::unit(2.0));
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for options in [
+            SteadyOptions {
+                spacing: [value, 0.1],
+                ..good
+            },
+            SteadyOptions {
+                spacing: [0.1, value],
+                ..good
+            },
+            SteadyOptions {
+                footprint: Footprint {
+                    x: [-1.0, value],
+                    ..good.footprint
+                },
+                ..good
+            },
+        ] {
+            let error = refused(&options);
+            assert!(
+                matches!(error, BemError::InvalidParameter { .. }),
+                "{options:?} gave {error}"
+            );
+        }
+    }
+    for value in [0.51, -0.6, f64::NAN] {
+        let error = refused(&SteadyOptions {
+            phase: [0.0, value],
+            ..good
+        });
+        assert!(
+            matches!(
+                error,
+                BemError::InvalidParameter {
+                    parameter: "phase",
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_contact_that_does_not_fit_is_refused() {
+    let scene = Scene::unit(2.0);
+    let good = good(&scene);
+    let length = scene.contact_length();
+    let error = refused(&SteadyOptions {
+        footprint: Footprint::square(0.8 * length),
+        ..good
+    });
+    assert!(
+        matches!(error, BemError::ContactReachesBoundary { .. }),
+        "{error}"
+    );
+    let error = refused(&SteadyOptions {
+        spacing: [length; 2],
+        ..good
+    });
+    assert!(matches!(error, BemError::GridTooCoarse { .. }), "{error}");
+    let error = refused(&SteadyOptions {
+        spacing: [1e-9 * length; 2],
+        ..good
+    });
+    assert!(matches!(error, BemError::GridTooLarge { .. }), "{error}");
+}
+
+#[test]
+fn an_exhausted_search_for_the_contact_is_an_error() {
+    let error = refused(&SteadyOptions {
+        max_iterations: 1,
+        ..good(&Scene::unit(2.0))
+    });
+    assert!(
+        matches!(error, BemError::ContactNotConverged { iterations: 1, .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_relative_error_out_of_range_is_refused() {
+    let Scene {
+        body,
+        material,
+        load,
+    } = Scene::unit(2.0);
+    for value in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
+        let options = FrictionOptions {
+            relative_error: value,
+            ..FrictionOptions::default()
+        };
+        let result = steady_friction(&body, &material, &load, &options);
+        assert!(
+            matches!(result, Err(BemError::InvalidParameter { .. })),
+            "{value}: {result:?}"
+        );
+    }
+}

@@ -1,0 +1,166 @@
+//! The stationary solution satisfies the contact conditions, and the symmetries of the scene.
+
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use indenters::{PowerProfile, Surface};
+
+use crate::support::Scene;
+
+fn options(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadyOptions {
+    let spacing = scene.contact_length() / elements;
+    let footprint = scene.options(elements, 1.0).footprint;
+    SteadyOptions {
+        spacing: [spacing, 0.5 * spacing],
+        phase,
+        footprint,
+        max_iterations: 500,
+    }
+}
+
+fn solve(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadySliding {
+    steady(
+        &scene.body,
+        &scene.material,
+        &scene.load,
+        &options(scene, elements, phase),
+    )
+    .expect("a solution")
+}
+
+#[test]
+fn pressure_is_positive_symmetric_and_balances_the_force() {
+    for phase in [[0.0, 0.0], [0.25, 0.5], [-0.4, 0.3]] {
+        let scene = Scene::unit(2.0);
+        let solution = solve(&scene, 8.0, phase);
+        let field = &solution.pressure;
+        assert!(solution.residual < 1e-12, "residual {}", solution.residual);
+        assert!(
+            field.pressure.iter().all(|pressure| *pressure >= 0.0),
+            "phase {phase:?}: tension"
+        );
+        let force = field.pressure.iter().sum::<f64>() * field.grid.element_area();
+        let expected = scene.load.normal_force();
+        assert!(
+            (force / expected - 1.0).abs() < 1e-12,
+            "phase {phase:?}: force {force} instead of {expected}"
+        );
+        let sides = solution.contact_y;
+        if phase[1].abs() < 0.1 || phase[1] > 0.4 {
+            assert!(
+                (sides[0] + sides[1]).abs() < 1e-12,
+                "phase {phase:?}: sides {sides:?}"
+            );
+        }
+    }
+}
+
+/// The paraboloid, with a height that is not the same to the last bit on both sides: no symmetry is used.
+struct Unsymmetric(PowerProfile);
+
+impl Surface for Unsymmetric {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        Surface::height(&self.0, [x, y]) * (1.0 + 1e-15 * y.signum())
+    }
+
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        Surface::gradient(&self.0, position)
+    }
+}
+
+#[test]
+fn half_of_a_symmetric_scene_has_the_friction_of_the_whole() {
+    for phase in [[0.0, 0.0], [0.0, 0.5]] {
+        let scene = Scene::unit(2.0);
+        let options = options(&scene, 6.0, phase);
+        let half = solve(&scene, 6.0, phase);
+        let whole = steady(
+            &Unsymmetric(scene.body),
+            &scene.material,
+            &scene.load,
+            &options,
+        )
+        .expect("a solution");
+        assert!(
+            whole.unknowns > half.unknowns + half.unknowns / 2,
+            "{} and {}",
+            whole.unknowns,
+            half.unknowns
+        );
+        let error = (whole.friction_coefficient / half.friction_coefficient - 1.0).abs();
+        assert!(
+            error < 1e-10,
+            "{} and {}",
+            whole.friction_coefficient,
+            half.friction_coefficient
+        );
+    }
+}
+
+#[test]
+fn stationary_friction_is_invariant_under_a_change_of_units() {
+    let reference = solve(&Scene::unit(1.5), 7.0, [0.0, 0.0]);
+    for (metre, newton, second) in [(1e12, 1.0, 1.0), (1e-12, 1e9, 1e3), (1e3, 1e-12, 1e12)] {
+        let coefficient = 0.3 * f64::powf(metre, -0.5);
+        let viscosity = 2.0 * newton * second / metre / metre;
+        let scene = Scene::new(
+            [coefficient, 1.5],
+            viscosity,
+            [0.5 * newton, 0.7 * metre / second],
+        );
+        let solution = solve(&scene, 7.0, [0.0, 0.0]);
+        let ratio = solution.friction_coefficient / reference.friction_coefficient;
+        assert!(
+            (ratio - 1.0).abs() < 1e-9,
+            "units {metre}, {newton}, {second}: ratio {ratio}"
+        );
+        let front = solution.contact_x[1] / metre / reference.contact_x[1];
+        assert!(
+            (front - 1.0).abs() < 1e-9,
+            "units {metre}, {newton}, {second}: front {front}"
+        );
+    }
+}
+
+/// Two bumps side by side, the second higher: two separate patches share the load.
+struct TwoBumps;
+
+impl Surface for TwoBumps {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        (x * x + y * y).min(x * x + (y - 3.0).powi(2) + 0.05)
+    }
+
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let first = x * x + y * y < x * x + (y - 3.0).powi(2) + 0.05;
+        [2.0 * x, if first { 2.0 * y } else { 2.0 * (y - 3.0) }]
+    }
+}
+
+#[test]
+fn separate_patches_are_found() {
+    let scene = Scene::new([1.0, 2.0], 1.0, [1.5, 1.0]);
+    let footprint = bem_halfspace::Footprint {
+        x: [-1.0, 2.0],
+        y: [-2.0, 5.0],
+    };
+    let options = SteadyOptions {
+        spacing: [0.1, 0.1],
+        phase: [0.0, 0.0],
+        footprint,
+        max_iterations: 500,
+    };
+    let solution = steady(&TwoBumps, &scene.material, &scene.load, &options).expect("a solution");
+    let field = &solution.pressure;
+    let columns = field.grid.shape()[1];
+    let loaded = |column: usize| {
+        field
+            .pressure
+            .iter()
+            .skip(column)
+            .step_by(columns)
+            .any(|pressure| *pressure > 0.0)
+    };
+    let patches = (1..columns)
+        .filter(|&column| loaded(column) && !loaded(column - 1))
+        .count()
+        + usize::from(loaded(0));
+    assert_eq!(patches, 2, "contact from {:?}", solution.contact_y);
+}
