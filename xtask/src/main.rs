@@ -1,2 +1,83 @@
-//! Commands of the workspace.
-fn main() {}
+//! Commands of the workspace: figures, scaling factors, checks.
+//!
+//! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this crate talks to a person at a terminal"
+)]
+
+mod ci;
+mod figures;
+mod output;
+mod plot;
+mod progress;
+mod scaling;
+mod scene;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use scaling::Format;
+
+/// Friction of rigid indenters on viscous half spaces.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Recompute every figure of the paper and the table of scaling factors: CSV, SVG, PNG and report.html.
+    ReproduceFigures(ReproduceFigures),
+    /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
+    ScalingFactors(ScalingFactors),
+    /// Run everything that CI checks.
+    Ci,
+}
+
+#[derive(Debug, Args)]
+struct ReproduceFigures {
+    /// Where the files are written.
+    #[arg(long, default_value = "target/figures")]
+    out: PathBuf,
+    /// Write nothing; recompute a part of the data and compare it with docs/figures.
+    #[arg(long)]
+    check: bool,
+}
+
+#[derive(Debug, Args)]
+struct ScalingFactors {
+    /// Exponent p > 1/2 of the profile c r^p; may be given several times [default: 1 and 2].
+    #[arg(long = "exponent", value_name = "P")]
+    exponents: Vec<f64>,
+    /// Relative error asked for, between 1e-6 and 0.1.
+    #[arg(long, default_value_t = 1e-3, value_name = "E")]
+    relative_error: f64,
+    /// How the result is printed.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+fn main() -> ExitCode {
+    let outcome = match CommandLine::parse().command {
+        Command::ReproduceFigures(options) if options.check => figures::check(),
+        Command::ReproduceFigures(options) => figures::reproduce(&options.out),
+        Command::ScalingFactors(options) => {
+            scaling::print(&options.exponents, options.relative_error, options.format)
+        }
+        Command::Ci => ci::run(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            let wrong_input = error.downcast_ref::<output::WrongInput>().is_some();
+            ExitCode::from(if wrong_input { 2 } else { 1 })
+        }
+    }
+}

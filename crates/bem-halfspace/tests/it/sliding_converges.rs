@@ -32,7 +32,7 @@ fn the_mean_slope_is_far_more_accurate_on_the_same_grid() {
         (1.0, 6.0, 8.0),
         (1.5, 6.0, 8.0),
         (2.0, 6.0, 8.0),
-        (4.0, 12.0, 4.0),
+        (4.0, 8.0, 3.0),
     ] {
         let [coarse, middle, fine] =
             [1.0, 2.0, 4.0].map(|refinement| friction(exponent, refinement * elements));
@@ -40,7 +40,7 @@ fn the_mean_slope_is_far_more_accurate_on_the_same_grid() {
         let limit = 2.0 * fine[1] - middle[1];
         let error = (fine[0] / limit - 1.0).abs();
         assert!(
-            error < 3e-3,
+            error < 5e-3,
             "p = {exponent}: {} instead of {limit}",
             fine[0]
         );

@@ -61,10 +61,10 @@ fn an_error_out_of_reach_says_what_was_reached() {
         body,
         material,
         load,
-    } = Scene::unit(0.55);
+    } = Scene::unit(0.6);
     let options = FrictionOptions {
         relative_error: 1e-3,
-        max_unknowns: 200,
+        max_unknowns: 150,
     };
     match steady_friction(&body, &material, &load, &options) {
         Err(BemError::FrictionNotReached {

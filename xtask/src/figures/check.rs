@@ -1,0 +1,176 @@
+//! `reproduce-figures --check`: recomputes a part of the committed data.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::figures::friction_over_speed::{self, Indenter, SPEEDS};
+use crate::figures::{factors, loss_tangent};
+use crate::output::read_csv;
+use crate::progress;
+use crate::scaling::scaling_factor;
+
+/// Closed forms differ by rounding only.
+const CLOSED_FORM_TOLERANCE: f64 = 1e-12;
+/// Simulations stop at a relative residual of 1e-9, and transforms round differently from processor to processor.
+const SIMULATION_TOLERANCE: f64 = 1e-6;
+/// The plain simulation reproduces the paper's factors to the digits the paper gives, and its last one doubtful.
+const PAPER_TOLERANCE: f64 = 0.02;
+/// Relative error of the factors that are recomputed.
+const QUICK_RELATIVE_ERROR: f64 = 1e-3;
+
+pub(crate) fn check() -> Result<()> {
+    let folder = committed();
+    let bar = progress::bar("comparing", 4);
+    let mut compared = check_loss_tangent(&folder)?;
+    bar.inc(1);
+    for indenter in [Indenter::Cone, Indenter::Paraboloid] {
+        compared += check_friction(&folder, indenter)?;
+        bar.inc(1);
+    }
+    compared += check_factors(&folder)?;
+    bar.finish_and_clear();
+    println!("docs/figures: {compared} recomputed numbers agree");
+    Ok(())
+}
+
+fn committed() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/figures")
+}
+
+fn compare(what: &str, [committed, recomputed]: [f64; 2], tolerance: f64) -> Result<()> {
+    let difference = (recomputed - committed).abs();
+    let allowed = tolerance * committed.abs();
+    ensure!(
+        difference <= allowed,
+        "{what}: committed {committed:e}, recomputed {recomputed:e}, off by {difference:e}, allowed {allowed:e}"
+    );
+    Ok(())
+}
+
+fn check_loss_tangent(folder: &Path) -> Result<usize> {
+    let committed: Vec<loss_tangent::Row> = read_csv(&folder.join(loss_tangent::FILE))?;
+    let recomputed = loss_tangent::compute()?;
+    ensure!(
+        committed.len() == recomputed.len(),
+        "{}: {} rows",
+        loss_tangent::FILE,
+        committed.len()
+    );
+    for (line, (old, new)) in committed.iter().zip(&recomputed).enumerate() {
+        for (name, old, new) in [
+            (
+                "frequency",
+                old.dimensionless_frequency,
+                new.dimensionless_frequency,
+            ),
+            (
+                "tan δ, γ = 1/1000",
+                old.loss_tangent_gamma_0_001,
+                new.loss_tangent_gamma_0_001,
+            ),
+            (
+                "tan δ, γ = 1/100",
+                old.loss_tangent_gamma_0_01,
+                new.loss_tangent_gamma_0_01,
+            ),
+            (
+                "tan δ, γ = 1/10",
+                old.loss_tangent_gamma_0_1,
+                new.loss_tangent_gamma_0_1,
+            ),
+            (
+                "10 G'/G₂",
+                old.scaled_storage_modulus,
+                new.scaled_storage_modulus,
+            ),
+            (
+                "10 G''/G₂",
+                old.scaled_loss_modulus,
+                new.scaled_loss_modulus,
+            ),
+        ] {
+            let what = format!("{} row {}: {name}", loss_tangent::FILE, line + 1);
+            compare(&what, [old, new], CLOSED_FORM_TOLERANCE)?;
+        }
+    }
+    Ok(6 * committed.len())
+}
+
+/// The slowest, a middle and the fastest speed.
+fn check_friction(folder: &Path, indenter: Indenter) -> Result<usize> {
+    let committed: Vec<friction_over_speed::Row> = read_csv(&folder.join(indenter.file()))?;
+    ensure!(
+        committed.len() == SPEEDS as usize,
+        "{}: {} rows",
+        indenter.file(),
+        committed.len()
+    );
+    let mut compared = 0;
+    for speed in [0, SPEEDS / 2, SPEEDS - 1] {
+        let old = &committed[speed as usize];
+        let new = friction_over_speed::row(indenter, speed, old.scaled_theory / old.theory)?;
+        for (name, old, new, tolerance) in [
+            (
+                "velocity",
+                old.velocity_m_per_s,
+                new.velocity_m_per_s,
+                CLOSED_FORM_TOLERANCE,
+            ),
+            ("theory", old.theory, new.theory, CLOSED_FORM_TOLERANCE),
+            ("chain", old.chain, new.chain, CLOSED_FORM_TOLERANCE),
+            (
+                "half space",
+                old.half_space,
+                new.half_space,
+                SIMULATION_TOLERANCE,
+            ),
+            (
+                "half space, plain",
+                old.half_space_plain,
+                new.half_space_plain,
+                SIMULATION_TOLERANCE,
+            ),
+        ] {
+            compare(
+                &format!("{} row {}: {name}", indenter.file(), speed + 1),
+                [old, new],
+                tolerance,
+            )?;
+            compared += 1;
+        }
+    }
+    Ok(compared)
+}
+
+fn check_factors(folder: &Path) -> Result<usize> {
+    let committed: Vec<factors::Row> = read_csv(&folder.join(factors::FILE))?;
+    for &(exponent, paper) in &factors::PAPER {
+        let same = |row: &&factors::Row| row.exponent.total_cmp(&exponent).is_eq();
+        let old = committed
+            .iter()
+            .find(same)
+            .with_context(|| format!("no row for p = {exponent}"))?;
+        let converged = scaling_factor(exponent, QUICK_RELATIVE_ERROR)?;
+        let new = factors::row(exponent, paper, converged)?;
+        let name = format!("{}, p = {exponent}", factors::FILE);
+        compare(
+            &format!("{name}: plain"),
+            [old.plain, new.plain],
+            SIMULATION_TOLERANCE,
+        )?;
+        let bars = (old.error + new.error) / old.converged;
+        compare(
+            &format!("{name}: converged, within both error bars"),
+            [old.converged, new.converged],
+            bars,
+        )?;
+        let off = (new.plain - paper).abs();
+        ensure!(
+            off <= PAPER_TOLERANCE,
+            "{name}: the plain simulation gives {}, the paper {paper}, off by {off}, allowed {PAPER_TOLERANCE}",
+            new.plain
+        );
+    }
+    Ok(3 * factors::PAPER.len())
+}

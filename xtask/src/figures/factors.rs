@@ -1,0 +1,81 @@
+//! The scaling factors beside the paper's: the plain simulation, the biases of its sources, and the converged value.
+
+use anyhow::Result;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::progress;
+use crate::scaling::{ScalingFactor, scaling_factor};
+use crate::scene::Scene;
+
+pub(super) const FILE: &str = "scaling_factors.csv";
+
+/// What the paper prints.
+pub(super) const PAPER: [(f64, f64); 2] = [(1.0, 0.55), (2.0, 0.67)];
+/// The plain simulation: ten elements along the contact length of the one-dimensional model, the fewest of a round
+/// number for which the contact outline is more than a few elements; and forty contact lengths of sliding, the first
+/// doubling of five over whose second half friction changes by less than one per cent.
+pub(super) const PLAIN_ELEMENTS: f64 = 10.0;
+pub(super) const PLAIN_LENGTHS: f64 = 40.0;
+/// Relative error asked of the converged factors.
+pub(super) const RELATIVE_ERROR: f64 = 2e-4;
+const DRIFT_TOLERANCE: f64 = 0.02;
+
+/// plain + time_level_bias + distance_bias + grid_bias = converged.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Row {
+    pub(super) exponent: f64,
+    pub(super) paper: f64,
+    /// Friction ratio at the end of the plain simulation, with the slope at the end of the step.
+    pub(super) plain: f64,
+    /// Added by the mean slope over the step.
+    pub(super) time_level_bias: f64,
+    /// Added by an infinite sliding distance.
+    pub(super) distance_bias: f64,
+    /// Added by an infinitely fine grid.
+    pub(super) grid_bias: f64,
+    pub(super) converged: f64,
+    pub(super) error: f64,
+    pub(super) plain_elements: f64,
+    pub(super) plain_lengths: f64,
+    /// Relative change over the second half of the distance of the plain simulation.
+    pub(super) plain_drift: f64,
+}
+
+pub(super) fn compute() -> Result<Vec<Row>> {
+    let bar = progress::bar("scaling factors", PAPER.len());
+    let rows = PAPER.par_iter().map(|&(exponent, paper)| {
+        let row = row(exponent, paper, scaling_factor(exponent, RELATIVE_ERROR)?);
+        bar.inc(1);
+        row
+    });
+    let rows = rows.collect();
+    bar.finish_and_clear();
+    rows
+}
+
+/// The plain simulation beside a converged factor.
+pub(super) fn row(exponent: f64, paper: f64, converged: ScalingFactor) -> Result<Row> {
+    let scene = Scene::unit(exponent)?;
+    let theory = scene.theory()?;
+    let spacing = theory.contact_length() / PLAIN_ELEMENTS;
+    let transient = scene.half_space(spacing, PLAIN_LENGTHS)?;
+    let stationary = transient.stationary(DRIFT_TOLERANCE)?;
+    let ratio = |friction: f64| friction / theory.friction_coefficient;
+    let plain = ratio(transient.last().friction_coefficient_end_of_step);
+    let mean_slope = ratio(transient.last().friction_coefficient);
+    let far = ratio(stationary.friction_coefficient);
+    Ok(Row {
+        exponent,
+        paper,
+        plain,
+        time_level_bias: mean_slope - plain,
+        distance_bias: far - mean_slope,
+        grid_bias: converged.value - far,
+        converged: converged.value,
+        error: converged.error,
+        plain_elements: PLAIN_ELEMENTS,
+        plain_lengths: PLAIN_LENGTHS,
+        plain_drift: stationary.drift,
+    })
+}

@@ -1,0 +1,81 @@
+//! `reproduce-figures`: everything the paper shows, from computations by three methods.
+
+mod approach;
+mod check;
+mod factors;
+mod friction_over_speed;
+mod loss_tangent;
+mod pictures;
+mod report;
+
+use std::path::Path;
+
+use anyhow::Result;
+
+use crate::output::{to_csv, write_atomically};
+use crate::plot::{PNG_WIDTH, render_png};
+use friction_over_speed::Indenter;
+
+pub(crate) use check::check;
+use pictures::Picture;
+
+/// The data of all figures.
+#[derive(Debug)]
+struct Data {
+    loss_tangent: Vec<loss_tangent::Row>,
+    cone: Vec<friction_over_speed::Row>,
+    paraboloid: Vec<friction_over_speed::Row>,
+    factors: Vec<factors::Row>,
+    approach: [approach::Approach; 2],
+}
+
+/// Computes all figures and writes data, pictures and report into `out`.
+pub(crate) fn reproduce(out: &Path) -> Result<()> {
+    let start = std::time::Instant::now();
+    let factors = factors::compute()?;
+    let data = Data {
+        loss_tangent: loss_tangent::compute()?,
+        cone: friction_over_speed::compute(Indenter::Cone, &factors[0])?,
+        paraboloid: friction_over_speed::compute(Indenter::Paraboloid, &factors[1])?,
+        approach: [
+            approach::compute(&factors[0])?,
+            approach::compute(&factors[1])?,
+        ],
+        factors,
+    };
+    write_data(&data, out)?;
+    let pictures = pictures::all(&data)?;
+    for Picture { name, svg, .. } in &pictures {
+        write_atomically(
+            &out.join(format!("{name}.png")),
+            &render_png(svg, PNG_WIDTH)?,
+        )?;
+        write_atomically(&out.join(format!("{name}.svg")), svg.as_bytes())?;
+    }
+    write_atomically(
+        &out.join("report.html"),
+        report::html(&data, &pictures)?.as_bytes(),
+    )?;
+    println!(
+        "{} written in {:.1} s",
+        out.join("report.html").display(),
+        start.elapsed().as_secs_f64()
+    );
+    Ok(())
+}
+
+fn write_data(data: &Data, out: &Path) -> Result<()> {
+    for (name, table) in [
+        (loss_tangent::FILE, to_csv(&data.loss_tangent)?),
+        (Indenter::Cone.file(), to_csv(&data.cone)?),
+        (Indenter::Paraboloid.file(), to_csv(&data.paraboloid)?),
+        (factors::FILE, to_csv(&data.factors)?),
+        (
+            "approach.csv",
+            to_csv(&[&data.approach[0].rows[..], &data.approach[1].rows].concat())?,
+        ),
+    ] {
+        write_atomically(&out.join(name), table.as_bytes())?;
+    }
+    Ok(())
+}

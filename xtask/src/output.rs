@@ -1,0 +1,50 @@
+//! Files that are whole or not there, and the error that means wrong input.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// The input was wrong: exit status 2.
+#[derive(Debug)]
+pub(crate) struct WrongInput(pub(crate) String);
+
+impl std::fmt::Display for WrongInput {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for WrongInput {}
+
+/// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.
+pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
+    let say = || format!("writing {}", path.display());
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).with_context(say)?;
+    }
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    fs::write(&part, contents).with_context(say)?;
+    fs::rename(&part, path).with_context(say)
+}
+
+/// CSV with a header line; numbers read back to the same f64.
+pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+/// Reads a table that [`to_csv`] wrote.
+pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
+    let mut reader =
+        csv::Reader::from_path(path).with_context(|| format!("reading {}", path.display()))?;
+    let rows = reader.deserialize().collect::<Result<Vec<R>, _>>();
+    rows.with_context(|| format!("reading {}", path.display()))
+}

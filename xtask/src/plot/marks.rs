@@ -1,0 +1,116 @@
+//! Lines, markers and error bars.
+
+use super::canvas::{Canvas, Pen, Pixel};
+use super::frame::Frame;
+use super::series::{Dash, Fill, Line, Marker, Series, Shape};
+
+/// Radius of a circular marker, \[px\]; the other shapes have about its area.
+pub(super) const MARKER_RADIUS: f64 = 3.6;
+const CAP: f64 = 3.5;
+
+/// Draws one series: its line, then its error bars, then its markers.
+pub(super) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
+    let pixels: Vec<Pixel> = series
+        .points
+        .iter()
+        .map(|&point| frame.pixel(point))
+        .collect();
+    if let Some(line) = series.line {
+        canvas.polyline(pixels.clone(), &line_pen(line, series));
+    }
+    if let Some(errors) = &series.errors {
+        for (&point, &error) in series.points.iter().zip(errors) {
+            draw_error_bar(canvas, error_ends(frame, point, error), series);
+        }
+    }
+    if let Some(marker) = series.marker {
+        for &at in pixels.iter().step_by(marker.every) {
+            draw_marker(canvas, at, marker, series.colour.hex());
+        }
+    }
+}
+
+/// Upper and lower end of an error bar.
+pub(super) fn error_ends(frame: &Frame, [x, y]: [f64; 2], error: f64) -> [Pixel; 2] {
+    [y + error, y - error].map(|end| frame.pixel([x, end]))
+}
+
+/// Pen of a series' line.
+pub(super) fn line_pen(line: Line, series: &Series) -> Pen<'static> {
+    // Thin lines keep a pattern that can be told apart.
+    let unit = line.width.max(1.2);
+    let pattern: Option<&[f64]> = match line.dash {
+        Dash::Solid => None,
+        Dash::Dashed => Some(&[4.0, 2.0]),
+        Dash::DashDot => Some(&[5.0, 1.8, 1.2, 1.8]),
+        Dash::Dotted => Some(&[1.2, 1.8]),
+    };
+    let lengths = |pattern: &[f64]| {
+        let texts: Vec<String> = pattern
+            .iter()
+            .map(|part| format!("{:.2}", part * unit))
+            .collect();
+        texts.join(" ")
+    };
+    Pen {
+        colour: series.colour.hex(),
+        width: line.width,
+        dash: pattern.map(lengths),
+    }
+}
+
+fn draw_error_bar(canvas: &mut Canvas, [upper, lower]: [Pixel; 2], series: &Series) {
+    let pen = Pen::solid(series.colour.hex(), 1.1);
+    canvas.line(upper, lower, &pen);
+    for [x, y] in [upper, lower] {
+        canvas.line([x - CAP, y], [x + CAP, y], &pen);
+    }
+}
+
+/// Draws a marker centred on a pixel.
+pub(super) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, colour: &str) {
+    let radius = MARKER_RADIUS;
+    let pen = Pen::solid(colour, 1.2);
+    let fill = match marker.fill {
+        Fill::Open => "#ffffff",
+        Fill::Filled => colour,
+    };
+    match marker.shape {
+        Shape::Circle => canvas.circle([x, y], radius, fill, &pen),
+        Shape::Square => {
+            let half = 0.9 * radius;
+            let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+            canvas.shape(polygon([x, y], &corners), fill, &pen);
+        }
+        Shape::Diamond => {
+            let half = 1.25 * radius;
+            let corners = [[0.0, -half], [half, 0.0], [0.0, half], [-half, 0.0]];
+            canvas.shape(polygon([x, y], &corners), fill, &pen);
+        }
+        Shape::Triangle => {
+            let (side, up, down) = (1.15 * radius, -1.25 * radius, 0.8 * radius);
+            canvas.shape(
+                polygon([x, y], &[[0.0, up], [side, down], [-side, down]]),
+                fill,
+                &pen,
+            );
+        }
+        Shape::Cross => draw_strokes(canvas, [x, y], [0.9 * radius, 0.9 * radius], colour),
+        Shape::Plus => draw_strokes(canvas, [x, y], [1.2 * radius, 0.0], colour),
+    }
+}
+
+/// Draws a stroke from `-arm` to `arm` and its quarter turn.
+fn draw_strokes(canvas: &mut Canvas, [x, y]: Pixel, [a, b]: [f64; 2], colour: &str) {
+    let pen = Pen::solid(colour, 1.5);
+    canvas.line([x - a, y - b], [x + a, y + b], &pen);
+    canvas.line([x - b, y + a], [x + b, y - a], &pen);
+}
+
+fn polygon([x, y]: Pixel, corners: &[[f64; 2]]) -> String {
+    let points: Vec<String> = corners
+        .iter()
+        .map(|[dx, dy]| format!("{:.2} {:.2}", x + dx, y + dy))
+        .collect();
+    format!("M{}Z", points.join("L"))
+}

@@ -1,0 +1,37 @@
+//! The converged scaling factor, from the stationary solution of the half space.
+
+use anyhow::{Context, Result};
+use bem_halfspace::steady::{FrictionOptions, steady_friction};
+
+use crate::scene::Scene;
+
+/// s_p with its absolute error.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ScalingFactor {
+    pub(crate) value: f64,
+    pub(crate) error: f64,
+    /// Unknown pressures on the finest grid.
+    pub(crate) unknowns: usize,
+}
+
+/// Computes s_p to the relative error asked for.
+pub(crate) fn scaling_factor(exponent: f64, relative_error: f64) -> Result<ScalingFactor> {
+    let scene = Scene::unit(exponent)?;
+    let line = scene.theory()?.friction_coefficient;
+    let options = FrictionOptions {
+        relative_error,
+        ..FrictionOptions::default()
+    };
+    let half_space = steady_friction(&scene.body, &scene.material, &scene.load, &options)
+        .with_context(|| {
+            format!("scaling factor of p = {exponent} (the line has the friction {line})")
+        })?;
+    Ok(ScalingFactor {
+        value: half_space.friction_coefficient / line,
+        error: half_space.error / line,
+        unknowns: half_space
+            .refinements
+            .last()
+            .map_or(0, |refinement| refinement.unknowns),
+    })
+}

@@ -1,0 +1,98 @@
+//! `scaling-factors`: the ratio s_p of the friction of the half space to that of the one-dimensional model.
+
+mod converged;
+
+use anyhow::Result;
+use clap::ValueEnum;
+use comfy_table::Table;
+use serde::Serialize;
+
+use crate::output::{WrongInput, to_csv};
+pub(crate) use converged::{ScalingFactor, scaling_factor};
+
+/// How the factors are printed.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum Format {
+    Table,
+    Csv,
+    Json,
+}
+
+#[derive(Debug, Serialize)]
+struct Row {
+    exponent: f64,
+    scaling_factor: f64,
+    error: f64,
+    unknowns: usize,
+    seconds: f64,
+}
+
+/// Computes the factors and prints them as they are asked for.
+pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
+    let exponents = if exponents.is_empty() {
+        &[1.0, 2.0]
+    } else {
+        exponents
+    };
+    validate(exponents, relative_error)?;
+    let rows: Vec<Row> = exponents
+        .iter()
+        .map(|&p| timed(p, relative_error))
+        .collect::<Result<_>>()?;
+    match format {
+        Format::Table => println!("{}", table(&rows)),
+        Format::Csv => print!("{}", to_csv(&rows)?),
+        Format::Json => println!("{}", serde_json::to_string_pretty(&rows)?),
+    }
+    Ok(())
+}
+
+fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
+    if let Some(p) = exponents.iter().find(|p| !(p.is_finite() && **p > 0.5)) {
+        let why =
+            "for p <= 1/2 the friction integral of the one-dimensional model diverges at the apex";
+        return Err(WrongInput(format!(
+            "--exponent must be finite and above 1/2, but is {p}: {why}"
+        )));
+    }
+    if !(1e-6..=0.1).contains(&relative_error) {
+        let range = "between 1e-6 and 0.1";
+        return Err(WrongInput(format!(
+            "--relative-error must be {range}, but is {relative_error}"
+        )));
+    }
+    Ok(())
+}
+
+fn timed(exponent: f64, relative_error: f64) -> Result<Row> {
+    let start = std::time::Instant::now();
+    let ScalingFactor {
+        value,
+        error,
+        unknowns,
+    } = scaling_factor(exponent, relative_error)?;
+    let seconds = start.elapsed().as_secs_f64();
+    Ok(Row {
+        exponent,
+        scaling_factor: value,
+        error,
+        unknowns,
+        seconds,
+    })
+}
+
+fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(["p", "s_p", "error", "unknowns", "seconds"]);
+    for row in rows {
+        table.add_row([
+            row.exponent.to_string(),
+            format!("{:.6}", row.scaling_factor),
+            format!("{:.1e}", row.error),
+            row.unknowns.to_string(),
+            format!("{:.3}", row.seconds),
+        ]);
+    }
+    table
+}
