@@ -1,1 +1,9 @@
-//! Timings of the workspace; see `benches/`.
+//! What the timings have in common: a time without the error of its result says little.
+
+#![expect(clippy::print_stdout, reason = "the errors stand beside the times")]
+
+/// Prints how far the result of the benchmark `name` is from the exact one.
+pub fn report_error(name: &str, quantity: &str, [actual, exact]: [f64; 2]) {
+    let error = (actual / exact - 1.0).abs();
+    println!("{name}: relative error of the {quantity} {error:.1e}");
+}

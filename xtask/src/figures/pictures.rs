@@ -180,7 +180,6 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
                 None,
                 Some(Marker::open(Shape::Square)),
             ),
-            half_space,
             curve(
                 "theory, scaled",
                 points(|row| row.scaled_theory),
@@ -188,6 +187,8 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
                 None,
                 Some(Marker::open(Shape::Circle)),
             ),
+            // Last, because it would vanish behind the open circles.
+            half_space,
         ],
         legend: LegendPlace::Free,
     }

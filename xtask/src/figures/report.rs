@@ -14,7 +14,7 @@ use crate::output::to_csv;
 
 const STYLE: &str = "body{font:16px/1.5 Georgia,serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#111}\
 h1,h2{font-weight:normal;line-height:1.2}h2{margin-top:3rem;border-bottom:1px solid #bbb}\
-figure{margin:1.5rem 0}figure svg{width:100%;height:auto}figcaption{font-size:.9rem;color:#333}\
+figure{margin:1.5rem 0}figure svg{width:100%;max-width:44rem;height:auto}figcaption{font-size:.9rem;color:#333}\
 table{border-collapse:collapse;font-size:.85rem;margin:1rem 0}th,td{border-bottom:1px solid #ddd;padding:.2rem .6rem;text-align:right}\
 th{border-bottom:1px solid #333;font-weight:normal;vertical-align:bottom}td:first-child,th:first-child{text-align:left}\
 .paper{border-left:3px solid #999;padding-left:1rem;color:#333}details{margin:1rem 0}.wide{overflow-x:auto}";
