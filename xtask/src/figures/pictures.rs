@@ -83,61 +83,48 @@ fn curve(
 }
 
 fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
-    let points = |value: fn(&loss_tangent::Row) -> f64| {
-        rows.iter()
-            .map(|row| [row.dimensionless_frequency, value(row)])
-            .collect::<Vec<_>>()
-    };
-    let every = |shape| {
-        Some(Marker {
-            every: 20,
-            ..Marker::open(shape)
-        })
-    };
-    let thick = |dash| Some(Line::thick(dash));
-    let thin = Some(Line::thin(Dash::Solid));
-    let series = vec![
-        curve(
-            "tan δ, γ = 1/1000",
-            points(|row| row.loss_tangent_gamma_0_001),
-            Colour::Blue,
-            thick(Dash::DashDot),
-            None,
-        ),
-        curve(
-            "tan δ, γ = 1/100",
-            points(|row| row.loss_tangent_gamma_0_01),
-            Colour::Green,
-            thick(Dash::Dashed),
-            None,
-        ),
-        curve(
-            "tan δ, γ = 1/10",
-            points(|row| row.loss_tangent_gamma_0_1),
-            Colour::Red,
-            thick(Dash::Solid),
-            None,
-        ),
-        curve(
-            "10 G′/G₂, γ = 1/100",
-            points(|row| row.scaled_storage_modulus),
-            Colour::Magenta,
-            thin,
-            every(Shape::Diamond),
-        ),
-        curve(
-            "10 G″/G₂, γ = 1/100",
-            points(|row| row.scaled_loss_modulus),
-            Colour::Black,
-            thin,
-            every(Shape::Circle),
-        ),
-    ];
+    let series =
+        |label: &str, look: (Colour, Line, Option<Shape>), value: fn(&loss_tangent::Row) -> f64| {
+            let points = rows
+                .iter()
+                .map(|row| [row.dimensionless_frequency, value(row)])
+                .collect();
+            let (colour, line, shape) = look;
+            let marker = shape.map(|shape| Marker {
+                every: 20,
+                ..Marker::open(shape)
+            });
+            curve(label, points, colour, Some(line), marker)
+        };
+    let [dash_dot, dashed, solid] = [Dash::DashDot, Dash::Dashed, Dash::Solid].map(Line::thick);
+    let thin = Line::thin(Dash::Solid);
     Chart {
         title: None,
         x: Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]),
         y: Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]),
-        series,
+        series: vec![
+            series(
+                "tan δ, γ = 1/1000",
+                (Colour::Blue, dash_dot, None),
+                |row| row.loss_tangent_gamma_0_001,
+            ),
+            series("tan δ, γ = 1/100", (Colour::Green, dashed, None), |row| {
+                row.loss_tangent_gamma_0_01
+            }),
+            series("tan δ, γ = 1/10", (Colour::Red, solid, None), |row| {
+                row.loss_tangent_gamma_0_1
+            }),
+            series(
+                "10 G′/G₂, γ = 1/100",
+                (Colour::Magenta, thin, Some(Shape::Diamond)),
+                |row| row.scaled_storage_modulus,
+            ),
+            series(
+                "10 G″/G₂, γ = 1/100",
+                (Colour::Black, thin, Some(Shape::Circle)),
+                |row| row.scaled_loss_modulus,
+            ),
+        ],
         legend: LegendPlace::Free,
     }
 }
