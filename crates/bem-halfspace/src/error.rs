@@ -75,6 +75,14 @@ pub enum BemError {
         /// Footprint, \[m].
         y_max: f64,
     },
+    /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
+    #[error(
+        "after sliding {sliding_distance} m a vertical wall of the indenter is in contact; its friction is not finite"
+    )]
+    VerticalWall {
+        /// Sliding distance at which it happened, \[m].
+        sliding_distance: f64,
+    },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
     #[error(
         "the contact was not solved: after {iterations} iterations the residual is {residual:e}, \

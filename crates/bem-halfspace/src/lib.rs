@@ -39,6 +39,7 @@ mod footprint;
 mod grid;
 pub mod indent;
 mod influence;
+mod rectangle;
 pub mod slide;
 pub mod steady;
 

@@ -90,7 +90,7 @@ impl March {
             for (displacement, increment) in self.displacement.iter_mut().zip(&self.increment) {
                 *displacement += increment;
             }
-            return Ok(self.record(&contact, &bounds));
+            return self.record(&contact, &bounds);
         }
     }
 
@@ -177,24 +177,28 @@ impl March {
             .boundary_reached(self.steps_done as f64 * self.options.spacing[0]))
     }
 
-    fn record(&self, contact: &Contact, bounds: &Bounds) -> SlideRow {
+    fn record(&self, contact: &Contact, bounds: &Bounds) -> Result<SlideRow, BemError> {
         let [dx, dy] = self.options.spacing;
         let sliding_distance = self.steps_done as f64 * dx;
         let edge = |axis: usize, element: usize| {
             (element as f64 - self.apex[axis] as f64 - 0.5) * self.options.spacing[axis]
         };
-        SlideRow {
+        let friction_coefficient = self.weighted_slope(&self.indenter.mean_slope);
+        if !friction_coefficient.is_finite() {
+            return Err(BemError::VerticalWall { sliding_distance });
+        }
+        Ok(SlideRow {
             sliding_distance,
             time: sliding_distance / self.load.velocity(),
             indentation_depth: contact.indentation_depth * self.depth_scale,
-            friction_coefficient: self.weighted_slope(&self.indenter.mean_slope),
+            friction_coefficient,
             friction_coefficient_end_of_step: self.weighted_slope(&self.indenter.end_slope),
             contact_area: contact.n_contact as f64 * dx * dy,
             contact_x: [edge(0, bounds.lower[0]), edge(0, bounds.upper[0])],
             contact_y: [edge(1, bounds.lower[1]), edge(1, bounds.upper[1])],
             n_contact: contact.n_contact,
             iterations: contact.iterations,
-        }
+        })
     }
 
     /// Mean of a slope over the contact, weighted with the pressure: F_h / F_N.

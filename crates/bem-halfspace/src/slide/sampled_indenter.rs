@@ -8,7 +8,7 @@ use crate::BemError;
 pub(super) struct SampledIndenter {
     /// Height at the centre of the element, in units of the depth scale.
     pub(super) height: Vec<f64>,
-    /// Mean of ∂h/∂x at the element over the step that ends now.
+    /// Mean of ∂h/∂x at the element over the step that ends now; not finite where a vertical wall has passed.
     pub(super) mean_slope: Vec<f64>,
     /// ∂h/∂x at the end of the step.
     pub(super) end_slope: Vec<f64>,
@@ -40,13 +40,8 @@ impl SampledIndenter {
                 }
                 // One step earlier the indenter was one element behind, and this element one ahead.
                 let before = surface.height(position(row + 1, column));
-                let rise = if before.is_finite() {
-                    before - here
-                } else {
-                    0.0
-                };
                 height.push(here / depth_scale);
-                mean_slope.push(rise / spacing[0]);
+                mean_slope.push((before - here) / spacing[0]);
                 end_slope.push(surface.gradient(position(row, column))[0]);
             }
         }

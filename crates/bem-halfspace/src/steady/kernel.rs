@@ -12,10 +12,8 @@
 //! ```text
 //! ∂²Φ/∂ξ∂y = ln(ξ + r),   Φ = ξ y ln(ξ + r) − ξ y + ½ ξ² asinh(y/|ξ|) − ½ y r
 //! ```
-//!
-//! As in [`influence`](crate::influence()), a Gauss rule takes its place along directions in which the point is far.
 
-use crate::influence::{FAR, gauss, product_asinh};
+use crate::rectangle::{FAR, PlaneKernel, integrate, product_asinh};
 
 /// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
 ///
@@ -29,20 +27,27 @@ pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
         let rut = 2.0 * a * (logarithm_integral(y + 0.5 * b) - logarithm_integral(y - 0.5 * b));
         return rut - wake_influence([-x, y], edges);
     }
-    let clearance = [
-        x.hypot((y - 0.5 * b).max(0.0)),
-        y.hypot((x - 0.5 * a).max(0.0)),
-    ];
-    match (clearance[0] >= FAR * a, clearance[1] >= FAR * b) {
-        (true, true) => gauss(x, a, |x| gauss(y, b, |y| logarithm(x, y))),
-        (true, false) => gauss(x, a, |x| along_y(x, y + 0.5 * b) - along_y(x, y - 0.5 * b)),
-        (false, true) => gauss(y, b, |y| along_x(x + 0.5 * a, y) - along_x(x - 0.5 * a, y)),
-        (false, false) => {
-            corner(x + 0.5 * a, y + 0.5 * b)
-                - corner(x - 0.5 * a, y + 0.5 * b)
-                - corner(x + 0.5 * a, y - 0.5 * b)
-                + corner(x - 0.5 * a, y - 0.5 * b)
-        }
+    integrate::<Logarithm>([x, y], edges)
+}
+
+/// ln(x + r).
+struct Logarithm;
+
+impl PlaneKernel for Logarithm {
+    fn value(x: f64, y: f64) -> f64 {
+        logarithm(x, y)
+    }
+
+    fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {
+        along_x(x + 0.5 * a, y) - along_x(x - 0.5 * a, y)
+    }
+
+    fn strip_along_y(x: f64, y: f64, b: f64) -> f64 {
+        along_y(x, y + 0.5 * b) - along_y(x, y - 0.5 * b)
+    }
+
+    fn corner(x: f64, y: f64) -> f64 {
+        x * (product_logarithm(x, y) - y + 0.5 * product_asinh(x, y)) - 0.5 * y * x.hypot(y)
     }
 }
 
@@ -74,9 +79,4 @@ fn along_y(x: f64, y: f64) -> f64 {
 /// y ln(x + r), continued by 0 to y = 0.
 fn product_logarithm(x: f64, y: f64) -> f64 {
     if y == 0.0 { 0.0 } else { y * logarithm(x, y) }
-}
-
-/// Φ.
-fn corner(x: f64, y: f64) -> f64 {
-    x * (product_logarithm(x, y) - y + 0.5 * product_asinh(x, y)) - 0.5 * y * x.hypot(y)
 }

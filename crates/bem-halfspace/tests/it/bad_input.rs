@@ -6,7 +6,7 @@ use bem_halfspace::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
     solve_contact,
 };
-use indenters::Surface;
+use indenters::{FlatPunch, Surface};
 
 use crate::support::Scene;
 
@@ -163,6 +163,18 @@ fn a_surface_without_numbers_is_refused() {
             "{value}: {pressed:?}"
         );
     }
+}
+
+#[test]
+fn a_vertical_wall_in_contact_is_an_error() {
+    let scene = Scene::unit(2.0);
+    let options = scene.options(8.0, 1.0);
+    let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
+    let slid = slide(&punch, &scene.material, &scene.load, &options).map(|_| ());
+    assert!(
+        matches!(slid, Err(BemError::VerticalWall { .. })),
+        "{slid:?}"
+    );
 }
 
 #[test]

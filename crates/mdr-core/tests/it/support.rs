@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use casebook::Case;
+use friction_analytic::{power_sliding, transient_sliding};
 use indenters::{PowerProfile, RigidLine, SlidingLoad};
 use mdr_core::{SlideOptions, Transient, slide};
 use rheology::Viscous;
@@ -30,8 +31,10 @@ pub(crate) fn power(exponent: f64) -> PowerProfile {
 
 /// Friction coefficient (16) of a power profile at the stationary depth (12).
 pub(crate) fn power_friction(body: &PowerProfile, depth: f64) -> f64 {
-    let p = body.exponent();
-    p * p / (2.0 * p - 1.0) * depth / body.line_position(depth)
+    let stationary = power_sliding(body, &material(VISCOSITY), &load_for_depth(depth));
+    stationary
+        .expect("a friction coefficient")
+        .friction_coefficient
 }
 
 pub(crate) fn slide_to(
@@ -147,25 +150,13 @@ impl Shape {
 
     /// Exact [d/D, μ/μ_∞] after sliding over a distance in stationary contact lengths (MDR-02).
     pub(crate) fn exact(self, distance: f64) -> [f64; 2] {
-        match self {
-            Self::Cone if distance < 0.25 => [distance.sqrt(), 2.0 * distance.sqrt()],
-            Self::Cone => [1.0 - remainder(distance - 0.25), 1.0],
-            Self::Paraboloid if distance < 1.0 / 6.0 => {
-                [(0.75 * distance).powf(2.0 / 3.0), 1.5 * distance]
-            }
-            Self::Paraboloid => {
-                let y = remainder(distance - 1.0 / 6.0);
-                [(1.0 - y).powi(2), 1.0 - 1.5 * y]
-            }
-        }
+        // With a depth, a contact length and a speed of one, the time is the distance.
+        let (body, material, load) = (self.body(1.0), material(1.0), load(4.0, 1.0));
+        let stationary = power_sliding(&body, &material, &load).expect("a stationary state");
+        let transient = transient_sliding(&body, &material, &load, distance).expect("a transient");
+        [
+            transient.indentation_depth / stationary.indentation_depth,
+            transient.friction_coefficient / stationary.friction_coefficient,
+        ]
     }
-}
-
-/// y(T) = −W₀(−½ e^(−1/2 − T)), the root of y e^(−y) = ½ e^(−1/2 − T) below 1.
-fn remainder(distance: f64) -> f64 {
-    let target = 0.5 * (-0.5 - distance).exp();
-    // The left side is concave, so that Newton's method rises to the root.
-    (0..60).fold(target, |y, _| {
-        y + (target - y * (-y).exp()) / ((1.0 - y) * (-y).exp())
-    })
 }
