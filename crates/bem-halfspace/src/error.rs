@@ -77,11 +77,24 @@ pub enum BemError {
     },
     /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
     #[error(
-        "after sliding {sliding_distance} m a vertical wall of the indenter is in contact; its friction is not finite"
+        "at x = {x} m, y = {y} m from its lowest point a vertical wall of the indenter is in contact"
     )]
     VerticalWall {
-        /// Sliding distance at which it happened, \[m].
-        sliding_distance: f64,
+        /// Position of the wall ahead of the lowest point, \[m].
+        x: f64,
+        /// Position of the wall beside the lowest point, \[m].
+        y: f64,
+    },
+    /// The body rises too much over one element in contact for its mean slope to mean anything.
+    #[error(
+        "the body rises by {rise} m over one element in contact, more than F_N / (4 η v) = {depth_scale} m; \
+         take a smaller spacing"
+    )]
+    SlopeNotResolved {
+        /// Rise over the element, \[m].
+        rise: f64,
+        /// Depth scale F_N / (4 η v), \[m].
+        depth_scale: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
     #[error(

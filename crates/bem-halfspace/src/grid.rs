@@ -65,7 +65,8 @@ impl Grid {
 /// # Errors
 /// [`BemError::GridTooLarge`] when the number is beyond any grid.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
-    let elements = (length / spacing).ceil();
+    // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
+    let elements = (length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil();
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {
             elements,

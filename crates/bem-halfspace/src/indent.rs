@@ -3,10 +3,13 @@
 //! While the contact grows, the impulse ∫ P dt solves the elastic contact problem at the depth of the moment (Radok
 //! 1957), on any grid and with any steps in time: only the elements cause an error.
 
+use std::collections::BTreeSet;
+
 use indenters::Surface;
 use rheology::Viscous;
 
 use crate::error::positive;
+use crate::slide::MIN_CONTACT_ELEMENTS;
 use crate::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
     solve_contact,
@@ -42,6 +45,7 @@ pub struct IndentRow {
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a force or a time out of range; [`BemError::GridTooLarge`];
+/// [`BemError::GridTooCoarse`] when the contact at the end covers fewer than three elements along x or y;
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`].
 pub fn indent(
     surface: &impl Surface,
@@ -50,6 +54,7 @@ pub fn indent(
     options: &IndentOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
     positive("normal_force", normal_force)?;
+    positive("number of times", times.len() as f64)?;
     positive("spacing along x", options.spacing[0])?;
     positive("spacing along y", options.spacing[1])?;
     let counts = options.footprint.elements(options.spacing)?;
@@ -61,7 +66,7 @@ pub fn indent(
     let mut state = ContactState::new(&convolution);
     let mut separation = sample(surface, &grid, counts);
     let mut previous = 0.0;
-    let mut step = |&time: &f64| {
+    let mut step = |&time: &f64| -> Result<IndentRow, BemError> {
         let problem = ContactProblem {
             convolution: &convolution,
             separation: &separation,
@@ -81,7 +86,30 @@ pub fn indent(
             n_contact: contact.n_contact,
         })
     };
-    times.iter().map(&mut step).collect()
+    let rows = times.iter().map(&mut step).collect::<Result<Vec<_>, _>>()?;
+    check_resolution(&state, grid.shape()[1])?;
+    Ok(rows)
+}
+
+/// A contact of fewer rows or columns has no meaningful size.
+fn check_resolution(state: &ContactState, columns: usize) -> Result<(), BemError> {
+    let distinct = |index: fn(usize, usize) -> usize| {
+        state
+            .contact()
+            .iter()
+            .map(|&element| index(element, columns))
+            .collect::<BTreeSet<_>>()
+            .len()
+    };
+    let elements = distinct(|element, columns| element / columns)
+        .min(distinct(|element, columns| element % columns));
+    if elements < MIN_CONTACT_ELEMENTS {
+        return Err(BemError::GridTooCoarse {
+            elements,
+            needed: MIN_CONTACT_ELEMENTS,
+        });
+    }
+    Ok(())
 }
 
 fn sample(surface: &impl Surface, grid: &Grid, counts: [[usize; 2]; 2]) -> Vec<f64> {

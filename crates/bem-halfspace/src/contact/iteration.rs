@@ -56,8 +56,13 @@ impl<'a> Iteration<'a> {
                 self.refresh();
                 continue;
             }
-            // NaN compares false: it must end here too.
+            // Where numbers overflow there is no way on.
             if iterations >= options.max_iterations || residual.is_nan() {
+                let residual = if residual.is_nan() {
+                    f64::INFINITY
+                } else {
+                    residual
+                };
                 let tolerance = options.tolerance;
                 return Err(BemError::ContactNotConverged {
                     iterations,
@@ -159,14 +164,18 @@ impl<'a> Iteration<'a> {
     /// Largest violation of the contact conditions relative to the largest displacement.
     fn residual(&self) -> f64 {
         let scale = self.deflection();
-        let violation = (0..self.state.load.len()).fold(0.0, |worst: f64, element| {
+        let mut violation: f64 = 0.0;
+        for element in 0..self.state.load.len() {
             let gap = self.gap(element);
-            worst.max(if self.state.load[element] > 0.0 {
+            if gap.is_nan() {
+                return f64::NAN;
+            }
+            violation = violation.max(if self.state.load[element] > 0.0 {
                 gap.abs()
             } else {
                 -gap
-            })
-        });
+            });
+        }
         // Without load there is nothing to compare with, and any penetration is too much.
         if violation == 0.0 {
             0.0

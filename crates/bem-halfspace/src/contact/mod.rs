@@ -44,7 +44,7 @@ pub struct ContactProblem<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactOptions {
     /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement that the
-    /// pressure causes.
+    /// pressure causes; greater than 0 and at most 1e-2.
     pub tolerance: f64,
     /// Iterations, of one convolution each, after which the solver gives up.
     pub max_iterations: usize,
@@ -76,6 +76,9 @@ pub struct Contact {
     pub residual: f64,
 }
 
+/// Contacts that are solved more coarsely than this have no meaningful pressure.
+const MAX_TOLERANCE: f64 = 1e-2;
+
 /// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
 ///
 /// Conjugate gradients projected onto the contact, which loses elements under tension and gains elements that
@@ -91,6 +94,7 @@ pub fn solve_contact(
     options: &ContactOptions,
 ) -> Result<Contact, BemError> {
     validate(problem, state)?;
+    validate_options(options)?;
     // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
     let load_per_pressure = problem.compliance / (4.0 * PI);
     let area = problem.convolution.grid().element_area();
@@ -108,6 +112,19 @@ pub fn solve_contact(
         n_contact: state.contact().len(),
         iterations: outcome.iterations,
         residual: outcome.residual,
+    })
+}
+
+fn validate_options(options: &ContactOptions) -> Result<(), BemError> {
+    let value = options.tolerance;
+    if value > 0.0 && value <= MAX_TOLERANCE {
+        return Ok(());
+    }
+    let allowed = "greater than 0 and at most 1e-2";
+    Err(BemError::InvalidParameter {
+        parameter: "contact tolerance",
+        value,
+        allowed,
     })
 }
 

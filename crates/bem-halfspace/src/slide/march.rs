@@ -183,15 +183,12 @@ impl March {
         let edge = |axis: usize, element: usize| {
             (element as f64 - self.apex[axis] as f64 - 0.5) * self.options.spacing[axis]
         };
-        let friction_coefficient = self.weighted_slope(&self.indenter.mean_slope);
-        if !friction_coefficient.is_finite() {
-            return Err(BemError::VerticalWall { sliding_distance });
-        }
+        self.check_walls()?;
         Ok(SlideRow {
             sliding_distance,
             time: sliding_distance / self.load.velocity(),
             indentation_depth: contact.indentation_depth * self.depth_scale,
-            friction_coefficient,
+            friction_coefficient: self.weighted_slope(&self.indenter.mean_slope),
             friction_coefficient_end_of_step: self.weighted_slope(&self.indenter.end_slope),
             contact_area: contact.n_contact as f64 * dx * dy,
             contact_x: [edge(0, bounds.lower[0]), edge(0, bounds.upper[0])],
@@ -199,6 +196,38 @@ impl March {
             n_contact: contact.n_contact,
             iterations: contact.iterations,
         })
+    }
+
+    /// A wall is a finite height beside an infinite one, so that the mean slope is infinite.
+    fn check_walls(&self) -> Result<(), BemError> {
+        let infinite = |[row, column]: [usize; 2]| {
+            self.indenter.mean_slope[row * self.shape[1] + column].is_infinite()
+        };
+        let mut loaded = self
+            .contact_box
+            .loaded_elements()
+            .map(|(element, _)| element);
+        let Some([row, column]) = loaded.find(|&element| infinite(element)) else {
+            return Ok(());
+        };
+        let position = |axis: usize, index: usize| {
+            (index as f64 - self.apex[axis] as f64) * self.options.spacing[axis]
+        };
+        Err(BemError::VerticalWall {
+            x: position(0, row),
+            y: position(1, column),
+        })
+    }
+
+    /// Largest rise of the body over an element in contact, [m].
+    fn largest_rise(&self) -> f64 {
+        let rise = |[row, column]: [usize; 2]| {
+            self.indenter.mean_slope[row * self.shape[1] + column] * self.options.spacing[0]
+        };
+        self.contact_box
+            .loaded_elements()
+            .map(|(element, _)| rise(element))
+            .fold(0.0, f64::max)
     }
 
     /// Mean of a slope over the contact, weighted with the pressure: F_h / F_N.
@@ -220,6 +249,10 @@ impl March {
                 elements,
                 needed: MIN_CONTACT_ELEMENTS,
             });
+        }
+        let (rise, depth_scale) = (self.largest_rise(), self.depth_scale);
+        if rise > depth_scale {
+            return Err(BemError::SlopeNotResolved { rise, depth_scale });
         }
         let n_elements = self.track.grid().n_elements();
         Ok(Transient {

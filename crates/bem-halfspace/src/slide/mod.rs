@@ -44,7 +44,7 @@ pub struct SlideOptions {
 /// # Errors
 /// [`BemError::InvalidParameter`] for options out of range; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when
 /// the contact at the end covers fewer than [`MIN_CONTACT_ELEMENTS`] elements along x or y;
-/// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
+/// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`] at the end; [`BemError::ContactNotConverged`];
 /// [`BemError::InvalidHeight`].
 pub fn slide(
     surface: &impl Surface,

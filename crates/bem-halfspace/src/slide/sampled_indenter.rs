@@ -42,7 +42,16 @@ impl SampledIndenter {
                 let before = surface.height(position(row + 1, column));
                 height.push(here / depth_scale);
                 mean_slope.push((before - here) / spacing[0]);
-                end_slope.push(surface.gradient(position(row, column))[0]);
+                let slope = surface.gradient(position(row, column))[0];
+                if slope.is_nan() && here.is_finite() {
+                    let [parameter, allowed] = ["slope of the surface", "a number"];
+                    return Err(BemError::InvalidParameter {
+                        parameter,
+                        value: slope,
+                        allowed,
+                    });
+                }
+                end_slope.push(slope);
             }
         }
         Ok(Self {

@@ -8,7 +8,6 @@
 use indenters::{Axisymmetric, SlidingLoad, contact_radius};
 use rheology::Viscous;
 
-use crate::error::positive;
 use crate::footprint::depth_scale;
 use crate::steady::{SteadyOptions, SteadySliding, steady_from};
 use crate::{BemError, Footprint};
@@ -30,8 +29,8 @@ const MAX_ITERATIONS: usize = 500;
 pub struct FrictionOptions {
     /// Relative error asked for.
     pub relative_error: f64,
-    /// No grid is taken that would have more unknown pressures than this; the time of its dense factorisations grows
-    /// with their third power.
+    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it;
+    /// the time of the dense factorisations grows with their third power.
     pub max_unknowns: usize,
 }
 
@@ -84,19 +83,36 @@ pub fn steady_friction(
     load: &SlidingLoad,
     options: &FrictionOptions,
 ) -> Result<FrictionEstimate, BemError> {
-    let relative_error = positive("relative_error", options.relative_error)?;
+    let relative_error = below_one("relative_error", options.relative_error)?;
     let contact_length = contact_radius(body, depth_scale(material, load))?;
     let order = (2.0 * body.apex_exponent() - 1.0).min(1.5);
+    if order <= 0.0 {
+        // The friction of the apex alone is infinite, as in the one-dimensional model.
+        let [parameter, allowed] = ["apex exponent", "above 1/2"];
+        return Err(BemError::InvalidParameter {
+            parameter,
+            value: body.apex_exponent(),
+            allowed,
+        });
+    }
     let mut refinements: Vec<Refinement> = Vec::new();
     let mut previous = None;
     let mut reached = [0.0, f64::MAX];
     for refinement in 0..MAX_REFINEMENTS {
         let elements = COARSEST * 2.0_f64.powf(0.5 * f64::from(refinement));
         let scene = (material, load, contact_length / elements);
-        refinements.push(Refinement {
-            elements,
-            ..refine(body, scene, &mut previous)?
-        });
+        match refine(body, scene, &mut previous) {
+            // A steep body needs a finer grid to begin with.
+            Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. })
+                if refinements.is_empty() =>
+            {
+                continue;
+            }
+            refinement => refinements.push(Refinement {
+                elements,
+                ..refinement?
+            }),
+        }
         let [friction_coefficient, error] = extrapolate(&refinements, order);
         if error <= relative_error * friction_coefficient {
             return Ok(FrictionEstimate {
@@ -128,7 +144,11 @@ fn refine(
     (material, load, spacing): (&Viscous, &SlidingLoad, f64),
     previous: &mut Option<SteadySliding>,
 ) -> Result<Refinement, BemError> {
-    let footprint = Footprint::of_body(body, material, load)?;
+    let mut footprint = Footprint::of_body(body, material, load)?;
+    // Room for the elements at the boundary, where a steep body leaves none.
+    for ends in [&mut footprint.x, &mut footprint.y] {
+        *ends = [ends[0] - 2.0 * spacing, ends[1] + 2.0 * spacing];
+    }
     let mut friction = [0.0; PHASES.len()];
     let mut unknowns = 0;
     for (friction, phase) in friction.iter_mut().zip(PHASES) {
@@ -176,4 +196,16 @@ fn extrapolate(refinements: &[Refinement], order: f64) -> [f64; 2] {
         [.., a] => [a, a],
         [] => [0.0, f64::MAX],
     }
+}
+
+/// Checks that a relative error or tolerance lies between 0 and 1.
+fn below_one(parameter: &'static str, value: f64) -> Result<f64, BemError> {
+    if value > 0.0 && value < 1.0 {
+        return Ok(value);
+    }
+    Err(BemError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "between 0 and 1",
+    })
 }

@@ -40,12 +40,17 @@ struct Element {
 #[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
+    pub(super) depth_scale: f64,
     /// Number of rows and columns of the footprint.
     shape: [usize; 2],
     /// Position of the row and the column 0 in elements from the lowest point.
     origin: [f64; 2],
     mirror: Mirror,
     elements: Vec<Element>,
+    /// Whether an element ends in a vertical wall, by row and column.
+    walls: Vec<bool>,
+    /// First and last row and column between which the contact must lie.
+    limits: [[usize; 2]; 2],
     /// Displacement at the rear edge, by offset in rows (shifted to be non-negative) and distance in columns.
     kernel: Vec<f64>,
 }
@@ -71,6 +76,7 @@ impl Mesh {
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
+            depth_scale,
             shape: [behind + ahead + 1, right + left + 1],
             origin: [
                 options.phase[0] - behind as f64,
@@ -78,11 +84,18 @@ impl Mesh {
             ],
             mirror: Mirror::None,
             elements: Vec::new(),
+            walls: Vec::new(),
+            limits: [[0, behind + ahead], [0, right + left]],
             kernel: Vec::new(),
         };
         // Refuses what is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
-        mesh.sample(surface, depth_scale)?;
+        mesh.sample(surface)?;
+        // Without an element that rises nothing can carry load.
+        positive(
+            "number of elements of the footprint over which the body rises",
+            mesh.elements.len() as f64,
+        )?;
         mesh.find_mirror(surface);
         mesh.tabulate_kernel();
         Ok(mesh)
@@ -103,7 +116,7 @@ impl Mesh {
         [self.centre(0, row), self.centre(1, column)]
     }
 
-    fn sample(&mut self, surface: &impl Surface, depth_scale: f64) -> Result<(), BemError> {
+    fn sample(&mut self, surface: &impl Surface) -> Result<(), BemError> {
         let dx = self.options.spacing[0];
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {
@@ -113,8 +126,9 @@ impl Mesh {
                 if let Some(value) = [rear, front].into_iter().find(invalid) {
                     return Err(BemError::InvalidHeight { row, column, value });
                 }
+                self.walls.push(front.is_infinite());
                 if front > rear && front.is_finite() {
-                    let [height, slope] = [rear / depth_scale, (front - rear) / dx];
+                    let [height, slope] = [rear / self.depth_scale, (front - rear) / dx];
                     self.elements.push(Element {
                         row,
                         column,
@@ -156,9 +170,16 @@ impl Mesh {
             return;
         }
         self.mirror = candidate;
+        // An element needs its image inside the footprint: the shorter side limits both.
         let origin = self.origin[1];
+        let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
         self.elements
-            .retain(|element| origin + element.column as f64 >= 0.0);
+            .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
+        let last = (0..self.shape[1])
+            .rev()
+            .find(|&column| has_image(column))
+            .unwrap_or(0);
+        self.limits[1] = [self.image(last), last];
     }
 
     fn tabulate_kernel(&mut self) {
@@ -248,7 +269,22 @@ impl Mesh {
     pub(super) fn holds(&self, bounds: [[usize; 2]; 2]) -> bool {
         bounds
             .iter()
-            .zip(self.shape)
-            .all(|(&[first, last], n)| first > 0 && last + 1 < n)
+            .zip(self.limits)
+            .all(|(bound, limit)| bound[0] > limit[0] && bound[1] < limit[1])
+    }
+
+    /// Whether the element ahead of a loaded one ends in a vertical wall.
+    pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
+        self.walls
+            .get((row + 1) * self.shape[1] + column)
+            .is_some_and(|wall| *wall)
+    }
+
+    /// Largest rise of the body over a loaded element, in units of the depth scale.
+    pub(super) fn largest_rise(&self, solution: &Solution) -> f64 {
+        let dx = self.options.spacing[0];
+        let rise =
+            |&(element, _): &(usize, f64)| self.elements[element].slope * dx / self.depth_scale;
+        solution.loads.iter().map(rise).fold(0.0, f64::max)
     }
 }

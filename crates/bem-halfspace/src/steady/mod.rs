@@ -51,7 +51,8 @@ pub struct SteadyOptions {
 /// factorisations of the elements in contact; single pivots end what would cycle.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for options out of range; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`];
+/// [`BemError::InvalidParameter`] for options out of range, or a body that rises nowhere in the footprint;
+/// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`];
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`], whose residual is the smallest fraction of
 /// elements that violated a contact condition; [`BemError::InvalidHeight`].
 pub fn steady(
@@ -71,6 +72,7 @@ fn steady_from(
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
     let depth_scale = positive("F_N / (4 η v)", depth_scale(material, load))?;
+    positive("max_iterations", options.max_iterations as f64)?;
     let mesh = Mesh::new(surface, options, depth_scale)?;
     let touches = |&element: &usize| match other {
         Some(other) => other.pressure.at(mesh.position(element)) > 0.0,

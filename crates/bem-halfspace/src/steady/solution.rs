@@ -39,6 +39,21 @@ impl SteadySliding {
     ) -> Result<Self, BemError> {
         let loaded = mesh.loaded(solution);
         let bounds = checked_bounds(mesh, &loaded)?;
+        if let Some(([row, column], _)) =
+            loaded.iter().find(|(element, _)| mesh.faces_wall(*element))
+        {
+            return Err(BemError::VerticalWall {
+                x: mesh.centre(0, *row),
+                y: mesh.centre(1, *column),
+            });
+        }
+        let rise = mesh.largest_rise(solution) * mesh.depth_scale;
+        if rise > mesh.depth_scale {
+            return Err(BemError::SlopeNotResolved {
+                rise,
+                depth_scale: mesh.depth_scale,
+            });
+        }
         let shape = bounds.map(|[first, last]| last + 1 - first);
         let spacing = mesh.options.spacing;
         let grid = Grid::new(shape, spacing)?;
@@ -80,6 +95,9 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 
             *bound = [bound[0].min(*index), bound[1].max(*index)];
         }
     }
+    if !mesh.holds(bounds) {
+        return Err(mesh.options.footprint.boundary_reached(0.0));
+    }
     let elements = bounds
         .iter()
         .map(|[first, last]| (last + 1).saturating_sub(*first))
@@ -90,9 +108,6 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 
             elements,
             needed: MIN_CONTACT_ELEMENTS,
         });
-    }
-    if !mesh.holds(bounds) {
-        return Err(mesh.options.footprint.boundary_reached(0.0));
     }
     Ok(bounds)
 }

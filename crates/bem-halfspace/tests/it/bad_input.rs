@@ -197,6 +197,7 @@ fn indentation_refuses_forces_and_times_out_of_range() {
         refused(value, &[1.0]);
         refused(1.0, &[value]);
     }
+    refused(1.0, &[]);
     refused(1.0, &[1e-3, 1e-3]);
     refused(1.0, &[2e-3, 1e-3]);
 }
@@ -278,4 +279,17 @@ fn empty_and_huge_grids_are_refused() {
             "{value}"
         );
     }
+}
+
+#[test]
+fn an_overflow_is_an_error_and_not_a_number() {
+    let scene = Scene::unit(2.0);
+    let options = scene.options(8.0, 1.0);
+    let options = IndentOptions {
+        spacing: options.spacing,
+        footprint: options.footprint,
+        contact: options.contact,
+    };
+    let result = indent(&scene.body, &scene.material, (1.0, &[1e300]), &options);
+    assert!(result.is_err(), "{result:?}");
 }

@@ -36,6 +36,8 @@ fn results_are_invariant_under_a_change_of_units() {
     let reference = Scene::unit(1.5).slide(6.0, 3.0);
     for (metre, newton, second) in [
         (1e12, 1.0, 1.0),
+        (1e-6, 1.0, 1.0),
+        (1e-3, 1e6, 1.0),
         (1e-12, 1e9, 1e3),
         (1e3, 1e-12, 1e12),
         (1e9, 1e12, 1e-12),

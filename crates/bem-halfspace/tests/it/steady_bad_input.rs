@@ -2,6 +2,7 @@
 
 use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
 use bem_halfspace::{BemError, Footprint};
+use indenters::{FlatPunch, PowerProfile, Sphere};
 
 use crate::support::Scene;
 
@@ -129,4 +130,100 @@ fn a_relative_error_out_of_range_is_refused() {
             "{value}: {result:?}"
         );
     }
+}
+
+/// Tight and lopsided footprints, with and without symmetry on the grid: the same friction, or an error.
+#[test]
+fn no_footprint_breaks_the_symmetry() {
+    let scene = Scene::unit(2.0);
+    let good = good(&scene);
+    let length = scene.contact_length();
+    for phase in [[0.0, 0.0], [0.0, 0.5], [0.5, -0.5]] {
+        let solve = |y: [f64; 2]| {
+            let footprint = Footprint {
+                y,
+                ..good.footprint
+            };
+            let options = SteadyOptions {
+                phase,
+                footprint,
+                ..good
+            };
+            steady(&scene.body, &scene.material, &scene.load, &options)
+                .map(|solution| solution.friction_coefficient)
+        };
+        let wide = solve(good.footprint.y).expect("a solution");
+        for y in [[-1.5, 4.0], [-4.0, 1.5]] {
+            let friction = solve(y.map(|end| end * length)).expect("a solution");
+            assert!(
+                (friction / wide - 1.0).abs() < 1e-10,
+                "{phase:?}, {y:?}: {friction} and {wide}"
+            );
+        }
+        for y in [[-0.6, 0.6], [-0.6, 4.0], [-4.0, 0.6], [-0.1, 0.1]] {
+            let refused = solve(y.map(|end| end * length));
+            assert!(
+                matches!(refused, Err(BemError::ContactReachesBoundary { .. })),
+                "{phase:?}, {y:?}: {refused:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn bodies_without_a_finite_friction_are_refused() {
+    let Scene { material, load, .. } = Scene::unit(2.0);
+    for exponent in [0.2, 0.5] {
+        let cusp = PowerProfile::new(1.0, exponent).expect("a profile");
+        let result = steady_friction(&cusp, &material, &load, &FrictionOptions::default());
+        assert!(
+            matches!(
+                result,
+                Err(BemError::InvalidParameter {
+                    parameter: "apex exponent",
+                    ..
+                })
+            ),
+            "{result:?}"
+        );
+    }
+    let options = SteadyOptions {
+        footprint: Footprint::square(0.6),
+        spacing: [0.02; 2],
+        ..good(&Scene::unit(2.0))
+    };
+    let punch = FlatPunch::new(0.3).expect("a punch");
+    let result = steady(&punch, &material, &load, &options).map(|_| ());
+    assert!(
+        matches!(result, Err(BemError::InvalidParameter { value: 0.0, .. })),
+        "{result:?}"
+    );
+    // A sphere whose equator is below the depth scale.
+    let sphere = Sphere::new(0.05).expect("a sphere");
+    let options = SteadyOptions {
+        footprint: Footprint::square(0.2),
+        spacing: [0.01; 2],
+        ..options
+    };
+    let result = steady(&sphere, &material, &load, &options).map(|_| ());
+    assert!(
+        matches!(result, Err(BemError::VerticalWall { .. })),
+        "{result:?}"
+    );
+}
+
+#[test]
+fn a_slope_that_the_grid_does_not_resolve_is_refused() {
+    let Scene { material, load, .. } = Scene::unit(2.0);
+    let steep = PowerProfile::new(1.0, 1000.0).expect("a profile");
+    let options = SteadyOptions {
+        footprint: Footprint::square(1.5),
+        spacing: [0.1; 2],
+        ..good(&Scene::unit(2.0))
+    };
+    let result = steady(&steep, &material, &load, &options).map(|_| ());
+    assert!(
+        matches!(result, Err(BemError::SlopeNotResolved { .. })),
+        "{result:?}"
+    );
 }
