@@ -43,6 +43,7 @@ impl SlideOptions {
     /// 1e-9, and 100 contact lengths of sliding; about 20 are needed.
     ///
     /// # Errors
+    /// [`MdrError::InvalidParameter`] for an apex h ∼ r^p with p ≤ 1/2, whose friction diverges;
     /// [`MdrError::TooCoarse`] for fewer than three elements; [`MdrError::Indenter`] when the body has no contact
     /// radius at the stationary depth.
     pub fn with_elements(
@@ -51,6 +52,16 @@ impl SlideOptions {
         material: &Viscous,
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
+        let value = body.apex_exponent();
+        if value <= 0.5 {
+            // On any chain the friction is finite, but it grows without limit on refinement.
+            let allowed = "above 1/2, where the friction integral (16) converges";
+            return Err(MdrError::InvalidParameter {
+                parameter: "apex exponent",
+                value,
+                allowed,
+            });
+        }
         let length = contact_radius(body, stationary_depth(material, load)?)?;
         let spacing = length / elements.max(1) as f64;
         if elements < MIN_CONTACT {
@@ -69,7 +80,15 @@ impl SlideOptions {
 
     fn check(&self) -> Result<(), MdrError> {
         positive("spacing", self.spacing)?;
-        positive("drift_tolerance", self.drift_tolerance)?;
+        let value = positive("drift_tolerance", self.drift_tolerance)?;
+        if value >= 1.0 {
+            let allowed = "between 0 and 1";
+            return Err(MdrError::InvalidParameter {
+                parameter: "drift_tolerance",
+                value,
+                allowed,
+            });
+        }
         positive("max_sliding_distance", self.max_sliding_distance)?;
         Ok(())
     }

@@ -16,8 +16,8 @@ const CLOSED_FORM_TOLERANCE: f64 = 1e-12;
 const SIMULATION_TOLERANCE: f64 = 1e-6;
 /// The plain simulation reproduces the paper's factors to the digits the paper gives, and its last one doubtful.
 const PAPER_TOLERANCE: f64 = 0.02;
-/// Relative error of the factors that are recomputed.
-const QUICK_RELATIVE_ERROR: f64 = 1e-3;
+/// An error bar is a difference of numbers that round.
+const ERROR_TOLERANCE: f64 = 1e-3;
 
 pub(crate) fn check() -> Result<()> {
     let folder = committed();
@@ -97,7 +97,7 @@ fn check_loss_tangent(folder: &Path) -> Result<usize> {
     Ok(6 * committed.len())
 }
 
-/// The slowest, a middle and the fastest speed.
+/// The slowest, a middle and the fastest speed; the factor is that of the committed table.
 fn check_friction(folder: &Path, indenter: Indenter) -> Result<usize> {
     let committed: Vec<friction_over_speed::Row> = read_csv(&folder.join(indenter.file()))?;
     ensure!(
@@ -106,64 +106,70 @@ fn check_friction(folder: &Path, indenter: Indenter) -> Result<usize> {
         indenter.file(),
         committed.len()
     );
+    let factor = committed_factor(folder, indenter.exponent())?.converged;
     let mut compared = 0;
     for speed in [0, SPEEDS / 2, SPEEDS - 1] {
         let old = &committed[speed as usize];
-        let new = friction_over_speed::row(indenter, speed, old.scaled_theory / old.theory)?;
-        for (name, old, new, tolerance) in [
+        let new = friction_over_speed::row(indenter, speed, factor)?;
+        let what = format!("{} row {}", indenter.file(), speed + 1);
+        for (columns, tolerance) in [
             (
-                "velocity",
-                old.velocity_m_per_s,
-                new.velocity_m_per_s,
+                old.closed_forms().into_iter().zip(new.closed_forms()),
                 CLOSED_FORM_TOLERANCE,
             ),
-            ("theory", old.theory, new.theory, CLOSED_FORM_TOLERANCE),
-            ("chain", old.chain, new.chain, CLOSED_FORM_TOLERANCE),
             (
-                "half space",
-                old.half_space,
-                new.half_space,
-                SIMULATION_TOLERANCE,
-            ),
-            (
-                "half space, plain",
-                old.half_space_plain,
-                new.half_space_plain,
+                old.simulated().into_iter().zip(new.simulated()),
                 SIMULATION_TOLERANCE,
             ),
         ] {
-            compare(
-                &format!("{} row {}: {name}", indenter.file(), speed + 1),
-                [old, new],
-                tolerance,
-            )?;
-            compared += 1;
+            for ((name, old), (_, new)) in columns {
+                compare(&format!("{what}: {name}"), [old, new], tolerance)?;
+                compared += 1;
+            }
         }
     }
     Ok(compared)
 }
 
+fn committed_factor(folder: &Path, exponent: f64) -> Result<factors::Row> {
+    let rows: Vec<factors::Row> = read_csv(&folder.join(factors::FILE))?;
+    let same = |row: &factors::Row| row.exponent.total_cmp(&exponent).is_eq();
+    rows.into_iter()
+        .find(same)
+        .with_context(|| format!("{}: no row for p = {exponent}", factors::FILE))
+}
+
+/// The whole table: the simulation, its biases, and the converged factors within the committed error bars.
 fn check_factors(folder: &Path) -> Result<usize> {
-    let committed: Vec<factors::Row> = read_csv(&folder.join(factors::FILE))?;
     for &(exponent, paper) in &factors::PAPER {
-        let same = |row: &&factors::Row| row.exponent.total_cmp(&exponent).is_eq();
-        let old = committed
-            .iter()
-            .find(same)
-            .with_context(|| format!("no row for p = {exponent}"))?;
-        let converged = scaling_factor(exponent, QUICK_RELATIVE_ERROR)?;
-        let new = factors::row(exponent, paper, converged)?;
-        let name = format!("{}, p = {exponent}", factors::FILE);
-        compare(
-            &format!("{name}: plain"),
-            [old.plain, new.plain],
-            SIMULATION_TOLERANCE,
+        let old = committed_factor(folder, exponent)?;
+        let new = factors::row(
+            exponent,
+            paper,
+            scaling_factor(exponent, factors::RELATIVE_ERROR)?,
         )?;
-        let bars = (old.error + new.error) / old.converged;
+        let name = format!("{}, p = {exponent}", factors::FILE);
+        let [before, now] = [&old, &new].map(|row| {
+            let mean_slope = row.plain + row.time_level_bias;
+            [row.plain, mean_slope, mean_slope + row.distance_bias]
+        });
+        for ((what, old), new) in ["plain", "with the mean slope", "at infinite distance"]
+            .iter()
+            .zip(before)
+            .zip(now)
+        {
+            compare(&format!("{name}: {what}"), [old, new], SIMULATION_TOLERANCE)?;
+        }
         compare(
-            &format!("{name}: converged, within both error bars"),
+            &format!("{name}: error bar of the converged value"),
+            [old.error, new.error],
+            ERROR_TOLERANCE,
+        )?;
+        let bar = old.error / old.converged;
+        compare(
+            &format!("{name}: converged, within its error bar"),
             [old.converged, new.converged],
-            bars,
+            bar,
         )?;
         let off = (new.plain - paper).abs();
         ensure!(
@@ -172,5 +178,5 @@ fn check_factors(folder: &Path) -> Result<usize> {
             new.plain
         );
     }
-    Ok(3 * factors::PAPER.len())
+    Ok(6 * factors::PAPER.len())
 }

@@ -39,6 +39,14 @@ impl Indenter {
         }
     }
 
+    /// Exponent p of the profile.
+    pub(super) const fn exponent(self) -> f64 {
+        match self {
+            Self::Cone => 1.0,
+            Self::Paraboloid => 2.0,
+        }
+    }
+
     fn body(self) -> Result<PowerProfile> {
         Ok(match self {
             Self::Cone => PowerProfile::cone(CONE_SLOPE)?,
@@ -66,6 +74,29 @@ pub(super) struct Row {
     pub(super) sliding_distance_m: f64,
     /// Relative change of the half space's friction over the second half of the distance.
     pub(super) drift: f64,
+}
+
+impl Row {
+    /// Columns that closed forms and the chain give, with their names.
+    pub(super) fn closed_forms(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("velocity", self.velocity_m_per_s),
+            ("theory", self.theory),
+            ("chain", self.chain),
+            ("scaled theory", self.scaled_theory),
+            ("spacing", self.spacing_m),
+            ("elements along the contact", self.elements_along_contact),
+            ("sliding distance", self.sliding_distance_m),
+        ]
+    }
+
+    /// Columns that the half space gives.
+    pub(super) fn simulated(&self) -> Vec<(&'static str, f64)> {
+        vec![
+            ("half space", self.half_space),
+            ("half space, plain", self.half_space_plain),
+        ]
+    }
 }
 
 /// Computes every speed anew; similarity is not used.

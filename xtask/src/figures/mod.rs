@@ -12,7 +12,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::output::{to_csv, write_atomically};
+use crate::output::{WrongInput, to_csv, write_atomically};
 use crate::plot::{PNG_WIDTH, render_png};
 use friction_over_speed::Indenter;
 
@@ -31,6 +31,8 @@ struct Data {
 
 /// Computes all figures and writes data, pictures and report into `out`.
 pub(crate) fn reproduce(out: &Path) -> Result<()> {
+    std::fs::create_dir_all(out)
+        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
     let start = std::time::Instant::now();
     let factors = factors::compute()?;
     let data = Data {

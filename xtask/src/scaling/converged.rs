@@ -1,6 +1,7 @@
 //! The converged scaling factor, from the stationary solution of the half space.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
+use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionOptions, steady_friction};
 
 use crate::scene::Scene;
@@ -22,10 +23,22 @@ pub(crate) fn scaling_factor(exponent: f64, relative_error: f64) -> Result<Scali
         relative_error,
         ..FrictionOptions::default()
     };
-    let half_space = steady_friction(&scene.body, &scene.material, &scene.load, &options)
-        .with_context(|| {
-            format!("scaling factor of p = {exponent} (the line has the friction {line})")
-        })?;
+    let half_space = match steady_friction(&scene.body, &scene.material, &scene.load, &options) {
+        Ok(half_space) => half_space,
+        Err(BemError::FrictionNotReached {
+            friction_coefficient,
+            error,
+            ..
+        }) => bail!(
+            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {} \
+             with an error of {:.1e}",
+            friction_coefficient / line,
+            error / line
+        ),
+        Err(other) => {
+            return Err(other).with_context(|| format!("scaling factor of p = {exponent}"));
+        }
+    };
     Ok(ScalingFactor {
         value: half_space.friction_coefficient / line,
         error: half_space.error / line,

@@ -8,6 +8,7 @@ use comfy_table::Table;
 use serde::Serialize;
 
 use crate::output::{WrongInput, to_csv};
+use crate::progress;
 pub(crate) use converged::{ScalingFactor, scaling_factor};
 
 /// How the factors are printed.
@@ -35,10 +36,14 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         exponents
     };
     validate(exponents, relative_error)?;
-    let rows: Vec<Row> = exponents
-        .iter()
-        .map(|&p| timed(p, relative_error))
-        .collect::<Result<_>>()?;
+    let bar = progress::bar("scaling factors", exponents.len());
+    let solve = |&exponent: &f64| {
+        let row = timed(exponent, relative_error);
+        bar.inc(1);
+        row
+    };
+    let rows: Vec<Row> = exponents.iter().map(solve).collect::<Result<_>>()?;
+    bar.finish_and_clear();
     match format {
         Format::Table => println!("{}", table(&rows)),
         Format::Csv => print!("{}", to_csv(&rows)?),

@@ -269,3 +269,47 @@ fn a_compression_below_the_smallest_number_is_refused() {
     let result = slide(&EquivalentLine(&cone), &material(1e-9), &load, &options);
     assert_refused(result, "compression", 0.0);
 }
+
+#[test]
+fn a_cusp_with_divergent_friction_and_a_meaningless_tolerance_are_refused() {
+    for exponent in [0.2, 0.5] {
+        let result = SlideOptions::with_elements(
+            100,
+            &power(exponent),
+            &material(VISCOSITY),
+            &load_for_depth(DEPTH),
+        );
+        assert!(
+            matches!(
+                result,
+                Err(MdrError::InvalidParameter {
+                    parameter: "apex exponent",
+                    ..
+                })
+            ),
+            "p = {exponent}: {result:?}"
+        );
+    }
+    let body = power(2.0);
+    let options = SlideOptions {
+        spacing: 0.01,
+        drift_tolerance: 2.0,
+        max_sliding_distance: 1.0,
+    };
+    let result = slide(
+        &EquivalentLine(&body),
+        &material(VISCOSITY),
+        &load_for_depth(DEPTH),
+        &options,
+    );
+    assert!(
+        matches!(
+            result,
+            Err(MdrError::InvalidParameter {
+                parameter: "drift_tolerance",
+                ..
+            })
+        ),
+        "{result:?}"
+    );
+}
