@@ -1,6 +1,7 @@
 //! The stationary solution satisfies the contact conditions, and the symmetries of the scene.
 
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use casebook::group;
 use indenters::{PowerProfile, Surface};
 
 use crate::support::Scene;
@@ -163,4 +164,21 @@ fn separate_patches_are_found() {
         .count()
         + usize::from(loaded(0));
     assert_eq!(patches, 2, "contact from {:?}", solution.contact_y);
+}
+
+/// The paraboloid of the casebook in three systems of units; its line has the friction of the row.
+#[test]
+fn friction_is_the_same_in_every_system_of_units() {
+    let friction: Vec<f64> = group("EXT-06")
+        .iter()
+        .map(|case| {
+            let load = [case.input("F"), case.input("v")];
+            let scene = Scene::new([case.input("c"), 2.0], case.input("eta"), load);
+            solve(&scene, 7.0, [0.0, 0.0]).friction_coefficient
+        })
+        .collect();
+    assert_eq!(friction.len(), 3, "three systems of units");
+    for value in &friction {
+        assert!((value / friction[0] - 1.0).abs() < 1e-9, "{friction:?}");
+    }
 }
