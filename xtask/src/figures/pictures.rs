@@ -135,18 +135,16 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
             .map(|row| [row.velocity_m_per_s, value(row)])
             .collect::<Vec<_>>()
     };
-    let mut half_space = curve(
-        "half space (BEM)",
-        points(|row| row.half_space),
-        Colour::Red,
-        None,
-        Some(Marker::filled(Shape::Plus)),
-    );
-    half_space.errors = Some(
-        rows.iter()
-            .map(|row| row.half_space_distance_error)
-            .collect(),
-    );
+    let crosses = Marker::filled(Shape::Plus);
+    let half_space = Series {
+        label: Some("half space (BEM)".into()),
+        errors: Some(
+            rows.iter()
+                .map(|row| row.half_space_distance_error)
+                .collect(),
+        ),
+        ..Series::markers(points(|row| row.half_space), crosses, Colour::Red)
+    };
     let line = Some(Line::thick(Dash::Solid));
     Chart {
         title: None,
@@ -213,11 +211,7 @@ fn approach_chart(approaches: [&Approach; 2]) -> Chart {
             [0.0, approach.scaling_factor],
             [approach::LENGTHS, approach.scaling_factor],
         ];
-        let dotted = Some(Line::thin(Dash::Dotted));
-        series.push(Series {
-            label: None,
-            ..curve("", limit, Colour::Black, dotted, None)
-        });
+        series.push(Series::line(limit, Line::thin(Dash::Dotted), Colour::Black));
     }
     Chart {
         title: None,

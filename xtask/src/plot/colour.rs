@@ -11,26 +11,9 @@ pub(crate) enum Colour {
     Green,
     /// #AA3377.
     Magenta,
-    /// #E69F00.
-    Orange,
-    /// #56B4E9.
-    SkyBlue,
     /// #000000.
     Black,
-    /// #777777.
-    Grey,
 }
-
-/// Colours in the order in which a chart of unrelated series should take them.
-pub(crate) const PALETTE: [Colour; 7] = [
-    Colour::Blue,
-    Colour::Red,
-    Colour::Green,
-    Colour::Magenta,
-    Colour::Orange,
-    Colour::SkyBlue,
-    Colour::Black,
-];
 
 impl Colour {
     /// Value as #rrggbb.
@@ -40,10 +23,7 @@ impl Colour {
             Self::Red => "#d55e00",
             Self::Green => "#009e73",
             Self::Magenta => "#aa3377",
-            Self::Orange => "#e69f00",
-            Self::SkyBlue => "#56b4e9",
             Self::Black => "#000000",
-            Self::Grey => "#777777",
         }
     }
 }

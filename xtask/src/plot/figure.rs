@@ -306,7 +306,7 @@ mod tests {
         full.series.push(Series::line(
             zigzag.collect(),
             Line::thin(Dash::Solid),
-            Colour::Grey,
+            Colour::Black,
         ));
         let got = height(full);
         assert!(
@@ -343,7 +343,7 @@ mod tests {
             series: vec![Series::markers(
                 vec![[1e-12, 0.1]],
                 Marker::filled(Shape::Plus),
-                Colour::Grey,
+                Colour::Black,
             )],
             ..chart()
         };

@@ -87,24 +87,15 @@ pub(super) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, co
             let corners = [[0.0, -half], [half, 0.0], [0.0, half], [-half, 0.0]];
             canvas.shape(polygon([x, y], &corners), fill, &pen);
         }
-        Shape::Triangle => {
-            let (side, up, down) = (1.15 * radius, -1.25 * radius, 0.8 * radius);
-            canvas.shape(
-                polygon([x, y], &[[0.0, up], [side, down], [-side, down]]),
-                fill,
-                &pen,
-            );
-        }
-        Shape::Cross => draw_strokes(canvas, [x, y], [0.9 * radius, 0.9 * radius], colour),
-        Shape::Plus => draw_strokes(canvas, [x, y], [1.2 * radius, 0.0], colour),
+        Shape::Plus => draw_plus(canvas, [x, y], 1.2 * radius, colour),
     }
 }
 
 /// Draws a stroke from `-arm` to `arm` and its quarter turn.
-fn draw_strokes(canvas: &mut Canvas, [x, y]: Pixel, [a, b]: [f64; 2], colour: &str) {
+fn draw_plus(canvas: &mut Canvas, [x, y]: Pixel, half: f64, colour: &str) {
     let pen = Pen::solid(colour, 1.5);
-    canvas.line([x - a, y - b], [x + a, y + b], &pen);
-    canvas.line([x - b, y + a], [x + b, y - a], &pen);
+    canvas.line([x - half, y], [x + half, y], &pen);
+    canvas.line([x, y + half], [x, y - half], &pen);
 }
 
 fn polygon([x, y]: Pixel, corners: &[[f64; 2]]) -> String {

@@ -1,18 +1,12 @@
 //! Pictures of curves and fields: a [`Figure`] becomes an SVG text, an SVG text a PNG.
 //!
 //! The module draws what it is given or refuses: a point that is not finite or lies outside its axis is a
-//! [`PlotError`], never dropped, clamped or clipped.
+//! [`error::PlotError`], never dropped, clamped or clipped.
 //! Output is the same byte for byte from run to run and does not depend on installed fonts.
 //!
 //! kuva supplies the drawing surface, the SVG writer and the colour map; axes, marks and legend are drawn here,
 //! because kuva 0.6 clamps logarithmic coordinates at 1e-10, clips markers at the frame, and has neither open
 //! markers nor legend samples with line and marker together.
-
-#![allow(
-    dead_code,
-    unused_imports,
-    reason = "the vocabulary of marks is complete, whether or not a figure uses each of them"
-)]
 
 mod axis;
 mod canvas;
@@ -29,12 +23,11 @@ mod png;
 mod series;
 mod ticks;
 
-pub(crate) use axis::{Axis, Scale};
+pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
-pub(crate) use colour::{Colour, PALETTE};
-pub(crate) use error::PlotError;
-pub(crate) use figure::{Figure, Panel, render_svg};
+pub(crate) use colour::Colour;
+pub(crate) use figure::{Figure, render_svg};
 pub(crate) use legend::LegendPlace;
 pub(crate) use map::{ColourScale, Map};
 pub(crate) use png::{PNG_WIDTH, render_png};
-pub(crate) use series::{Dash, Fill, Line, Marker, Series, Shape};
+pub(crate) use series::{Dash, Line, Marker, Series, Shape};

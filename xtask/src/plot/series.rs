@@ -67,11 +67,7 @@ pub(crate) enum Shape {
     Square,
     /// Square on its corner.
     Diamond,
-    /// Triangle pointing up.
-    Triangle,
-    /// Two strokes like ×, filled or not.
-    Cross,
-    /// Two strokes like +, filled or not.
+    /// Two strokes, filled or not.
     Plus,
 }
 
@@ -211,7 +207,7 @@ impl Series {
 mod tests {
     use super::*;
 
-    const STAR: Marker = Marker::filled(Shape::Cross);
+    const STAR: Marker = Marker::filled(Shape::Plus);
 
     fn refusal(series: &Series) -> Option<PlotError> {
         let x = Axis::linear("x [m]", [0.0, 1.0]);
