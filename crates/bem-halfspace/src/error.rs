@@ -156,3 +156,18 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemEr
         allowed: "finite and greater than 0",
     })
 }
+
+/// Checks that a relative error or tolerance lies between 0 and 1.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn below_one(parameter: &'static str, value: f64) -> Result<f64, BemError> {
+    if value > 0.0 && value < 1.0 {
+        return Ok(value);
+    }
+    Err(BemError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "between 0 and 1",
+    })
+}

@@ -27,8 +27,8 @@ impl Footprint {
     }
 
     /// The square that holds the contact of a body of revolution from first touch on: up to the height
-    /// 1.5 F_N / (4 η v), or twice that for a cusp sharper than r^(3/4). The front of the contact reaches 1.4 of that
-    /// scale for h ∼ r^0.6, 1.1 for the cone and 0.8 for the paraboloid.
+    /// 1.5 F_N / (4 η v), or 2 of it for a cusp sharper than r^(3/4). The front of the contact reaches 1.6 of that
+    /// scale for h ∼ r^0.51, 1.1 for the cone and 0.8 for the paraboloid.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] when the body has no radius that could be found for this load.
@@ -39,7 +39,7 @@ impl Footprint {
     ) -> Result<Self, BemError> {
         let depth = depth_scale(material, load);
         let height = if body.apex_exponent() < 0.75 {
-            3.0
+            2.0
         } else {
             1.5
         };

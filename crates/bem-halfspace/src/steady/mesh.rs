@@ -4,14 +4,17 @@
 //! does not rise, the gap at the rear is therefore larger than at the front, and no element there can touch: only
 //! rising elements are kept.
 
-use std::f64::consts::PI;
+use std::sync::Arc;
 
-use indenters::{SlidingLoad, Surface};
+use indenters::Surface;
 
 use crate::error::positive;
 use crate::steady::SteadyOptions;
-use crate::steady::kernel::wake_influence;
+use crate::steady::loading::{Equation, Loading};
 use crate::steady::pivoting::Solution;
+use crate::steady::plans::Plans;
+use crate::steady::region::Region;
+use crate::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
 /// How grid and body mirror in y.
@@ -36,11 +39,11 @@ struct Element {
     slope: f64,
 }
 
-/// The problem in units of D = F_N/(4ηv) for heights and Δx for lengths, with the load P Δx²/(4πηvD) of an element.
+/// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load P Δx²/(4πηvD) of an element.
 #[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
-    pub(super) depth_scale: f64,
+    pub(super) loading: Loading,
     /// Number of rows and columns of the footprint.
     shape: [usize; 2],
     /// Position of the row and the column 0 in elements from the lowest point.
@@ -51,15 +54,14 @@ pub(super) struct Mesh {
     walls: Vec<bool>,
     /// First and last row and column between which the contact must lie.
     limits: [[usize; 2]; 2],
-    /// Displacement at the rear edge, by offset in rows (shifted to be non-negative) and distance in columns.
-    kernel: Vec<f64>,
+    table: Arc<WakeTable>,
 }
 
 impl Mesh {
     pub(super) fn new(
         surface: &impl Surface,
+        (loading, plans): (&Loading, &mut Plans),
         options: &SteadyOptions,
-        depth_scale: f64,
     ) -> Result<Self, BemError> {
         positive("spacing along x", options.spacing[0])?;
         positive("spacing along y", options.spacing[1])?;
@@ -76,7 +78,7 @@ impl Mesh {
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
-            depth_scale,
+            loading: *loading,
             shape: [behind + ahead + 1, right + left + 1],
             origin: [
                 options.phase[0] - behind as f64,
@@ -86,7 +88,7 @@ impl Mesh {
             elements: Vec::new(),
             walls: Vec::new(),
             limits: [[0, behind + ahead], [0, right + left]],
-            kernel: Vec::new(),
+            table: Arc::default(),
         };
         // Refuses what is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
@@ -97,7 +99,8 @@ impl Mesh {
             mesh.elements.len() as f64,
         )?;
         mesh.find_mirror(surface);
-        mesh.tabulate_kernel();
+        let all = Region::around(&mesh, 0..mesh.n_elements());
+        mesh.table = plans.cover(mesh.aspect(), all.shape);
         Ok(mesh)
     }
 
@@ -128,7 +131,7 @@ impl Mesh {
                 }
                 self.walls.push(front.is_infinite());
                 if front > rear && front.is_finite() {
-                    let [height, slope] = [rear / self.depth_scale, (front - rear) / dx];
+                    let [height, slope] = [rear / self.loading.depth_scale, (front - rear) / dx];
                     self.elements.push(Element {
                         row,
                         column,
@@ -182,17 +185,6 @@ impl Mesh {
         self.limits[1] = [self.image(last), last];
     }
 
-    fn tabulate_kernel(&mut self) {
-        let aspect = self.options.spacing[1] / self.options.spacing[0];
-        let [rows, columns] = self.shape;
-        for row in 0..2 * rows - 1 {
-            // From the centre of the loaded element to the rear edge of the other one.
-            let x = row as f64 - (rows - 1) as f64 - 0.5;
-            let displacement = |column| -wake_influence([x, column as f64 * aspect], [1.0, aspect]);
-            self.kernel.extend((0..columns).map(displacement));
-        }
-    }
-
     /// Column that mirrors `column`.
     fn image(&self, column: usize) -> usize {
         // The whole distance between the two is an integer, because the phase is 0 or 1/2.
@@ -213,12 +205,33 @@ impl Mesh {
     /// Displacement at the rear edge of one element by the unit load of another and of its mirror image.
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
-        let line = &self.kernel[(to.row + self.shape[0] - 1 - from.row) * self.shape[1]..];
-        let direct = line[to.column.abs_diff(from.column)];
+        let rows = to.row.cast_signed() - from.row.cast_signed();
+        let direct = self.kernel(rows, to.column.abs_diff(from.column));
         if self.mirror == Mirror::None || self.is_on_axis(from) {
             return direct;
         }
-        direct + line[to.column - self.image(from.column)]
+        direct + self.kernel(rows, to.column - self.image(from.column))
+    }
+
+    /// Displacement at the rear edge of an element by the unit load of another that lies `rows` behind it and `columns`
+    /// beside it.
+    pub(super) fn kernel(&self, rows: isize, columns: usize) -> f64 {
+        self.table.at(rows, columns)
+    }
+
+    /// Row and column of an element and of its mirror image; itself where it has none.
+    pub(super) fn places(&self, element: usize) -> [[usize; 2]; 2] {
+        let Element { row, column, .. } = self.elements[element];
+        let image = if self.weight(element) > 1.0 {
+            self.image(column)
+        } else {
+            column
+        };
+        [[row, column], [row, image]]
+    }
+
+    fn aspect(&self) -> f64 {
+        self.options.spacing[1] / self.options.spacing[0]
     }
 
     /// How many elements of the whole an element stands for.
@@ -232,14 +245,15 @@ impl Mesh {
         self.elements[element].height
     }
 
-    /// Sum of all loads: F_N in the units of the mesh.
-    pub(super) fn total_load(&self) -> f64 {
-        self.options.spacing[0] / self.options.spacing[1] / PI
+    /// Force or depth that is asked for.
+    pub(super) fn control(&self) -> Equation {
+        self.loading.equation(self.options.spacing)
     }
 
-    /// Pressure of the unit load, \[Pa].
-    pub(super) fn pressure_unit(&self, load: &SlidingLoad) -> f64 {
-        PI * load.normal_force() / self.options.spacing[0] / self.options.spacing[0]
+    /// Sum of the loads of the whole.
+    pub(super) fn total_load(&self, solution: &Solution) -> f64 {
+        let weighted = |(element, load): &(usize, f64)| self.weight(*element) * load;
+        solution.loads.iter().map(weighted).sum()
     }
 
     /// Mean slope weighted with the load.
@@ -283,8 +297,9 @@ impl Mesh {
     /// Largest rise of the body over a loaded element, in units of the depth scale.
     pub(super) fn largest_rise(&self, solution: &Solution) -> f64 {
         let dx = self.options.spacing[0];
-        let rise =
-            |&(element, _): &(usize, f64)| self.elements[element].slope * dx / self.depth_scale;
+        let rise = |&(element, _): &(usize, f64)| {
+            self.elements[element].slope * dx / self.loading.depth_scale
+        };
         solution.loads.iter().map(rise).fold(0.0, f64::max)
     }
 }

@@ -13,22 +13,44 @@
 //! The gap is evaluated at the rear edge of each element and friction with the element's mean slope. This is what a
 //! march in time does when the pressure of a step belongs to the motion during the step.
 
+mod contact_system;
+mod depth;
 mod estimate;
+mod extrapolation;
 mod kernel;
+mod krylov;
+mod loading;
 mod mesh;
 mod pivoting;
+mod plane_transform;
+mod plans;
+mod product;
+mod region;
 mod solution;
+mod wake_table;
+mod wiener_hopf;
 
 use indenters::{SlidingLoad, Surface};
 use rheology::Viscous;
 
-use crate::error::positive;
-use crate::footprint::depth_scale;
+use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
-pub use estimate::{FrictionEstimate, FrictionOptions, Refinement, steady_friction};
+pub use depth::SinkingDepth;
+pub use estimate::{
+    FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,
+    steady_friction_of_surface,
+};
 pub use kernel::wake_influence;
+pub use loading::DepthControl;
+use loading::Loading;
 use mesh::Mesh;
+use plans::Plans;
 pub use solution::SteadySliding;
+
+/// Meshes of more elements than this start from the solution on a coarser one.
+const NESTED: usize = 500;
+/// Tolerance of a solution that is only a start.
+const COARSE_TOLERANCE: f64 = 1e-6;
 
 /// Resolution of a stationary solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,45 +63,95 @@ pub struct SteadyOptions {
     pub phase: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
+    /// Largest |gap| allowed in the contact, and largest penetration outside, relative to F_N/(4ηv).
+    pub tolerance: f64,
     /// Changes of the contact set after which the solver gives up.
     pub max_iterations: usize,
 }
 
-/// Solves the stationary sliding of `surface` on one grid.
+/// Solves the stationary sliding of `surface` under a force on one grid.
 ///
-/// The contact set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587) with dense
-/// factorisations of the elements in contact; single pivots end what would cycle.
+/// The contact set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
+/// end what would cycle. Small contacts are factorised; large ones are solved by minimal residuals with transforms, with
+/// the Wiener–Hopf factors of the kernel as preconditioner, and start from the contact of a coarser grid.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for options out of range, or a body that rises nowhere in the footprint;
 /// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`];
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`], whose residual is the smallest fraction of
-/// elements that violated a contact condition; [`BemError::InvalidHeight`].
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`].
 pub fn steady(
     surface: &impl Surface,
     material: &Viscous,
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    steady_from(None, surface, (material, load), options)
+    let loading = Loading::force(material, load)?;
+    solve(surface, &loading, options, &mut Reuse::default())
 }
 
-/// Like [`steady`], with the contact of another solution as the first guess.
-fn steady_from(
-    other: Option<&SteadySliding>,
+/// Solves the stationary sliding of `surface` at a depth on one grid; the normal force is part of the answer.
+///
+/// # Errors
+/// As for [`steady`], and [`BemError::InvalidParameter`] for a depth, a speed or a sliding distance out of range.
+pub fn steady_at_depth(
     surface: &impl Surface,
-    (material, load): (&Viscous, &SlidingLoad),
+    material: &Viscous,
+    control: &DepthControl,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let depth_scale = positive("F_N / (4 η v)", depth_scale(material, load))?;
+    let [rear, front] = options.footprint.x;
+    let loading = Loading::depth(material, control, front - rear)?;
+    solve(surface, &loading, options, &mut Reuse::default())
+}
+
+/// What one solution leaves for the next.
+#[derive(Debug, Default)]
+struct Reuse {
+    /// Its contact is the first guess.
+    solution: Option<SteadySliding>,
+    plans: Plans,
+}
+
+fn solve(
+    surface: &impl Surface,
+    loading: &Loading,
+    options: &SteadyOptions,
+    reuse: &mut Reuse,
+) -> Result<SteadySliding, BemError> {
     positive("max_iterations", options.max_iterations as f64)?;
-    let mesh = Mesh::new(surface, options, depth_scale)?;
-    let touches = |&element: &usize| match other {
-        Some(other) => other.pressure.at(mesh.position(element)) > 0.0,
+    below_one("tolerance", options.tolerance)?;
+    let mesh = Mesh::new(surface, (loading, &mut reuse.plans), options)?;
+    if reuse.solution.is_none() && mesh.n_elements() > NESTED {
+        let coarse = coarser(options);
+        // Without a solution on the coarse grid the fine one starts from its own guess.
+        reuse.solution = solve(surface, loading, &coarse, reuse).ok();
+    }
+    let guess = match &reuse.solution {
+        Some(other) => loads_of(other, &mesh),
         // The sides of the contact of a paraboloid reach about this height.
-        None => mesh.height(element) < 0.5,
+        None => (0..mesh.n_elements())
+            .filter(|&element| mesh.height(element) < 0.5)
+            .map(|element| (element, 0.0))
+            .collect(),
     };
-    let guess = (0..mesh.n_elements()).filter(touches).collect();
-    let solution = pivoting::solve(&mesh, guess, options.max_iterations)?;
-    SteadySliding::new(&mesh, &solution, load)
+    let solution = pivoting::solve(&mesh, &mut reuse.plans, guess)?;
+    SteadySliding::new(&mesh, &solution)
+}
+
+/// A grid of twice the spacing, for a solution that is only a start.
+fn coarser(options: &SteadyOptions) -> SteadyOptions {
+    SteadyOptions {
+        spacing: options.spacing.map(|edge| 2.0 * edge),
+        tolerance: options.tolerance.max(COARSE_TOLERANCE),
+        ..*options
+    }
+}
+
+/// The loaded elements of another solution, seen on this mesh.
+fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
+    let unit = mesh.loading.pressure_unit(mesh.options.spacing);
+    (0..mesh.n_elements())
+        .map(|element| (element, other.pressure.at(mesh.position(element)) / unit))
+        .filter(|(_, load)| *load > 0.0)
+        .collect()
 }

@@ -1,149 +1,245 @@
-//! Block principal pivoting: guess the contact, solve it, exchange what pulls for what penetrates.
+//! Block principal pivoting: guess the contact, close its gaps, exchange what pulls for what penetrates.
 //!
 //! While the number of violations falls, all are exchanged at once. A few exchanges without progress are allowed; then
-//! single exchanges of the last violation (Murty 1974) lead on until there is progress again.
-
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+//! the larger violations only, so that neighbours at the front do not flip to and fro together; in the end single
+//! exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed roughly, the
+//! last one to the tolerance.
 
 use crate::BemError;
+use crate::steady::contact_system::{Closure, close_gaps};
 use crate::steady::mesh::Mesh;
+use crate::steady::plans::Plans;
+use crate::steady::product::Product;
+use crate::steady::region::Region;
 
-/// Block exchanges without progress before single ones.
-const PATIENCE: usize = 8;
-/// Loads and gaps above the negative of this, relative to the largest, count as zero: rounding of the factorisation.
+/// Exchanges of all violations without progress before only the larger ones are exchanged, and exchanges without
+/// progress before single ones.
+const BLOCKS: usize = 3;
+const LARGER_ONES: usize = 40;
+/// Loads and gaps above the negative of this, relative to the largest, count as zero: rounding.
 const ROUNDING: f64 = 1e-12;
+/// Tolerance of the first contact, and its ratio from contact to contact.
+const FIRST_TOLERANCE: f64 = 1e-4;
+const TOLERANCE_RATIO: f64 = 0.1;
+/// A tolerance that fails this far below the target fails because of rounding.
+const HOPELESS: f64 = 1e-3;
+/// The largest gap of a contact is that many times its root mean square, at most, as a rule.
+const PEAK: f64 = 10.0;
 
-/// Loads of the elements in contact, all greater than zero.
+/// Loads of the elements in contact, all greater than zero, in the units of the mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Solution {
     pub(super) loads: Vec<(usize, f64)>,
+    pub(super) depth: f64,
     pub(super) iterations: usize,
     /// Largest |gap| in the contact, in units of the depth scale.
     pub(super) residual: f64,
 }
 
-/// Solves the complementarity problem from a first guess of the contact.
+/// Solves the complementarity problem from a first guess of the loads.
 pub(super) fn solve(
     mesh: &Mesh,
-    first_guess: Vec<usize>,
-    max_iterations: usize,
+    plans: &mut Plans,
+    guess: Vec<(usize, f64)>,
 ) -> Result<Solution, BemError> {
-    let mut contact = first_guess;
-    let (mut fewest, mut patience) = (usize::MAX, PATIENCE);
-    for iterations in 1..=max_iterations {
-        let candidate = Candidate::solve(mesh, &contact);
-        let violations = candidate.violations(mesh, &contact);
-        if violations.is_empty() {
-            let residual = candidate.residual(mesh, &contact);
-            let loads = contact
-                .into_iter()
-                .zip(candidate.loads)
-                .filter(|(_, load)| *load > 0.0);
-            return Ok(Solution {
-                loads: loads.collect(),
-                iterations,
-                residual,
-            });
-        }
-        if violations.len() < fewest {
-            (fewest, patience) = (violations.len(), PATIENCE);
-            contact = exchange(&contact, &violations);
-        } else if patience > 0 {
-            patience -= 1;
-            contact = exchange(&contact, &violations);
+    let target = mesh.options.tolerance;
+    let mut search = Search::new(mesh, plans, guess);
+    let mut progress = Progress::default();
+    let mut residual = f64::MAX;
+    for iterations in 1..=mesh.options.max_iterations {
+        let state = search.close();
+        residual = state.residual;
+        if state.violations.is_empty() {
+            if residual <= target {
+                return Ok(search.finish(residual, iterations));
+            }
+            // Nothing but the size of the gaps is left to improve; far below the target that is hopeless.
+            if search.tolerance < HOPELESS * target {
+                break;
+            }
+            search.tolerance = target.min(search.tolerance * TOLERANCE_RATIO);
         } else {
-            contact = exchange(&contact, &violations[violations.len() - 1..]);
+            search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(target);
+            search.exchange(progress.choose(&state.violations));
         }
     }
-    let [residual, tolerance] = [fewest as f64 / mesh.n_elements() as f64, 0.0];
     Err(BemError::ContactNotConverged {
-        iterations: max_iterations,
+        iterations: mesh.options.max_iterations,
         residual,
-        tolerance,
+        tolerance: target,
     })
 }
 
-/// Symmetric difference of two increasing lists.
-fn exchange(contact: &[usize], violations: &[usize]) -> Vec<usize> {
-    let mut merged: Vec<usize> = contact.iter().chain(violations).copied().collect();
-    merged.sort_unstable();
-    let mut next = Vec::with_capacity(merged.len());
-    let mut rest = &merged[..];
-    while let [first, tail @ ..] = rest {
-        if tail.first() == Some(first) {
-            rest = &tail[1..];
-        } else {
-            next.push(*first);
-            rest = tail;
-        }
-    }
-    next
+/// An element that pulls or penetrates, and by how much in the units of the mesh, which are the same for both.
+#[derive(Debug, Clone, Copy)]
+struct Violation {
+    element: usize,
+    size: f64,
+    pulls: bool,
 }
 
-/// Loads that close the gaps of a guessed contact, of either sign, and the depth.
-struct Candidate {
+/// How the number of violations falls.
+#[derive(Debug)]
+struct Progress {
+    fewest: usize,
+    /// Exchanges since there were fewest.
+    vain: usize,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self {
+            fewest: usize::MAX,
+            vain: 0,
+        }
+    }
+}
+
+impl Progress {
+    /// The violations to exchange: all, then the larger ones, then the last.
+    fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
+        if violations.len() < self.fewest {
+            (self.fewest, self.vain) = (violations.len(), 0);
+        } else {
+            self.vain += 1;
+        }
+        let elements = |threshold: f64| {
+            let large = violations
+                .iter()
+                .filter(move |violation| violation.size >= threshold);
+            large.map(|violation| violation.element).collect()
+        };
+        let alike = violations
+            .windows(2)
+            .all(|pair| pair[0].pulls == pair[1].pulls);
+        match self.vain {
+            0..=BLOCKS => elements(0.0),
+            // Only neighbours of different kinds hinder each other.
+            ..=LARGER_ONES if alike => elements(0.0),
+            ..=LARGER_ONES => {
+                let largest = violations
+                    .iter()
+                    .map(|violation| violation.size)
+                    .fold(0.0, f64::max);
+                elements(0.5 * largest)
+            }
+            _ => violations
+                .last()
+                .map(|violation| violation.element)
+                .into_iter()
+                .collect(),
+        }
+    }
+}
+
+/// The contact as it is guessed now.
+struct Search<'mesh> {
+    mesh: &'mesh Mesh,
+    plans: &'mesh mut Plans,
+    /// Whether each element is in contact, and its load.
+    inside: Vec<bool>,
     loads: Vec<f64>,
     depth: f64,
+    tolerance: f64,
+    all: Region,
+    product: Product,
 }
 
-impl Candidate {
-    /// Solves `h + K x − d = 0` on the contact together with the balance of forces.
-    fn solve(mesh: &Mesh, contact: &[usize]) -> Self {
-        let n = contact.len();
-        let matrix = Mat::from_fn(n + 1, n + 1, |row, column| match (row < n, column < n) {
-            (true, true) => mesh.influence(contact[row], contact[column]),
-            (true, false) => -1.0,
-            (false, true) => mesh.weight(contact[column]),
-            (false, false) => 0.0,
-        });
-        let right = Mat::from_fn(n + 1, 1, |row, _| {
-            if row < n {
-                -mesh.height(contact[row])
-            } else {
-                mesh.total_load()
-            }
-        });
-        let solution = matrix.partial_piv_lu().solve(&right);
-        Self {
-            loads: (0..n).map(|row| solution[(row, 0)]).collect(),
-            depth: solution[(n, 0)],
+/// How a contact with closed gaps stands to the conditions.
+struct State {
+    /// Elements of the contact that pull and others that penetrate, in the order of their numbers.
+    violations: Vec<Violation>,
+    residual: f64,
+}
+
+impl<'mesh> Search<'mesh> {
+    fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, guess: Vec<(usize, f64)>) -> Self {
+        let all = Region::around(mesh, 0..mesh.n_elements());
+        let mut search = Self {
+            mesh,
+            inside: vec![false; mesh.n_elements()],
+            loads: vec![0.0; mesh.n_elements()],
+            depth: 0.0,
+            tolerance: FIRST_TOLERANCE.max(mesh.options.tolerance),
+            product: Product::new(plans, &all),
+            plans,
+            all,
+        };
+        for (element, load) in guess {
+            search.inside[element] = true;
+            search.loads[element] = load;
         }
+        search
     }
 
-    fn gap(&self, mesh: &Mesh, contact: &[usize], element: usize) -> f64 {
-        let moved: f64 = contact
-            .iter()
-            .zip(&self.loads)
-            .map(|(&from, load)| mesh.influence(element, from) * load)
-            .sum();
-        mesh.height(element) + moved - self.depth
+    /// Closes the gaps of the contact up to the tolerance.
+    fn close(&mut self) -> State {
+        let contact: Vec<usize> = (0..self.inside.len())
+            .filter(|&element| self.inside[element])
+            .collect();
+        let start = contact.iter().map(|&element| self.loads[element]).collect();
+        let Closure { loads, depth, .. } = close_gaps(
+            (self.mesh, self.plans),
+            &contact,
+            start,
+            self.tolerance / PEAK,
+        );
+        self.loads.fill(0.0);
+        for (&element, load) in contact.iter().zip(loads) {
+            self.loads[element] = load;
+        }
+        self.depth = depth;
+        self.state()
     }
 
-    /// Elements of the contact that pull and others that penetrate, increasing.
-    fn violations(&self, mesh: &Mesh, contact: &[usize]) -> Vec<usize> {
+    fn state(&mut self) -> State {
         let largest = self
             .loads
             .iter()
             .fold(0.0, |largest: f64, load| largest.max(load.abs()));
-        let mut inside = contact.iter().zip(&self.loads).peekable();
-        let mut violations = Vec::new();
-        for element in 0..mesh.n_elements() {
-            let violated = match inside.next_if(|(member, _)| **member == element) {
-                Some((_, load)) => *load < -ROUNDING * largest,
-                None => self.gap(mesh, contact, element) < -ROUNDING,
+        let moved = self.product.displacements(&self.loads, &self.all);
+        let mut state = State {
+            violations: Vec::new(),
+            residual: 0.0,
+        };
+        for (element, moved) in moved.into_iter().enumerate() {
+            let gap = self.mesh.height(element) + moved - self.depth;
+            let (size, allowed) = if self.inside[element] {
+                state.residual = state.residual.max(gap.abs());
+                (-self.loads[element], ROUNDING * largest)
+            } else {
+                (-gap, self.tolerance)
             };
-            if violated {
-                violations.push(element);
+            if size > allowed {
+                let pulls = self.inside[element];
+                state.violations.push(Violation {
+                    element,
+                    size,
+                    pulls,
+                });
             }
         }
-        violations
+        state
     }
 
-    fn residual(&self, mesh: &Mesh, contact: &[usize]) -> f64 {
-        contact
-            .iter()
-            .map(|&element| self.gap(mesh, contact, element).abs())
-            .fold(0.0, f64::max)
+    fn exchange(&mut self, elements: Vec<usize>) {
+        for element in elements {
+            self.inside[element] = !self.inside[element];
+            self.loads[element] = 0.0;
+        }
+    }
+
+    fn finish(self, residual: f64, iterations: usize) -> Solution {
+        let loads = self
+            .loads
+            .into_iter()
+            .enumerate()
+            .filter(|(_, load)| *load > 0.0);
+        Solution {
+            loads: loads.collect(),
+            depth: self.depth,
+            iterations,
+            residual,
+        }
     }
 }

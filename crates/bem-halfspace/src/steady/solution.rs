@@ -1,8 +1,7 @@
 //! What the stationary solver returns.
 
-use indenters::SlidingLoad;
-
 use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField};
+use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
 use crate::{BemError, Grid};
@@ -14,6 +13,10 @@ use crate::{BemError, Grid};
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Depth of the lowest point, which depends on the distance slid.
+    pub depth: SinkingDepth,
     /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
     /// Rear and front of the contact relative to the lowest point, \[m].
@@ -24,7 +27,7 @@ pub struct SteadySliding {
     pub unknowns: usize,
     /// Contact sets tried.
     pub iterations: usize,
-    /// Largest |gap| in the contact relative to F_N/(4ηv), left by the factorisation.
+    /// Largest |gap| in the contact relative to F_N/(4ηv), or to the depth where that is controlled.
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
@@ -32,11 +35,7 @@ pub struct SteadySliding {
 
 impl SteadySliding {
     /// Turns a solution in the units of the mesh into one in SI.
-    pub(super) fn new(
-        mesh: &Mesh,
-        solution: &Solution,
-        load: &SlidingLoad,
-    ) -> Result<Self, BemError> {
+    pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         let loaded = mesh.loaded(solution);
         let bounds = checked_bounds(mesh, &loaded)?;
         if let Some(([row, column], _)) =
@@ -47,20 +46,22 @@ impl SteadySliding {
                 y: mesh.centre(1, *column),
             });
         }
-        let rise = mesh.largest_rise(solution) * mesh.depth_scale;
-        if rise > mesh.depth_scale {
+        let rise = mesh.largest_rise(solution) * mesh.loading.depth_scale;
+        if rise > mesh.loading.depth_scale {
             return Err(BemError::SlopeNotResolved {
                 rise,
-                depth_scale: mesh.depth_scale,
+                depth_scale: mesh.loading.depth_scale,
             });
         }
         let shape = bounds.map(|[first, last]| last + 1 - first);
         let spacing = mesh.options.spacing;
         let grid = Grid::new(shape, spacing)?;
+        let pressure_unit = mesh.loading.pressure_unit(spacing);
+        let total_load = mesh.total_load(solution);
         let mut pressure = vec![0.0; grid.n_elements()];
         for ([row, column], value) in &loaded {
             pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] =
-                value * mesh.pressure_unit(load);
+                value * pressure_unit;
         }
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
@@ -72,6 +73,8 @@ impl SteadySliding {
         let origin = [0, 1].map(|axis| mesh.centre(axis, bounds[axis][0]));
         Ok(Self {
             friction_coefficient: mesh.friction(solution),
+            normal_force: mesh.loading.force_of(total_load, spacing),
+            depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: loaded.len() as f64 * grid.element_area(),
             contact_x: edges[0],
             contact_y: edges[1],

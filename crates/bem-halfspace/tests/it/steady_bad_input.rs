@@ -13,6 +13,7 @@ fn good(scene: &Scene) -> SteadyOptions {
         spacing: [spacing; 2],
         phase: [0.0, 0.0],
         footprint,
+        tolerance: 1e-10,
         max_iterations: 100,
     }
 }

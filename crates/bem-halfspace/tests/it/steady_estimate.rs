@@ -65,6 +65,7 @@ fn an_error_out_of_reach_says_what_was_reached() {
     let options = FrictionOptions {
         relative_error: 1e-3,
         max_unknowns: 150,
+        ..FrictionOptions::default()
     };
     match steady_friction(&body, &material, &load, &options) {
         Err(BemError::FrictionNotReached {

@@ -13,6 +13,7 @@ fn options(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadyOptions {
         spacing: [spacing, 0.5 * spacing],
         phase,
         footprint,
+        tolerance: 1e-10,
         max_iterations: 500,
     }
 }
@@ -33,7 +34,11 @@ fn pressure_is_positive_symmetric_and_balances_the_force() {
         let scene = Scene::unit(2.0);
         let solution = solve(&scene, 8.0, phase);
         let field = &solution.pressure;
-        assert!(solution.residual < 1e-12, "residual {}", solution.residual);
+        assert!(
+            solution.residual <= 1e-10,
+            "residual {:e}",
+            solution.residual
+        );
         assert!(
             field.pressure.iter().all(|pressure| *pressure >= 0.0),
             "phase {phase:?}: tension"
@@ -146,6 +151,7 @@ fn separate_patches_are_found() {
         spacing: [0.1, 0.1],
         phase: [0.0, 0.0],
         footprint,
+        tolerance: 1e-10,
         max_iterations: 500,
     };
     let solution = steady(&TwoBumps, &scene.material, &scene.load, &options).expect("a solution");

@@ -1,0 +1,161 @@
+//! Loads that close the gaps of a guessed contact, of either sign, and the depth that goes with them.
+//!
+//! ```text
+//! h + K x − δ = 0  on the contact,      α δ + β Σ x = γ
+//! ```
+//!
+//! The second equation is the control of force or depth. Small contacts are factorised, large ones solved by iteration.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+use crate::steady::krylov::minimal_residual;
+use crate::steady::mesh::Mesh;
+use crate::steady::plans::Plans;
+use crate::steady::product::Product;
+use crate::steady::region::Region;
+use crate::steady::wiener_hopf::WienerHopf;
+
+/// Contacts of at most this many elements are factorised, which is faster there and exact to rounding.
+const FACTORISED: usize = 120;
+
+/// Loads of the elements of a contact and the depth, in the units of the mesh.
+#[derive(Debug)]
+pub(super) struct Closure {
+    pub(super) loads: Vec<f64>,
+    pub(super) depth: f64,
+}
+
+/// Closes the gaps of `contact` up to `tolerance`, the root of their mean square in units of the depth scale; `start`
+/// is a guess of the loads.
+pub(super) fn close_gaps(
+    (mesh, plans): (&Mesh, &mut Plans),
+    contact: &[usize],
+    start: Vec<f64>,
+    tolerance: f64,
+) -> Closure {
+    if contact.len() <= FACTORISED {
+        factorise(mesh, contact)
+    } else {
+        ContactSystem::new((mesh, plans), contact).iterate(start, tolerance)
+    }
+}
+
+fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {
+    let n = contact.len();
+    let control = mesh.control();
+    let matrix = Mat::from_fn(n + 1, n + 1, |row, column| match (row < n, column < n) {
+        (true, true) => mesh.influence(contact[row], contact[column]),
+        (true, false) => -1.0,
+        (false, true) => control.load * mesh.weight(contact[column]),
+        (false, false) => control.depth,
+    });
+    let right = Mat::from_fn(n + 1, 1, |row, _| {
+        if row < n {
+            -mesh.height(contact[row])
+        } else {
+            control.right
+        }
+    });
+    let solution = matrix.partial_piv_lu().solve(&right);
+    Closure {
+        loads: (0..n).map(|row| solution[(row, 0)]).collect(),
+        depth: solution[(n, 0)],
+    }
+}
+
+/// The equations of one contact, for iteration.
+struct ContactSystem<'mesh> {
+    mesh: &'mesh Mesh,
+    contact: &'mesh [usize],
+    region: Region,
+    product: Product,
+    preconditioner: WienerHopf,
+    /// What the preconditioner makes of a unit depth.
+    lowered: Vec<f64>,
+}
+
+impl<'mesh> ContactSystem<'mesh> {
+    fn new((mesh, plans): (&'mesh Mesh, &mut Plans), contact: &'mesh [usize]) -> Self {
+        let region = Region::around(mesh, contact.iter().copied());
+        let mut preconditioner = WienerHopf::new(plans, &region);
+        Self {
+            lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),
+            product: Product::new(plans, &region),
+            preconditioner,
+            region,
+            contact,
+            mesh,
+        }
+    }
+
+    fn iterate(mut self, start: Vec<f64>, tolerance: f64) -> Closure {
+        let (mut loads, mut depth) = self.start(start);
+        let mut residual = self.displacements_below(&loads, depth);
+        for (residual, &element) in residual.iter_mut().zip(self.contact) {
+            *residual = -*residual - self.mesh.height(element);
+        }
+        let norm = tolerance * (self.contact.len() as f64).sqrt();
+        let correction = minimal_residual(&residual, norm, |vector| {
+            let (loads, depth) = self.correct(vector);
+            self.displacements_below(&loads, depth)
+        });
+        let (load_steps, depth_step) = self.correct(&correction);
+        for (load, step) in loads.iter_mut().zip(load_steps) {
+            *load += step;
+        }
+        depth += depth_step;
+        Closure { loads, depth }
+    }
+
+    /// Loads and depth that satisfy the control, near the guess.
+    fn start(&mut self, mut loads: Vec<f64>) -> (Vec<f64>, f64) {
+        let control = self.mesh.control();
+        if control.depth != 0.0 {
+            let depth = (control.right - control.load * self.total(&loads)) / control.depth;
+            return (loads, depth);
+        }
+        if self.total(&loads) <= 0.0 {
+            loads.clone_from(&self.lowered);
+        }
+        let scale = control.right / (control.load * self.total(&loads));
+        loads.iter_mut().for_each(|load| *load *= scale);
+        let moved = self.product.displacements(&loads, &self.region);
+        let heights = self
+            .contact
+            .iter()
+            .map(|&element| self.mesh.height(element));
+        let depth = moved
+            .iter()
+            .zip(heights)
+            .map(|(moved, height)| moved + height);
+        let mean = depth.sum::<f64>() / self.contact.len() as f64;
+        (loads, mean)
+    }
+
+    /// K x − δ.
+    fn displacements_below(&mut self, loads: &[f64], depth: f64) -> Vec<f64> {
+        let mut moved = self.product.displacements(loads, &self.region);
+        moved.iter_mut().for_each(|value| *value -= depth);
+        moved
+    }
+
+    /// The preconditioner with the control: loads and depth that cause about the given gaps and leave the control as
+    /// it is.
+    fn correct(&mut self, gaps: &[f64]) -> (Vec<f64>, f64) {
+        let control = self.mesh.control();
+        let mut loads = self.preconditioner.loads(gaps, &self.region);
+        let depth = -control.load * self.total(&loads)
+            / (control.depth + control.load * self.total(&self.lowered));
+        for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
+            *load += depth * lowered;
+        }
+        (loads, depth)
+    }
+
+    /// Sum of the loads of the whole.
+    fn total(&self, loads: &[f64]) -> f64 {
+        let weighted = |(&element, load): (&usize, &f64)| self.mesh.weight(element) * load;
+        self.contact.iter().zip(loads).map(weighted).sum()
+    }
+}

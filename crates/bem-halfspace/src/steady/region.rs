@@ -1,0 +1,78 @@
+//! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
+
+use std::ops::Range;
+
+use crate::steady::mesh::Mesh;
+
+/// Elements of a mesh in their bounding box, images by mirror symmetry included.
+#[derive(Debug)]
+pub(super) struct Region {
+    /// Rows and columns of the box.
+    pub(super) shape: [usize; 2],
+    /// Place of each element in the box, row-major, and of its image; an element without one is its own.
+    places: Vec<[usize; 2]>,
+}
+
+impl Region {
+    /// The box around `elements` of the mesh.
+    pub(super) fn around(mesh: &Mesh, elements: impl Iterator<Item = usize> + Clone) -> Self {
+        let positions = elements.map(|element| mesh.places(element));
+        let [rows, columns] = [0, 1].map(|axis| {
+            let indices = positions.clone().flatten().map(|place| place[axis]);
+            let first = indices.clone().min().unwrap_or(0);
+            first..indices.max().map_or(first, |last| last + 1)
+        });
+        let width = columns.len();
+        let place = |[row, column]: [usize; 2]| (row - rows.start) * width + column - columns.start;
+        Self {
+            shape: [rows.len(), width],
+            places: positions.map(|places| places.map(place)).collect(),
+        }
+    }
+
+    pub(super) fn n_places(&self) -> usize {
+        self.shape[0] * self.shape[1]
+    }
+
+    /// Writes a vector over the set into a field over the box, 0 elsewhere.
+    pub(super) fn spread(&self, vector: &[f64], field: &mut [f64]) {
+        field.fill(0.0);
+        for (places, value) in self.places.iter().zip(vector) {
+            for place in places {
+                field[*place] = *value;
+            }
+        }
+    }
+
+    /// Reads a vector over the set from a field over the box.
+    pub(super) fn gather(&self, field: &[f64]) -> Vec<f64> {
+        self.places.iter().map(|[place, _]| field[*place]).collect()
+    }
+
+    /// For each element, how far it lies from the rear (0) to the front (1) of its run of elements along x.
+    pub(super) fn fractions_from_rear(&self) -> Vec<f64> {
+        let [rows, columns] = self.shape;
+        let mut inside = vec![false; self.n_places()];
+        self.places
+            .iter()
+            .flatten()
+            .for_each(|place| inside[*place] = true);
+        let mut fractions = vec![0.0; self.n_places()];
+        for column in 0..columns {
+            let mut row = 0;
+            while row < rows {
+                let run = run_from(row, rows, |row| inside[row * columns + column]);
+                for (step, row) in run.clone().enumerate() {
+                    fractions[row * columns + column] = (step as f64 + 0.5) / run.len() as f64;
+                }
+                row = run.end + 1;
+            }
+        }
+        self.gather(&fractions)
+    }
+}
+
+/// The rows from `first` on that are inside, up to the first that is not.
+fn run_from(first: usize, rows: usize, inside: impl Fn(usize) -> bool) -> Range<usize> {
+    first..(first..rows).find(|row| !inside(*row)).unwrap_or(rows)
+}
