@@ -36,6 +36,8 @@ enum Command {
     ReproduceFigures(ReproduceFigures),
     /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
     ScalingFactors(ScalingFactors),
+    /// Compute the function s(p) that friction-analytic interpolates; takes about an hour.
+    ScalingTable(ScalingTable),
     /// Run everything that CI checks.
     Ci,
 }
@@ -64,6 +66,13 @@ struct ScalingFactors {
     format: Format,
 }
 
+#[derive(Debug, Args)]
+struct ScalingTable {
+    /// Where the source file is written; what is there already is not computed again.
+    #[arg(long, default_value = "target/scaling-table")]
+    out: PathBuf,
+}
+
 fn main() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures(options) if options.check => figures::check(),
@@ -71,6 +80,7 @@ fn main() -> ExitCode {
         Command::ScalingFactors(options) => {
             scaling::print(&options.exponents, options.relative_error, options.format)
         }
+        Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::Ci => ci::run(),
     };
     match outcome {

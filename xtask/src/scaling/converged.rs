@@ -6,6 +6,9 @@ use bem_halfspace::steady::{FrictionOptions, steady_friction};
 
 use crate::scene::Scene;
 
+/// From this exponent on the elements are squares.
+const STEEP: f64 = 4.0;
+
 /// s_p with its absolute error.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ScalingFactor {
@@ -21,7 +24,9 @@ pub(crate) fn scaling_factor(exponent: f64, relative_error: f64) -> Result<Scali
     let line = scene.theory()?.friction_coefficient;
     let options = FrictionOptions {
         relative_error,
-        ..FrictionOptions::default()
+        // The contact of a steep profile is a thin crescent, as long across the sliding direction as along it.
+        aspect: if exponent < STEEP { 0.5 } else { 1.0 },
+        max_unknowns: 100_000,
     };
     let half_space = match steady_friction(&scene.body, &scene.material, &scene.load, &options) {
         Ok(half_space) => half_space,

@@ -1,6 +1,7 @@
 //! `scaling-factors`: the ratio s_p of the friction of the half space to that of the one-dimensional model.
 
 mod converged;
+mod table;
 
 use anyhow::Result;
 use clap::ValueEnum;
@@ -10,6 +11,7 @@ use serde::Serialize;
 use crate::output::{WrongInput, to_csv};
 use crate::progress;
 pub(crate) use converged::{ScalingFactor, scaling_factor};
+pub(crate) use table::generate as generate_table;
 
 /// How the factors are printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]

@@ -15,4 +15,5 @@ mod steady_bad_input;
 mod steady_estimate;
 mod steady_invariance;
 mod support;
+mod transient_and_stationary_agree;
 mod wake_kernel;
