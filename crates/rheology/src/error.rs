@@ -15,7 +15,34 @@ pub enum RheologyError {
         /// The values it may take.
         allowed: &'static str,
     },
+    /// A parameter of one member of a list is not a number, or outside the range it may take.
+    #[error("{parameter} of {list}[{index}] must be {allowed}, but is {value}")]
+    InvalidElement {
+        /// Name of the list.
+        list: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// Nothing resists a deformation.
+    #[error(
+        "a material needs an equilibrium modulus, a viscosity or a branch with a modulus greater than 0"
+    )]
+    NoStiffness,
+    /// Nothing yields to a stress.
+    #[error(
+        "a material needs an instantaneous compliance, a fluidity or an element with a compliance greater than 0"
+    )]
+    NoCompliance,
 }
+
+const POSITIVE: &str = "finite and greater than 0";
+const NOT_NEGATIVE: &str = "finite and at least 0";
 
 /// Checks that `value` is finite and greater than zero.
 ///
@@ -28,7 +55,7 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Rheol
     Err(RheologyError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and greater than 0",
+        allowed: POSITIVE,
     })
 }
 
@@ -43,6 +70,24 @@ pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, R
     Err(RheologyError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and at least 0",
+        allowed: NOT_NEGATIVE,
     })
+}
+
+/// Puts the place in a list into the error about one of its members.
+pub(crate) fn in_list(list: &'static str, index: usize) -> impl Fn(RheologyError) -> RheologyError {
+    move |error| match error {
+        RheologyError::InvalidParameter {
+            parameter,
+            value,
+            allowed,
+        } => RheologyError::InvalidElement {
+            list,
+            index,
+            parameter,
+            value,
+            allowed,
+        },
+        other => other,
+    }
 }

@@ -1,8 +1,11 @@
 //! What the materials promise, against exact numbers.
 
 mod bad_input_is_refused;
+mod conversion_is_exact;
 mod creep_survives_a_vanishing_spring;
 mod limits_are_the_simpler_materials;
+mod materials_match_the_textbook;
 mod moduli_match_equation_2;
+mod steps_are_exact;
 mod support;
 mod viscous_window_closes;
