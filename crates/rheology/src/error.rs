@@ -39,6 +39,16 @@ pub enum RheologyError {
         "a material needs an instantaneous compliance, a fluidity or an element with a compliance greater than 0"
     )]
     NoCompliance,
+    /// No Prony series comes as close to a continuous spectrum as was asked.
+    #[error(
+        "a Prony series with a relative error of {asked:e} was asked for, {reached:e} was reached"
+    )]
+    ExpansionNotReached {
+        /// The relative error asked for.
+        asked: f64,
+        /// The smallest relative error reached.
+        reached: f64,
+    },
 }
 
 const POSITIVE: &str = "finite and greater than 0";

@@ -4,6 +4,7 @@ mod bad_input_is_refused;
 mod conversion_is_exact;
 mod conversion_round_trip;
 mod creep_survives_a_vanishing_spring;
+mod fractional_elements_expand;
 mod limits_are_the_simpler_materials;
 mod materials_match_the_textbook;
 mod moduli_match_equation_2;
