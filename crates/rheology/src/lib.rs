@@ -27,11 +27,14 @@
 
 mod complex;
 mod error;
+#[cfg(feature = "fit")]
+pub mod fit;
 mod fractional;
 mod material;
 mod materials;
 mod spectrum;
 mod step;
+mod time_temperature;
 
 pub use complex::{ComplexCompliance, ComplexModulus};
 pub use error::RheologyError;
@@ -50,3 +53,4 @@ pub use materials::viscous::Viscous;
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;
+pub use time_temperature::{ArrheniusShift, WlfShift};
