@@ -1,7 +1,7 @@
+use rheology::RelaxationSpectrum;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
-use rheology::RelaxationSpectrum;
 
 use crate::support::{assert_close, named_spectrum, spectrum};
 
