@@ -43,10 +43,20 @@ pub(crate) struct FitMaterial {
     #[arg(long, value_name = "N")]
     branches: Option<usize>,
     /// Excess error allowed for having few branches, without --branches [default: 0.02].
-    #[arg(long, value_name = "FRACTION", conflicts_with = "branches")]
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        conflicts_with = "branches",
+        allow_negative_numbers = true
+    )]
     parsimony: Option<f64>,
     /// Keep --branches times equally spaced and smooth their moduli with this weight (Tikhonov); 1 is moderate.
-    #[arg(long, value_name = "WEIGHT", requires = "branches")]
+    #[arg(
+        long,
+        value_name = "WEIGHT",
+        requires = "branches",
+        allow_negative_numbers = true
+    )]
     smoothing: Option<f64>,
     /// Temperature of the master curve, in the unit of the table [default: that of the isotherm in the middle].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]

@@ -123,7 +123,7 @@ fn material(fitted: &Fitted<'_>) -> Result<String> {
         writeln!(
             text,
             "# at the temperature {}",
-            shifted.reference_temperature
+            shifted.master.reference_temperature
         )?;
         if let Some([c1, c2]) = shifted.law.map(|law| law.constants()) {
             writeln!(

@@ -13,7 +13,6 @@ use crate::output::WrongInput;
 /// Isotherms on one curve.
 pub(super) struct Shifted {
     pub(super) master: MasterCurve,
-    pub(super) reference_temperature: f64,
     /// The WLF law closest to the shifts, when there is one.
     pub(super) law: Option<WlfShift>,
 }
@@ -34,13 +33,12 @@ pub(super) fn shifted(table: &Table, options: &FitMaterial) -> Result<Option<Shi
     if isotherms.len() < 2 {
         return Ok(None);
     }
-    let reference_temperature = reference(&isotherms, options);
-    let master = master_curve(&isotherms, reference_temperature, (table, options))
+    let reference = reference(&isotherms, options);
+    let master = master_curve(&isotherms, reference, (table, options))
         .map_err(|error| wrong(options, &error.to_string()))?;
     Ok(Some(Shifted {
-        law: WlfShift::through(&master.log10_factors, reference_temperature).ok(),
+        law: WlfShift::through(&master.log10_factors, master.reference_temperature).ok(),
         master,
-        reference_temperature,
     }))
 }
 
@@ -80,7 +78,9 @@ fn master_curve(
 ) -> Result<MasterCurve, RheologyError> {
     if let Some([c1, c2]) = options.wlf.as_deref() {
         let law = WlfShift::new([*c1, *c2], reference)?;
-        return shifted_master_curve(isotherms, |temperature| law.log10_factor(temperature));
+        return shifted_master_curve(isotherms, reference, |temperature| {
+            law.log10_factor(temperature)
+        });
     }
     if let Some(energy) = options.arrhenius {
         let zero = if table.celsius {
@@ -89,7 +89,7 @@ fn master_curve(
             0.0
         };
         let law = ArrheniusShift::new(energy, reference + zero)?;
-        return shifted_master_curve(isotherms, |temperature| {
+        return shifted_master_curve(isotherms, reference, |temperature| {
             law.log10_factor(temperature + zero)
         });
     }

@@ -19,36 +19,43 @@ pub struct MasterCurve {
     pub curve: MeasuredCurve,
     /// The same points, \[rad/s] and \[Pa].
     pub points: Vec<ModulusPoint>,
+    /// Temperature that the curve belongs to.
+    pub reference_temperature: f64,
     /// Pairs of temperature and log₁₀ a_T, in the order of the isotherms.
     pub log10_factors: Vec<[f64; 2]>,
 }
 
-/// The master curve with log₁₀ a_T given as a function of temperature.
+/// The master curve at a reference temperature with log₁₀ a_T given as a function of temperature.
 ///
 /// # Errors
 /// Those of `log10_factor`, and of [`MeasuredCurve::oscillation`].
 pub fn shifted_master_curve(
     isotherms: &[Isotherm],
+    reference_temperature: f64,
     log10_factor: impl Fn(f64) -> Result<f64, RheologyError>,
 ) -> Result<MasterCurve, RheologyError> {
     let factors = isotherms.iter().map(|isotherm| {
         let log = log10_factor(isotherm.temperature)?;
         Ok([isotherm.temperature, log])
     });
-    joined(isotherms, factors.collect::<Result<_, RheologyError>>()?)
+    let factors = factors.collect::<Result<_, RheologyError>>()?;
+    joined(isotherms, reference_temperature, factors)
 }
 
-/// The master curve with every isotherm shifted horizontally onto its neighbour, so that storage and loss moduli of
-/// both lie on one line where they overlap.
+/// The master curve with every isotherm shifted horizontally onto its neighbour, so that the storage moduli of both lie
+/// on one line where they overlap.
 ///
-/// The isotherm nearest to the reference temperature stays where it is.
+/// The storage modulus decides alone: it is the one that is measured well, and on a material that is not quite
+/// thermorheologically simple the loss moduli would pull the curves apart.
+///
+/// The isotherm nearest to the temperature asked for stays where it is; the curve belongs to its temperature.
 ///
 /// # Errors
-/// [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli; [`RheologyError::TooFewPoints`]
-/// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
+/// [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli;
+/// [`RheologyError::TooFewPoints`] /// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
 pub fn automatic_master_curve(
     isotherms: &[Isotherm],
-    reference_temperature: f64,
+    temperature: f64,
 ) -> Result<MasterCurve, RheologyError> {
     let mut order: Vec<usize> = (0..isotherms.len()).collect();
     order.sort_by(|&a, &b| {
@@ -56,7 +63,7 @@ pub fn automatic_master_curve(
             .temperature
             .total_cmp(&isotherms[b].temperature)
     });
-    let distance = |&index: &usize| (isotherms[index].temperature - reference_temperature).abs();
+    let distance = |&index: &usize| (isotherms[index].temperature - temperature).abs();
     let nearest =
         (0..order.len()).min_by(|&a, &b| distance(&order[a]).total_cmp(&distance(&order[b])));
     let Some(nearest) = nearest else {
@@ -78,16 +85,14 @@ pub fn automatic_master_curve(
         logs[new] = logs[known] + shift_onto(&isotherms[known], &isotherms[new])?;
     }
     let factors = isotherms.iter().zip(logs);
-    joined(
-        isotherms,
-        factors
-            .map(|(isotherm, log)| [isotherm.temperature, log])
-            .collect(),
-    )
+    let factors = factors.map(|(isotherm, log)| [isotherm.temperature, log]);
+    let reference_temperature = isotherms[order[nearest]].temperature;
+    joined(isotherms, reference_temperature, factors.collect())
 }
 
 fn joined(
     isotherms: &[Isotherm],
+    reference_temperature: f64,
     log10_factors: Vec<[f64; 2]>,
 ) -> Result<MasterCurve, RheologyError> {
     let shifted = isotherms
@@ -114,6 +119,7 @@ fn joined(
     Ok(MasterCurve {
         curve: MeasuredCurve::oscillation(points.clone())?,
         points,
+        reference_temperature,
         log10_factors,
     })
 }
@@ -124,33 +130,31 @@ fn shift_onto(fixed: &Isotherm, moving: &Isotherm) -> Result<f64, RheologyError>
     // From just touching at one end to just touching at the other.
     let lowest = fixed_line.ends()[0] - moving_line.ends()[1];
     let highest = fixed_line.ends()[1] - moving_line.ends()[0];
-    let mismatch = |shift: f64| Mismatch::between(&fixed_line, &moving_line, shift);
+    let mismatch = |shift: f64| mean_square(&fixed_line, &moving_line, shift);
     let step = (highest - lowest) / f64::from(N_TRIALS);
     let trials = (1..N_TRIALS).map(|k| lowest + step * f64::from(k));
     let best = trials
         .filter_map(|shift| Some((shift, mismatch(shift)?)))
-        .min_by(|a, b| a.1.doubt().total_cmp(&b.1.doubt()));
-    let Some((coarse, _)) = best.filter(|(_, best)| best.mean_square <= FAR * FAR) else {
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((coarse, _)) = best.filter(|(_, best)| *best <= FAR * FAR) else {
         return Err(RheologyError::NoOverlap {
             first: fixed.temperature,
             second: moving.temperature,
         });
     };
-    let cost = |shift: f64| mismatch(shift).map_or(f64::INFINITY, |m| m.mean_square);
+    let cost = |shift: f64| mismatch(shift).unwrap_or(f64::INFINITY);
     Ok(golden_section(cost, [coarse - step, coarse + step]))
 }
 
 const N_TRIALS: u32 = 400;
 
-/// log₁₀ of frequency, storage and loss modulus, straight in between.
-struct Line(Vec<[f64; 3]>);
+/// log₁₀ of frequency and storage modulus, straight in between.
+struct Line(Vec<[f64; 2]>);
 
 impl Line {
     fn new(isotherm: &Isotherm) -> Self {
-        let logs = isotherm
-            .points
-            .iter()
-            .map(|point| [point.angular_frequency, point.storage, point.loss].map(f64::log10));
+        let points = isotherm.points.iter();
+        let logs = points.map(|point| [point.angular_frequency, point.storage].map(f64::log10));
         // A modulus of zero has no logarithm.
         Self(
             logs.filter(|point| point.iter().all(|x| x.is_finite()))
@@ -162,48 +166,32 @@ impl Line {
         [self.0.first(), self.0.last()].map(|point| point.map_or(f64::NAN, |p| p[0]))
     }
 
-    fn at(&self, log_frequency: f64) -> Option<[f64; 2]> {
+    fn at(&self, log_frequency: f64) -> Option<f64> {
         let above = self.0.partition_point(|point| point[0] < log_frequency);
         let [below, above] = [self.0.get(above.checked_sub(1)?)?, self.0.get(above)?];
         let part = (log_frequency - below[0]) / (above[0] - below[0]);
-        Some([1, 2].map(|k| below[k] + part * (above[k] - below[k])))
+        Some(below[1] + part * (above[1] - below[1]))
     }
 }
 
-/// How far two lines are apart where they overlap, in decades of modulus.
-struct Mismatch {
-    mean_square: f64,
-    count: f64,
-}
-
-impl Mismatch {
-    /// Over the points of both lines that lie within the other; `None` with less than two.
-    fn between(fixed: &Line, moving: &Line, shift: f64) -> Option<Self> {
-        let mut sum = 0.0;
-        let mut count = 0_u32;
-        for (points, line, offset) in [(moving, fixed, shift), (fixed, moving, -shift)] {
-            for &[log_frequency, storage, loss] in &points.0 {
-                if let Some([other_storage, other_loss]) = line.at(log_frequency + offset) {
-                    sum += (storage - other_storage).powi(2) + (loss - other_loss).powi(2);
-                    count += 1;
-                }
+/// Mean squared distance of the points of each line from the other where they overlap, in decades of modulus; `None`
+/// with fewer points than [`LEAST_OVERLAP`].
+fn mean_square(fixed: &Line, moving: &Line, shift: f64) -> Option<f64> {
+    let mut sum = 0.0;
+    let mut count = 0_u32;
+    for (points, line, offset) in [(moving, fixed, shift), (fixed, moving, -shift)] {
+        for &[log_frequency, log_modulus] in &points.0 {
+            if let Some(other) = line.at(log_frequency + offset) {
+                sum += (log_modulus - other).powi(2);
+                count += 1;
             }
         }
-        let count = (count >= 2).then(|| f64::from(count))?;
-        Some(Self {
-            mean_square: sum / count,
-            count,
-        })
     }
-
-    /// Of two equally close shifts the one with more overlap is right.
-    fn doubt(&self) -> f64 {
-        (self.mean_square + NOISE * NOISE) / self.count
-    }
+    (count >= LEAST_OVERLAP).then(|| sum / f64::from(count))
 }
 
-/// Scatter of a good measurement: below it a longer overlap counts more than a closer one.
-const NOISE: f64 = 0.01;
+/// Two points of each line.
+const LEAST_OVERLAP: u32 = 4;
 /// Lines that are farther apart do not overlap.
 const FAR: f64 = 0.1;
 

@@ -126,7 +126,8 @@ mod isotherms {
     #[test]
     fn a_given_law_puts_the_points_onto_the_curve() {
         let law = WlfShift::new([8.86, 101.6], 42.0).unwrap();
-        let master = shifted_master_curve(&isotherms(&law, 0.0), |t| law.log10_factor(t)).unwrap();
+        let master =
+            shifted_master_curve(&isotherms(&law, 0.0), 42.0, |t| law.log10_factor(t)).unwrap();
         let material = named_spectrum("P10");
         assert_eq!(
             master.points.len(),
