@@ -149,72 +149,79 @@ fn a_liquid_and_a_relaxation_are_fitted_too() {
 
 const GOOD: &str = "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11,1\n";
 
+/// Tables with one wrong cell, and what is said about it.
+const WRONG_CELLS: &[(&str, &str)] = &[
+    (
+        "f,E',E''\nHz,MPa,MPa\n2,10,1\n1,11,1\n",
+        "line 4, column 1 (f): expected more than in the line before, 2, but found '1'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,10,1\n1,11,1\n",
+        "line 4, column 1 (f): expected more than in the line before, 1, but found '1'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,-11,1\n",
+        "line 4, column 2 (E'): expected a number greater than 0, but found '-11'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n0,10,1\n2,11,1\n",
+        "line 3, column 1 (f): expected a number greater than 0, but found '0'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,10,nan\n2,11,1\n",
+        "line 3, column 3 (E''): expected a finite number, but found 'nan'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11\n",
+        "line 4, column 3 (E''): expected a finite number, but found ''",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,ten,1\n2,11,1\n",
+        "line 3, column 2 (E'): expected a finite number, but found 'ten'",
+    ),
+];
+
+/// Tables with a wrong head or too few lines.
+const WRONG_HEADS: &[(&str, &str)] = &[
+    (
+        "f,E',E''\n1,10,1\n2,11,1\n",
+        "line 2, column 1 (f): expected the unit of f: Hz, mHz, kHz or rad/s, but found '1'",
+    ),
+    (
+        "f,E',E''\nHz,MPa,psi\n1,10,1\n2,11,1\n",
+        "line 2, column 3 (E''): expected the unit of E'': Pa, kPa, MPa or GPa, but found 'psi'",
+    ),
+    (
+        "f,E''\nHz,MPa\n1,1\n2,1\n",
+        "line 1: there must be a column E' or G'",
+    ),
+    (
+        "f,E'\nHz,MPa\n1,1\n2,1\n",
+        "line 1: there must be a column E'' or G''",
+    ),
+    (
+        "E',E''\nMPa,MPa\n1,1\n2,1\n",
+        "line 1: there must be a column f or ω",
+    ),
+    (
+        "f,E',G''\nHz,MPa,MPa\n1,1,1\n2,1,1\n",
+        "line 1, column 3 (G''): expected a loss modulus to go with E', but found 'G'''",
+    ),
+    (
+        "f,E',E'',E'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n",
+        "line 1, column 4 (E'): expected a quantity once",
+    ),
+    (
+        "f,E',E''\nHz,MPa,MPa\n1,10,1\n",
+        "at least 2 measurements are needed after the lines of names and units, but there are 1",
+    ),
+    ("", "a line of names and a line of units are needed"),
+];
+
 #[test]
 fn wrong_tables_name_line_column_and_what_is_expected() {
     let out = folder("wrong");
-    for (text, needed) in [
-        (
-            "f,E',E''\nHz,MPa,MPa\n2,10,1\n1,11,1\n",
-            "line 4, column 1 (f): expected more than in the line before, 2, but found '1'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,10,1\n1,11,1\n",
-            "line 4, column 1 (f): expected more than in the line before, 1, but found '1'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,-11,1\n",
-            "line 4, column 2 (E'): expected a number greater than 0, but found '-11'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n0,10,1\n2,11,1\n",
-            "line 3, column 1 (f): expected a number greater than 0, but found '0'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,10,nan\n2,11,1\n",
-            "line 3, column 3 (E''): expected a finite number, but found 'nan'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11\n",
-            "line 4, column 3 (E''): expected a finite number, but found ''",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,ten,1\n2,11,1\n",
-            "line 3, column 2 (E'): expected a finite number, but found 'ten'",
-        ),
-        (
-            "f,E',E''\n1,10,1\n2,11,1\n",
-            "line 2, column 1 (f): expected the unit of f: Hz, mHz, kHz or rad/s, but found '1'",
-        ),
-        (
-            "f,E',E''\nHz,MPa,psi\n1,10,1\n2,11,1\n",
-            "line 2, column 3 (E''): expected the unit of E'': Pa, kPa, MPa or GPa, but found 'psi'",
-        ),
-        (
-            "f,E''\nHz,MPa\n1,1\n2,1\n",
-            "line 1: there must be a column E' or G'",
-        ),
-        (
-            "f,E'\nHz,MPa\n1,1\n2,1\n",
-            "line 1: there must be a column E'' or G''",
-        ),
-        (
-            "E',E''\nMPa,MPa\n1,1\n2,1\n",
-            "line 1: there must be a column f or ω",
-        ),
-        (
-            "f,E',G''\nHz,MPa,MPa\n1,1,1\n2,1,1\n",
-            "line 1, column 3 (G''): expected a loss modulus to go with E', but found 'G'''",
-        ),
-        (
-            "f,E',E'',E'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n",
-            "line 1, column 4 (E'): expected a quantity once",
-        ),
-        (
-            "f,E',E''\nHz,MPa,MPa\n1,10,1\n",
-            "at least 2 measurements are needed after the lines of names and units, but there are 1",
-        ),
-        ("", "a line of names and a line of units are needed"),
-    ] {
+    for (text, needed) in [WRONG_CELLS, WRONG_HEADS].concat() {
         let table = out.join("wrong.csv");
         fs::write(&table, text).expect("a file");
         let output = fit_material(&table, &out, &[]);
