@@ -1,4 +1,4 @@
-//! Commands of the workspace: figures, scaling factors, checks.
+//! Commands of the workspace: figures, scaling factors, materials, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![allow(
@@ -9,6 +9,7 @@
 
 mod ci;
 mod figures;
+mod material;
 mod output;
 mod plot;
 mod progress;
@@ -38,6 +39,8 @@ enum Command {
     ScalingFactors(ScalingFactors),
     /// Compute the function s(p) that friction-analytic interpolates; takes about an hour.
     ScalingTable(ScalingTable),
+    /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
+    FitMaterial(material::FitMaterial),
     /// Run everything that CI checks.
     Ci,
 }
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
             scaling::print(&options.exponents, options.relative_error, options.format)
         }
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
+        Command::FitMaterial(options) => material::fit(&options),
         Command::Ci => ci::run(),
     };
     match outcome {

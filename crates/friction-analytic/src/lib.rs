@@ -7,6 +7,8 @@
 //!   paraboloid from first touch.
 //! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too.
 //! - A solid instead of a fluid: friction at [low](low_speed_friction) and [high](high_speed_friction) speed.
+//! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
+//!   the [friction](half_space_power_friction) that follows from it.
 //!
 //! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the answer is
 //! [`FrictionError::FrictionDiverges`] with its cause.
@@ -37,6 +39,7 @@ mod indentation;
 mod line;
 mod pieces;
 mod power;
+mod scaling;
 mod sinking;
 mod slope_energy;
 mod stationary;
@@ -54,6 +57,7 @@ pub use indentation::{
 };
 pub use line::line_sliding;
 pub use power::power_sliding;
+pub use scaling::{ScalingFactor, half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
 pub use stationary::{StationarySliding, stationary_depth};
 pub use superposition::superposition_sliding;

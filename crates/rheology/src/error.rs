@@ -15,7 +15,78 @@ pub enum RheologyError {
         /// The values it may take.
         allowed: &'static str,
     },
+    /// A parameter of one member of a list is not a number, or outside the range it may take.
+    #[error("{parameter} of {list}[{index}] must be {allowed}, but is {value}")]
+    InvalidElement {
+        /// Name of the list.
+        list: &'static str,
+        /// Position in the list, from 0.
+        index: usize,
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// Nothing resists a deformation.
+    #[error(
+        "a material needs an equilibrium modulus, a viscosity or a branch with a modulus greater than 0"
+    )]
+    NoStiffness,
+    /// Nothing yields to a stress.
+    #[error(
+        "a material needs an instantaneous compliance, a fluidity or an element with a compliance greater than 0"
+    )]
+    NoCompliance,
+    /// A temperature at which the WLF law has no meaning.
+    #[error("the temperature must be above {pole}, the pole of the WLF law, but is {temperature}")]
+    BelowWlfPole {
+        /// The temperature.
+        temperature: f64,
+        /// The temperature at which the shift factor becomes infinite.
+        pole: f64,
+    },
+    /// Too few measurements.
+    #[error("at least {needed} points are needed, but there are {given}")]
+    TooFewPoints {
+        /// How many are needed.
+        needed: usize,
+        /// How many there are.
+        given: usize,
+    },
+    /// Two isotherms that cannot be shifted onto each other.
+    #[cfg(feature = "fit")]
+    #[error(
+        "the isotherms at {first} and {second} have no moduli in common: no shift brings them together"
+    )]
+    NoOverlap {
+        /// Temperature of one.
+        first: f64,
+        /// Temperature of the other.
+        second: f64,
+    },
+    /// The moduli of a Prony series did not settle.
+    #[cfg(feature = "fit")]
+    #[error("the moduli did not settle in {changes} changes of their signs")]
+    FitNotConverged {
+        /// Number of changes tried.
+        changes: usize,
+    },
+    /// No Prony series comes as close to a continuous spectrum as was asked.
+    #[error(
+        "a Prony series with a relative error of {asked:e} was asked for, {reached:e} was reached"
+    )]
+    ExpansionNotReached {
+        /// The relative error asked for.
+        asked: f64,
+        /// The smallest relative error reached.
+        reached: f64,
+    },
 }
+
+const POSITIVE: &str = "finite and greater than 0";
+const NOT_NEGATIVE: &str = "finite and at least 0";
 
 /// Checks that `value` is finite and greater than zero.
 ///
@@ -28,7 +99,7 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Rheol
     Err(RheologyError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and greater than 0",
+        allowed: POSITIVE,
     })
 }
 
@@ -43,6 +114,24 @@ pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, R
     Err(RheologyError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and at least 0",
+        allowed: NOT_NEGATIVE,
     })
+}
+
+/// Puts the place in a list into the error about one of its members.
+pub(crate) fn in_list(list: &'static str, index: usize) -> impl Fn(RheologyError) -> RheologyError {
+    move |error| match error {
+        RheologyError::InvalidParameter {
+            parameter,
+            value,
+            allowed,
+        } => RheologyError::InvalidElement {
+            list,
+            index,
+            parameter,
+            value,
+            allowed,
+        },
+        other => other,
+    }
 }

@@ -1,11 +1,14 @@
 //! Linear viscoelastic materials as friction of rubber needs them.
 //!
 //! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3); [`StandardSolid`] is the elastomer whose
-//! middle frequency range it stands for (Eq. 2, Fig. 1). Each gives its moduli over the frequency, its creep
-//! compliance, and the compliance of one time step, which is all that a contact solver asks of a material.
+//! middle frequency range it stands for (Eq. 2, Fig. 1). [`Elastic`], [`KelvinVoigt`], [`Maxwell`], [`Prony`] and
+//! [`KelvinChain`] are the others, [`Compressible`] gives any of them a Poisson ratio. [`Springpot`] and
+//! [`FractionalMaxwell`] become one of them by a Prony series with a stated error. Every [`Material`] is described
+//! twice and exactly, by its [`RelaxationSpectrum`] and by its [`CreepSpectrum`]; both give moduli and compliances over
+//! time and frequency, and [`ExponentialStep`] is all that a contact solver asks of them.
 //!
 //! ```
-//! use rheology::{RheologyError, StandardSolid, StandardSolidParameters, Viscous};
+//! use rheology::{Material, RheologyError, StandardSolid, StandardSolidParameters, Viscous};
 //!
 //! let rubber = StandardSolid::new(StandardSolidParameters {
 //!     equilibrium_modulus: 1e4,
@@ -22,10 +25,32 @@
 //! # Ok::<(), RheologyError>(())
 //! ```
 
+mod complex;
 mod error;
-mod standard_solid;
-mod viscous;
+#[cfg(feature = "fit")]
+pub mod fit;
+mod fractional;
+mod material;
+mod materials;
+mod spectrum;
+mod step;
+mod time_temperature;
 
+pub use complex::{ComplexCompliance, ComplexModulus};
 pub use error::RheologyError;
-pub use standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
-pub use viscous::Viscous;
+pub use fractional::PronyExpansion;
+pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellParameters};
+pub use fractional::springpot::Springpot;
+pub use material::Material;
+pub use materials::compressible::Compressible;
+pub use materials::elastic::Elastic;
+pub use materials::kelvin_chain::KelvinChain;
+pub use materials::kelvin_voigt::KelvinVoigt;
+pub use materials::maxwell::Maxwell;
+pub use materials::prony::Prony;
+pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
+pub use materials::viscous::Viscous;
+pub use spectrum::creep::{CreepSpectrum, RetardationElement};
+pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
+pub use step::ExponentialStep;
+pub use time_temperature::{ArrheniusShift, WlfShift};

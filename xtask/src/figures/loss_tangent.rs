@@ -1,7 +1,7 @@
 //! Fig. 1: loss tangent of the three-element solid, and its moduli for γ = 1/100.
 
 use anyhow::Result;
-use rheology::{StandardSolid, StandardSolidParameters};
+use rheology::{Material, StandardSolid, StandardSolidParameters};
 use serde::{Deserialize, Serialize};
 
 pub(super) const FILE: &str = "fig1_loss_tangent.csv";

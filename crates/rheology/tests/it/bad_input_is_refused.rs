@@ -1,11 +1,19 @@
 use proptest::prelude::*;
-use rheology::{RheologyError, StandardSolid, Viscous};
+use rheology::{
+    Compressible, CreepSpectrum, Elastic, ExponentialStep, KelvinVoigt, Material, Maxwell,
+    RelaxationBranch, RelaxationSpectrum, RetardationElement, RheologyError, StandardSolid,
+    Viscous,
+};
 
-use crate::support::{fixed_cases, parameters, solid};
+use crate::support::{assert_same, fixed_cases, parameters, solid};
 
 fn refused_parameter<T: std::fmt::Debug>(result: Result<T, RheologyError>) -> &'static str {
     match result {
-        Err(RheologyError::InvalidParameter { parameter, .. }) => parameter,
+        Err(
+            RheologyError::InvalidParameter { parameter, .. }
+            | RheologyError::InvalidElement { parameter, .. },
+        ) => parameter,
+        Err(other) => panic!("{other} instead of a bad parameter"),
         Ok(value) => panic!("{value:?} instead of an error"),
     }
 }
@@ -47,6 +55,125 @@ fn moduli_and_viscosities_outside_their_range_are_named() {
                 }
             }
             _ => {}
+        }
+    }
+}
+
+#[test]
+fn elementary_materials_refuse_what_is_not_positive() {
+    for bad in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, 1e-320] {
+        assert_ne!(refused_parameter(Elastic::new(bad)), "", "G = {bad}");
+        assert_ne!(refused_parameter(Maxwell::new(bad, 1.0)), "", "G = {bad}");
+        assert_ne!(refused_parameter(Maxwell::new(1.0, bad)), "", "η = {bad}");
+        assert_ne!(
+            refused_parameter(KelvinVoigt::new(bad, 1.0)),
+            "",
+            "G = {bad}"
+        );
+        assert_ne!(
+            refused_parameter(KelvinVoigt::new(1.0, bad)),
+            "",
+            "η = {bad}"
+        );
+    }
+    let too_far = Maxwell::new(1e-300, 1e300);
+    assert_eq!(refused_parameter(too_far), "relaxation_time", "1e600 s");
+}
+
+#[test]
+fn poisson_ratios_outside_the_stable_range_are_refused() {
+    let elastic = Elastic::new(1.0).unwrap();
+    for bad in [-1.0, -2.0, 0.500_001, f64::NAN, f64::INFINITY] {
+        let result = Compressible::new(&elastic, bad);
+        assert_eq!(refused_parameter(result), "poisson_ratio", "ν = {bad}");
+    }
+    for (ratio, factor) in [(0.5, 1.0), (0.25, 1.5), (0.0, 2.0), (-0.5, 3.0)] {
+        let material = Compressible::new(&elastic, ratio).unwrap();
+        assert_same(
+            &format!("ν = {ratio}"),
+            material.half_space_factor(),
+            factor,
+        );
+    }
+}
+
+fn branch(modulus: f64, relaxation_time: f64) -> RelaxationBranch {
+    RelaxationBranch {
+        modulus,
+        relaxation_time,
+    }
+}
+
+#[test]
+fn spectra_name_the_list_and_the_place_of_a_bad_number() {
+    let good = branch(1.0, 1.0);
+    for (bad, expected) in [
+        (branch(-1.0, 1.0), "modulus"),
+        (branch(f64::NAN, 1.0), "modulus"),
+        (branch(1.0, 0.0), "relaxation_time"),
+        (branch(1.0, -1.0), "relaxation_time"),
+        (branch(1.0, f64::INFINITY), "relaxation_time"),
+    ] {
+        let error = RelaxationSpectrum::new(0.0, 0.0, vec![good, bad]).unwrap_err();
+        let message = error.to_string();
+        let start = format!("{expected} of branches[1] must be finite");
+        assert!(message.starts_with(&start), "{message}, for {bad:?}");
+        let element = RetardationElement {
+            compliance: bad.modulus,
+            retardation_time: bad.relaxation_time,
+        };
+        let error = CreepSpectrum::new(0.0, 0.0, vec![element]).unwrap_err();
+        let message = error.to_string();
+        assert!(message.contains("of elements[0]"), "{message}, for {bad:?}");
+    }
+}
+
+#[test]
+fn spectra_name_a_bad_spring_or_dashpot() {
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let error = RelaxationSpectrum::new(bad, 0.0, vec![branch(1.0, 1.0)]);
+        assert_eq!(refused_parameter(error), "equilibrium_modulus", "{bad}");
+        let error = RelaxationSpectrum::new(0.0, bad, vec![branch(1.0, 1.0)]);
+        assert_eq!(refused_parameter(error), "viscosity", "{bad}");
+        let error = CreepSpectrum::new(bad, 0.0, Vec::new());
+        assert_eq!(
+            refused_parameter(error),
+            "instantaneous_compliance",
+            "{bad}"
+        );
+        let error = CreepSpectrum::new(0.0, bad, Vec::new());
+        assert_eq!(refused_parameter(error), "fluidity", "{bad}");
+    }
+}
+
+#[test]
+fn a_material_of_nothing_is_refused() {
+    let empty = RelaxationSpectrum::new(0.0, 0.0, vec![branch(0.0, 1.0)]);
+    assert_eq!(empty, Err(RheologyError::NoStiffness), "no stiffness");
+    let rigid = CreepSpectrum::new(0.0, 0.0, Vec::new());
+    assert_eq!(rigid, Err(RheologyError::NoCompliance), "no compliance");
+}
+
+#[test]
+fn time_steps_that_do_not_advance_are_refused() {
+    let material = Maxwell::new(1.0, 1.0).unwrap();
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let creep = ExponentialStep::creep(&material.creep(), bad);
+        assert_eq!(refused_parameter(creep), "time_step", "Δt = {bad}");
+        let relaxation = ExponentialStep::relaxation(&material.relaxation(), bad);
+        assert_eq!(refused_parameter(relaxation), "time_step", "Δt = {bad}");
+    }
+}
+
+#[test]
+fn negative_and_undefined_times_are_refused() {
+    let material = Maxwell::new(1.0, 1.0).unwrap();
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        for result in [
+            material.creep_compliance(bad),
+            material.relaxation_modulus(bad),
+        ] {
+            assert_eq!(refused_parameter(result), "time", "t = {bad}");
         }
     }
 }
@@ -114,12 +241,12 @@ proptest! {
                 solid.storage_modulus(0.0).unwrap(),
                 solid.loss_modulus(0.0).unwrap(),
                 solid.loss_tangent(0.0).unwrap(),
-                solid.relaxation_modulus(omega),
+                solid.relaxation_modulus(omega).unwrap(),
                 peak.angular_frequency,
                 peak.loss_tangent,
             ];
             prop_assert!(answers.iter().all(|x| !x.is_nan()), "{:?}: {:?}", solid, answers);
-            prop_assert!(!solid.creep_compliance(omega).is_nan(), "J of {:?} at {}", solid, omega);
+            prop_assert!(!solid.creep_compliance(omega).unwrap().is_nan(), "J of {:?} at {}", solid, omega);
         }
     }
 }

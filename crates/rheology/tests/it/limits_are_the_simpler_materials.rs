@@ -1,4 +1,4 @@
-use rheology::Viscous;
+use rheology::{Material, Viscous};
 
 use crate::support::{assert_close, solid};
 
@@ -11,7 +11,7 @@ fn without_the_lone_spring_it_is_a_maxwell_fluid() {
         let time = 10_f64.powi(exponent);
         assert_close(
             "J",
-            solid.creep_compliance(time),
+            solid.creep_compliance(time).unwrap(),
             1.0 / modulus + time / eta,
             1e-15,
         );

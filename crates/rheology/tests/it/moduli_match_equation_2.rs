@@ -1,4 +1,4 @@
-use rheology::Viscous;
+use rheology::Material;
 
 use crate::support::{assert_close, solid};
 
@@ -10,31 +10,6 @@ fn moduli_match_equation_2() {
         case.check("G_storage", solid.storage_modulus(omega).unwrap());
         case.check("G_loss", solid.loss_modulus(omega).unwrap());
         case.check("tan_delta", solid.loss_tangent(omega).unwrap());
-    }
-}
-
-#[test]
-fn elementary_models_match_the_textbook() {
-    for case in casebook::group("RHE-03") {
-        match case.id() {
-            "RHE-03/viscous" => {
-                let viscous = Viscous::new(case.input("eta")).unwrap();
-                case.check("J_t", viscous.creep_compliance(case.input("t")));
-                case.check("G_loss", viscous.loss_modulus(case.input("omega")).unwrap());
-            }
-            "RHE-03/sls" => {
-                let solid = solid(["G1", "G2", "eta"].map(|name| case.input(name)));
-                let (t, omega) = (case.input("t"), case.input("omega"));
-                case.check("tau", solid.relaxation_time());
-                case.check("tau_c", solid.retardation_time());
-                case.check("G_t", solid.relaxation_modulus(t));
-                case.check("J_t", solid.creep_compliance(t));
-                case.check("G_storage", solid.storage_modulus(omega).unwrap());
-                case.check("G_loss", solid.loss_modulus(omega).unwrap());
-                case.check("tan_delta", solid.loss_tangent(omega).unwrap());
-            }
-            _ => {}
-        }
     }
 }
 

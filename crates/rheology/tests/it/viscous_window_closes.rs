@@ -1,4 +1,4 @@
-use rheology::StandardSolid;
+use rheology::{Material, StandardSolid};
 
 use crate::support::{assert_close, solid};
 

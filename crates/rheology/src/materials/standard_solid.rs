@@ -10,8 +10,11 @@
 
 use std::f64::consts::SQRT_2;
 
-use crate::RheologyError;
-use crate::error::{not_negative, positive};
+use crate::error::positive;
+use crate::{
+    CreepSpectrum, Material, RelaxationBranch, RelaxationSpectrum, RetardationElement,
+    RheologyError,
+};
 
 /// What a [`StandardSolid`] is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +64,7 @@ impl StandardSolid {
         positive("stiffness_ratio", solid.stiffness_ratio())?;
         positive("relaxation_time", solid.relaxation_time())?;
         positive("retardation_time", solid.retardation_time())?;
+        positive("retardation_compliance", solid.element().compliance)?;
         Ok(solid)
     }
 
@@ -106,46 +110,21 @@ impl StandardSolid {
         self.viscosity() / self.equilibrium_modulus() + self.relaxation_time()
     }
 
-    /// Storage modulus G'(ω), (2), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
-    pub fn storage_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        let omega = self.dimensionless_frequency(angular_frequency)?;
-        // The squares overflow long before the fraction differs from 1.
-        let fraction = if omega <= 1.0 {
-            omega * omega / (1.0 + omega * omega)
-        } else {
-            1.0 / (1.0 + omega.recip().powi(2))
-        };
-        Ok(self.equilibrium_modulus() + self.maxwell_modulus() * fraction)
+    /// The spring G₂ and its dashpot.
+    fn branch(&self) -> RelaxationBranch {
+        RelaxationBranch {
+            modulus: self.maxwell_modulus(),
+            relaxation_time: self.relaxation_time(),
+        }
     }
 
-    /// Loss modulus G''(ω), (2), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
-    pub fn loss_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        let omega = self.dimensionless_frequency(angular_frequency)?;
-        // Unchanged when Ω is replaced by its inverse.
-        let below_one = if omega <= 1.0 { omega } else { omega.recip() };
-        Ok(self.maxwell_modulus() * below_one / (1.0 + below_one * below_one))
-    }
-
-    /// Loss tangent tan δ = G''/G', (2), at an angular frequency ω ≥ 0 \[rad/s].
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
-    pub fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        let omega = self.dimensionless_frequency(angular_frequency)?;
-        let gamma = self.stiffness_ratio();
-        // Divided by Ω the denominator of (2) has no square that could vanish or overflow.
-        Ok((omega * (1.0 + gamma) + gamma / omega).recip())
-    }
-
-    /// Ω = ω η/G₂. The paper's ω G₂/η is dimensionally wrong.
-    fn dimensionless_frequency(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        Ok(not_negative("angular_frequency", angular_frequency)? * self.relaxation_time())
+    /// What creeps: G₂/(G₁ (G₁ + G₂)) over the time λ.
+    fn element(&self) -> RetardationElement {
+        let maxwell_share = self.maxwell_modulus() / self.glass_modulus();
+        RetardationElement {
+            compliance: maxwell_share / self.equilibrium_modulus(),
+            retardation_time: self.retardation_time(),
+        }
     }
 
     /// Where the loss tangent is largest, Ω² = γ/(1 + γ), and how large: 1/(2 √(γ (1 + γ))).
@@ -176,36 +155,15 @@ impl StandardSolid {
         // The lower root from the product of both, which does not cancel.
         Some([2.0 * gamma / sum / tau, 0.5 * sum / (1.0 + gamma) / tau])
     }
+}
 
-    /// Relaxation modulus G(t) = G₁ + G₂ e^(−t/τ), \[Pa], at a time t ≥ 0 \[s] after the strain was applied.
-    #[must_use]
-    pub fn relaxation_modulus(&self, time: f64) -> f64 {
-        let decay = (-time / self.relaxation_time()).exp();
-        self.equilibrium_modulus() + self.maxwell_modulus() * decay
+impl Material for StandardSolid {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        RelaxationSpectrum::single(self.equilibrium_modulus(), self.branch())
     }
 
-    /// Creep compliance J(t) = 1/(G₁ + G₂) + G₂/(G₁ (G₁ + G₂)) (1 − e^(−t/λ)), \[1/Pa], at a time t ≥ 0 \[s] after the
-    /// stress was applied.
-    #[must_use]
-    pub fn creep_compliance(&self, time: f64) -> f64 {
-        let glass_modulus = self.glass_modulus();
-        let maxwell_share = self.maxwell_modulus() / glass_modulus;
-        // Written as the flow of the dashpot over a time that ends at λ: as G₁ vanishes this becomes t/η, while 1/G₁
-        // overflows and its product with 1 − e^(−t/λ) loses its digits.
-        let lambda = self.retardation_time();
-        let x = time / lambda;
-        let flow_time = if x < f64::EPSILON {
-            time
-        } else {
-            -lambda * (-x).exp_m1()
-        };
-        glass_modulus.recip() + flow_time * maxwell_share / self.viscosity() * maxwell_share
-    }
-
-    /// Compliance α of one step, \[1/Pa]: held at the load potential w over the step, the surface moves to
-    /// `u_new = α w + history`; exact for any ratio of `time_step` \[s] and λ.
-    #[must_use]
-    pub fn step_compliance(&self, time_step: f64) -> f64 {
-        self.creep_compliance(time_step)
+    /// J(t) = 1/(G₁ + G₂) + G₂/(G₁ (G₁ + G₂)) (1 − e^(−t/λ)).
+    fn creep(&self) -> CreepSpectrum {
+        CreepSpectrum::single(self.glass_modulus().recip(), self.element())
     }
 }

@@ -1,0 +1,203 @@
+//! How strain creeps after a step of stress.
+//!
+//! ```text
+//! J(t) = J₀ + t/η_f + Σ J_k (1 − e^(−t/λ_k))
+//! J'(ω) = J₀ + Σ J_k/(1 + Ω_k²)    J''(ω) = 1/(ω η_f) + Σ J_k Ω_k/(1 + Ω_k²)    Ω_k = ω λ_k
+//! ```
+
+use super::conversion;
+use super::merge::merge;
+use crate::complex::{ComplexCompliance, debye};
+use crate::error::{in_list, not_negative, positive};
+use crate::{RelaxationSpectrum, RheologyError};
+
+/// One Kelvin–Voigt element: a spring and a dashpot in parallel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct RetardationElement {
+    /// Compliance J_k of the spring, \[1/Pa].
+    pub compliance: f64,
+    /// Time λ_k in which it yields to all but 1/e, \[s].
+    pub retardation_time: f64,
+}
+
+/// A spring, a dashpot and any number of Kelvin–Voigt elements in series.
+///
+/// The elements are in increasing order of distinct times, their compliances greater than zero.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CreepSpectrum {
+    instantaneous_compliance: f64,
+    fluidity: f64,
+    elements: Vec<RetardationElement>,
+}
+
+impl CreepSpectrum {
+    /// The spectrum with a spring of compliance J₀ ≥ 0 \[1/Pa], a dashpot of fluidity 1/η_f ≥ 0 [1/(Pa s)], and
+    /// `elements` in any order.
+    ///
+    /// Elements without compliance are dropped; those whose times differ by less than one part in 10⁸ become one.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] or [`RheologyError::InvalidElement`] when a number, or a sum of them, is not
+    /// finite or has the wrong sign; [`RheologyError::NoCompliance`] when nothing is left.
+    pub fn new(
+        instantaneous_compliance: f64,
+        fluidity: f64,
+        elements: Vec<RetardationElement>,
+    ) -> Result<Self, RheologyError> {
+        not_negative("instantaneous_compliance", instantaneous_compliance)?;
+        not_negative("fluidity", fluidity)?;
+        for (index, element) in elements.iter().enumerate() {
+            element.validate().map_err(in_list("elements", index))?;
+        }
+        let decays = elements.iter().map(|e| (e.compliance, e.retardation_time));
+        let spectrum = Self {
+            instantaneous_compliance,
+            fluidity,
+            elements: merge(decays.collect())
+                .into_iter()
+                .map(|(compliance, retardation_time)| RetardationElement {
+                    compliance,
+                    retardation_time,
+                })
+                .collect(),
+        };
+        spectrum.validate_sums()?;
+        Ok(spectrum)
+    }
+
+    /// A lone spring and a lone dashpot, both legal.
+    pub(crate) const fn without_elements(instantaneous_compliance: f64, fluidity: f64) -> Self {
+        Self {
+            instantaneous_compliance,
+            fluidity,
+            elements: Vec::new(),
+        }
+    }
+
+    /// A lone spring and one element, both legal.
+    pub(crate) fn single(instantaneous_compliance: f64, element: RetardationElement) -> Self {
+        Self {
+            instantaneous_compliance,
+            fluidity: 0.0,
+            elements: vec![element],
+        }
+    }
+
+    fn validate_sums(&self) -> Result<(), RheologyError> {
+        let sum = self.recoverable_compliance();
+        if sum == 0.0 && self.fluidity == 0.0 {
+            return Err(RheologyError::NoCompliance);
+        }
+        not_negative("recoverable_compliance", sum)?;
+        not_negative("initial_fluidity", self.initial_fluidity())?;
+        Ok(())
+    }
+
+    /// Compliance J₀ of the first instant, \[1/Pa].
+    #[must_use]
+    pub const fn instantaneous_compliance(&self) -> f64 {
+        self.instantaneous_compliance
+    }
+
+    /// Fluidity 1/η_f of the free flow, [1/(Pa s)]; 0 for a solid.
+    #[must_use]
+    pub const fn fluidity(&self) -> f64 {
+        self.fluidity
+    }
+
+    /// The Kelvin–Voigt elements in increasing order of time.
+    #[must_use]
+    pub fn elements(&self) -> &[RetardationElement] {
+        &self.elements
+    }
+
+    fn recoverable_compliance(&self) -> f64 {
+        let elements: f64 = self.elements.iter().map(|e| e.compliance).sum();
+        self.instantaneous_compliance + elements
+    }
+
+    /// Compliance J(∞), \[1/Pa]; infinite for a fluid.
+    #[must_use]
+    pub fn equilibrium_compliance(&self) -> f64 {
+        if self.fluidity > 0.0 {
+            return f64::INFINITY;
+        }
+        self.recoverable_compliance()
+    }
+
+    /// Rate 1/η_f + Σ J_k/λ_k of the creep compliance at t = 0, [1/(Pa s)].
+    #[must_use]
+    pub fn initial_fluidity(&self) -> f64 {
+        let rates = self.elements.iter().map(RetardationElement::fluidity);
+        self.fluidity + rates.sum::<f64>()
+    }
+
+    /// Creep compliance J(t), \[1/Pa], at a time t ≥ 0 \[s] after the stress was applied.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the time is not finite or below zero.
+    pub fn creep_compliance(&self, time: f64) -> Result<f64, RheologyError> {
+        let time = not_negative("time", time)?;
+        let delayed: f64 = self.elements.iter().map(|e| e.yielded(time)).sum();
+        Ok(self.instantaneous_compliance + self.fluidity * time + delayed)
+    }
+
+    /// Complex compliance at an angular frequency ω ≥ 0 \[rad/s]; the loss of a fluid is infinite at ω = 0.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn complex_compliance(
+        &self,
+        angular_frequency: f64,
+    ) -> Result<ComplexCompliance, RheologyError> {
+        let omega = not_negative("angular_frequency", angular_frequency)?;
+        let mut compliance = ComplexCompliance {
+            storage: self.instantaneous_compliance,
+            loss: 0.0,
+        };
+        if self.fluidity > 0.0 {
+            compliance.loss = self.fluidity / omega;
+        }
+        for element in &self.elements {
+            // 1/(1 + Ω²) is Ω²/(1 + Ω²) at the inverse of Ω.
+            let omega = omega * element.retardation_time;
+            compliance.storage += element.compliance * debye(omega.recip())[0];
+            compliance.loss += element.compliance * debye(omega)[1];
+        }
+        Ok(compliance)
+    }
+
+    /// The same material, described by its relaxation.
+    ///
+    /// # Errors
+    /// [`RheologyError`] when a modulus or a time of it is outside the range of `f64`.
+    pub fn to_relaxation(&self) -> Result<RelaxationSpectrum, RheologyError> {
+        conversion::relaxation_of(self)
+    }
+}
+
+impl RetardationElement {
+    /// Fluidity J_k/λ_k of the dashpot, [1/(Pa s)].
+    #[must_use]
+    pub fn fluidity(&self) -> f64 {
+        self.compliance / self.retardation_time
+    }
+
+    /// J_k (1 − e^(−t/λ_k)), \[1/Pa].
+    pub(crate) fn yielded(&self, time: f64) -> f64 {
+        let x = time / self.retardation_time;
+        // As the spring vanishes this becomes t/η, while x leaves the normal numbers and loses its digits.
+        if x < f64::EPSILON {
+            return self.fluidity() * time;
+        }
+        -self.compliance * (-x).exp_m1()
+    }
+
+    fn validate(&self) -> Result<(), RheologyError> {
+        not_negative("compliance", self.compliance)?;
+        positive("retardation_time", self.retardation_time)?;
+        Ok(())
+    }
+}

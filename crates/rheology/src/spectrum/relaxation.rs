@@ -1,0 +1,239 @@
+//! How stress relaxes after a step of strain.
+//!
+//! ```text
+//! G(t) = G_∞ + η₀ δ(t) + Σ G_k e^(−t/τ_k)
+//! G'(ω) = G_∞ + Σ G_k Ω_k²/(1 + Ω_k²)    G''(ω) = ω η₀ + Σ G_k Ω_k/(1 + Ω_k²)    Ω_k = ω τ_k
+//! ```
+
+use super::conversion;
+use super::merge::merge;
+use crate::complex::{ComplexModulus, debye};
+use crate::error::{in_list, not_negative, positive};
+use crate::{CreepSpectrum, RheologyError};
+
+/// One Maxwell branch: a spring and a dashpot in series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct RelaxationBranch {
+    /// Shear modulus G_k of the spring, \[Pa].
+    pub modulus: f64,
+    /// Time τ_k in which its stress decays to 1/e, \[s].
+    pub relaxation_time: f64,
+}
+
+/// A spring, a dashpot and any number of Maxwell branches in parallel.
+///
+/// The branches are in increasing order of distinct times, their moduli greater than zero.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct RelaxationSpectrum {
+    equilibrium_modulus: f64,
+    viscosity: f64,
+    branches: Vec<RelaxationBranch>,
+}
+
+impl RelaxationSpectrum {
+    /// The spectrum with a lone spring of modulus G_∞ ≥ 0 \[Pa], a lone dashpot of viscosity η₀ ≥ 0 [Pa s], and
+    /// `branches` in any order.
+    ///
+    /// Branches without modulus are dropped; those whose times differ by less than one part in 10⁸ become one.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] or [`RheologyError::InvalidElement`] when a number, or the glass modulus or
+    /// the viscosity of a branch, is not finite or has the wrong sign; [`RheologyError::NoStiffness`] when nothing is
+    /// left.
+    pub fn new(
+        equilibrium_modulus: f64,
+        viscosity: f64,
+        branches: Vec<RelaxationBranch>,
+    ) -> Result<Self, RheologyError> {
+        not_negative("equilibrium_modulus", equilibrium_modulus)?;
+        not_negative("viscosity", viscosity)?;
+        for (index, branch) in branches.iter().enumerate() {
+            branch.validate().map_err(in_list("branches", index))?;
+        }
+        let decays = branches.iter().map(|b| (b.modulus, b.relaxation_time));
+        let spectrum = Self {
+            equilibrium_modulus,
+            viscosity,
+            branches: merge(decays.collect())
+                .into_iter()
+                .map(|(modulus, relaxation_time)| RelaxationBranch {
+                    modulus,
+                    relaxation_time,
+                })
+                .collect(),
+        };
+        spectrum.validate_sums()?;
+        Ok(spectrum)
+    }
+
+    /// A lone spring and a lone dashpot, both legal.
+    pub(crate) const fn without_branches(equilibrium_modulus: f64, viscosity: f64) -> Self {
+        Self {
+            equilibrium_modulus,
+            viscosity,
+            branches: Vec::new(),
+        }
+    }
+
+    /// A lone spring and one branch, both legal.
+    pub(crate) fn single(equilibrium_modulus: f64, branch: RelaxationBranch) -> Self {
+        Self {
+            equilibrium_modulus,
+            viscosity: 0.0,
+            branches: vec![branch],
+        }
+    }
+
+    fn validate_sums(&self) -> Result<(), RheologyError> {
+        let sum = self.spring_moduli();
+        if sum == 0.0 && self.viscosity == 0.0 {
+            return Err(RheologyError::NoStiffness);
+        }
+        not_negative("glass_modulus", sum)?;
+        not_negative("zero_shear_viscosity", self.zero_shear_viscosity())?;
+        Ok(())
+    }
+
+    /// Modulus G_∞ of the lone spring, \[Pa], what is left after a long time; 0 for a fluid.
+    #[must_use]
+    pub const fn equilibrium_modulus(&self) -> f64 {
+        self.equilibrium_modulus
+    }
+
+    /// Viscosity η₀ of the lone dashpot, [Pa s].
+    #[must_use]
+    pub const fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    /// The Maxwell branches in increasing order of time.
+    #[must_use]
+    pub fn branches(&self) -> &[RelaxationBranch] {
+        &self.branches
+    }
+
+    fn spring_moduli(&self) -> f64 {
+        let branches: f64 = self.branches.iter().map(|b| b.modulus).sum();
+        self.equilibrium_modulus + branches
+    }
+
+    /// Modulus G(0) of the first instant, \[Pa]; infinite with a lone dashpot.
+    #[must_use]
+    pub fn glass_modulus(&self) -> f64 {
+        if self.viscosity > 0.0 {
+            return f64::INFINITY;
+        }
+        self.spring_moduli()
+    }
+
+    /// Limit η₀ + Σ G_k τ_k of G''/ω at low frequency, [Pa s].
+    #[must_use]
+    pub fn zero_shear_viscosity(&self) -> f64 {
+        let branches = self.branches.iter().map(RelaxationBranch::viscosity);
+        self.viscosity + branches.sum::<f64>()
+    }
+
+    /// Relaxation modulus G(t), \[Pa], at a time t ≥ 0 \[s] after the strain was applied; infinite at t = 0 with a
+    /// lone dashpot, whose impulse is over at every later time.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the time is not finite or below zero.
+    pub fn relaxation_modulus(&self, time: f64) -> Result<f64, RheologyError> {
+        if not_negative("time", time)? == 0.0 {
+            return Ok(self.glass_modulus());
+        }
+        let decays = self.branches.iter();
+        let relaxing: f64 = decays
+            .map(|b| b.modulus * (-time / b.relaxation_time).exp())
+            .sum();
+        Ok(self.equilibrium_modulus + relaxing)
+    }
+
+    /// Complex modulus at an angular frequency ω ≥ 0 \[rad/s].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn complex_modulus(&self, angular_frequency: f64) -> Result<ComplexModulus, RheologyError> {
+        let omega = not_negative("angular_frequency", angular_frequency)?;
+        let mut modulus = ComplexModulus {
+            storage: self.equilibrium_modulus,
+            loss: omega * self.viscosity,
+        };
+        for branch in &self.branches {
+            let [in_phase, out_of_phase] = debye(omega * branch.relaxation_time);
+            modulus.storage += branch.modulus * in_phase;
+            modulus.loss += branch.modulus * out_of_phase;
+        }
+        Ok(modulus)
+    }
+
+    /// Loss tangent tan δ = G''/G' at an angular frequency ω ≥ 0 \[rad/s]; infinite where G' vanishes.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
+        let modulus = self.complex_modulus(angular_frequency)?;
+        if modulus.storage > f64::MIN_POSITIVE / f64::EPSILON {
+            return Ok(modulus.loss / modulus.storage);
+        }
+        Ok(self.loss_tangent_of_vanishing_storage(angular_frequency))
+    }
+
+    /// tan δ from G''/ω and G'/ω: far below all 1/τ the squares of a fluid's G' underflow, these do not.
+    fn loss_tangent_of_vanishing_storage(&self, omega: f64) -> f64 {
+        let per_omega: f64 = self
+            .branches
+            .iter()
+            .map(|b| b.viscosity() * debye(omega * b.relaxation_time)[1])
+            .sum();
+        if omega > 0.0 && self.equilibrium_modulus + per_omega > 0.0 {
+            let viscous: f64 = self
+                .branches
+                .iter()
+                .map(|b| b.viscosity() * (1.0 - debye(omega * b.relaxation_time)[0]))
+                .sum();
+            return (self.viscosity + viscous) / (self.equilibrium_modulus / omega + per_omega);
+        }
+        if self.equilibrium_modulus > 0.0 {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    /// Both materials side by side, under the same strain.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when a sum leaves the range of `f64`.
+    pub fn in_parallel_with(&self, other: &Self) -> Result<Self, RheologyError> {
+        Self::new(
+            self.equilibrium_modulus + other.equilibrium_modulus,
+            self.viscosity + other.viscosity,
+            [self.branches(), other.branches()].concat(),
+        )
+    }
+
+    /// The same material, described by its creep.
+    ///
+    /// # Errors
+    /// [`RheologyError`] when a compliance or a time of it is outside the range of `f64`.
+    pub fn to_creep(&self) -> Result<CreepSpectrum, RheologyError> {
+        conversion::creep_of(self)
+    }
+}
+
+impl RelaxationBranch {
+    /// Viscosity G_k τ_k of the dashpot, [Pa s].
+    #[must_use]
+    pub fn viscosity(&self) -> f64 {
+        self.modulus * self.relaxation_time
+    }
+
+    fn validate(&self) -> Result<(), RheologyError> {
+        not_negative("modulus", self.modulus)?;
+        positive("relaxation_time", self.relaxation_time)?;
+        Ok(())
+    }
+}

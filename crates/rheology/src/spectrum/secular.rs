@@ -1,0 +1,179 @@
+//! Roots of the equation that relaxation and retardation times share.
+//!
+//! ```text
+//! S(x) = Σ w_i/(x − p_i) − e = 0    w_i > 0,  0 ≤ p_0 < p_1 < …,  e ≥ 0
+//! ```
+//! S falls from +∞ to −∞ between two poles, and from +∞ to −e above the last one: one root in every gap, and one above
+//! when e > 0. A root is kept as its offset from the nearer pole: differences of roots and poles then never cancel,
+//! however close they are.
+
+/// A pole p ≥ 0 and its weight w > 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pole {
+    pub(super) position: f64,
+    pub(super) weight: f64,
+}
+
+/// A root x, and −1/S'(x).
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root {
+    pub(super) position: f64,
+    pub(super) inverse_slope: f64,
+}
+
+/// All roots in increasing order.
+pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
+    let equation = Secular { poles, level };
+    let gaps = (1..poles.len()).map(|upper| equation.root_in_gap(upper));
+    let mut places: Vec<Place> = gaps.collect();
+    if level > 0.0 && !poles.is_empty() {
+        places.push(equation.root_above());
+    }
+    let root = |index: usize| Root {
+        position: poles[places[index].near].position + places[index].offset,
+        inverse_slope: equation.inverse_slope(&places, index),
+    };
+    (0..places.len()).map(root).collect()
+}
+
+/// The equation S(x) = 0.
+struct Secular<'a> {
+    poles: &'a [Pole],
+    level: f64,
+}
+
+/// A point at an offset from the pole `near` of at most half the gap on that side.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    near: usize,
+    offset: f64,
+}
+
+/// The positive and the negative terms of S at one point, and their derivatives, all without sign.
+struct Balance {
+    up: f64,
+    down: f64,
+    slopes: [f64; 2],
+}
+
+impl Secular<'_> {
+    /// The root between the poles `upper − 1` and `upper`.
+    fn root_in_gap(&self, upper: usize) -> Place {
+        let [below, above] = [self.poles[upper - 1], self.poles[upper]];
+        let half_gap = 0.5 * (above.position - below.position);
+        let middle = self.balance(Place {
+            near: upper - 1,
+            offset: half_gap,
+        });
+        // The near term alone is at most the terms of the other sign, and those are largest in the middle.
+        if middle.up <= middle.down {
+            let least = (below.weight / middle.down).min(half_gap);
+            return self.root_beside(upper - 1, 1.0, [least, half_gap]);
+        }
+        let least = (above.weight / middle.up).min(half_gap);
+        self.root_beside(upper, -1.0, [least, half_gap])
+    }
+
+    /// The root above the last pole: w_last/e ≤ x − p_last ≤ Σ w/e.
+    fn root_above(&self) -> Place {
+        let last = self.poles.len() - 1;
+        let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
+        let bracket = [self.poles[last].weight, total].map(|weight| weight / self.level);
+        self.root_beside(last, 1.0, bracket)
+    }
+
+    /// The root at a distance within the bracket from the pole `near`, above it (`side` = 1) or below it (−1).
+    ///
+    /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, where it is nearly straight; bisection where
+    /// that leaves the bracket or stops halving its steps.
+    fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> Place {
+        const TOLERANCE: f64 = 4.0 * f64::EPSILON;
+        let middle = |low: f64, high: f64| low.sqrt() * high.sqrt();
+        let place = |distance: f64| Place {
+            near,
+            offset: side * distance,
+        };
+        let mut distance = middle(low, high);
+        let mut last_step = f64::INFINITY;
+        while high > low * (1.0 + TOLERANCE) {
+            let Balance { up, down, slopes } = self.balance(place(distance));
+            // Positive while the root is farther from the pole.
+            let excess = side * (up / down).ln();
+            let step = excess / (distance * (slopes[0] / up + slopes[1] / down));
+            if step.abs() <= TOLERANCE {
+                break;
+            }
+            if excess > 0.0 {
+                low = distance;
+            } else {
+                high = distance;
+            }
+            let newton = distance * step.exp();
+            let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
+            let next = if trusted { newton } else { middle(low, high) };
+            last_step = (next / distance).ln().abs();
+            distance = next;
+        }
+        place(distance)
+    }
+
+    fn balance(&self, place: Place) -> Balance {
+        let mut balance = Balance {
+            up: 0.0,
+            down: self.level,
+            slopes: [0.0; 2],
+        };
+        for (index, pole) in self.poles.iter().enumerate() {
+            let difference = self.above_pole(place, index);
+            let term = (pole.weight / difference).abs();
+            let slope = term / difference.abs();
+            if difference > 0.0 {
+                balance.up += term;
+                balance.slopes[0] += slope;
+            } else {
+                balance.down += term;
+                balance.slopes[1] += slope;
+            }
+        }
+        balance
+    }
+
+    /// x − p_i.
+    fn above_pole(&self, place: Place, pole: usize) -> f64 {
+        (self.poles[place.near].position - self.poles[pole].position) + place.offset
+    }
+
+    /// x − y of two roots.
+    fn between(&self, place: Place, other: Place) -> f64 {
+        let poles = self.poles[place.near].position - self.poles[other.near].position;
+        poles + (place.offset - other.offset)
+    }
+
+    /// −1/S' at one of the roots, from the product over all roots and poles.
+    ///
+    /// ```text
+    /// S(x) = −e Π(x − x_l)/Π(x − p_l)         −S'(x_k) = e Π_{l≠k} |x_k − x_l| / Π |x_k − p_l|
+    /// ```
+    /// and the same with Σ w in place of −e when e = 0 and there is a root less. As a sum, −S' = Σ w/(x − p)², each slope
+    /// would be right for its own rounded root, but together they would describe no material: where two poles lie within
+    /// δ, moduli off by ε/δ. The product belongs to the roots as they are, all of them (Gu & Eisenstat 1994, SIAM J.
+    /// Matrix Anal. Appl. 15, 1266).
+    fn inverse_slope(&self, places: &[Place], index: usize) -> f64 {
+        let place = places[index];
+        // Root and pole of the same gap in one factor: the product stays between 1 and the ratio of two differences.
+        let factors = places.iter().enumerate().map(|(l, other)| {
+            let from_pole = self.above_pole(place, l);
+            if l == index {
+                return from_pole;
+            }
+            from_pole / self.between(place, *other)
+        });
+        let product: f64 = factors.product();
+        if self.level > 0.0 {
+            return product / self.level;
+        }
+        let last = self.poles.len() - 1;
+        let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
+        -self.above_pole(place, last) * product / total
+    }
+}

@@ -1,0 +1,160 @@
+//! One step in time, or over one cell of an upstream sweep, exact for any ratio of step and time constants.
+//!
+//! ```text
+//! creep:       u_new = α w_new + history    α = J(Δt)    held at w_new over the step
+//! relaxation:  w_new = β Δu + history       β = G_∞ + η₀/Δt + Σ G_k φ(Δt/τ_k)    u straight over the step
+//! φ(x) = (1 − e^(−x))/x
+//! ```
+//! In both, history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
+
+use crate::error::positive;
+use crate::{CreepSpectrum, RelaxationSpectrum, RheologyError};
+
+/// Coefficients of a step of fixed length.
+///
+/// The state of `n` points is `n_fields() · n` numbers, field after field, zero at rest. A step calls
+/// [`history`](Self::history), solves for the input, then calls [`advance`](Self::advance).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExponentialStep {
+    /// What the input adds at once, without a field.
+    direct: f64,
+    fields: Vec<Field>,
+}
+
+/// A decay e^(−Δt/λ), 1 for free flow and for a lone spring, and the gain per unit of input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Field {
+    decay: f64,
+    gain: f64,
+}
+
+impl ExponentialStep {
+    /// From load potential w \[Pa m] to displacement u \[m], with w held at its new value over a `time_step` \[s].
+    ///
+    /// One field per retardation element, and one for free flow; none for an elastic material.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the step, or its compliance, is not finite and greater than zero.
+    pub fn creep(spectrum: &CreepSpectrum, time_step: f64) -> Result<Self, RheologyError> {
+        positive("time_step", time_step)?;
+        let flow = (spectrum.fluidity() > 0.0).then(|| Field {
+            decay: 1.0,
+            gain: spectrum.fluidity() * time_step,
+        });
+        let delayed = spectrum.elements().iter().map(|element| Field {
+            decay: (-time_step / element.retardation_time).exp(),
+            gain: element.yielded(time_step),
+        });
+        let step = Self {
+            direct: spectrum.instantaneous_compliance(),
+            fields: delayed.chain(flow).collect(),
+        };
+        positive("step_compliance", step.response())?;
+        Ok(step)
+    }
+
+    /// From the increment Δu \[m] of the displacement, straight over a `time_step` \[s], to the load potential w \[Pa m]
+    /// at its end.
+    ///
+    /// One field per branch, and one for the lone spring; none for a viscous material.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the step, or its stiffness, is not finite and greater than zero.
+    pub fn relaxation(
+        spectrum: &RelaxationSpectrum,
+        time_step: f64,
+    ) -> Result<Self, RheologyError> {
+        positive("time_step", time_step)?;
+        let spring = (spectrum.equilibrium_modulus() > 0.0).then(|| Field {
+            decay: 1.0,
+            gain: spectrum.equilibrium_modulus(),
+        });
+        let branches = spectrum.branches().iter().map(|branch| {
+            let x = time_step / branch.relaxation_time;
+            Field {
+                decay: (-x).exp(),
+                gain: branch.modulus * mean_decay(x),
+            }
+        });
+        let step = Self {
+            direct: spectrum.viscosity() / time_step,
+            fields: branches.chain(spring).collect(),
+        };
+        positive("step_stiffness", step.response())?;
+        Ok(step)
+    }
+
+    /// What one unit of input adds to the output of its step: α \[1/Pa] of creep, β \[Pa] of relaxation.
+    #[must_use]
+    pub fn response(&self) -> f64 {
+        let gains: f64 = self.fields.iter().map(|field| field.gain).sum();
+        self.direct + gains
+    }
+
+    /// Number of stored values per point.
+    #[must_use]
+    pub fn n_fields(&self) -> usize {
+        self.fields.len()
+    }
+
+    /// Output at the end of the step with zero input, for every point.
+    ///
+    /// Values of `state` beyond `n_fields() · history.len()` are not looked at.
+    pub fn history(&self, state: &[f64], history: &mut [f64]) {
+        debug_assert_eq!(
+            state.len(),
+            self.n_fields() * history.len(),
+            "shape of the state"
+        );
+        history.fill(0.0);
+        if history.is_empty() {
+            return;
+        }
+        for (field, values) in self.fields.iter().zip(state.chunks_exact(history.len())) {
+            for (sum, value) in history.iter_mut().zip(values) {
+                *sum += field.decay * value;
+            }
+        }
+    }
+
+    /// Moves the state to the end of the step, given the `input` of every point: w held over the step, or Δu.
+    ///
+    /// Values of `state` beyond `n_fields() · input.len()` are left as they are.
+    pub fn advance(&self, input: &[f64], state: &mut [f64]) {
+        debug_assert_eq!(
+            state.len(),
+            self.n_fields() * input.len(),
+            "shape of the state"
+        );
+        if input.is_empty() {
+            return;
+        }
+        for (field, values) in self.fields.iter().zip(state.chunks_exact_mut(input.len())) {
+            for (value, input) in values.iter_mut().zip(input) {
+                *value = field.decay * *value + field.gain * input;
+            }
+        }
+    }
+
+    /// [`history`](Self::history) of a single point.
+    #[must_use]
+    pub fn history_at(&self, state: &[f64]) -> f64 {
+        let fields = self.fields.iter().zip(state);
+        fields.map(|(field, value)| field.decay * value).sum()
+    }
+
+    /// [`advance`](Self::advance) of a single point.
+    pub fn advance_at(&self, input: f64, state: &mut [f64]) {
+        for (field, value) in self.fields.iter().zip(state) {
+            *value = field.decay * *value + field.gain * input;
+        }
+    }
+}
+
+/// φ(x) = (1 − e^(−x))/x for x ≥ 0.
+fn mean_decay(x: f64) -> f64 {
+    if x < f64::EPSILON {
+        return 1.0;
+    }
+    -(-x).exp_m1() / x
+}

@@ -1,0 +1,108 @@
+use rheology::{ExponentialStep, RelaxationSpectrum};
+
+use crate::support::{assert_close, assert_same, named_spectrum, spectrum};
+
+/// φ₁(x) = (1 − e^(−x))/x is the stiffness of a single branch, x φ₁(x) the compliance of a single element.
+#[test]
+fn coefficients_keep_their_digits_at_any_ratio_of_step_and_time() {
+    for case in casebook::group("RHE-08") {
+        let x = case.input("x");
+        let branch = spectrum(0.0, 0.0, &[1.0], &[1.0]);
+        let relaxing = ExponentialStep::relaxation(&branch, x).unwrap();
+        case.check("phi1", relaxing.response());
+        let mut state = [1.0];
+        relaxing.advance_at(0.0, &mut state);
+        case.check("decay", state[0]);
+        // G = η δ(t) + 1 is a Kelvin-Voigt solid of J = 1 and λ = 1.
+        let creep = spectrum(1.0, 1.0, &[], &[]).to_creep().unwrap();
+        let creeping = ExponentialStep::creep(&creep, x).unwrap();
+        case.check("phi1", creeping.response() / x);
+    }
+}
+
+/// Strain grows at a constant rate until T = 1 and is then held.
+fn ramp_and_hold(material: &RelaxationSpectrum, time: f64, n_steps: u32) -> f64 {
+    let time_step = time / f64::from(n_steps);
+    let step = ExponentialStep::relaxation(material, time_step).unwrap();
+    let mut state = vec![0.0; step.n_fields()];
+    let mut stress = 0.0;
+    let [mut now, mut strain] = [0.0_f64; 2];
+    for count in 1..=n_steps {
+        let next = (time_step * f64::from(count)).min(1.0);
+        let increment = next - now;
+        stress = step.response() * increment + step.history_at(&state);
+        step.advance_at(increment, &mut state);
+        strain += increment;
+        now = next;
+    }
+    assert_close("the strain at the end", strain, time.min(1.0), 1e-12);
+    stress
+}
+
+#[test]
+fn ramp_and_hold_is_exact_for_any_number_of_steps() {
+    for case in casebook::group("RHE-09") {
+        let material = named_spectrum(case.input_text("model"));
+        let time = case.input("t");
+        // The corner of the ramp must lie between two steps.
+        let counts = if time > 1.0 {
+            [2, 8, 1000]
+        } else {
+            [1, 7, 1000]
+        };
+        for n_steps in counts {
+            let stress = ramp_and_hold(&material, time, n_steps);
+            case.check("sigma_over_2r", stress);
+        }
+    }
+}
+
+/// Steps of a constant load add up to the creep compliance, however long they are.
+#[test]
+fn constant_load_creeps_exactly_for_any_step() {
+    for model in ["P3", "P10"] {
+        let creep = named_spectrum(model).to_creep().unwrap();
+        for time_step in [1e-9, 1e-3, 1.0, 1e5] {
+            let step = ExponentialStep::creep(&creep, time_step).unwrap();
+            let mut state = vec![0.0; step.n_fields()];
+            for count in 1..=50 {
+                let displacement = step.response() + step.history_at(&state);
+                step.advance_at(1.0, &mut state);
+                let exact = creep
+                    .creep_compliance(time_step * f64::from(count))
+                    .unwrap();
+                assert_close(
+                    &format!("{model}: J after {count} steps of {time_step}"),
+                    displacement,
+                    exact,
+                    1e-14,
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn fields_of_many_points_are_those_of_each() {
+    let creep = spectrum(0.0, 0.0, &[1.0, 2.0, 0.5], &[0.1, 3.0, 40.0])
+        .to_creep()
+        .unwrap();
+    let step = ExponentialStep::creep(&creep, 0.7).unwrap();
+    assert_eq!(step.n_fields(), 3, "two elements and free flow");
+    let inputs = [[1.0, -2.0], [0.5, 4.0], [0.0, 1e-3]];
+    let mut together = vec![0.0; 2 * step.n_fields()];
+    let mut apart = vec![vec![0.0; step.n_fields()]; 2];
+    for input in inputs {
+        step.advance(&input, &mut together);
+        let mut history = [f64::NAN; 2];
+        step.history(&together, &mut history);
+        for point in 0..2 {
+            step.advance_at(input[point], &mut apart[point]);
+            assert_same(
+                &format!("point {point}"),
+                history[point],
+                step.history_at(&apart[point]),
+            );
+        }
+    }
+}
