@@ -27,6 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod chain;
 mod compensated;
 pub mod contact;
 mod element_heights;
@@ -34,8 +35,10 @@ mod error;
 pub mod indent;
 mod march;
 pub mod slide;
+pub mod steady;
 
 pub use contact::{Contact, Element, Instant};
 pub use error::MdrError;
-pub use indent::{IndentOptions, IndentRow, indent};
+pub use indent::{IndentControl, IndentOptions, IndentRow, IndentStep, indent, indent_history};
 pub use slide::{SlideOptions, SlideRow, Transient, slide};
+pub use steady::{SlidingDepth, SteadyOptions, SteadySliding, steady, steady_at_depth};

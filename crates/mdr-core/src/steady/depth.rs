@@ -1,0 +1,104 @@
+//! The depth at which a line in stationary motion carries a force.
+//!
+//! The force grows with the depth at least in proportion, and between two speeds or sizes like a power; so the root is
+//! sought in logarithms, from a bracket that proportion gives.
+
+use std::cell::RefCell;
+
+use indenters::bracketed_root;
+
+use crate::MdrError;
+
+/// Where the search starts, \[m]; it stands for "anywhere".
+const START: f64 = 1.0;
+/// Proportion may be exact, and the force then rounded to the wrong side.
+const MARGIN: f64 = 1e-6;
+/// By how much a bracket that proportion does not give is widened, and how often.
+const STRIDE: f64 = 8.0;
+const MAX_STRIDES: usize = 200;
+
+/// The depth \[m] at which `load` is as large as `target`.
+pub(super) fn depth_of_load(
+    load: impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+) -> Result<f64, MdrError> {
+    let bracket = bracket(&load, target)?;
+    let failure = RefCell::new(None);
+    let excess = |logarithm: f64| match load(logarithm.exp()) {
+        Ok(load) => (load / target).ln(),
+        Err(error) => {
+            failure.replace(Some(error));
+            f64::NAN
+        }
+    };
+    let root = bracketed_root(excess, bracket.map(f64::ln));
+    if let Some(error) = failure.into_inner() {
+        return Err(error);
+    }
+    root.map(f64::exp).ok_or(MdrError::NonFinite {
+        quantity: "normal force",
+        value: load(bracket[0])?,
+        time: 0.0,
+    })
+}
+
+/// Depths with less and with more load than the target.
+fn bracket(
+    load: &impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+) -> Result<[f64; 2], MdrError> {
+    let (start, at_start) = within_reach(load, START, target)?;
+    let excessive = at_start > target;
+    let mut near = start;
+    let margin = if excessive {
+        1.0 - MARGIN
+    } else {
+        1.0 + MARGIN
+    };
+    let mut far = start * (target / at_start) * margin;
+    for _ in 0..MAX_STRIDES {
+        if far <= f64::MIN_POSITIVE || !far.is_finite() {
+            break;
+        }
+        let (reached, at_far) = within_reach(load, far, target)?;
+        if (at_far > target) != excessive {
+            return Ok(if excessive {
+                [reached, near]
+            } else {
+                [near, reached]
+            });
+        }
+        near = reached;
+        far = if excessive {
+            reached / STRIDE
+        } else {
+            reached * STRIDE
+        };
+    }
+    Err(MdrError::NonFinite {
+        quantity: "indentation depth",
+        value: far,
+        time: 0.0,
+    })
+}
+
+/// The load at a depth, or at the largest depth that the line has.
+fn within_reach(
+    load: &impl Fn(f64) -> Result<f64, MdrError>,
+    depth: f64,
+    target: f64,
+) -> Result<(f64, f64), MdrError> {
+    let available = match load(depth) {
+        Err(MdrError::LineTooLow { available, .. }) => available,
+        other => return Ok((depth, other?)),
+    };
+    let carried = load(available)?;
+    if carried < target {
+        return Err(MdrError::NoStationaryState {
+            normal_force: 4.0 * target,
+            carried_force: 4.0 * carried,
+            available,
+        });
+    }
+    Ok((available, carried))
+}
