@@ -51,6 +51,11 @@ impl Chain {
         self.element
     }
 
+    /// Part of the compliance of a step that is there at once.
+    pub(crate) fn elastic_share(&self) -> f64 {
+        self.creep.instantaneous_compliance() / self.step.response()
+    }
+
     /// Goes on with steps of another length \[s].
     pub(crate) fn set_time_step(&mut self, time_step: f64) -> Result<(), MdrError> {
         self.step = ExponentialStep::creep(&self.creep, time_step)?;

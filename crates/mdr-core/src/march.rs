@@ -15,7 +15,7 @@ use crate::{MdrError, SlideRow};
 pub(crate) struct March {
     line: ElementHeights,
     chain: Chain,
-    /// Rise h̃(x + Δx) − h̃(x) of the line over an element during a step that ends at x, \[m].
+    /// Rise of the line over an element during the step to which its force belongs, \[m].
     rises: Vec<f64>,
     /// h̃'(x) at the end of a step.
     end_slopes: Vec<f64>,
@@ -61,7 +61,8 @@ impl March {
         let end_slopes = (0..n_elements)
             .map(|element| line.slope(sampled.position(element)))
             .collect();
-        let mut rises: Vec<f64> = sampled.heights.windows(2).map(|h| h[1] - h[0]).collect();
+        let rises: Vec<f64> = sampled.heights.windows(2).map(|h| h[1] - h[0]).collect();
+        let mut rises = mean_rises(&rises, chain.elastic_share());
         // The last element never carries load: see `advance`.
         rises.push(f64::INFINITY);
         Ok(Self {
@@ -155,6 +156,16 @@ impl March {
             contact_length: contact.n_contact as f64 * self.spacing,
         })
     }
+}
+
+/// Rises h̃(x + Δx) − h̃(x) during a step that ends at x, and for the elastic share those around its end.
+///
+/// The force of a dashpot belongs to the motion during the step, that of a spring to where the step ends.
+fn mean_rises(rises: &[f64], elastic_share: f64) -> Vec<f64> {
+    let rear = rises.first().into_iter();
+    let before = rear.chain(rises);
+    let mean = |(rise, before): (&f64, &f64)| rise - 0.5 * elastic_share * (rise - before);
+    rises.iter().zip(before).map(mean).collect()
 }
 
 /// What the loaded elements of a step sum up to.

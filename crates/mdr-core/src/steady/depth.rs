@@ -24,7 +24,9 @@ pub(super) fn depth_of_load(
 ) -> Result<f64, MdrError> {
     let bracket = bracket(&load, target)?;
     let failure = RefCell::new(None);
-    let excess = |logarithm: f64| match load(logarithm.exp()) {
+    // The ends of the bracket are depths that the line has; one more digit may be too much.
+    let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
+    let excess = |logarithm: f64| match load(depth(logarithm)) {
         Ok(load) => (load / target).ln(),
         Err(error) => {
             failure.replace(Some(error));
@@ -35,7 +37,7 @@ pub(super) fn depth_of_load(
     if let Some(error) = failure.into_inner() {
         return Err(error);
     }
-    root.map(f64::exp).ok_or(MdrError::NonFinite {
+    root.map(depth).ok_or(MdrError::NonFinite {
         quantity: "normal force",
         value: load(bracket[0])?,
         time: 0.0,
@@ -92,7 +94,12 @@ fn within_reach(
         Err(MdrError::LineTooLow { available, .. }) => available,
         other => return Ok((depth, other?)),
     };
-    let carried = load(available)?;
+    // A line whose lowest point is its front end has no leading edge.
+    let carried = if available > 0.0 {
+        load(available)?
+    } else {
+        0.0
+    };
     if carried < target {
         return Err(MdrError::NoStationaryState {
             normal_force: 4.0 * target,

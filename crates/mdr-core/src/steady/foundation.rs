@@ -123,6 +123,10 @@ impl Foundation {
         self.dashpot > 0.0
     }
 
+    pub(super) fn is_elastic(&self) -> bool {
+        self.branches.is_empty() && !self.has_dashpot()
+    }
+
     /// Stresses of branches that have never been strained.
     pub(super) fn unstrained(&self) -> Vec<f64> {
         vec![0.0; self.branches.len()]

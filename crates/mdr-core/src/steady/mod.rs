@@ -163,7 +163,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             let depth = depth(tolerance)?;
             let state = self.solve(depth, tolerance)?.result(depth)?;
             let reached = state.friction_coefficient_error;
-            let wanted = relative_error * state.friction_coefficient;
+            let wanted = relative_error * state.friction_coefficient.abs();
             if reached <= wanted {
                 return Ok(state);
             }
@@ -226,7 +226,7 @@ impl Solution {
         let error = (work_error + 2.0 * friction * load_error) / load;
         Ok(SteadySliding {
             friction_coefficient: friction,
-            friction_coefficient_error: error + ROUNDING * friction,
+            friction_coefficient_error: error.abs() + ROUNDING * friction.abs(),
             indentation_depth: depth,
             normal_force: 4.0 * load,
             normal_force_error: 4.0 * (load_error + ROUNDING * load),

@@ -106,7 +106,8 @@ impl Piece {
     }
 
     fn position(&self, t: f64) -> f64 {
-        0.5 * (self.ends[0] * (1.0 - t) + self.ends[1] * (1.0 + t))
+        let [front, rear] = self.ends;
+        (0.5 * (front * (1.0 - t) + rear * (1.0 + t))).clamp(rear, front)
     }
 
     fn length(&self) -> f64 {
@@ -145,7 +146,8 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
         while let Some(ends) = waiting.pop() {
             let piece = self.piece(ends)?;
             let middle = ends[0].midpoint(ends[1]);
-            let smallest = SMALLEST * ends[0].abs().max(ends[1].abs());
+            let farthest = ends[0].abs().max(ends[1].abs());
+            let smallest = (SMALLEST * farthest).max(f64::MIN_POSITIVE);
             let indivisible = piece.length() <= smallest || ends.contains(&middle);
             if self.is_resolved(&piece)? {
                 self.split_at_turning_point(piece, pieces)?;
@@ -220,6 +222,7 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
         let rise: f64 = piece.heights[1..].iter().map(|c| c.abs()).sum();
         // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
         let steep = piece.length() > SHORT * shortest_length
+            && piece.tail > tolerance * rise
             && piece.tail * rise * self.length > tolerance * depth * depth * piece.length();
         Ok(piece.tail <= tolerance * depth && !steep && self.agrees(piece)?)
     }

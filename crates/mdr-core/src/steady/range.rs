@@ -70,13 +70,15 @@ fn outermost(
     } else {
         OUTLOOK * first_above(&excess, anchor, end.signum())?
     };
+    // The sum of two positions may be rounded beyond the end.
+    let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
     // The anchor itself lies below the ceiling, so that this ends.
     loop {
         let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
         if excess(anchor + inside)? <= 0.0 {
             let plain = |x: f64| excess(x).unwrap_or(f64::NAN);
-            let crossing = bracketed_root(plain, [anchor + inside, anchor + outside]);
-            return Ok(crossing.unwrap_or(anchor + outside));
+            let [near, far] = [inside, outside].map(|offset| within(anchor + offset));
+            return Ok(bracketed_root(plain, [near, far]).unwrap_or(far));
         }
         outside = inside;
     }

@@ -121,9 +121,8 @@ impl March<'_> {
             self.foundation.free_stresses(&recovery, distance)
         };
         let position = segment.position(t);
-        self.sums.work -= self
-            .foundation
-            .stored_energy(segment.displacement(t), &stresses);
+        let displacement = self.foundation.free_displacement(&recovery, distance);
+        self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         self.sums.contacts.push([position; 2]);
         self.surface = Surface::Loaded {
             stresses,
@@ -159,7 +158,12 @@ impl March<'_> {
             self.add(&passage, &loaded, tail);
             stresses = passage.stresses;
         }
-        let displacement = segment.displacement(t);
+        // A spring that is let go is not strained; rounding must not count as friction.
+        let displacement = if self.foundation.is_elastic() {
+            0.0
+        } else {
+            segment.displacement(t)
+        };
         self.close(displacement, &stresses, segment.position(t));
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
