@@ -1,4 +1,4 @@
-//! Commands of the workspace: figures, scaling factors, checks.
+//! Commands of the workspace: figures, scaling factors, materials, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![allow(
@@ -9,6 +9,7 @@
 
 mod ci;
 mod figures;
+mod material;
 mod output;
 mod plot;
 mod progress;
@@ -36,6 +37,8 @@ enum Command {
     ReproduceFigures(ReproduceFigures),
     /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
     ScalingFactors(ScalingFactors),
+    /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
+    FitMaterial(material::FitMaterial),
     /// Run everything that CI checks.
     Ci,
 }
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Command::ScalingFactors(options) => {
             scaling::print(&options.exponents, options.relative_error, options.format)
         }
+        Command::FitMaterial(options) => material::fit(&options),
         Command::Ci => ci::run(),
     };
     match outcome {

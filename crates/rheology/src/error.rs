@@ -39,6 +39,50 @@ pub enum RheologyError {
         "a material needs an instantaneous compliance, a fluidity or an element with a compliance greater than 0"
     )]
     NoCompliance,
+    /// A temperature at which the WLF law has no meaning.
+    #[error("the temperature must be above {pole}, the pole of the WLF law, but is {temperature}")]
+    BelowWlfPole {
+        /// The temperature.
+        temperature: f64,
+        /// The temperature at which the shift factor becomes infinite.
+        pole: f64,
+    },
+    /// Too few measurements.
+    #[error("at least {needed} points are needed, but there are {given}")]
+    TooFewPoints {
+        /// How many are needed.
+        needed: usize,
+        /// How many there are.
+        given: usize,
+    },
+    /// Two isotherms that cannot be shifted onto each other.
+    #[cfg(feature = "fit")]
+    #[error(
+        "the isotherms at {first} and {second} have no moduli in common: no shift brings them together"
+    )]
+    NoOverlap {
+        /// Temperature of one.
+        first: f64,
+        /// Temperature of the other.
+        second: f64,
+    },
+    /// The moduli of a Prony series did not settle.
+    #[cfg(feature = "fit")]
+    #[error("the moduli did not settle in {changes} changes of their signs")]
+    FitNotConverged {
+        /// Number of changes tried.
+        changes: usize,
+    },
+    /// No Prony series comes as close to a continuous spectrum as was asked.
+    #[error(
+        "a Prony series with a relative error of {asked:e} was asked for, {reached:e} was reached"
+    )]
+    ExpansionNotReached {
+        /// The relative error asked for.
+        asked: f64,
+        /// The smallest relative error reached.
+        reached: f64,
+    },
 }
 
 const POSITIVE: &str = "finite and greater than 0";

@@ -2,7 +2,8 @@
 //!
 //! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3); [`StandardSolid`] is the elastomer whose
 //! middle frequency range it stands for (Eq. 2, Fig. 1). [`Elastic`], [`KelvinVoigt`], [`Maxwell`], [`Prony`] and
-//! [`KelvinChain`] are the others, [`Compressible`] gives any of them a Poisson ratio. Every [`Material`] is described
+//! [`KelvinChain`] are the others, [`Compressible`] gives any of them a Poisson ratio. [`Springpot`] and
+//! [`FractionalMaxwell`] become one of them by a Prony series with a stated error. Every [`Material`] is described
 //! twice and exactly, by its [`RelaxationSpectrum`] and by its [`CreepSpectrum`]; both give moduli and compliances over
 //! time and frequency, and [`ExponentialStep`] is all that a contact solver asks of them.
 //!
@@ -26,13 +27,20 @@
 
 mod complex;
 mod error;
+#[cfg(feature = "fit")]
+pub mod fit;
+mod fractional;
 mod material;
 mod materials;
 mod spectrum;
 mod step;
+mod time_temperature;
 
 pub use complex::{ComplexCompliance, ComplexModulus};
 pub use error::RheologyError;
+pub use fractional::PronyExpansion;
+pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellParameters};
+pub use fractional::springpot::Springpot;
 pub use material::Material;
 pub use materials::compressible::Compressible;
 pub use materials::elastic::Elastic;
@@ -45,3 +53,4 @@ pub use materials::viscous::Viscous;
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;
+pub use time_temperature::{ArrheniusShift, WlfShift};

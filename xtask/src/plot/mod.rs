@@ -26,7 +26,7 @@ mod ticks;
 pub(crate) use axis::Axis;
 pub(crate) use chart::Chart;
 pub(crate) use colour::Colour;
-pub(crate) use figure::{Figure, render_svg};
+pub(crate) use figure::{Figure, Panel, render_svg};
 pub(crate) use legend::LegendPlace;
 pub(crate) use map::{ColourScale, Map};
 pub(crate) use png::{PNG_WIDTH, render_png};

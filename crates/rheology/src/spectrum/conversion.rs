@@ -22,7 +22,7 @@ pub(super) fn creep_of(relaxation: &RelaxationSpectrum) -> Result<CreepSpectrum,
     let elements = roots(&poles, relaxation.equilibrium_modulus())
         .into_iter()
         .map(|root| RetardationElement {
-            compliance: root.slope.recip(),
+            compliance: root.inverse_slope / root.position,
             retardation_time: root.position,
         });
     let fluidity = if relaxation.equilibrium_modulus() > 0.0 {
@@ -44,7 +44,7 @@ pub(super) fn relaxation_of(creep: &CreepSpectrum) -> Result<RelaxationSpectrum,
     let branches = roots(&poles, creep.fluidity())
         .into_iter()
         .map(|root| RelaxationBranch {
-            modulus: (root.slope * root.position).recip(),
+            modulus: root.inverse_slope / root.position / root.position,
             relaxation_time: root.position,
         });
     let viscosity = if creep.instantaneous_compliance() > 0.0 {

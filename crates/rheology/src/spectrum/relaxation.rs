@@ -203,6 +203,18 @@ impl RelaxationSpectrum {
         }
     }
 
+    /// Both materials side by side, under the same strain.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when a sum leaves the range of `f64`.
+    pub fn in_parallel_with(&self, other: &Self) -> Result<Self, RheologyError> {
+        Self::new(
+            self.equilibrium_modulus + other.equilibrium_modulus,
+            self.viscosity + other.viscosity,
+            [self.branches(), other.branches()].concat(),
+        )
+    }
+
     /// The same material, described by its creep.
     ///
     /// # Errors

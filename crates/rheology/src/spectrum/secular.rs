@@ -1,105 +1,130 @@
 //! Roots of the equation that relaxation and retardation times share.
 //!
 //! ```text
-//! Σ w_i/(x − p_i) = e    w_i > 0,  0 ≤ p_0 < p_1 < …,  e ≥ 0
+//! S(x) = Σ w_i/(x − p_i) − e = 0    w_i > 0,  0 ≤ p_0 < p_1 < …,  e ≥ 0
 //! ```
-//! The left side falls from +∞ to −∞ between two poles, and from +∞ to 0 above the last one: one root in every gap, and
-//! one above when e > 0.
+//! S falls from +∞ to −∞ between two poles, and from +∞ to −e above the last one: one root in every gap, and one above
+//! when e > 0. A root is kept as its offset from the nearer pole: differences of roots and poles then never cancel,
+//! however close they are.
 
-/// The pole p ≥ 0 and its weight w > 0.
+/// A pole p ≥ 0 and its weight w > 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pole {
     pub(super) position: f64,
     pub(super) weight: f64,
 }
 
-/// A root, and its distances x − p_i from the poles, which rounding of x would destroy where they are small.
-#[derive(Debug, Clone)]
+/// A root x, and −1/S'(x).
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Root {
     pub(super) position: f64,
-    /// x Σ w_i/(x − p_i)².
-    pub(super) slope: f64,
+    pub(super) inverse_slope: f64,
 }
 
 /// All roots in increasing order.
 pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
-    let gaps = (1..poles.len()).map(|upper| root_in_gap(poles, upper, level));
-    let mut roots: Vec<Root> = gaps.collect();
+    let equation = Secular { poles, level };
+    let gaps = (1..poles.len()).map(|upper| equation.root_in_gap(upper));
+    let mut places: Vec<Place> = gaps.collect();
     if level > 0.0 && !poles.is_empty() {
-        roots.push(root_above(poles, level));
+        places.push(equation.root_above());
     }
-    roots
+    let root = |index: usize| Root {
+        position: poles[places[index].near].position + places[index].offset,
+        inverse_slope: equation.inverse_slope(&places, index),
+    };
+    (0..places.len()).map(root).collect()
 }
 
-/// The root between the poles `upper − 1` and `upper`, sought as a distance from the nearer of them.
-fn root_in_gap(poles: &[Pole], upper: usize, level: f64) -> Root {
-    let half_gap = 0.5 * (poles[upper].position - poles[upper - 1].position);
-    let in_lower_half = Search {
-        poles,
-        level,
-        near: upper - 1,
-        side: 1.0,
-    };
-    // At the middle of the gap: what pulls the root up, and what pulls it down.
-    let middle = in_lower_half.balance(half_gap);
-    if middle.up <= middle.down {
-        let least = poles[upper - 1].weight / middle.down;
-        return in_lower_half.root([least.min(half_gap), half_gap]);
-    }
-    let in_upper_half = Search {
-        near: upper,
-        side: -1.0,
-        ..in_lower_half
-    };
-    let least = poles[upper].weight / middle.up;
-    in_upper_half.root([least.min(half_gap), half_gap])
-}
-
-/// The root above the last pole: w_last/x ≤ e ≤ Σ w/x, with x the distance from that pole.
-fn root_above(poles: &[Pole], level: f64) -> Root {
-    let near = poles.len() - 1;
-    let total: f64 = poles.iter().map(|pole| pole.weight).sum();
-    let search = Search {
-        poles,
-        level,
-        near,
-        side: 1.0,
-    };
-    search.root([poles[near].weight / level, total / level])
-}
-
-/// A root at a distance from the pole `near`, above it (`side` = 1) or below it (−1).
-struct Search<'a> {
+/// The equation S(x) = 0.
+struct Secular<'a> {
     poles: &'a [Pole],
     level: f64,
-    near: usize,
-    side: f64,
 }
 
-/// Both sides of the equation at one point, sums of positive terms, with their derivatives.
+/// A point at an offset from the pole `near` of at most half the gap on that side.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    near: usize,
+    offset: f64,
+}
+
+/// The positive and the negative terms of S at one point, and their derivatives, all without sign.
 struct Balance {
-    /// Σ w_i/(x − p_i) over the poles below x.
     up: f64,
-    /// e + Σ w_i/(p_i − x) over the poles above x.
     down: f64,
-    /// The derivatives of `up` and `down` by x, without sign.
     slopes: [f64; 2],
 }
 
-impl Search<'_> {
-    /// x − p_i at a distance from the near pole. It is at most half a gap, so that the sum never cancels.
-    fn difference(&self, pole: &Pole, distance: f64) -> f64 {
-        (self.poles[self.near].position - pole.position) + self.side * distance
+impl Secular<'_> {
+    /// The root between the poles `upper − 1` and `upper`.
+    fn root_in_gap(&self, upper: usize) -> Place {
+        let [below, above] = [self.poles[upper - 1], self.poles[upper]];
+        let half_gap = 0.5 * (above.position - below.position);
+        let middle = self.balance(Place {
+            near: upper - 1,
+            offset: half_gap,
+        });
+        // The near term alone is at most the terms of the other sign, and those are largest in the middle.
+        if middle.up <= middle.down {
+            let least = (below.weight / middle.down).min(half_gap);
+            return self.root_beside(upper - 1, 1.0, [least, half_gap]);
+        }
+        let least = (above.weight / middle.up).min(half_gap);
+        self.root_beside(upper, -1.0, [least, half_gap])
     }
 
-    fn balance(&self, distance: f64) -> Balance {
+    /// The root above the last pole: w_last/e ≤ x − p_last ≤ Σ w/e.
+    fn root_above(&self) -> Place {
+        let last = self.poles.len() - 1;
+        let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
+        let bracket = [self.poles[last].weight, total].map(|weight| weight / self.level);
+        self.root_beside(last, 1.0, bracket)
+    }
+
+    /// The root at a distance within the bracket from the pole `near`, above it (`side` = 1) or below it (−1).
+    ///
+    /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, where it is nearly straight; bisection where
+    /// that leaves the bracket or stops halving its steps.
+    fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> Place {
+        const TOLERANCE: f64 = 4.0 * f64::EPSILON;
+        let middle = |low: f64, high: f64| low.sqrt() * high.sqrt();
+        let place = |distance: f64| Place {
+            near,
+            offset: side * distance,
+        };
+        let mut distance = middle(low, high);
+        let mut last_step = f64::INFINITY;
+        while high > low * (1.0 + TOLERANCE) {
+            let Balance { up, down, slopes } = self.balance(place(distance));
+            // Positive while the root is farther from the pole.
+            let excess = side * (up / down).ln();
+            let step = excess / (distance * (slopes[0] / up + slopes[1] / down));
+            if step.abs() <= TOLERANCE {
+                break;
+            }
+            if excess > 0.0 {
+                low = distance;
+            } else {
+                high = distance;
+            }
+            let newton = distance * step.exp();
+            let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
+            let next = if trusted { newton } else { middle(low, high) };
+            last_step = (next / distance).ln().abs();
+            distance = next;
+        }
+        place(distance)
+    }
+
+    fn balance(&self, place: Place) -> Balance {
         let mut balance = Balance {
             up: 0.0,
             down: self.level,
             slopes: [0.0; 2],
         };
-        for pole in self.poles {
-            let difference = self.difference(pole, distance);
+        for (index, pole) in self.poles.iter().enumerate() {
+            let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
             let slope = term / difference.abs();
             if difference > 0.0 {
@@ -113,49 +138,42 @@ impl Search<'_> {
         balance
     }
 
-    /// Newton's method for ln(up/down) = 0 in the logarithm of the distance, where both are nearly straight; bisection
-    /// where it leaves the bracket or stops halving its steps.
-    fn root(&self, [mut low, mut high]: [f64; 2]) -> Root {
-        let tolerance = 4.0 * f64::EPSILON;
-        let mut distance = low.sqrt() * high.sqrt();
-        let mut last_step = f64::INFINITY;
-        while high > low * (1.0 + tolerance) {
-            let Balance { up, down, slopes } = self.balance(distance);
-            // Moving away from the near pole lowers up/down on its upper side and raises it on its lower side.
-            let excess = self.side * (up / down).ln();
-            if excess > 0.0 {
-                low = distance;
-            } else {
-                high = distance;
-            }
-            let decline = distance * (slopes[0] / up + slopes[1] / down);
-            let mut step = excess / decline;
-            let next = distance * step.exp();
-            let trusted = next > low && next < high && step.abs() <= 0.5 * last_step;
-            if step.abs() <= tolerance {
-                break;
-            }
-            if trusted {
-                distance = next;
-            } else {
-                let middle = low.sqrt() * high.sqrt();
-                step = (middle / distance).ln();
-                distance = middle;
-            }
-            last_step = step.abs();
-        }
-        self.root_at(distance)
+    /// x − p_i.
+    fn above_pole(&self, place: Place, pole: usize) -> f64 {
+        (self.poles[place.near].position - self.poles[pole].position) + place.offset
     }
 
-    fn root_at(&self, distance: f64) -> Root {
-        let position = self.poles[self.near].position + self.side * distance;
-        let terms = self.poles.iter().map(|pole| {
-            let difference = self.difference(pole, distance);
-            (pole.weight / difference) * (position / difference)
+    /// x − y of two roots.
+    fn between(&self, place: Place, other: Place) -> f64 {
+        let poles = self.poles[place.near].position - self.poles[other.near].position;
+        poles + (place.offset - other.offset)
+    }
+
+    /// −1/S' at one of the roots, from the product over all roots and poles.
+    ///
+    /// ```text
+    /// S(x) = −e Π(x − x_l)/Π(x − p_l)         −S'(x_k) = e Π_{l≠k} |x_k − x_l| / Π |x_k − p_l|
+    /// ```
+    /// and the same with Σ w in place of −e when e = 0 and there is a root less. As a sum, −S' = Σ w/(x − p)², each slope
+    /// would be right for its own rounded root, but together they would describe no material: where two poles lie within
+    /// δ, moduli off by ε/δ. The product belongs to the roots as they are, all of them (Gu & Eisenstat 1994, SIAM J.
+    /// Matrix Anal. Appl. 15, 1266).
+    fn inverse_slope(&self, places: &[Place], index: usize) -> f64 {
+        let place = places[index];
+        // Root and pole of the same gap in one factor: the product stays between 1 and the ratio of two differences.
+        let factors = places.iter().enumerate().map(|(l, other)| {
+            let from_pole = self.above_pole(place, l);
+            if l == index {
+                return from_pole;
+            }
+            from_pole / self.between(place, *other)
         });
-        Root {
-            position,
-            slope: terms.sum(),
+        let product: f64 = factors.product();
+        if self.level > 0.0 {
+            return product / self.level;
         }
+        let last = self.poles.len() - 1;
+        let total: f64 = self.poles.iter().map(|pole| pole.weight).sum();
+        -self.above_pole(place, last) * product / total
     }
 }

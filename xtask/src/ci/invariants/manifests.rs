@@ -25,7 +25,7 @@ const RULES: [Rule; 6] = [
     },
     Rule {
         name: "rheology",
-        required: &["thiserror"],
+        required: &["libm", "thiserror"],
         optional: &["serde"],
         in_tests: &["casebook"],
     },

@@ -1,0 +1,12 @@
+//! Materials from measurements: master curves, and the Prony series behind them.
+
+mod curve;
+mod identify;
+mod master_curve;
+mod nnls;
+mod refine;
+mod system;
+
+pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
+pub use identify::{Control, Ending, Identification, IdentifyOptions, identify};
+pub use master_curve::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};

@@ -1,0 +1,113 @@
+//! A springpot in series with a spring.
+//!
+//! ```text
+//! G*(ω) = G z/(1 + z),  z = (iωτ)^a    G(t) = G E_a(−(t/τ)^a)
+//! H(ln s) = G sin(π a)/π / (r^a + 2 cos(π a) + r^(−a)),  r = s τ
+//! ```
+//! with the Mittag-Leffler function E_a.
+
+use std::f64::consts::PI;
+
+use super::expansion::{Continuous, PronyExpansion, fractional_exponent};
+use crate::error::{not_negative, positive};
+use crate::{ComplexModulus, RheologyError};
+
+/// What a [`FractionalMaxwell`] is made of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FractionalMaxwellParameters {
+    /// Shear modulus G > 0 of the spring, \[Pa].
+    pub shear_modulus: f64,
+    /// Time τ > 0 at which spring and springpot give way alike, \[s].
+    pub relaxation_time: f64,
+    /// Exponent 0.01 ≤ a ≤ 0.99 of the springpot.
+    pub exponent: f64,
+}
+
+/// A spring and a springpot in series; in parallel with a spring it is the fractional standard solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FractionalMaxwell {
+    parameters: FractionalMaxwellParameters,
+}
+
+impl FractionalMaxwell {
+    /// The element with these parameters.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when one of them is out of range.
+    pub fn new(parameters: FractionalMaxwellParameters) -> Result<Self, RheologyError> {
+        positive("shear_modulus", parameters.shear_modulus)?;
+        positive("relaxation_time", parameters.relaxation_time)?;
+        fractional_exponent(parameters.exponent)?;
+        Ok(Self { parameters })
+    }
+
+    /// Complex modulus at an angular frequency ω ≥ 0 \[rad/s].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
+    pub fn complex_modulus(&self, angular_frequency: f64) -> Result<ComplexModulus, RheologyError> {
+        let omega = not_negative("angular_frequency", angular_frequency)?;
+        Ok(self.modulus_at(omega))
+    }
+
+    fn modulus_at(&self, omega: f64) -> ComplexModulus {
+        let FractionalMaxwellParameters {
+            shear_modulus,
+            relaxation_time,
+            exponent,
+        } = self.parameters;
+        let (sine, cosine) = (0.5 * PI * exponent).sin_cos();
+        let magnitude = (omega * relaxation_time).powf(exponent);
+        // z/(1 + z) with |z| ≤ 1, or 1/(1 + 1/z).
+        let small = magnitude.min(magnitude.recip());
+        let square = 1.0 + small * (2.0 * cosine + small);
+        let real = if magnitude <= 1.0 {
+            small * (cosine + small)
+        } else {
+            1.0 + small * cosine
+        };
+        ComplexModulus {
+            storage: shear_modulus * real / square,
+            loss: shear_modulus * small * sine / square,
+        }
+    }
+
+    /// A Prony series that stands for this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
+    ///
+    /// Below the band it ends in a spring.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the band is empty or the error outside 1e-12 to 0.1;
+    /// [`RheologyError::ExpansionNotReached`] when rounding is larger than the error asked for.
+    pub fn expand(
+        &self,
+        band: [f64; 2],
+        relative_error: f64,
+    ) -> Result<PronyExpansion, RheologyError> {
+        let exponent = self.parameters.exponent;
+        let continuous = Continuous {
+            log_density: &|log_rate| self.log_density(log_rate),
+            exact: &|omega| self.modulus_at(omega),
+            // Where r^a = −e^(±iπa).
+            strip: PI * (1.0 - exponent) / exponent,
+            exponent,
+            has_glass_modulus: true,
+        };
+        continuous.expand(band, relative_error)
+    }
+
+    fn log_density(&self, log_rate: f64) -> f64 {
+        let FractionalMaxwellParameters {
+            shear_modulus,
+            relaxation_time,
+            exponent,
+        } = self.parameters;
+        // r^a + r^(−a) + 2 cos(π a) without the cancellation at r = 1, a = 1.
+        let half = (0.5 * exponent * (log_rate + relaxation_time.ln())).sinh();
+        let cosine = (0.5 * PI * exponent).cos();
+        let denominator = 4.0 * (half * half + cosine * cosine);
+        (shear_modulus * (PI * exponent).sin() / PI / denominator).ln()
+    }
+}

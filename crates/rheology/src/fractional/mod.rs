@@ -1,0 +1,7 @@
+//! Elements between spring and dashpot, as Prony series.
+
+mod expansion;
+pub(crate) mod fractional_maxwell;
+pub(crate) mod springpot;
+
+pub use expansion::PronyExpansion;

@@ -1,0 +1,162 @@
+//! Time–temperature superposition: a change of temperature multiplies every time by a factor a_T.
+//!
+//! ```text
+//! WLF:        log₁₀ a_T = −C₁ (T − T_r)/(C₂ + T − T_r)
+//! Arrhenius:  ln a_T = E_a/R (1/T − 1/T_r),  temperatures above absolute zero
+//! ```
+//! (Williams, Landel & Ferry 1955, J. Am. Chem. Soc. 77, 3701, DOI 10.1021/ja01619a008)
+
+use crate::error::positive;
+use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
+
+/// Gas constant R, [J/(mol K)].
+const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
+
+/// The law of Williams, Landel and Ferry, for any scale of temperature with the step of one kelvin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct WlfShift {
+    c1: f64,
+    c2: f64,
+    reference_temperature: f64,
+}
+
+/// The law of Arrhenius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ArrheniusShift {
+    activation_energy: f64,
+    reference_temperature: f64,
+}
+
+impl WlfShift {
+    /// The law with `constants` C₁ > 0 and C₂ > 0 \[K] about a reference temperature.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when a number is not finite or a constant not greater than zero.
+    pub fn new([c1, c2]: [f64; 2], reference_temperature: f64) -> Result<Self, RheologyError> {
+        Ok(Self {
+            c1: positive("c1", c1)?,
+            c2: positive("c2", c2)?,
+            reference_temperature: finite(reference_temperature)?,
+        })
+    }
+
+    /// The constants C₁ and C₂ \[K].
+    #[must_use]
+    pub const fn constants(&self) -> [f64; 2] {
+        [self.c1, self.c2]
+    }
+
+    /// log₁₀ a_T at a temperature.
+    ///
+    /// # Errors
+    /// [`RheologyError::BelowWlfPole`] at and below T_r − C₂, where the law has no meaning.
+    pub fn log10_factor(&self, temperature: f64) -> Result<f64, RheologyError> {
+        let above_reference = finite(temperature)? - self.reference_temperature;
+        if above_reference <= -self.c2 {
+            return Err(RheologyError::BelowWlfPole {
+                temperature,
+                pole: self.reference_temperature - self.c2,
+            });
+        }
+        Ok(-self.c1 * above_reference / (self.c2 + above_reference))
+    }
+
+    /// The same law about another reference temperature.
+    ///
+    /// # Errors
+    /// [`RheologyError::BelowWlfPole`] at and below T_r − C₂.
+    pub fn about(&self, reference_temperature: f64) -> Result<Self, RheologyError> {
+        self.log10_factor(reference_temperature)?;
+        let c2 = self.c2 + (reference_temperature - self.reference_temperature);
+        Self::new([self.c1 * self.c2 / c2, c2], reference_temperature)
+    }
+
+    /// The law that comes closest to measured pairs of temperature and log₁₀ a_T.
+    ///
+    /// Linear in the constants: C₁ ΔT + C₂ log₁₀ a_T = −ΔT log₁₀ a_T.
+    ///
+    /// # Errors
+    /// [`RheologyError::TooFewPoints`] with fewer than two temperatures besides the reference;
+    /// [`RheologyError::InvalidParameter`] when no positive constants describe the pairs.
+    pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
+        let pairs = shifts
+            .iter()
+            .map(|[t, log]| [t - reference_temperature, *log]);
+        let pairs: Vec<[f64; 2]> = pairs.filter(|[difference, _]| *difference != 0.0).collect();
+        if pairs.len() < 2 {
+            return Err(RheologyError::TooFewPoints {
+                needed: 2,
+                given: pairs.len(),
+            });
+        }
+        let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
+        for [d, l] in pairs {
+            dd += d * d;
+            dl += d * l;
+            ll += l * l;
+            ddl += d * d * l;
+            dll += d * l * l;
+        }
+        let determinant = dd * ll - dl * dl;
+        let c1 = (dl * dll - ll * ddl) / determinant;
+        let c2 = (dl * ddl - dd * dll) / determinant;
+        Self::new([c1, c2], reference_temperature)
+    }
+}
+
+impl ArrheniusShift {
+    /// The law with an activation energy E_a > 0 [J/mol] about a reference temperature > 0 \[K].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when one of them is not finite and greater than zero.
+    pub fn new(activation_energy: f64, reference_temperature: f64) -> Result<Self, RheologyError> {
+        Ok(Self {
+            activation_energy: positive("activation_energy", activation_energy)?,
+            reference_temperature: positive("reference_temperature", reference_temperature)?,
+        })
+    }
+
+    /// log₁₀ a_T at a temperature > 0 \[K].
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the temperature is not finite and greater than zero.
+    pub fn log10_factor(&self, temperature: f64) -> Result<f64, RheologyError> {
+        let temperature = positive("temperature", temperature)?;
+        let reference = self.reference_temperature;
+        let inverse_difference = (reference - temperature) / temperature / reference;
+        let exponent = self.activation_energy / GAS_CONSTANT * inverse_difference;
+        Ok(exponent * std::f64::consts::LOG10_E)
+    }
+}
+
+impl RelaxationSpectrum {
+    /// The material at another temperature: all times multiplied by the shift factor a_T > 0.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the factor, or a time, is not finite and greater than zero.
+    pub fn shifted(&self, shift_factor: f64) -> Result<Self, RheologyError> {
+        positive("shift_factor", shift_factor)?;
+        let branches = self.branches().iter().map(|branch| RelaxationBranch {
+            modulus: branch.modulus,
+            relaxation_time: branch.relaxation_time * shift_factor,
+        });
+        Self::new(
+            self.equilibrium_modulus(),
+            self.viscosity() * shift_factor,
+            branches.collect(),
+        )
+    }
+}
+
+fn finite(temperature: f64) -> Result<f64, RheologyError> {
+    if temperature.is_finite() {
+        return Ok(temperature);
+    }
+    Err(RheologyError::InvalidParameter {
+        parameter: "temperature",
+        value: temperature,
+        allowed: "finite",
+    })
+}

@@ -1,0 +1,202 @@
+use proptest::prelude::*;
+use rheology::{
+    CreepSpectrum, KelvinChain, Material, Prony, RelaxationBranch, RelaxationSpectrum,
+    RetardationElement,
+};
+
+use crate::support::{assert_close, fixed_cases, spectrum};
+
+/// What surrounds the branches: lone spring and lone dashpot, each absent, weak or strong.
+fn frame() -> impl Strategy<Value = (f64, f64)> {
+    let absent_or_any = || prop_oneof![Just(0.0), (-6.0_f64..3.0).prop_map(|e| 10_f64.powf(e))];
+    (absent_or_any(), absent_or_any())
+}
+
+/// One to 100 branches over 15 decades of time, moduli over six; some times repeated, some beside another one.
+fn spectra() -> impl Strategy<Value = RelaxationSpectrum> {
+    let branch = (-9.0_f64..6.0, -3.0_f64..3.0, 0_u8..4, -9.0_f64..-1.0);
+    (frame(), prop::collection::vec(branch, 1..=100)).prop_map(|((spring, dashpot), branches)| {
+        let (mut moduli, mut times) = (Vec::new(), Vec::new());
+        for (log_time, log_modulus, kind, log_gap) in branches {
+            let time = match (kind, times.last()) {
+                (0, Some(last)) => *last,
+                (1, Some(last)) => last * (1.0 + 10_f64.powf(log_gap)),
+                _ => 10_f64.powf(log_time),
+            };
+            times.push(time);
+            moduli.push(10_f64.powf(log_modulus));
+        }
+        spectrum(spring, dashpot, &moduli, &times)
+    })
+}
+
+/// Angular frequencies around all times, \[rad/s].
+fn frequencies() -> impl Iterator<Item = f64> {
+    (-80..=110).map(|k| 10_f64.powf(0.1 * f64::from(k)))
+}
+
+/// Each residue is a product of up to 200 factors, each good to two roundings.
+const RESPONSE: f64 = 1e-13;
+
+/// The smallest distance of two neighbouring times, relative to them.
+fn smallest_gap(material: &RelaxationSpectrum) -> f64 {
+    let relaxation = material.branches().iter().map(|b| b.relaxation_time);
+    let creep = material.to_creep().unwrap();
+    let retardation = creep.elements().iter().map(|e| e.retardation_time);
+    let lists: [Vec<f64>; 2] = [relaxation.collect(), retardation.collect()];
+    let gaps = lists
+        .iter()
+        .flat_map(|times| times.windows(2).map(|pair| pair[1] / pair[0] - 1.0));
+    gaps.fold(1.0, f64::min)
+}
+
+fn scaled(material: &RelaxationSpectrum, modulus: f64, time: f64) -> RelaxationSpectrum {
+    let branches = material.branches().iter().map(|b| RelaxationBranch {
+        modulus: b.modulus * modulus,
+        relaxation_time: b.relaxation_time * time,
+    });
+    RelaxationSpectrum::new(
+        material.equilibrium_modulus() * modulus,
+        material.viscosity() * modulus * time,
+        branches.collect(),
+    )
+    .unwrap()
+}
+
+proptest! {
+    #![proptest_config(fixed_cases())]
+
+    /// G* J* = 1, each evaluated from its own spectrum, in any units.
+    #[test]
+    fn modulus_and_compliance_are_reciprocal(
+        relaxation in spectra(),
+        log_modulus in -12.0_f64..12.0,
+        log_time in -12.0_f64..12.0,
+    ) {
+        let [modulus, time] = [log_modulus, log_time].map(|exponent| 10_f64.powf(exponent));
+        let relaxation = scaled(&relaxation, modulus, time);
+        let creep = relaxation.to_creep().unwrap();
+        for omega in frequencies().map(|omega| omega / time) {
+            let modulus = relaxation.complex_modulus(omega).unwrap();
+            let compliance = creep.complex_compliance(omega).unwrap();
+            let real = modulus.storage * compliance.storage + modulus.loss * compliance.loss;
+            let imaginary = modulus.loss * compliance.storage - modulus.storage * compliance.loss;
+            let error = (real - 1.0).hypot(imaginary);
+            prop_assert!(error <= RESPONSE, "G* J* = {real} + {imaginary} i at ω = {omega:e}");
+        }
+    }
+
+    #[test]
+    fn every_response_survives_the_round_trip(before in spectra()) {
+        let after = before.to_creep().unwrap().to_relaxation().unwrap();
+        let slowest = before.branches().last().map_or(1.0, |b| b.relaxation_time);
+        for omega in frequencies() {
+            let [old, new] = [&before, &after].map(|m| m.complex_modulus(omega).unwrap());
+            assert_close(&format!("G' at ω = {omega:e}"), new.storage, old.storage, RESPONSE);
+            assert_close(&format!("G'' at ω = {omega:e}"), new.loss, old.loss, RESPONSE);
+            let time = omega.recip();
+            let [old, new] = [&before, &after].map(|m| m.relaxation_modulus(time).unwrap());
+            // A rounded relaxation time changes e^(−t/τ) by t/τ roundings.
+            let tolerance = RESPONSE * (1.0 + time / slowest);
+            // Denormal numbers have fewer digits.
+            if old > 1e-300 {
+                assert_close(&format!("G at t = {time:e}"), new, old, tolerance);
+            }
+        }
+    }
+
+    /// A time is stored with a relative error ε; where two lie within δ, their moduli are defined to ε/δ only.
+    #[test]
+    fn every_branch_survives_the_round_trip(before in spectra()) {
+        let after = before.to_creep().unwrap().to_relaxation().unwrap();
+        let gap = smallest_gap(&before);
+        if gap < 1e-6 {
+            return Ok(());
+        }
+        let tolerance = RESPONSE + 10.0 * f64::EPSILON / gap;
+        assert_close("G_∞", after.equilibrium_modulus(), before.equilibrium_modulus(), RESPONSE);
+        assert_close("η₀", after.viscosity(), before.viscosity(), RESPONSE);
+        prop_assert_eq!(after.branches().len(), before.branches().len(), "gap {}", gap);
+        for (new, old) in after.branches().iter().zip(before.branches()) {
+            assert_close("a modulus", new.modulus, old.modulus, tolerance);
+            assert_close("a time", new.relaxation_time, old.relaxation_time, tolerance);
+        }
+    }
+
+    /// Retardation times lie between the relaxation times, one per gap, one above when a spring stands alone, one below
+    /// when a dashpot does.
+    #[test]
+    fn times_interlace(relaxation in spectra()) {
+        let creep = relaxation.to_creep().unwrap();
+        let [relaxing, creeping] = [relaxation.branches().len(), creep.elements().len()];
+        let lone = [relaxation.equilibrium_modulus(), relaxation.viscosity()];
+        let n_lone = lone.iter().filter(|&&x| x > 0.0).count();
+        // Two that fall together to all digits are one.
+        prop_assert!(creeping < relaxing + n_lone, "{relaxing} and {creeping} times");
+        let shift = usize::from(relaxation.viscosity() > 0.0);
+        if creeping + 1 == relaxing + n_lone {
+            for (index, branch) in relaxation.branches().iter().enumerate() {
+                let tau = branch.relaxation_time;
+                let (below, above) = creep.elements().split_at(index + shift);
+                prop_assert!(below.iter().all(|e| e.retardation_time <= tau), "τ[{index}] = {tau:e}");
+                prop_assert!(above.iter().all(|e| e.retardation_time >= tau), "τ[{index}] = {tau:e}");
+            }
+        }
+        if relaxation.equilibrium_modulus() > 0.0 {
+            let expected = relaxation.equilibrium_modulus().recip();
+            assert_close("J(∞)", creep.equilibrium_compliance(), expected, RESPONSE);
+        } else {
+            let initial = creep.creep_compliance(0.0).unwrap();
+            assert_close("J(0)", initial, relaxation.glass_modulus().recip(), 1e-15);
+        }
+    }
+}
+
+/// From creep to relaxation and back, for every frame of a chain.
+#[test]
+fn kelvin_chains_survive_the_round_trip() {
+    for instantaneous in [0.0, 1e-6, 1.0] {
+        for fluidity in [0.0, 1e-9, 1.0] {
+            let elements = (0..12).map(|k| RetardationElement {
+                compliance: [3.0, 0.01, 1.0][k % 3],
+                retardation_time: 10_f64.powi(i32::try_from(k).unwrap()),
+            });
+            let creep = CreepSpectrum::new(instantaneous, fluidity, elements.collect()).unwrap();
+            let chain = KelvinChain::new(creep.clone()).unwrap();
+            let back = Prony::new(chain.relaxation()).unwrap().creep();
+            assert_eq!(
+                back.elements().len(),
+                12,
+                "J₀ = {instantaneous}, 1/η = {fluidity}"
+            );
+            for (new, old) in back.elements().iter().zip(creep.elements()) {
+                assert_close("J_k", new.compliance, old.compliance, RESPONSE);
+                assert_close("λ_k", new.retardation_time, old.retardation_time, RESPONSE);
+            }
+            assert_close(
+                "J₀",
+                back.instantaneous_compliance(),
+                instantaneous,
+                RESPONSE,
+            );
+            assert_close("1/η_f", back.fluidity(), fluidity, RESPONSE);
+        }
+    }
+}
+
+/// A single branch, no branch, and times that differ by a few roundings.
+#[test]
+fn degenerate_spectra_convert() {
+    let repeated = spectrum(1.0, 0.0, &[1.0, 2.0], &[1.0, 1.0]);
+    assert_eq!(repeated, spectrum(1.0, 0.0, &[3.0], &[1.0]), "one branch");
+    let close = spectrum(1.0, 0.0, &[1.0, 2.0], &[1.0, 1.0 + 3e-9]);
+    assert_eq!(close.branches().len(), 1, "one branch: {close:?}");
+    // The mean, weighted with the moduli, keeps the viscosity.
+    assert_close("η", close.zero_shear_viscosity(), 3.0 + 6e-9, 1e-15);
+    let dashpots = spectrum(0.0, 2.0, &[3.0], &[5.0]).to_creep().unwrap();
+    // 1/G* = 1/(2 s + 15 s/(1 + 5 s)): λ = 10/17, 1/η_f = 1/17, J = 1/2 (λ − λ²/5 · …) = 75/289.
+    assert_close("1/η_f", dashpots.fluidity(), 1.0 / 17.0, 1e-15);
+    let element = dashpots.elements()[0];
+    assert_close("λ", element.retardation_time, 10.0 / 17.0, 1e-15);
+    assert_close("J", element.compliance, 75.0 / 289.0, 1e-15);
+}

@@ -1,0 +1,139 @@
+use rheology::{
+    Elastic, FractionalMaxwell, FractionalMaxwellParameters, Material, RheologyError, Springpot,
+};
+
+use crate::support::assert_close;
+
+#[test]
+fn springpot_has_its_closed_forms() {
+    for case in casebook::group("RHE-10") {
+        if !case.id().contains("springpot") {
+            continue;
+        }
+        let springpot = Springpot::new(case.input("K"), case.input("a")).unwrap();
+        let (t, omega) = (case.input("t"), case.input("omega"));
+        let modulus = springpot.complex_modulus(omega).unwrap();
+        case.check_within("G_storage", modulus.storage, 1e-14);
+        case.check_within("G_loss", modulus.loss, 1e-14);
+        case.check_within("tan_delta", springpot.loss_tangent(), 1e-14);
+        case.check_within("G_t", springpot.relaxation_modulus(t).unwrap(), 1e-14);
+        case.check_within("J_t", springpot.creep_compliance(t).unwrap(), 1e-14);
+        // The same numbers from the series: what is right over the band of frequencies is right in time.
+        let expansion = springpot.expand([1e-3, 1e3], 1e-10).unwrap();
+        let series = &expansion.spectrum;
+        case.check("G_storage", series.complex_modulus(omega).unwrap().storage);
+        case.check("G_t", series.relaxation_modulus(t).unwrap());
+        let creep = series.to_creep().unwrap();
+        case.check("J_t", creep.creep_compliance(t).unwrap());
+    }
+}
+
+/// E_a(−x) is the relaxation of a spring and a springpot in series at (t/τ)^a = x.
+#[test]
+fn fractional_maxwell_relaxes_like_the_mittag_leffler_function() {
+    for case in casebook::group("RHE-10") {
+        if case.expected("E").is_none() {
+            continue;
+        }
+        let (exponent, x) = (case.input("a"), case.input("x"));
+        let element = FractionalMaxwell::new(FractionalMaxwellParameters {
+            shear_modulus: 1.0,
+            relaxation_time: 1.0,
+            exponent,
+        })
+        .unwrap();
+        let time = x.powf(exponent.recip());
+        let band = [1e-3 / time, 1e3 / time];
+        let series = element.expand(band, 1e-10).unwrap().spectrum;
+        case.check("E", series.relaxation_modulus(time).unwrap());
+    }
+}
+
+/// The error is the one stated, on frequencies between those where it was measured.
+#[test]
+fn expansions_keep_to_the_error_asked_for_anywhere_in_the_band() {
+    for exponent in [0.02, 0.3, 0.5, 0.7, 0.95] {
+        for error in [1e-1, 1e-3, 1e-6, 1e-9] {
+            let springpot = Springpot::new(1e7, exponent).unwrap();
+            let expansion = springpot.expand([1e-6, 1e6], error).unwrap();
+            assert!(
+                expansion.relative_error <= error,
+                "a = {exponent}: {expansion:?}"
+            );
+            let mut omega = 1.01e-6;
+            while omega < 1e6 {
+                let exact = springpot.complex_modulus(omega).unwrap();
+                let series = expansion.spectrum.complex_modulus(omega).unwrap();
+                let off = (series.storage - exact.storage).hypot(series.loss - exact.loss);
+                let off = off / exact.storage.hypot(exact.loss);
+                // The maximum of a smooth ripple between samples 7 % apart.
+                assert!(
+                    off <= 1.05 * error,
+                    "a = {exponent}, ω = {omega:e}: off by {off:e}"
+                );
+                omega *= 1.37;
+            }
+        }
+    }
+}
+
+/// J(t) = 1/G₁ − G₂/(G₁ (G₁ + G₂)) E_a(−(t/τ_c)^a) with τ_c^a = τ^a (G₁ + G₂)/G₁, here for a = 1/2, where
+/// E_a(−x) = e^(x²) erfc(x).
+#[test]
+fn fractional_standard_solid_creeps_like_its_closed_form() {
+    let (g1, g2, tau) = (2.0, 6.0, 3.0);
+    let branch = FractionalMaxwell::new(FractionalMaxwellParameters {
+        shear_modulus: g2,
+        relaxation_time: tau,
+        exponent: 0.5,
+    })
+    .unwrap();
+    let series = branch.expand([1e-6, 1e6], 1e-10).unwrap().spectrum;
+    let spring = Elastic::new(g1).unwrap().relaxation();
+    let creep = series
+        .in_parallel_with(&spring)
+        .unwrap()
+        .to_creep()
+        .unwrap();
+    for time in [1e-3, 0.1, 1.0, 10.0, 1e3] {
+        let x: f64 = (time / tau).sqrt() * g1 / (g1 + g2);
+        let relaxed = (x * x).exp() * libm::erfc(x);
+        let exact = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * relaxed;
+        assert_close(
+            &format!("J({time})"),
+            creep.creep_compliance(time).unwrap(),
+            exact,
+            1e-9,
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_expanded_is_refused() {
+    for exponent in [0.0, 1.0, -0.5, f64::NAN] {
+        let error = Springpot::new(1.0, exponent).unwrap_err();
+        assert!(error.to_string().starts_with("exponent must be"), "{error}");
+    }
+    let springpot = Springpot::new(1.0, 0.5).unwrap();
+    for band in [
+        [1.0, 1.0],
+        [2.0, 1.0],
+        [0.0, 1.0],
+        [1.0, f64::INFINITY],
+        [f64::NAN, 1.0],
+    ] {
+        let error = springpot.expand(band, 1e-3).unwrap_err();
+        assert!(
+            error.to_string().contains("_frequency must be"),
+            "{band:?}: {error}"
+        );
+    }
+    for error in [0.0, 1e-16, 0.5, f64::NAN] {
+        let refused = springpot.expand([1.0, 2.0], error).unwrap_err();
+        let expected = "relative_error";
+        assert!(
+            matches!(refused, RheologyError::InvalidParameter { parameter, .. } if parameter == expected),
+            "{error}: {refused}"
+        );
+    }
+}
