@@ -11,6 +11,8 @@ use crate::MdrError;
 
 /// Where the search starts, \[m]; it stands for "anywhere".
 const START: f64 = 1.0;
+/// Every step of the secant method doubles the digits; the rest is for a bad start.
+const MAX_STEPS: usize = 12;
 /// Proportion may be exact, and the force then rounded to the wrong side.
 const MARGIN: f64 = 1e-6;
 /// By how much a bracket that proportion does not give is widened, and how often.
@@ -42,6 +44,35 @@ pub(super) fn depth_of_load(
         value: load(bracket[0])?,
         time: 0.0,
     })
+}
+
+/// The depth \[m] at which `load` is as large as `target`, by the secant method in logarithms from a depth near it.
+pub(super) fn polished_depth(
+    load: impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+    start: f64,
+) -> Result<f64, MdrError> {
+    let (mut depth, at_depth) = within_reach(&load, start, target)?;
+    let mut excess = (at_depth / target).ln();
+    // Force and depth are nearly a power law; one between fluid and solid for the first step.
+    let mut exponent = 1.5;
+    for _ in 0..MAX_STEPS {
+        if excess.abs() <= f64::EPSILON {
+            break;
+        }
+        let step = -excess / exponent;
+        let (next, at_next) = within_reach(&load, depth * step.exp(), target)?;
+        let next_excess = (at_next / target).ln();
+        if next_excess.abs() >= excess.abs() {
+            break;
+        }
+        let slope = (next_excess - excess) / (next / depth).ln();
+        if slope.is_finite() && slope > 0.5 {
+            exponent = slope;
+        }
+        (depth, excess) = (next, next_excess);
+    }
+    Ok(depth)
 }
 
 /// Depths with less and with more load than the target.

@@ -131,6 +131,7 @@ pub fn steady_at_depth(
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// How much smaller than the error of the friction what the polynomials leave out is at first, and how far it may fall.
 const FIRST_TOLERANCE: f64 = 0.1;
+const ROUGH_TOLERANCE: f64 = 1e-3;
 const LAST_TOLERANCE: f64 = 1e-14;
 
 struct Problem<'a, L: ?Sized> {
@@ -181,8 +182,11 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     /// The depth that carries the force.
     fn depth(&self, load: &SlidingLoad, tolerance: f64) -> Result<f64, MdrError> {
         let target = positive("normal_force", 0.25 * load.normal_force())?;
-        let carried = |depth| Ok(self.solve(depth, tolerance)?.sums.load);
-        depth::depth_of_load(carried, target)
+        let carried = |depth, tolerance| Ok(self.solve(depth, tolerance)?.sums.load);
+        // Most of the search needs few polynomials.
+        let rough = tolerance.max(ROUGH_TOLERANCE);
+        let start = depth::depth_of_load(|depth| carried(depth, rough), target)?;
+        depth::polished_depth(|depth| carried(depth, tolerance), target, start)
     }
 
     fn solve(&self, depth: f64, tolerance: f64) -> Result<Solution, MdrError> {

@@ -5,6 +5,7 @@ mod contact_balances_the_force;
 mod depth_is_exact_at_every_spacing;
 mod every_body_of_revolution_slides;
 mod friction_converges_to_the_theorem;
+mod full_contact_obeys_the_complex_modulus;
 mod indentation_follows_lee_radok_and_ting;
 mod indentation_obeys_the_impulse_rule;
 mod march_ends_in_the_stationary_state;

@@ -4,8 +4,9 @@
 use casebook::Case;
 use indenters::{EquivalentLine, RigidLine};
 use mdr_core::{SlidingDepth, SteadyOptions, SteadySliding, steady, steady_at_depth};
+use rheology::{StandardSolid, StandardSolidParameters};
 
-use crate::support::{assert_close, body_of, foundation_of, load, prony};
+use crate::support::{assert_close, body_of, foundation_of, load};
 
 const GROUPS: [&str; 6] = ["MDR-03", "MDR-04", "MDR-05", "MDR-06", "MDR-07", "MDR-08"];
 
@@ -117,8 +118,12 @@ fn a_vanishing_spring_leaves_the_fluid() {
             )
             .expect("a stationary state")
         };
-        let branch = [(case.input("G2"), case.input("tau"))];
-        let solid = state(prony([case.input("G1"), 0.0], &branch));
+        let solid = StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: case.input("G1"),
+            maxwell_modulus: case.input("G2"),
+            viscosity: case.input("G2") * case.input("tau"),
+        });
+        let solid = state(solid.expect("a solid"));
         case.check("F", solid.normal_force);
         case.check("mu", solid.friction_coefficient);
     }
