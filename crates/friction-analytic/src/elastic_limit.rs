@@ -11,7 +11,7 @@
 //! is the same in both models.
 
 use indenters::{Axisymmetric, contact_radius};
-use rheology::StandardSolid;
+use rheology::Material;
 
 use crate::FrictionError;
 use crate::error::{positive, representable};
@@ -45,12 +45,12 @@ pub struct ElasticLimitFriction {
 /// Friction at low speed, v τ ≪ a: proportional to the speed, and on the half space exactly half of that on the line.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be;
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be, or a fluid;
 /// [`FrictionError::FrictionDiverges`] where ∫ h̃'² dx does; [`FrictionError::NotConverged`] when an integral is known to
 /// less than ten digits.
 pub fn low_speed_friction(
     body: &(impl Axisymmetric + ?Sized),
-    solid: &StandardSolid,
+    solid: &(impl Material + ?Sized),
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
     let (radius, depth) = checked(body, contact)?;
@@ -62,11 +62,15 @@ pub fn low_speed_friction(
         });
     }
     let moment = positive_moment(body, radius)?;
-    let shift = solid.viscosity() * contact.velocity / solid.equilibrium_modulus();
+    let relaxation = solid.relaxation();
+    // A fluid has no elastic limit at low speed.
+    let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
+    // η_0 of the slow limit holds the lone dashpot and all branches.
+    let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
     let line = shift * (slope_energy(body, radius)?.value / moment);
     let line = representable("friction coefficient", line)?;
     Ok(ElasticLimitFriction {
-        normal_force: representable("normal force", 8.0 * solid.equilibrium_modulus() * moment)?,
+        normal_force: normal_force(solid, modulus, moment)?,
         line,
         half_space: 0.5 * line,
     })
@@ -77,26 +81,40 @@ pub fn low_speed_friction(
 /// It exists for every profile, also where the viscous friction diverges.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be;
+/// [`FrictionError::InvalidParameter`] or [`FrictionError::Indenter`] for a contact that cannot be, or a lone dashpot;
 /// [`FrictionError::NotConverged`] when an integral is known to less than ten digits.
 pub fn high_speed_friction(
     body: &(impl Axisymmetric + ?Sized),
-    solid: &StandardSolid,
+    solid: &(impl Material + ?Sized),
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
     let (radius, depth) = checked(body, contact)?;
     let moment = positive_moment(body, radius)?;
-    let glass = solid.glass_modulus();
-    // α/G(0+) = G₂/(τ (G₁ + G₂)).
-    let rate = solid.maxwell_modulus() / glass / solid.relaxation_time();
+    let relaxation = solid.relaxation();
+    // A lone dashpot has no elastic limit at high speed.
+    let glass = positive("glass_modulus", relaxation.glass_modulus())?;
+    // α/G(0+) = Σ G_i/τ_i / G(0+).
+    let branches = relaxation.branches().iter();
+    let rate: f64 = branches
+        .map(|branch| branch.modulus / glass / branch.relaxation_time)
+        .sum();
     let energy = squared_compression(body, radius, depth)?;
     let friction = rate / contact.velocity * (energy / moment);
     let friction = representable("friction coefficient", friction)?;
     Ok(ElasticLimitFriction {
-        normal_force: representable("normal force", 8.0 * glass * moment)?,
+        normal_force: normal_force(solid, glass, moment)?,
         line: friction,
         half_space: friction,
     })
+}
+
+fn normal_force(
+    solid: &(impl Material + ?Sized),
+    modulus: f64,
+    moment: f64,
+) -> Result<f64, FrictionError> {
+    let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
+    representable("normal force", force)
 }
 
 /// Radius and depth of a contact that the body can have.

@@ -6,7 +6,9 @@
 //! - The way there: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
 //!   paraboloid from first touch.
 //! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too.
-//! - A solid instead of a fluid: friction at [low](low_speed_friction) and [high](high_speed_friction) speed.
+//! - Other materials: cone and paraboloid on a [Kelvin–Voigt](kelvin_voigt_sliding) and a [Maxwell](maxwell_sliding)
+//!   foundation, a [wavy line](wavy_sliding) in full contact on any; for any solid the friction at
+//!   [low](low_speed_friction) and [high](high_speed_friction) speed.
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it.
 //!
@@ -45,6 +47,8 @@ mod slope_energy;
 mod stationary;
 mod superposition;
 mod transient;
+mod viscoelastic;
+mod wavy;
 
 pub use axisymmetric::axisymmetric_sliding;
 pub use elastic_limit::{
@@ -64,3 +68,7 @@ pub use superposition::superposition_sliding;
 pub use transient::{
     TransientSliding, cone_depth_by_equation_15, sliding_distance_to_depth, transient_sliding,
 };
+pub use viscoelastic::{
+    SlidingContact, ViscoelasticSliding, kelvin_voigt_sliding, maxwell_sliding,
+};
+pub use wavy::{FullContact, WavyLine, wavy_sliding};

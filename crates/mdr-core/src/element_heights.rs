@@ -25,6 +25,8 @@ pub(crate) struct ElementHeights {
     pub(crate) heights: Vec<f64>,
     /// Height of the lowest element on the line, \[m].
     pub(crate) lowest_height: f64,
+    /// Height above the lowest element up to which no element is missing, \[m]; infinite with the whole line.
+    pub(crate) ceiling: f64,
     anchor: f64,
     anchor_index: usize,
     spacing: f64,
@@ -53,6 +55,29 @@ impl ElementHeights {
         Self::around(line, refined, spacing, height)
     }
 
+    /// So many elements that an `area` \[m²] can be displaced below the ceiling, or the whole of a finite line.
+    pub(crate) fn holding(
+        line: &(impl RigidLine + ?Sized),
+        spacing: f64,
+        area: f64,
+    ) -> Result<Self, MdrError> {
+        let mut sampled = Self::below(line, spacing, 0.0)?;
+        let mut reach = 1;
+        while reach < MAX_ELEMENTS {
+            reach *= 2;
+            let level = sampled.rise_within(line, reach);
+            sampled = Self::below(line, spacing, level)?;
+            if level.is_infinite() || sampled.area_below(level) >= area {
+                return Ok(sampled);
+            }
+        }
+        Err(MdrError::TooManyElements {
+            allowed: MAX_ELEMENTS,
+            spacing,
+            height: sampled.rise_within(line, reach),
+        })
+    }
+
     /// Position of an element on the line, \[m].
     pub(crate) fn position(&self, element: usize) -> f64 {
         // One of the two differences is zero; their signs differ, and indices have none.
@@ -62,14 +87,14 @@ impl ElementHeights {
     }
 
     /// Σ max(0, level − h_i) Δx, \[m²].
-    pub(crate) fn area_below(&self, level: f64) -> f64 {
+    fn area_below(&self, level: f64) -> f64 {
         let sum: f64 = self.heights.iter().map(|h| (level - h).max(0.0)).sum();
         sum * self.spacing
     }
 
     /// Height above the lowest element of the lower of the two points `n_elements` away from it, \[m]; `+∞` beyond the
     /// ends.
-    pub(crate) fn rise_within(&self, line: &(impl RigidLine + ?Sized), n_elements: usize) -> f64 {
+    fn rise_within(&self, line: &(impl RigidLine + ?Sized), n_elements: usize) -> f64 {
         let distance = n_elements as f64 * self.spacing;
         let [rear_end, front_end] = line.domain();
         let height_inside = |position: f64| {
@@ -130,9 +155,11 @@ impl ElementHeights {
         for height in &mut heights {
             *height -= lowest_height;
         }
+        let raised = anchor_height - lowest_height;
         Ok(Self {
             heights,
             lowest_height,
+            ceiling: (height + raised) * (1.0 + MARGIN),
             anchor,
             anchor_index,
             spacing,
@@ -217,7 +244,7 @@ impl<L: RigidLine + ?Sized> Ray<'_, L> {
 
 /// The lowest among the kinks, the ends of the domain, and x = 0; the foremost of several, where the leading edge
 /// begins.
-fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, MdrError> {
+pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, MdrError> {
     let [rear, front] = line.domain();
     let mut candidates = line.kinks();
     candidates.extend([0.0, rear, front]);

@@ -1,6 +1,7 @@
 //! Why a chain is refused, or does not answer.
 
 use indenters::IndenterError;
+use rheology::RheologyError;
 use thiserror::Error;
 
 use crate::SlideRow;
@@ -69,15 +70,63 @@ pub enum MdrError {
         /// Height above the lowest point of the line, \[m].
         height: f64,
     },
-    /// The leading edge is not as high as the stationary depth (12), so that no stationary state exists (Remark 4).
+    /// The leading edge is not as high as a stationary state needs (Remark 4).
     #[error(
-        "the stationary depth is {stationary_depth}, but the leading edge rises only {available} above the lowest point"
+        "no stationary state carries {normal_force}: the leading edge rises only {available} above the lowest point, \
+         and carries at most {carried_force} there"
     )]
     NoStationaryState {
-        /// Depth F_N / (4 η v) that a stationary state would need, \[m].
-        stationary_depth: f64,
+        /// Normal force asked for, \[N].
+        normal_force: f64,
+        /// An upper bound of the force that the whole leading edge carries, \[N].
+        carried_force: f64,
         /// Height of the leading edge above its lowest point, \[m].
         available: f64,
+    },
+    /// The line ends in front below the depth asked for.
+    #[error(
+        "the line ends in front only {available} above its lowest point, but should be {indentation_depth} deep"
+    )]
+    LineTooLow {
+        /// Height of the front end above the lowest point, \[m].
+        available: f64,
+        /// Depth asked for, \[m].
+        indentation_depth: f64,
+    },
+    /// An endless line does not rise above its contact.
+    #[error("the line does not rise without limit on one side of position {position}")]
+    NotRising {
+        /// Position from which the line was followed, \[m].
+        position: f64,
+    },
+    /// The line touches more often than can be followed.
+    #[error("there are more than {allowed} contact intervals at depth {indentation_depth}")]
+    TooManyContacts {
+        /// The most contact intervals of one line.
+        allowed: usize,
+        /// Indentation depth at that instant, \[m].
+        indentation_depth: f64,
+    },
+    /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
+    #[error(
+        "the friction integral does not converge at position {position}, where the line is too steep for a dashpot"
+    )]
+    FrictionDiverges {
+        /// Where the line is too steep, \[m].
+        position: f64,
+    },
+    /// The friction coefficient of a stationary state is known less well than asked for.
+    #[error(
+        "the friction coefficient is {friction_coefficient} with an estimated error of {error}, \
+         and the relative error asked for is {relative_error}"
+    )]
+    NotConverged {
+        /// Friction coefficient reached.
+        friction_coefficient: f64,
+        /// Its estimated absolute error.
+        error: f64,
+        /// Relative error asked for.
+        relative_error: f64,
     },
     /// The contact has reached an end of the line, beyond which the line is not given.
     #[error(
@@ -130,6 +179,9 @@ pub enum MdrError {
     /// The body refuses the question for its contact radius.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
+    /// The material refuses a step in time.
+    #[error(transparent)]
+    Material(#[from] RheologyError),
 }
 
 /// Checks that `value` is finite and greater than zero.
@@ -159,6 +211,21 @@ pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, M
         parameter,
         value,
         allowed: "finite and not negative",
+    })
+}
+
+/// Checks that `value` lies between 0 and 1.
+///
+/// # Errors
+/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn fraction(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
+    if value > 0.0 && value < 1.0 {
+        return Ok(value);
+    }
+    Err(MdrError::InvalidParameter {
+        parameter,
+        value,
+        allowed: "between 0 and 1",
     })
 }
 

@@ -1,18 +1,21 @@
-//! Normal indentation at constant force, without sliding.
+//! Normal indentation without sliding: constant force, or any history of force or depth.
 //!
 //! ```text
-//! ∫ F dt = 4 η Σ (d − h_i)⁺ Δx               while the contact grows
+//! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)        one step of compliance α
+//! ∫ F dt = 4 η Σ (d − h_i)⁺ Δx               a dashpot, while the contact grows
 //! ```
-//! The compressions of an element over all steps add up to d − h_i. So the depth at a given time does not depend on the
-//! steps that lead there, and the singular start d ∼ t^(p/(p+1)) costs nothing: only the spacing matters.
+//! On a dashpot the compressions of an element over all steps add up to d − h_i. So the depth at a given time does not
+//! depend on the steps that lead there, and the singular start d ∼ t^(p/(p+1)) costs nothing: only the spacing
+//! matters. On an elastic material nothing depends on the steps. On any other the error is of first order in their
+//! lengths, because the load of an element is held over a step.
 
 use indenters::RigidLine;
-use rheology::Viscous;
+use rheology::{ExponentialStep, Material};
 
 use crate::MdrError;
-use crate::contact::{Element, Instant};
-use crate::element_heights::{ElementHeights, MAX_ELEMENTS};
-use crate::error::{finite, positive};
+use crate::chain::Chain;
+use crate::element_heights::ElementHeights;
+use crate::error::{finite, not_negative, positive};
 use crate::slide::MIN_CONTACT;
 
 /// Numerics of normal indentation.
@@ -23,6 +26,26 @@ pub struct IndentOptions {
     pub spacing: f64,
 }
 
+/// What is given at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum IndentControl {
+    /// Normal force F_N ≥ 0, \[N].
+    NormalForce(f64),
+    /// Indentation depth d of the lowest point, \[m].
+    IndentationDepth(f64),
+}
+
+/// One step of a history; its control holds from the step before, so that a change of force is a jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct IndentStep {
+    /// Time at the end of the step, since first touch, \[s].
+    pub time: f64,
+    /// What is given there.
+    pub control: IndentControl,
+}
+
 /// The state at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -31,134 +54,166 @@ pub struct IndentRow {
     pub time: f64,
     /// Indentation depth d, \[m].
     pub indentation_depth: f64,
-    /// Positions of the rearmost and the foremost element in contact on the line, \[m].
-    pub contact: [f64; 2],
-    /// Number of elements in contact.
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Positions of the rearmost and the foremost loaded element on the line, \[m]; `None` without contact.
+    pub contact: Option<[f64; 2]>,
+    /// Number of loaded elements.
     pub n_contact: usize,
-    /// Length of the elements in contact, `n_contact` Δx, \[m].
+    /// Length of the loaded elements, `n_contact` Δx, \[m].
     pub contact_length: f64,
 }
 
-/// Presses a line into an undeformed viscous chain with a constant `normal_force` > 0 \[N], and records the `times`
-/// \[s], one step each.
+/// Presses a line into an undeformed chain with a constant `normal_force` > 0 \[N], and records the `times` \[s], one
+/// step each.
 ///
 /// The lowest point of the line must lie inside its domain.
 ///
 /// # Errors
-/// [`MdrError::ContactReachesBoundary`] when the contact reaches an end of the domain; [`MdrError::TooCoarse`] when
-/// fewer than three elements are in contact at the last time; [`MdrError::TooManyElements`] when the chain would be too
-/// long; [`MdrError::InvalidParameter`] when the times do not increase from above zero, or for another parameter;
-/// [`MdrError::InvalidHeight`], [`MdrError::Empty`], [`MdrError::NonFinite`].
+/// [`MdrError::InvalidParameter`] when the force is not positive; otherwise like [`indent_history`].
 pub fn indent(
     line: &(impl RigidLine + ?Sized),
-    material: &Viscous,
+    material: &(impl Material + ?Sized),
     normal_force: f64,
     times: &[f64],
     options: &IndentOptions,
 ) -> Result<Vec<IndentRow>, MdrError> {
     positive("normal_force", normal_force)?;
-    positive("spacing", options.spacing)?;
-    let duration = *times.last().ok_or(MdrError::Empty { list: "times" })?;
-    positive("time", duration)?;
-    // w = f/(4 Δx) summed over the chain, times α, is the area that the line displaces.
-    let area = 0.25 * normal_force * material.step_compliance(duration);
-    let sampled = sample_for_area(line, options.spacing, positive("area", area)?)?;
+    let step = |time: &f64| IndentStep {
+        time: *time,
+        control: IndentControl::NormalForce(normal_force),
+    };
+    let steps: Vec<IndentStep> = times.iter().map(step).collect();
+    indent_history(line, material, &steps, options)
+}
+
+/// Presses a line into an undeformed chain and lets it go again, step by step.
+///
+/// The lowest point of the line must lie inside its domain. A depth of no contact has no force.
+///
+/// # Errors
+/// [`MdrError::ContactReachesBoundary`] when the contact reaches an end of the domain; [`MdrError::TooCoarse`] when
+/// no step has three elements in contact; [`MdrError::TooManyElements`] when the chain would be too long;
+/// [`MdrError::InvalidParameter`] when the times do not increase from above zero, or for another parameter;
+/// [`MdrError::InvalidHeight`], [`MdrError::Empty`], [`MdrError::NonFinite`], [`MdrError::Material`].
+pub fn indent_history(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    steps: &[IndentStep],
+    options: &IndentOptions,
+) -> Result<Vec<IndentRow>, MdrError> {
+    let spacing = positive("spacing", options.spacing)?;
+    check(steps)?;
+    let line = elements(line, material, steps, spacing)?;
     let mut press = Press {
-        displacements: vec![0.0; sampled.heights.len()],
-        line: sampled,
-        spacing: options.spacing,
+        chain: Chain::new(material, line.heights.len(), [spacing, steps[0].time])?,
+        line,
+        spacing,
         time: 0.0,
         depth: 0.0,
     };
-    let mut rows = Vec::with_capacity(times.len());
-    for &time in times {
-        let time_step = positive("time_step", time - press.time)?;
-        let element = Element::new(options.spacing, material.step_compliance(time_step))?;
-        rows.push(press.advance(element, normal_force, time)?);
-    }
-    match rows.last() {
-        Some(row) if row.n_contact < MIN_CONTACT => Err(MdrError::TooCoarse {
-            n_contact: row.n_contact,
+    let rows = steps.iter().map(|step| press.advance(step));
+    let rows: Vec<IndentRow> = rows.collect::<Result<_, _>>()?;
+    let largest = rows.iter().map(|row| row.n_contact).max().unwrap_or(0);
+    if largest < MIN_CONTACT {
+        return Err(MdrError::TooCoarse {
+            n_contact: largest,
             needed: MIN_CONTACT,
-            spacing: options.spacing,
-        }),
-        _ => Ok(rows),
+            spacing,
+        });
     }
+    Ok(rows)
+}
+
+fn check(steps: &[IndentStep]) -> Result<(), MdrError> {
+    let last = steps.last().ok_or(MdrError::Empty { list: "times" })?;
+    positive("time", last.time)?;
+    let mut before = 0.0;
+    for step in steps {
+        positive("time_step", step.time - before)?;
+        before = step.time;
+        match step.control {
+            IndentControl::NormalForce(force) => not_negative("normal_force", force)?,
+            IndentControl::IndentationDepth(depth) => finite("indentation depth", depth, before)?,
+        };
+    }
+    Ok(())
+}
+
+/// Elements for the largest depth, and for the largest force held all the time.
+fn elements(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    steps: &[IndentStep],
+    spacing: f64,
+) -> Result<ElementHeights, MdrError> {
+    let (mut force, mut depth) = (0.0_f64, 0.0_f64);
+    for step in steps {
+        match step.control {
+            IndentControl::NormalForce(value) => force = force.max(value),
+            IndentControl::IndentationDepth(value) => depth = depth.max(value),
+        }
+    }
+    if force == 0.0 {
+        return ElementHeights::below(line, spacing, depth);
+    }
+    // w = f/(4 Δx) summed over the chain, times J(t), is the area that the line displaces.
+    let whole = ExponentialStep::creep(&material.creep(), steps[steps.len() - 1].time)?;
+    let compliance = material.half_space_factor() * whole.response();
+    let area = positive("area", 0.25 * force * compliance)?;
+    let sampled = ElementHeights::holding(line, spacing, area)?;
+    if sampled.ceiling < depth {
+        return ElementHeights::below(line, spacing, depth);
+    }
+    Ok(sampled)
 }
 
 /// A line being pressed into a chain.
 struct Press {
     line: ElementHeights,
-    displacements: Vec<f64>,
+    chain: Chain,
     spacing: f64,
     time: f64,
     depth: f64,
 }
 
 impl Press {
-    fn advance(
-        &mut self,
-        element: Element,
-        normal_force: f64,
-        time: f64,
-    ) -> Result<IndentRow, MdrError> {
-        let instant = Instant::unchecked(&self.line.heights, &self.displacements, element);
-        let depth = instant.solve(normal_force, self.depth).indentation_depth;
-        (self.depth, self.time) = (finite("indentation depth", depth, time)?, time);
-        for (displacement, height) in self.displacements.iter_mut().zip(&self.line.heights) {
-            *displacement = displacement.max(depth - height);
-        }
-        self.row()
-    }
-
-    fn row(&self) -> Result<IndentRow, MdrError> {
-        let last = self.line.heights.len() - 1;
-        let (mut rear, mut front, mut n_contact) = (last, 0, 0);
-        for (element, height) in self.line.heights.iter().enumerate() {
-            if *height < self.depth {
-                rear = rear.min(element);
-                front = element;
-                n_contact += 1;
-            }
-        }
-        for end in [rear, front] {
-            if end == 0 || end == last {
-                return Err(MdrError::ContactReachesBoundary {
-                    position: self.line.position(end),
-                    indentation_depth: self.depth,
-                    time: self.time,
-                });
-            }
-        }
+    fn advance(&mut self, step: &IndentStep) -> Result<IndentRow, MdrError> {
+        self.chain.set_time_step(step.time - self.time)?;
+        self.time = step.time;
+        self.chain.relax();
+        let instant = self.chain.instant(&self.line.heights);
+        let contact = match step.control {
+            IndentControl::NormalForce(force) => instant.solve(force, self.depth),
+            IndentControl::IndentationDepth(depth) => instant.contact_at_depth(depth)?,
+        };
+        self.depth = finite("indentation depth", contact.indentation_depth, self.time)?;
+        let mut loaded = Vec::with_capacity(contact.n_contact);
+        self.chain
+            .load(&self.line.heights, self.depth, |element, _| {
+                loaded.push(element);
+            });
+        self.check_ends(&loaded)?;
+        let ends = loaded.first().zip(loaded.last());
         Ok(IndentRow {
             time: self.time,
             indentation_depth: self.depth,
-            contact: [rear, front].map(|element| self.line.position(element)),
-            n_contact,
-            contact_length: n_contact as f64 * self.spacing,
+            normal_force: contact.normal_force,
+            contact: ends.map(|(rear, front)| [*rear, *front].map(|e| self.line.position(e))),
+            n_contact: loaded.len(),
+            contact_length: loaded.len() as f64 * self.spacing,
         })
     }
-}
 
-/// Samples the line so far up that an `area` \[m²] can be displaced below, or to the ends of a finite domain.
-fn sample_for_area(
-    line: &(impl RigidLine + ?Sized),
-    spacing: f64,
-    area: f64,
-) -> Result<ElementHeights, MdrError> {
-    let mut sampled = ElementHeights::below(line, spacing, 0.0)?;
-    let mut reach = 1;
-    while reach < MAX_ELEMENTS {
-        reach *= 2;
-        let level = sampled.rise_within(line, reach);
-        sampled = ElementHeights::below(line, spacing, level)?;
-        if level.is_infinite() || sampled.area_below(level) >= area {
-            return Ok(sampled);
+    fn check_ends(&self, loaded: &[usize]) -> Result<(), MdrError> {
+        let last = self.line.heights.len() - 1;
+        match loaded.iter().find(|end| **end == 0 || **end == last) {
+            None => Ok(()),
+            Some(end) => Err(MdrError::ContactReachesBoundary {
+                position: self.line.position(*end),
+                indentation_depth: self.depth,
+                time: self.time,
+            }),
         }
     }
-    Err(MdrError::TooManyElements {
-        allowed: MAX_ELEMENTS,
-        spacing,
-        height: sampled.rise_within(line, reach),
-    })
 }

@@ -1,9 +1,10 @@
 //! Sliding friction by the method of dimensionality reduction: a rigid line on a chain of dashpots, simulated as in
-//! Kürschner 2014, Sect. 3 and 4.
+//! Kürschner 2014, Sect. 3 and 4, or on any other linear viscoelastic [`Material`](rheology::Material).
 //!
 //! The modules have the names of the half-space solver's: [`contact`] is one instant, [`slide`](mod@slide) is marching
-//! in time from first touch into the stationary state, [`indent`](mod@indent) is pressing without sliding. A body of
-//! revolution enters as its equivalent line; any other [`RigidLine`](indenters::RigidLine) does as well.
+//! in time from first touch into the stationary state, [`indent`](mod@indent) is pressing without sliding,
+//! [`steady`](mod@steady) is stationary sliding without time. A body of revolution enters as its equivalent line; any
+//! other [`RigidLine`](indenters::RigidLine) does as well.
 //!
 //! The cone of Fig. 7 has the friction coefficient μ = (π/2) c₁, (21), at every speed:
 //!
@@ -27,6 +28,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod chain;
 mod compensated;
 pub mod contact;
 mod element_heights;
@@ -34,8 +36,10 @@ mod error;
 pub mod indent;
 mod march;
 pub mod slide;
+pub mod steady;
 
 pub use contact::{Contact, Element, Instant};
 pub use error::MdrError;
-pub use indent::{IndentOptions, IndentRow, indent};
+pub use indent::{IndentControl, IndentOptions, IndentRow, IndentStep, indent, indent_history};
 pub use slide::{SlideOptions, SlideRow, Transient, slide};
+pub use steady::{SlidingDepth, SteadyOptions, SteadySliding, steady, steady_at_depth};

@@ -1,11 +1,12 @@
 //! The chain in motion.
 
 use indenters::{RigidLine, SlidingLoad};
-use rheology::Viscous;
+use rheology::Material;
 
+use crate::chain::Chain;
 use crate::compensated::CompensatedSum;
-use crate::contact::{Contact, Element, Instant};
-use crate::element_heights::{ElementHeights, checked_height};
+use crate::contact::Contact;
+use crate::element_heights::ElementHeights;
 use crate::error::{finite, positive};
 use crate::slide::MIN_CONTACT;
 use crate::{MdrError, SlideRow};
@@ -13,13 +14,11 @@ use crate::{MdrError, SlideRow};
 /// A line moving over a chain. All lists run from the rear to the front of the line.
 pub(crate) struct March {
     line: ElementHeights,
-    /// Rise h̃(x + Δx) − h̃(x) of the line over an element during a step that ends at x, \[m].
+    chain: Chain,
+    /// Rise of the line over an element during the step to which its force belongs, \[m].
     rises: Vec<f64>,
     /// h̃'(x) at the end of a step.
     end_slopes: Vec<f64>,
-    /// Displacements of the elements, \[m]; the last one is the element that enters next, undeformed.
-    displacements: Vec<f64>,
-    element: Element,
     normal_force: f64,
     time_step: f64,
     spacing: f64,
@@ -27,32 +26,49 @@ pub(crate) struct March {
     depth: f64,
 }
 
+/// What a step has led to.
+pub(crate) enum Advance {
+    /// The state at its end.
+    Stepped(Stepped),
+    /// A depth at which elements would be needed that the chain has not.
+    TooDeep,
+}
+
+/// The state at the end of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stepped {
+    pub(crate) row: SlideRow,
+    /// Number of elements from the rearmost to the foremost loaded one.
+    pub(crate) span: usize,
+    /// Friction coefficient if all slopes were uphill, which says what rounding is.
+    pub(crate) steepness: f64,
+}
+
 impl March {
-    /// The undeformed chain, touched at the lowest point, ready for contacts up to the `stationary_depth` \[m].
+    /// A chain at rest under the elements of the line, touched at the lowest one.
     pub(crate) fn from_first_touch(
         line: &(impl RigidLine + ?Sized),
-        material: &Viscous,
+        sampled: ElementHeights,
+        material: &(impl Material + ?Sized),
         load: &SlidingLoad,
         spacing: f64,
-        stationary_depth: f64,
     ) -> Result<Self, MdrError> {
-        let sampled = ElementHeights::below(line, spacing, stationary_depth)?;
-        check_leading_edge(line, sampled.lowest_height, stationary_depth)?;
         let n_elements = sampled.heights.len();
         let time_step = spacing / load.velocity();
-        let element = Element::new(spacing, material.step_compliance(time_step))?;
-        positive("compression", element.compression(load.normal_force()))?;
+        let chain = Chain::new(material, n_elements, [spacing, time_step])?;
+        let compression = chain.element().compression(load.normal_force());
+        positive("compression", compression)?;
         let end_slopes = (0..n_elements)
             .map(|element| line.slope(sampled.position(element)))
             .collect();
-        let mut rises: Vec<f64> = sampled.heights.windows(2).map(|h| h[1] - h[0]).collect();
+        let rises: Vec<f64> = sampled.heights.windows(2).map(|h| h[1] - h[0]).collect();
+        let mut rises = mean_rises(&rises, chain.elastic_share());
         // The last element never carries load: see `advance`.
         rises.push(f64::INFINITY);
         Ok(Self {
             rises,
             end_slopes,
-            displacements: vec![0.0; n_elements + 1],
-            element,
+            chain,
             normal_force: load.normal_force(),
             time_step,
             spacing,
@@ -67,15 +83,18 @@ impl March {
         (self.n_steps + 1) as f64 * self.spacing
     }
 
-    /// One step; with the row, the number of elements from the rearmost to the foremost loaded one.
-    pub(crate) fn advance(&mut self) -> Result<(SlideRow, usize), MdrError> {
+    /// One step.
+    pub(crate) fn advance(&mut self) -> Result<Advance, MdrError> {
         self.n_steps += 1;
         let time = self.n_steps as f64 * self.time_step;
-        // The line has moved on: the element that was under one height is now under the one behind it.
-        let instant =
-            Instant::unchecked(&self.line.heights, &self.displacements[1..], self.element);
+        self.chain.travel();
+        self.chain.relax();
+        let instant = self.chain.instant(&self.line.heights);
         let contact = instant.solve(self.normal_force, self.depth);
-        finite("indentation depth", contact.indentation_depth, time)?;
+        let depth = finite("indentation depth", contact.indentation_depth, time)?;
+        if depth > self.line.ceiling {
+            return Ok(Advance::TooDeep);
+        }
         if contact.n_contact == 0 {
             return Err(MdrError::TooCoarse {
                 n_contact: 0,
@@ -83,41 +102,46 @@ impl March {
                 spacing: self.spacing,
             });
         }
-        let load = self.settle(contact.indentation_depth);
-        if load.front + 1 == self.line.heights.len() {
+        let loaded = self.settle(depth);
+        if loaded.front + 1 == self.line.heights.len() {
             return Err(MdrError::ContactReachesBoundary {
-                position: self.line.position(load.front),
-                indentation_depth: contact.indentation_depth,
+                position: self.line.position(loaded.front),
+                indentation_depth: depth,
                 time,
             });
         }
-        let row = self.row(contact, load, time)?;
-        self.depth = contact.indentation_depth;
-        Ok((row, load.front + 1 - load.rear))
+        let row = self.row(contact, loaded, time)?;
+        self.depth = depth;
+        Ok(Advance::Stepped(Stepped {
+            row,
+            span: loaded.front + 1 - loaded.rear,
+            steepness: loaded.climb / self.work_unit(),
+        }))
     }
 
     /// Moves every element to the end of the step, and sums what the loaded ones exert on the line.
     fn settle(&mut self, depth: f64) -> Loaded {
         let mut loaded = Loaded::new(self.line.heights.len());
-        for (here, height) in self.line.heights.iter().enumerate() {
-            let before = self.displacements[here + 1];
-            let compression = depth - (height + before);
-            if compression <= 0.0 {
-                self.displacements[here] = before;
-                continue;
-            }
-            self.displacements[here] = depth - height;
-            loaded.rear = loaded.rear.min(here);
-            loaded.front = here;
-            loaded.rise.add(compression * self.rises[here]);
-            loaded.end_slope.add(compression * self.end_slopes[here]);
-        }
+        let (rises, end_slopes) = (&self.rises, &self.end_slopes);
+        self.chain
+            .load(&self.line.heights, depth, |here, compression| {
+                loaded.rear = loaded.rear.min(here);
+                loaded.front = here;
+                loaded.rise.add(compression * rises[here]);
+                loaded.climb += compression * rises[here].abs();
+                loaded.end_slope.add(compression * end_slopes[here]);
+            });
         loaded
     }
 
+    /// The sum of compression times rise for a friction coefficient of one.
+    fn work_unit(&self) -> f64 {
+        self.chain.element().compression(self.normal_force) * self.spacing
+    }
+
     fn row(&self, contact: Contact, loaded: Loaded, time: f64) -> Result<SlideRow, MdrError> {
-        let compression = self.element.compression(self.normal_force);
-        let friction = loaded.rise.value() / (compression * self.spacing);
+        let compression = self.chain.element().compression(self.normal_force);
+        let friction = loaded.rise.value() / self.work_unit();
         let end_of_step = loaded.end_slope.value() / compression;
         let depth = contact.indentation_depth;
         Ok(SlideRow {
@@ -134,6 +158,16 @@ impl March {
     }
 }
 
+/// Rises h̃(x + Δx) − h̃(x) during a step that ends at x, and for the elastic share those around its end.
+///
+/// The force of a dashpot belongs to the motion during the step, that of a spring to where the step ends.
+fn mean_rises(rises: &[f64], elastic_share: f64) -> Vec<f64> {
+    let rear = rises.first().into_iter();
+    let before = rear.chain(rises);
+    let mean = |(rise, before): (&f64, &f64)| rise - 0.5 * elastic_share * (rise - before);
+    rises.iter().zip(before).map(mean).collect()
+}
+
 /// What the loaded elements of a step sum up to.
 #[derive(Debug, Clone, Copy)]
 struct Loaded {
@@ -141,6 +175,8 @@ struct Loaded {
     front: usize,
     /// Σ compression · rise of the line over the element during the step.
     rise: CompensatedSum,
+    /// The same with the modulus of the rise.
+    climb: f64,
     /// Σ compression · slope of the line at the end of the step.
     end_slope: CompensatedSum,
 }
@@ -151,27 +187,8 @@ impl Loaded {
             rear: n_elements,
             front: 0,
             rise: CompensatedSum::default(),
+            climb: 0.0,
             end_slope: CompensatedSum::default(),
         }
     }
-}
-
-/// A line that ends in front must end above the stationary depth: its last point belongs to the leading edge.
-fn check_leading_edge(
-    line: &(impl RigidLine + ?Sized),
-    lowest_height: f64,
-    stationary_depth: f64,
-) -> Result<(), MdrError> {
-    let front = line.domain()[1];
-    if front.is_infinite() {
-        return Ok(());
-    }
-    let available = checked_height(line, front)? - lowest_height;
-    if available >= stationary_depth {
-        return Ok(());
-    }
-    Err(MdrError::NoStationaryState {
-        stationary_depth,
-        available,
-    })
 }

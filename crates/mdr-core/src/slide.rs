@@ -2,21 +2,24 @@
 //!
 //! In every step the line moves on by one element and sinks until the elements carry the normal force. The elements
 //! stay where they are in the material, so that the shift is exact; they enter at the front undeformed (on a line
-//! nothing sinks ahead of the contact) and leave at the rear.
+//! nothing sinks ahead of the contact) and leave at the rear, where they recover and may be touched again.
 //!
 //! ```text
-//! Σ (d − h_i − u_i)⁺ = F_N / (4 η v)         one step, Δt = Δx / v
-//! d = F_N / (4 η v)                          (12), reached exactly at any spacing
+//! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)        one step of compliance α, Δt = Δx / v
+//! d = F_N / (4 η v)                          (12), a dashpot: reached exactly at any spacing
 //! μ = (4 η v / F_N) ∫ h̃'² dx                 (16), reached to second order
 //! ```
-//! Since Σ telescopes along the leading edge, the depth never exceeds (12); this bounds the chain.
+//! On a dashpot the sum telescopes along the leading edge, so that the depth never exceeds (12). A chain that turns out
+//! too short for the depth of another material is begun anew, twice as high.
 
-use indenters::{Axisymmetric, RigidLine, SlidingLoad, contact_radius};
-use rheology::Viscous;
+use indenters::{Axisymmetric, EquivalentLine, RigidLine, SlidingLoad};
+use rheology::{ExponentialStep, Material};
 
 use crate::MdrError;
-use crate::error::{finite, positive};
-use crate::march::March;
+use crate::element_heights::{ElementHeights, checked_height};
+use crate::error::{finite, fraction, positive};
+use crate::march::{Advance, March, Stepped};
+use crate::steady::contact_span;
 
 /// The fewest elements that the last contact must have.
 pub(crate) const MIN_CONTACT: usize = 3;
@@ -43,17 +46,16 @@ impl SlideOptions {
     /// 1e-9, and 100 contact lengths of sliding; about 20 are needed.
     ///
     /// # Errors
-    /// [`MdrError::InvalidParameter`] for an apex h ∼ r^p with p ≤ 1/2, whose friction diverges;
-    /// [`MdrError::TooCoarse`] for fewer than three elements; [`MdrError::Indenter`] when the body has no contact
-    /// radius at the stationary depth.
+    /// [`MdrError::InvalidParameter`] for a lone dashpot under an apex h ∼ r^p with p ≤ 1/2, whose friction diverges;
+    /// [`MdrError::TooCoarse`] for fewer than three elements; otherwise like [`steady`](crate::steady()).
     pub fn with_elements(
         elements: usize,
         body: &(impl Axisymmetric + ?Sized),
-        material: &Viscous,
+        material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         let value = body.apex_exponent();
-        if value <= 0.5 {
+        if value <= 0.5 && material.relaxation().viscosity() > 0.0 {
             // On any chain the friction is finite, but it grows without limit on refinement.
             let allowed = "above 1/2, where the friction integral (16) converges";
             return Err(MdrError::InvalidParameter {
@@ -62,7 +64,7 @@ impl SlideOptions {
                 allowed,
             });
         }
-        let length = contact_radius(body, stationary_depth(material, load)?)?;
+        let length = contact_span(&EquivalentLine(body), material, load)?;
         let spacing = length / elements.max(1) as f64;
         if elements < MIN_CONTACT {
             return Err(MdrError::TooCoarse {
@@ -80,15 +82,7 @@ impl SlideOptions {
 
     fn check(&self) -> Result<(), MdrError> {
         positive("spacing", self.spacing)?;
-        let value = positive("drift_tolerance", self.drift_tolerance)?;
-        if value >= 1.0 {
-            let allowed = "between 0 and 1";
-            return Err(MdrError::InvalidParameter {
-                parameter: "drift_tolerance",
-                value,
-                allowed,
-            });
-        }
+        fraction("drift_tolerance", self.drift_tolerance)?;
         positive("max_sliding_distance", self.max_sliding_distance)?;
         Ok(())
     }
@@ -137,68 +131,134 @@ pub struct Transient {
     pub drift: f64,
 }
 
-/// Slides a line over an undeformed viscous chain until the state is stationary.
+/// Slides a line over an undeformed chain until the state is stationary.
 ///
 /// # Errors
-/// - [`MdrError::NoStationaryState`] when the leading edge is lower than the stationary depth (Remark 4).
+/// - [`MdrError::NoStationaryState`] when the material flows and the leading edge is too low for it (Remark 4).
 /// - [`MdrError::NotStationary`], with the transient, when `max_sliding_distance` was too short.
 /// - [`MdrError::ContactReachesBoundary`] when the contact reaches the last element in front. The rear end of the line
 ///   may carry load: elements that pass it are free.
 /// - [`MdrError::TooCoarse`] when fewer than three elements are in the stationary contact,
 ///   [`MdrError::TooManyElements`] when the chain would be too long.
-/// - [`MdrError::InvalidParameter`], [`MdrError::InvalidHeight`], [`MdrError::NonFinite`].
+/// - [`MdrError::InvalidParameter`], [`MdrError::InvalidHeight`], [`MdrError::NonFinite`], [`MdrError::Material`].
 pub fn slide(
     line: &(impl RigidLine + ?Sized),
-    material: &Viscous,
+    material: &(impl Material + ?Sized),
     load: &SlidingLoad,
     options: &SlideOptions,
 ) -> Result<Transient, MdrError> {
     options.check()?;
-    let depth = stationary_depth(material, load)?;
-    let mut march = March::from_first_touch(line, material, load, options.spacing, depth)?;
-    let mut rows: Vec<SlideRow> = Vec::new();
+    let mut elements = first_elements(line, material, load, options.spacing)?;
+    loop {
+        let ceiling = elements.ceiling;
+        let march = March::from_first_touch(line, elements, material, load, options.spacing)?;
+        match slide_until_stationary(march, options)? {
+            Some(transient) => return Ok(transient),
+            None => elements = ElementHeights::below(line, options.spacing, 2.0 * ceiling)?,
+        }
+    }
+}
+
+/// The transient, or nothing when the chain was not high enough.
+fn slide_until_stationary(
+    mut march: March,
+    options: &SlideOptions,
+) -> Result<Option<Transient>, MdrError> {
+    let mut steps: Vec<Stepped> = Vec::new();
     let mut drift = 1.0;
     while march.next_sliding_distance() <= options.max_sliding_distance {
-        let (row, span) = march.advance()?;
-        rows.push(row);
-        drift = relative_change(&rows, span);
+        let Advance::Stepped(step) = march.advance()? else {
+            return Ok(None);
+        };
+        steps.push(step);
+        drift = relative_change(&steps);
         if drift <= options.drift_tolerance {
-            return stop(rows, row, drift, options.spacing);
+            return stop(rows(&steps), step.row, drift, options.spacing).map(Some);
         }
     }
     Err(MdrError::NotStationary {
         drift,
         drift_tolerance: options.drift_tolerance,
-        sliding_distance: rows.last().map_or(0.0, |row| row.sliding_distance),
-        rows,
+        sliding_distance: steps.last().map_or(0.0, |step| step.row.sliding_distance),
+        rows: rows(&steps),
     })
 }
 
-/// Stationary depth d = F_N / (4 η v), (12).
-fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> Result<f64, MdrError> {
-    let depth = load.normal_force() / (4.0 * material.viscosity() * load.velocity());
-    positive("stationary depth", finite("stationary depth", depth, 0.0)?)
+fn rows(steps: &[Stepped]) -> Vec<SlideRow> {
+    steps.iter().map(|step| step.row).collect()
 }
 
-/// Change of depth and friction over the last `span` rows; 1, as from nothing, when there are not as many.
-fn relative_change(rows: &[SlideRow], span: usize) -> f64 {
-    let n_rows = rows.len();
-    if n_rows <= span {
+/// Elements up to the depth that a flowing material has at least, or that the first step can displace.
+fn first_elements(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    spacing: f64,
+) -> Result<ElementHeights, MdrError> {
+    let creep = material.creep();
+    let quarter = 0.25 * load.normal_force() * material.half_space_factor();
+    if creep.fluidity() > 0.0 {
+        let depth = finite(
+            "stationary depth",
+            quarter * creep.fluidity() / load.velocity(),
+            0.0,
+        )?;
+        let depth = positive("stationary depth", depth)?;
+        let sampled = ElementHeights::below(line, spacing, depth)?;
+        check_leading_edge(line, sampled.lowest_height, depth, load)?;
+        return Ok(sampled);
+    }
+    let step = ExponentialStep::creep(&creep, spacing / load.velocity())?;
+    ElementHeights::holding(line, spacing, positive("area", quarter * step.response())?)
+}
+
+/// A line that ends in front must end above the least depth: its last point belongs to the leading edge.
+fn check_leading_edge(
+    line: &(impl RigidLine + ?Sized),
+    lowest_height: f64,
+    least_depth: f64,
+    load: &SlidingLoad,
+) -> Result<(), MdrError> {
+    let front = line.domain()[1];
+    if front.is_infinite() {
+        return Ok(());
+    }
+    let available = checked_height(line, front)? - lowest_height;
+    if available >= least_depth {
+        return Ok(());
+    }
+    Err(MdrError::NoStationaryState {
+        normal_force: load.normal_force(),
+        carried_force: load.normal_force() * (available / least_depth),
+        available,
+    })
+}
+
+/// Change of depth and friction over the last contact; 1, as from nothing, when the way was not as long.
+fn relative_change(steps: &[Stepped]) -> f64 {
+    let n_steps = steps.len();
+    let span = steps[n_steps - 1].span;
+    if n_steps <= span {
         return 1.0;
     }
-    let (now, before) = (&rows[n_rows - 1], &rows[n_rows - 1 - span]);
-    let change = |now: f64, before: f64| {
+    let (now, before) = (&steps[n_steps - 1], &steps[n_steps - 1 - span]);
+    let change = |now: f64, before: f64, noise: f64| {
         let difference = (now - before).abs();
-        if difference > 0.0 {
+        if difference > noise {
             difference / now.abs().max(before.abs())
         } else {
             0.0
         }
     };
-    let depth = change(now.indentation_depth, before.indentation_depth);
-    let friction = change(now.friction_coefficient, before.friction_coefficient);
-    depth.max(friction)
+    let depths = [now, before].map(|step| step.row.indentation_depth);
+    let frictions = [now, before].map(|step| step.row.friction_coefficient);
+    // On an elastic chain the friction is nothing but the rounding of the slopes up and down.
+    let noise = ROUNDING * now.steepness;
+    change(depths[0], depths[1], 0.0).max(change(frictions[0], frictions[1], noise))
 }
+
+/// Rounding of a sum of forces times rises, relative to the sum of their moduli.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 fn stop(
     rows: Vec<SlideRow>,

@@ -9,3 +9,4 @@ mod power_profiles_slide_in_closed_form;
 mod quadrature_agrees_with_closed_forms;
 mod support;
 mod transient_reaches_the_stationary_state;
+mod viscoelastic_foundations_have_closed_forms;

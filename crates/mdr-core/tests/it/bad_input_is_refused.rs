@@ -1,7 +1,10 @@
 //! Bad input is refused with its name and value, before anything is computed (casebook EXT-01).
 
 use indenters::{EquivalentLine, IndenterError, RigidLine, SlidingLoad};
-use mdr_core::{Element, IndentOptions, MdrError, SlideOptions, indent, slide};
+use mdr_core::{
+    Element, IndentControl, IndentOptions, IndentStep, MdrError, SlideOptions, SlidingDepth,
+    SteadyOptions, indent, indent_history, slide, steady, steady_at_depth,
+};
 
 use crate::support::{Cubic, DEPTH, VISCOSITY, load_for_depth, material, power};
 
@@ -311,5 +314,125 @@ fn a_cusp_with_divergent_friction_and_a_meaningless_tolerance_are_refused() {
             })
         ),
         "{result:?}"
+    );
+}
+
+/// Rows 14 and 15 for the stationary state: a body at rest never stops sinking, so that no speed of zero is taken.
+#[test]
+fn numerics_and_motion_of_the_stationary_state_are_checked() {
+    let body = power(2.0);
+    let line = EquivalentLine(&body);
+    let options = SteadyOptions::default();
+    let good = SlidingDepth {
+        indentation_depth: 0.1,
+        velocity: 1.0,
+    };
+    let slide = |motion| steady_at_depth(&line, &material(VISCOSITY), &motion, &options);
+    for bad in BAD {
+        let velocity = bad;
+        assert_refused(slide(SlidingDepth { velocity, ..good }), "velocity", bad);
+        let indentation_depth = bad;
+        let motion = SlidingDepth {
+            indentation_depth,
+            ..good
+        };
+        assert_refused(slide(motion), "indentation_depth", bad);
+        let options = SteadyOptions {
+            relative_error: bad,
+        };
+        let result = steady(
+            &line,
+            &material(VISCOSITY),
+            &load_for_depth(DEPTH),
+            &options,
+        );
+        assert_refused(result, "relative_error", bad);
+    }
+}
+
+#[test]
+fn bad_lines_are_refused_by_the_stationary_state() {
+    let solve = |height: fn(f64) -> f64| {
+        let options = SteadyOptions::default();
+        steady(
+            &Line(height),
+            &material(VISCOSITY),
+            &load_for_depth(DEPTH),
+            &options,
+        )
+    };
+    for height in [
+        (|x| if x > 0.005 { f64::NAN } else { x.abs() }) as fn(f64) -> f64,
+        |x| {
+            if x < -0.005 {
+                f64::NEG_INFINITY
+            } else {
+                x.abs()
+            }
+        },
+        |_| f64::INFINITY,
+    ] {
+        let result = solve(height);
+        assert!(
+            matches!(result, Err(MdrError::InvalidHeight { .. })),
+            "{result:?}"
+        );
+    }
+    for height in [
+        (|_| 0.0) as fn(f64) -> f64,
+        |x| 0.01 * x.sin(),
+        |x| x.min(0.0).abs(),
+    ] {
+        let result = solve(height);
+        assert!(
+            matches!(result, Err(MdrError::NotRising { .. })),
+            "{result:?}"
+        );
+    }
+}
+
+#[test]
+fn histories_are_checked() {
+    let body = power(2.0);
+    let press = |controls: &[IndentControl]| {
+        let step = |(k, control): (usize, &IndentControl)| IndentStep {
+            time: 1.0 + k as f64,
+            control: *control,
+        };
+        let steps: Vec<IndentStep> = controls.iter().enumerate().map(step).collect();
+        let options = IndentOptions { spacing: 0.01 };
+        indent_history(
+            &EquivalentLine(&body),
+            &material(VISCOSITY),
+            &steps,
+            &options,
+        )
+    };
+    let good = IndentControl::NormalForce(1.0);
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_refused(
+            press(&[good, IndentControl::NormalForce(bad)]),
+            "normal_force",
+            bad,
+        );
+    }
+    let result = press(&[IndentControl::IndentationDepth(f64::NAN)]);
+    assert!(
+        matches!(
+            result,
+            Err(MdrError::NonFinite {
+                quantity: "indentation depth",
+                ..
+            })
+        ),
+        "{result:?}"
+    );
+    let result = press(&[
+        IndentControl::IndentationDepth(-1.0),
+        IndentControl::NormalForce(0.0),
+    ]);
+    assert!(
+        matches!(result, Err(MdrError::TooCoarse { n_contact: 0, .. })),
+        "no contact at all: {result:?}"
     );
 }

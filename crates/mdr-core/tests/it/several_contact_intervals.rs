@@ -93,14 +93,15 @@ fn too_low_a_leading_edge_has_no_stationary_state() {
         };
         match slide_cubic(case, 50.0) {
             Err(MdrError::NoStationaryState {
-                stationary_depth,
+                normal_force,
+                carried_force,
                 available,
             }) => {
                 n_refused += 1;
                 let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
                 assert!(
-                    close(stationary_depth, depth) && close(available, height),
-                    "{}: {available} of {stationary_depth}, expected {height} of {depth}",
+                    close(carried_force / normal_force, height / depth) && close(available, height),
+                    "{}: {carried_force} of {normal_force} at {available}, expected {height} of {depth}",
                     case.id()
                 );
             }

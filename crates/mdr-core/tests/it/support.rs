@@ -1,12 +1,16 @@
 //! Shapes, closed forms and helpers that several claims need.
 
 use std::f64::consts::FRAC_PI_2;
+use std::fmt::Debug;
 
 use casebook::Case;
 use friction_analytic::{power_sliding, transient_sliding};
-use indenters::{PowerProfile, RigidLine, SlidingLoad};
+use indenters::{
+    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RigidLine, RoundTippedCone,
+    SlidingLoad, Sphere, Superposition, TruncatedParaboloid, stretch,
+};
 use mdr_core::{SlideOptions, Transient, slide};
-use rheology::Viscous;
+use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
 pub(crate) const VISCOSITY: f64 = 50.0;
@@ -159,4 +163,119 @@ impl Shape {
             transient.friction_coefficient / stationary.friction_coefficient,
         ]
     }
+}
+
+/// A generalised Maxwell material.
+pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
+    let branches = branches.iter().map(|(modulus, time)| RelaxationBranch {
+        modulus: *modulus,
+        relaxation_time: *time,
+    });
+    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect())
+        .expect("moduli");
+    Prony::new(relaxation).expect("a material")
+}
+
+/// The materials that the casebook names.
+pub(crate) fn model(name: &str) -> Prony {
+    match name {
+        "elastic" => prony([1e6, 0.0], &[]),
+        "viscous" => prony([0.0, 2e4], &[]),
+        "KV" => prony([1e6, 2e4], &[]),
+        "Maxwell" => prony([0.0, 0.0], &[(1e6, 0.02)]),
+        "SLS" => prony([0.1, 0.0], &[(1.0, 1.0)]),
+        "W4" => prony([1.0, 0.0], &[(2.0, 10.0), (5.0, 1.0), (10.0, 0.1)]),
+        "P3" => prony([1e5, 0.0], &[(5e8, 1e-6), (2e7, 0.01), (3e5, 1e3)]),
+        "P10" => {
+            let moduli = [3e8, 2.5e8, 1.8e8, 9e7, 3e7, 8e6, 2e6, 6e5, 2e5, 5e4];
+            let times = (0..10).map(|k| 10.0_f64.powf(-8.0 + 1.5 * f64::from(k)));
+            let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
+            prony([2e5, 0.0], &branches)
+        }
+        other => panic!("unknown model {other:?}"),
+    }
+}
+
+/// A material of twenty branches over twelve decades, a relaxation modulus that falls like a power of time.
+pub(crate) fn twenty_branches() -> Prony {
+    let branches: Vec<(f64, f64)> = (0..20)
+        .map(|k| 12.0 * f64::from(k) / 19.0)
+        .map(|decades| {
+            (
+                1e9 * 10.0_f64.powf(-0.3 * decades),
+                1e-9 * 10.0_f64.powf(decades),
+            )
+        })
+        .collect();
+    prony([1e5, 0.0], &branches)
+}
+
+/// Everything a case says about its body; the line of a power is given by its own coefficient.
+pub(crate) fn body_of(case: &Case) -> Box<dyn Axisymmetric> {
+    let shape = match case.input_text("shape") {
+        "" if case.id().contains("cone") => "cone",
+        "" => "paraboloid",
+        shape => shape,
+    };
+    let line_power = |p: f64| PowerProfile::new(0.5 / stretch(p).expect("p"), p).expect("a power");
+    match shape {
+        "cone" => Box::new(Shape::Cone.body(case.input("s"))),
+        "paraboloid" if case.has_input("R") => {
+            Box::new(Shape::Paraboloid.body(case.input("R").recip()))
+        }
+        "paraboloid" => Box::new(Shape::Paraboloid.body(case.input("k"))),
+        "sphere" => Box::new(Sphere::new(case.input("R")).expect("a sphere")),
+        "round-tipped cone" => {
+            let (tip, slope) = (case.input("b"), case.input("tan_theta"));
+            Box::new(RoundTippedCone::new(tip, slope).expect("a cone"))
+        }
+        "hyperboloid" => {
+            let tip = case.input("b");
+            Box::new(Hyperboloid::new(tip, case.input("L") / tip).expect("a hyperboloid"))
+        }
+        "polynomial c1 r + c2 r^2 + c4 r^4" => {
+            let term = |(name, exponent)| PowerTerm {
+                coefficient: case.input(name),
+                exponent,
+            };
+            let terms = [("c1", 1.0), ("c2", 2.0), ("c4", 4.0)].map(term);
+            Box::new(Superposition::new(terms.to_vec()).expect("a sum of powers"))
+        }
+        "power p=0.4" => Box::new(line_power(0.4)),
+        "power p=0.5" => Box::new(line_power(0.5)),
+        // The group states both in words: t = 0.3, R = 2, b = 0.5.
+        "flat-ended cone" => Box::new(FlatCone::new(0.5, 0.3).expect("a flat cone")),
+        "truncated paraboloid" => {
+            Box::new(TruncatedParaboloid::new(0.5, 0.25).expect("a paraboloid"))
+        }
+        other => panic!("{}: unknown shape {other:?}", case.id()),
+    }
+}
+
+/// The foundation of a case of MDR-03 to MDR-08.
+pub(crate) fn foundation_of(case: &Case) -> Box<dyn Material> {
+    let prony = match case.id().split('/').next() {
+        Some("MDR-03") => prony([case.input("G"), case.input("eta")], &[]),
+        Some("MDR-04") => prony([0.0; 2], &[(case.input("G"), case.input("tau"))]),
+        Some("MDR-05" | "MDR-08" | "EXT-04") => {
+            let branch = (case.input("G2"), case.input("tau"));
+            prony([case.input("G1"), 0.0], &[branch])
+        }
+        _ => model(case.input_text("model")),
+    };
+    Box::new(prony)
+}
+
+/// Asserts that two numbers agree relative to the second one or, where that is smaller, to a scale.
+pub(crate) fn assert_close(
+    [actual, expected]: [f64; 2],
+    tolerance: f64,
+    scale: f64,
+    context: &dyn Debug,
+) {
+    let difference = (actual - expected).abs();
+    assert!(
+        difference <= tolerance * expected.abs().max(scale),
+        "{actual:e} instead of {expected:e}, off by {difference:e}: {context:?}"
+    );
 }

@@ -1,9 +1,9 @@
 //! Numbers depend on the question, not on its units, and are the same every time.
 
 use indenters::{EquivalentLine, PowerProfile};
-use mdr_core::{IndentOptions, SlideOptions, Transient, indent, slide};
+use mdr_core::{IndentOptions, SlideOptions, SteadyOptions, Transient, indent, slide, steady};
 
-use crate::support::{load, material};
+use crate::support::{load, material, prony};
 
 /// One unit of length, force and time, in units of SI.
 type Units = [f64; 3];
@@ -142,5 +142,41 @@ fn indentation_is_the_same_over_twenty_four_decades() {
             (actual / expected - 1.0).abs() < 1e-12,
             "{actual} instead of {expected}, scale {scale}"
         );
+    }
+}
+
+/// A solid with a dashpot of its own, at a speed at which everything relaxes.
+#[test]
+fn the_stationary_state_is_the_same_over_twenty_four_decades() {
+    let state = |[length, force, time]: Units| {
+        let modulus = force / (length * length);
+        let branches = [(2.0 * modulus, 0.3 * time), (5.0 * modulus, 10.0 * time)];
+        let material = prony([modulus, 0.1 * modulus * time], &branches);
+        let body = PowerProfile::new(0.4 * length.powf(-0.5), 1.5).expect("a power profile");
+        let line = EquivalentLine(&body);
+        let load = load(2.0 * force, 0.7 * length / time);
+        let state = steady(&line, &material, &load, &SteadyOptions::default()).expect("a state");
+        [
+            state.friction_coefficient,
+            state.indentation_depth / length,
+            state.contacts[0][0] / length,
+        ]
+    };
+    let expected = state([1.0; 3]);
+    for scale in SCALES {
+        for mixed in [
+            [scale, 0.0, 0.0],
+            [0.0, scale, 0.0],
+            [0.0, 0.0, scale],
+            [scale, -scale, scale],
+        ] {
+            for (actual, expected) in state(scaled(mixed)).iter().zip(expected) {
+                // The pieces of the line depend on where the range was found, the error asked for is 1e-8.
+                assert!(
+                    (actual / expected - 1.0).abs() < 1e-10,
+                    "{actual} instead of {expected}, units {mixed:?}"
+                );
+            }
+        }
     }
 }

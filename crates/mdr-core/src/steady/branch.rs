@@ -1,0 +1,123 @@
+//! The stress of one Maxwell branch under a piece of the line, in closed form.
+//!
+//! ```text
+//! e' + a e = G u'(t),   e(−1) given,   a = H/(2 v τ) for a piece of length H on −1 ≤ t ≤ 1
+//! ```
+//! For a polynomial u the solution is a polynomial and a boundary layer, `e = p(t) + C e^(−a (1 + t))`, whatever the
+//! ratio of time constant and piece. Where the layer is wider than the piece the two would cancel, and e itself is
+//! expanded: the integrated equation is tridiagonal in Legendre polynomials, and its pivots are above one.
+
+use super::legendre::{DEGREE, end_value, square_integral, start_value};
+
+/// From here on the layer is split off. Below, terms of the expansion vanish like (a/2)^k/k!.
+const LAYER: f64 = 4.0;
+/// Enough terms for the polynomial and an exponential of a = LAYER to the last digit.
+pub(super) const MAX_TERMS: usize = DEGREE + 30;
+
+/// Stress e of a branch over one piece.
+#[derive(Debug)]
+pub(super) struct BranchStress {
+    /// The smooth part p.
+    pub(super) smooth: [f64; MAX_TERMS],
+    pub(super) n_terms: usize,
+    /// Amplitude C of the layer e^(−a (1 + t)).
+    pub(super) layer: f64,
+    /// e(1).
+    pub(super) end: f64,
+    /// ∫ e dt over [−1, 1].
+    pub(super) integral: f64,
+    /// ∫ e² dt over [−1, 1].
+    pub(super) square_integral: f64,
+}
+
+/// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
+pub(super) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+    if ratio < LAYER {
+        expanded(ratio, start, rates)
+    } else {
+        with_layer(ratio, start, rates)
+    }
+}
+
+fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+    let n_terms = rates.len() + exponential_terms(ratio);
+    let slopes = slopes(ratio, start, rates, n_terms);
+    let mut smooth = [0.0; MAX_TERMS];
+    smooth[0] = start + slopes[0] - slopes[1] / 3.0;
+    for k in 1..n_terms {
+        smooth[k] = slopes[k - 1] / (2 * k - 1) as f64 - slopes[k + 1] / (2 * k + 3) as f64;
+    }
+    BranchStress {
+        n_terms,
+        layer: 0.0,
+        end: start + 2.0 * slopes[0],
+        integral: 2.0 * smooth[0],
+        square_integral: square_integral(&smooth[..n_terms]),
+        smooth,
+    }
+}
+
+/// Terms beyond those of the rates until e^(−a t) is exhausted.
+fn exponential_terms(ratio: f64) -> usize {
+    const NEGLIGIBLE: f64 = 1e-18;
+    let mut terms = 2;
+    let mut size = ratio;
+    while size > NEGLIGIBLE && terms < MAX_TERMS - DEGREE - 2 {
+        size *= ratio / (2 * terms - 1) as f64;
+        terms += 1;
+    }
+    terms
+}
+
+/// Coefficients f_k of e', from f_k + a (f_(k−1)/(2k − 1) − f_(k+1)/(2k + 3)) = G u'_k.
+fn slopes(ratio: f64, start: f64, rates: &[f64], n_terms: usize) -> [f64; MAX_TERMS + 1] {
+    let mut slopes = [0.0; MAX_TERMS + 1];
+    let mut pivots = [0.0; MAX_TERMS];
+    for k in 0..n_terms {
+        let rate = rates.get(k).map_or(0.0, |rate| *rate);
+        if k == 0 {
+            pivots[0] = 1.0 + ratio;
+            slopes[0] = rate - ratio * start;
+        } else {
+            let below = ratio / (2 * k - 1) as f64 / pivots[k - 1];
+            pivots[k] = 1.0 + below * (ratio / (2 * k + 1) as f64);
+            slopes[k] = rate - below * slopes[k - 1];
+        }
+    }
+    for k in (0..n_terms).rev() {
+        slopes[k] = (slopes[k] + ratio / (2 * k + 3) as f64 * slopes[k + 1]) / pivots[k];
+    }
+    slopes
+}
+
+fn with_layer(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
+    let smooth = particular(ratio, rates);
+    let layer = start - start_value(&smooth);
+    let decay = (-2.0 * ratio).exp();
+    // ∫ e^(−a(1+t)) p dt = [e^(−a(1+t)) s] with s' − a s = p.
+    let dual = particular(-ratio, &smooth[..rates.len()]);
+    let cross = decay * end_value(&dual) - start_value(&dual);
+    let width = -(-2.0 * ratio).exp_m1() / ratio;
+    let square_width = -(-4.0 * ratio).exp_m1() / (2.0 * ratio);
+    BranchStress {
+        n_terms: rates.len(),
+        layer,
+        end: end_value(&smooth) + layer * decay,
+        integral: 2.0 * smooth[0] + layer * width,
+        square_integral: square_integral(&smooth)
+            + 2.0 * layer * cross
+            + layer * layer * square_width,
+        smooth,
+    }
+}
+
+/// The polynomial p with p' + a p = Σ r_k P_k, from its highest coefficient down.
+fn particular(ratio: f64, right_hand_side: &[f64]) -> [f64; MAX_TERMS] {
+    let mut solution = [0.0; MAX_TERMS];
+    let mut sums = [0.0; 2];
+    for (k, rate) in right_hand_side.iter().enumerate().rev() {
+        sums[k % 2] += solution[k + 1];
+        solution[k] = (rate - (2 * k + 1) as f64 * sums[k % 2]) / ratio;
+    }
+    solution
+}

@@ -1,0 +1,142 @@
+//! The depth at which a line in stationary motion carries a force.
+//!
+//! The force grows with the depth at least in proportion, and between two speeds or sizes like a power; so the root is
+//! sought in logarithms, from a bracket that proportion gives.
+
+use std::cell::RefCell;
+
+use indenters::bracketed_root;
+
+use crate::MdrError;
+
+/// Where the search starts, \[m]; it stands for "anywhere".
+const START: f64 = 1.0;
+/// Every step of the secant method doubles the digits; the rest is for a bad start.
+const MAX_STEPS: usize = 12;
+/// Proportion may be exact, and the force then rounded to the wrong side.
+const MARGIN: f64 = 1e-6;
+/// By how much a bracket that proportion does not give is widened, and how often.
+const STRIDE: f64 = 8.0;
+const MAX_STRIDES: usize = 200;
+
+/// The depth \[m] at which `load` is as large as `target`.
+pub(super) fn depth_of_load(
+    load: impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+) -> Result<f64, MdrError> {
+    let bracket = bracket(&load, target)?;
+    let failure = RefCell::new(None);
+    // The ends of the bracket are depths that the line has; one more digit may be too much.
+    let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
+    let excess = |logarithm: f64| match load(depth(logarithm)) {
+        Ok(load) => (load / target).ln(),
+        Err(error) => {
+            failure.replace(Some(error));
+            f64::NAN
+        }
+    };
+    let root = bracketed_root(excess, bracket.map(f64::ln));
+    if let Some(error) = failure.into_inner() {
+        return Err(error);
+    }
+    root.map(depth).ok_or(MdrError::NonFinite {
+        quantity: "normal force",
+        value: load(bracket[0])?,
+        time: 0.0,
+    })
+}
+
+/// The depth \[m] at which `load` is as large as `target`, by the secant method in logarithms from a depth near it.
+pub(super) fn polished_depth(
+    load: impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+    start: f64,
+) -> Result<f64, MdrError> {
+    let (mut depth, at_depth) = within_reach(&load, start, target)?;
+    let mut excess = (at_depth / target).ln();
+    // Force and depth are nearly a power law; one between fluid and solid for the first step.
+    let mut exponent = 1.5;
+    for _ in 0..MAX_STEPS {
+        if excess.abs() <= f64::EPSILON {
+            break;
+        }
+        let step = -excess / exponent;
+        let (next, at_next) = within_reach(&load, depth * step.exp(), target)?;
+        let next_excess = (at_next / target).ln();
+        if next_excess.abs() >= excess.abs() {
+            break;
+        }
+        let slope = (next_excess - excess) / (next / depth).ln();
+        if slope.is_finite() && slope > 0.5 {
+            exponent = slope;
+        }
+        (depth, excess) = (next, next_excess);
+    }
+    Ok(depth)
+}
+
+/// Depths with less and with more load than the target.
+fn bracket(
+    load: &impl Fn(f64) -> Result<f64, MdrError>,
+    target: f64,
+) -> Result<[f64; 2], MdrError> {
+    let (start, at_start) = within_reach(load, START, target)?;
+    let excessive = at_start > target;
+    let mut near = start;
+    let margin = if excessive {
+        1.0 - MARGIN
+    } else {
+        1.0 + MARGIN
+    };
+    let mut far = start * (target / at_start) * margin;
+    for _ in 0..MAX_STRIDES {
+        if far <= f64::MIN_POSITIVE || !far.is_finite() {
+            break;
+        }
+        let (reached, at_far) = within_reach(load, far, target)?;
+        if (at_far > target) != excessive {
+            return Ok(if excessive {
+                [reached, near]
+            } else {
+                [near, reached]
+            });
+        }
+        near = reached;
+        far = if excessive {
+            reached / STRIDE
+        } else {
+            reached * STRIDE
+        };
+    }
+    Err(MdrError::NonFinite {
+        quantity: "indentation depth",
+        value: far,
+        time: 0.0,
+    })
+}
+
+/// The load at a depth, or at the largest depth that the line has.
+fn within_reach(
+    load: &impl Fn(f64) -> Result<f64, MdrError>,
+    depth: f64,
+    target: f64,
+) -> Result<(f64, f64), MdrError> {
+    let available = match load(depth) {
+        Err(MdrError::LineTooLow { available, .. }) => available,
+        other => return Ok((depth, other?)),
+    };
+    // A line whose lowest point is its front end has no leading edge.
+    let carried = if available > 0.0 {
+        load(available)?
+    } else {
+        0.0
+    };
+    if carried < target {
+        return Err(MdrError::NoStationaryState {
+            normal_force: 4.0 * target,
+            carried_force: 4.0 * carried,
+            available,
+        });
+    }
+    Ok((available, carried))
+}

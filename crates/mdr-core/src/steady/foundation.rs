@@ -1,0 +1,271 @@
+//! A material as the elements of the foundation see it while the line passes over them.
+//!
+//! ```text
+//! w = G_∞ u + η₀ v du/dξ + Σ e_i,   l_i de_i/dξ + e_i = l_i G_i du/dξ,   l_i = v τ_i        under the line
+//! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
+//! ```
+//! ξ is the distance by which the line has moved on. The stresses e_i decompose into the modes of free recovery like
+//! into eigenvectors: with the relaxation times as poles, both directions are sums over 1/(L_k − l_i).
+
+use rheology::Material;
+
+use super::branch::{BranchStress, MAX_TERMS, branch_stress};
+use super::legendre::{derivative, square_integral, start_value, value};
+use super::segment::Segment;
+use crate::MdrError;
+use crate::error::positive;
+
+/// What a change of the displacement does to its rate in the mean over a segment, times 2 √2 from the square.
+const SENSITIVITY: f64 = 8.0;
+
+/// The foundation at one speed; all times are distances.
+#[derive(Debug)]
+pub(super) struct Foundation {
+    /// G_∞, \[Pa].
+    spring: f64,
+    /// η₀ v, [Pa m].
+    dashpot: f64,
+    branches: Vec<Branch>,
+    modes: Vec<Mode>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Branch {
+    modulus: f64,
+    length: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Mode {
+    compliance: f64,
+    length: f64,
+}
+
+/// A boundary layer `amplitude · e^(−ratio (1 + t))`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layer {
+    pub(super) amplitude: f64,
+    pub(super) ratio: f64,
+}
+
+/// What the foundation does under one segment.
+#[derive(Debug)]
+pub(super) struct Passage {
+    smooth: [f64; MAX_TERMS],
+    n_terms: usize,
+    pub(super) layers: Vec<Layer>,
+    /// ∫ w dξ, [Pa m²].
+    pub(super) load: f64,
+    /// Work that the dashpots take, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ, [Pa m²].
+    pub(super) dissipation: f64,
+    /// How much that changes at most per change of the displacement, [Pa m].
+    pub(super) dissipation_change: f64,
+    /// Stresses of the branches at the end.
+    pub(super) stresses: Vec<f64>,
+}
+
+/// A part of the surface that nothing touches, since it was last left.
+#[derive(Debug)]
+pub(super) struct Recovery {
+    /// Displacement when it was left, \[m].
+    pub(super) displacement: f64,
+    /// β_k, \[m].
+    amplitudes: Vec<f64>,
+    /// Distance ξ since then, \[m].
+    distance: f64,
+    /// Whether it was ever loaded.
+    released: bool,
+}
+
+impl Foundation {
+    /// The foundation of a line that moves with `velocity` \[m/s].
+    pub(super) fn new(
+        material: &(impl Material + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, MdrError> {
+        let (relaxation, creep) = (material.relaxation(), material.creep());
+        let factor = material.half_space_factor();
+        let mut branches = Vec::with_capacity(relaxation.branches().len());
+        for branch in relaxation.branches() {
+            branches.push(Branch {
+                modulus: branch.modulus / factor,
+                length: positive("distance of relaxation", velocity * branch.relaxation_time)?,
+            });
+        }
+        let mut modes = Vec::with_capacity(creep.elements().len());
+        for element in creep.elements() {
+            modes.push(Mode {
+                compliance: element.compliance * factor,
+                length: positive(
+                    "distance of retardation",
+                    velocity * element.retardation_time,
+                )?,
+            });
+        }
+        Ok(Self {
+            spring: relaxation.equilibrium_modulus() / factor,
+            dashpot: relaxation.viscosity() * velocity / factor,
+            branches,
+            modes,
+        })
+    }
+
+    /// The shortest distance in which anything relaxes, \[m]; 0 with a lone dashpot, infinite without any.
+    pub(super) fn shortest_length(&self) -> f64 {
+        if self.dashpot > 0.0 {
+            return 0.0;
+        }
+        let lengths = self.branches.iter().map(|branch| branch.length);
+        lengths.fold(f64::INFINITY, f64::min)
+    }
+
+    pub(super) fn has_dashpot(&self) -> bool {
+        self.dashpot > 0.0
+    }
+
+    pub(super) fn is_elastic(&self) -> bool {
+        self.branches.is_empty() && !self.has_dashpot()
+    }
+
+    /// Stresses of branches that have never been strained.
+    pub(super) fn unstrained(&self) -> Vec<f64> {
+        vec![0.0; self.branches.len()]
+    }
+
+    /// How far a displacement δ on a segment of this length can change ∫ w dξ, relative to δ, [Pa m].
+    pub(super) fn stiffness(&self, length: f64) -> f64 {
+        let branches = self.branches.iter();
+        let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
+        self.spring * length + self.dashpot + relaxing
+    }
+
+    /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2, \[Pa m²].
+    pub(super) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
+        let branches = self.branches.iter().zip(stresses);
+        let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();
+        0.5 * (self.spring * displacement * displacement + stored)
+    }
+
+    /// Follows the foundation under a segment of the line.
+    pub(super) fn pass(&self, segment: &Segment, stresses: &[f64]) -> Passage {
+        let rates = derivative(&segment.displacements);
+        let per_length = 2.0 / segment.length;
+        let square_rate = square_integral(&rates);
+        let dashpot = self.dashpot * per_length;
+        let rise = segment.end() - start_value(&segment.displacements);
+        let mut passage = Passage {
+            smooth: [0.0; MAX_TERMS],
+            n_terms: rates.len(),
+            layers: Vec::with_capacity(self.branches.len()),
+            load: self.spring * segment.length * segment.displacements[0] + self.dashpot * rise,
+            dissipation: dashpot * square_rate,
+            dissipation_change: SENSITIVITY * dashpot * square_rate.sqrt(),
+            stresses: Vec::with_capacity(self.branches.len()),
+        };
+        for (k, rate) in rates.iter().enumerate() {
+            passage.smooth[k] = self.spring * segment.displacements[k] + dashpot * rate;
+        }
+        let n_rates = segment.degree.max(1);
+        for (branch, start) in self.branches.iter().zip(stresses) {
+            let ratio = 0.5 * segment.length / branch.length;
+            let driven = rates.map(|rate| branch.modulus * rate);
+            let stress = branch_stress(ratio, *start, &driven[..n_rates]);
+            passage.add(&stress, ratio);
+            passage.load += 0.5 * segment.length * stress.integral;
+            passage.dissipation += ratio * (stress.square_integral / branch.modulus);
+            passage.dissipation_change +=
+                SENSITIVITY * ratio.min(1.0) * stress.square_integral.sqrt();
+        }
+        passage
+    }
+
+    /// Lets go of a surface with this displacement and these stresses.
+    pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> Recovery {
+        let amplitude = |mode: &Mode| {
+            let pulls = self.branches.iter().zip(stresses);
+            let branches: f64 = pulls
+                .map(|(b, e)| e * (b.length / (mode.length - b.length)))
+                .sum();
+            mode.compliance * (branches - self.spring * displacement)
+        };
+        Recovery {
+            displacement,
+            amplitudes: self.modes.iter().map(amplitude).collect(),
+            distance: 0.0,
+            released: true,
+        }
+    }
+
+    /// Displacement of a free surface, a distance after where it is now, \[m].
+    pub(super) fn free_displacement(&self, recovery: &Recovery, distance: f64) -> f64 {
+        let xi = recovery.distance + distance;
+        let modes = self.modes.iter().zip(&recovery.amplitudes);
+        let recovered: f64 = modes
+            .map(|(mode, beta)| -beta * (-xi / mode.length).exp_m1())
+            .sum();
+        recovery.displacement + recovered
+    }
+
+    /// Stresses in the branches of a free surface, a distance after where it is now, \[Pa m].
+    pub(super) fn free_stresses(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
+        let xi = recovery.distance + distance;
+        let modes = self.modes.iter().zip(&recovery.amplitudes);
+        let left: Vec<(f64, f64)> = modes
+            .map(|(mode, beta)| (mode.length, beta * (-xi / mode.length).exp()))
+            .collect();
+        let stress = |branch: &Branch| {
+            let parts = left
+                .iter()
+                .map(|(length, beta)| beta * (branch.length / (length - branch.length)));
+            branch.modulus * parts.sum::<f64>()
+        };
+        self.branches.iter().map(stress).collect()
+    }
+}
+
+impl Passage {
+    fn add(&mut self, stress: &BranchStress, ratio: f64) {
+        self.n_terms = self.n_terms.max(stress.n_terms);
+        for (sum, term) in self.smooth.iter_mut().zip(&stress.smooth[..stress.n_terms]) {
+            *sum += term;
+        }
+        self.stresses.push(stress.end);
+        if stress.layer != 0.0 {
+            self.layers.push(Layer {
+                amplitude: stress.layer,
+                ratio,
+            });
+        }
+    }
+
+    /// Load potential w, \[Pa m], at −1 ≤ t ≤ 1.
+    pub(super) fn potential(&self, t: f64) -> f64 {
+        let layers = self.layers.iter();
+        let decaying: f64 = layers
+            .map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp())
+            .sum();
+        value(&self.smooth[..self.n_terms], t) + decaying
+    }
+}
+
+impl Recovery {
+    /// A surface that was never touched.
+    pub(super) fn untouched() -> Self {
+        Self {
+            displacement: 0.0,
+            amplitudes: Vec::new(),
+            distance: 0.0,
+            released: false,
+        }
+    }
+
+    /// Whether it was loaded right here.
+    pub(super) fn just_released(&self) -> bool {
+        self.released && self.distance <= 0.0
+    }
+
+    /// Lets the line move on.
+    pub(super) fn advance(&mut self, distance: f64) {
+        self.distance += distance;
+    }
+}

@@ -1,0 +1,159 @@
+//! Polynomials on [−1, 1] as sums of Legendre polynomials, `p(t) = Σ c_k P_k(t)`.
+
+/// Degree of the polynomial that stands for one piece of a line.
+pub(super) const DEGREE: usize = 10;
+
+/// Coefficients of one piece of a line.
+pub(super) type Polynomial = [f64; DEGREE + 1];
+
+/// Interpolation at the Gauss–Lobatto nodes: −1, 1 and the zeros of P'_n.
+#[derive(Debug)]
+pub(super) struct Interpolation {
+    nodes: Polynomial,
+    /// Row k gives the coefficient c_k from the values at the nodes.
+    rows: [Polynomial; DEGREE + 1],
+}
+
+impl Interpolation {
+    pub(super) fn new() -> Self {
+        let mut nodes = [0.0; DEGREE + 1];
+        let mut rows = [[0.0; DEGREE + 1]; DEGREE + 1];
+        let n = DEGREE as f64;
+        for (j, node) in nodes.iter_mut().enumerate() {
+            *node = lobatto_node(j);
+            let values = legendre_values(*node);
+            let weight = 2.0 / (n * (n + 1.0) * values[DEGREE] * values[DEGREE]);
+            for (k, row) in rows.iter_mut().enumerate() {
+                // The discrete norm of the last polynomial differs from that of the integral.
+                let norm = if k == DEGREE {
+                    2.0 / n
+                } else {
+                    2.0 / (2 * k + 1) as f64
+                };
+                row[j] = values[k] * weight / norm;
+            }
+        }
+        Self { nodes, rows }
+    }
+
+    /// The polynomial with the values of `function` at the nodes, which include both ends.
+    pub(super) fn of(&self, function: impl Fn(f64) -> f64) -> Polynomial {
+        let values = self.nodes.map(function);
+        self.rows.map(|row| dot(&row, &values))
+    }
+}
+
+fn dot(first: &Polynomial, second: &Polynomial) -> f64 {
+    first.iter().zip(second).map(|(a, b)| a * b).sum()
+}
+
+/// Node j from −1 to 1, by Newton's method from that of Chebyshev.
+fn lobatto_node(j: usize) -> f64 {
+    if j == 0 || j == DEGREE {
+        return if j == 0 { -1.0 } else { 1.0 };
+    }
+    // Newton's method doubles the two digits of the first guess with every pass.
+    const PASSES: usize = 6;
+    let n = DEGREE as f64;
+    let mut t = -(std::f64::consts::PI * j as f64 / n).cos();
+    for _ in 0..PASSES {
+        let values = legendre_values(t);
+        t -= (t * values[DEGREE] - values[DEGREE - 1]) / ((n + 1.0) * values[DEGREE]);
+    }
+    t
+}
+
+/// P_0(t) … P_n(t).
+fn legendre_values(t: f64) -> Polynomial {
+    let mut values = [1.0; DEGREE + 1];
+    values[1] = t;
+    for k in 1..DEGREE {
+        let degree = k as f64;
+        values[k + 1] =
+            ((2.0 * degree + 1.0) * t * values[k] - degree * values[k - 1]) / (degree + 1.0);
+    }
+    values
+}
+
+/// p(t), by Clenshaw's recurrence.
+pub(super) fn value(coefficients: &[f64], t: f64) -> f64 {
+    let (mut next, mut after) = (0.0, 0.0);
+    for (k, coefficient) in coefficients.iter().enumerate().rev() {
+        let degree = k as f64;
+        let factor = (2.0 * degree + 1.0) / (degree + 1.0) * t;
+        let this = coefficient + factor * next - (degree + 1.0) / (degree + 2.0) * after;
+        (next, after) = (this, next);
+    }
+    next
+}
+
+/// Coefficients of p'(t), in a list as long, ending with a zero.
+pub(super) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
+    let mut slopes = [0.0; N];
+    // c'_k/(2k + 1) = c'_(k+2)/(2k + 5) + c_(k+1).
+    let mut sums = [0.0; 2];
+    for k in (0..N - 1).rev() {
+        sums[k % 2] += coefficients[k + 1];
+        slopes[k] = (2 * k + 1) as f64 * sums[k % 2];
+    }
+    slopes
+}
+
+/// ∫ p(t)² dt over [−1, 1].
+pub(super) fn square_integral(coefficients: &[f64]) -> f64 {
+    let squares = coefficients
+        .iter()
+        .enumerate()
+        .map(|(k, c)| c * c / (k as f64 + 0.5));
+    squares.sum()
+}
+
+/// p(−1).
+pub(super) fn start_value(coefficients: &[f64]) -> f64 {
+    let signed = coefficients
+        .iter()
+        .enumerate()
+        .map(|(k, c)| if k % 2 == 0 { *c } else { -c });
+    signed.sum()
+}
+
+/// p(1).
+pub(super) fn end_value(coefficients: &[f64]) -> f64 {
+    coefficients.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_of_the_full_degree_is_reproduced_with_its_slope() {
+        let power = DEGREE as f64;
+        let coefficients = Interpolation::new().of(|t| (t - 0.3).powf(power));
+        let slopes = derivative(&coefficients);
+        for t in [-1.0, -0.77, 0.1, 0.9, 1.0_f64] {
+            let (expected, slope) = ((t - 0.3).powf(power), power * (t - 0.3).powf(power - 1.0));
+            let actual = (value(&coefficients, t), value(&slopes, t));
+            assert!(
+                (actual.0 - expected).abs() < 1e-13 && (actual.1 - slope).abs() < 1e-11,
+                "{actual:?} instead of {expected}, {slope} at {t}"
+            );
+        }
+    }
+
+    #[test]
+    fn ends_and_square_integral_are_those_of_the_polynomial() {
+        let coefficients = Interpolation::new().of(|t| 1.0 + 2.0 * t);
+        let actual = [
+            start_value(&coefficients),
+            end_value(&coefficients),
+            square_integral(&coefficients),
+        ];
+        for (actual, expected) in actual.iter().zip([-1.0, 3.0, 2.0 + 8.0 / 3.0]) {
+            assert!(
+                (actual - expected).abs() < 1e-14,
+                "{actual} instead of {expected}"
+            );
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! A line as a row of polynomials, as many as its shape needs.
+//!
+//! Pieces end at the kinks and at the turning points of the line. A piece is halved until the last terms of its
+//! polynomial are negligible; towards a cusp this grades the pieces geometrically.
+
+use indenters::{RigidLine, bracketed_root};
+
+use super::legendre::{
+    DEGREE, Interpolation, Polynomial, derivative, end_value, start_value, value,
+};
+use super::range::Range;
+use super::segment::Segment;
+use crate::MdrError;
+use crate::element_heights::checked_height;
+
+/// Positions at which the line is looked at, besides the nodes, along the whole range.
+const STATIONS: f64 = 64.0;
+/// Samples of the slope of a piece in search of its turning points.
+const SLOPE_SAMPLES: usize = 24;
+/// A piece this many times shorter than every distance of relaxation acts through the heights of its ends alone.
+const SHORT: f64 = 0.125;
+
+/// A piece this short at its distance from zero has nodes at the rounding of positions.
+const SMALLEST: f64 = 1024.0 * f64::EPSILON;
+
+/// What counts as resolved.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resolution {
+    /// Indentation depth, \[m].
+    pub(super) depth: f64,
+    /// Shortest distance of relaxation, \[m].
+    pub(super) shortest_length: f64,
+    /// Terms relative to the depth that are negligible.
+    pub(super) tolerance: f64,
+}
+
+/// The part of a line that can touch, from the front to the rear.
+#[derive(Debug)]
+pub(super) struct Profile {
+    pub(super) pieces: Vec<Piece>,
+    /// Height of the lowest point relative to the anchor, \[m].
+    pub(super) lowest: f64,
+    pub(super) interpolation: Interpolation,
+}
+
+/// A stretch over which the line only rises or only falls.
+#[derive(Debug)]
+pub(super) struct Piece {
+    /// Heights above the anchor.
+    heights: Polynomial,
+    degree: usize,
+    /// Positions of the front and the rear end, \[m].
+    ends: [f64; 2],
+    /// Size of the first terms that are left out, \[m].
+    pub(super) tail: f64,
+    /// Whether it is as short as a piece can be and still not resolved.
+    pub(super) singular: bool,
+}
+
+impl Profile {
+    pub(super) fn new(
+        line: &(impl RigidLine + ?Sized),
+        range: &Range,
+        resolution: Resolution,
+    ) -> Result<Self, MdrError> {
+        let builder = Builder {
+            height: |x| Ok(checked_height(line, x)? - range.anchor_height),
+            interpolation: Interpolation::new(),
+            length: range.ends[1] - range.ends[0],
+            resolution,
+        };
+        let [rear, front] = range.ends;
+        let mut breaks = vec![front];
+        let inside = |x: &f64| *x > rear && *x < front;
+        breaks.extend(line.kinks().into_iter().rev().filter(inside));
+        breaks.push(rear);
+        let mut pieces = Vec::new();
+        for ends in breaks.windows(2) {
+            builder.resolve([ends[0], ends[1]], &mut pieces)?;
+        }
+        let ends = |piece: &Piece| start_value(&piece.heights).min(end_value(&piece.heights));
+        let lowest = pieces.iter().map(ends).fold(0.0, f64::min);
+        Ok(Self {
+            pieces,
+            lowest,
+            interpolation: builder.interpolation,
+        })
+    }
+}
+
+impl Piece {
+    /// The compression it imposes when the lowest point is `depth` deep.
+    pub(super) fn segment(&self, lowest: f64, depth: f64) -> Segment {
+        let mut displacements = self.heights.map(|height| -height);
+        displacements[0] += lowest + depth;
+        Segment {
+            displacements,
+            degree: self.degree,
+            ends: self.ends,
+            length: self.ends[0] - self.ends[1],
+        }
+    }
+
+    pub(super) fn rear(&self) -> f64 {
+        self.ends[1]
+    }
+
+    fn position(&self, t: f64) -> f64 {
+        let [front, rear] = self.ends;
+        (0.5 * (front * (1.0 - t) + rear * (1.0 + t))).clamp(rear, front)
+    }
+
+    fn length(&self) -> f64 {
+        self.ends[0] - self.ends[1]
+    }
+
+    /// Where the line turns inside the piece.
+    fn turning_point(&self) -> Option<f64> {
+        let monotone: f64 = (2..=self.degree)
+            .map(|k| (k * (k + 1) / 2) as f64 * self.heights[k].abs())
+            .sum();
+        if self.heights[1].abs() >= monotone {
+            return None;
+        }
+        let slopes = derivative(&self.heights);
+        let slope = |t: f64| value(&slopes[..self.degree.max(1)], t);
+        let sample = |k: usize| (2 * k + 1) as f64 / SLOPE_SAMPLES as f64 - 1.0;
+        (1..SLOPE_SAMPLES)
+            .map(|k| [sample(k - 1), sample(k)])
+            .find(|[from, to]| slope(*from) * slope(*to).signum() < 0.0)
+            .and_then(|bracket| bracketed_root(slope, bracket))
+    }
+}
+
+struct Builder<H> {
+    height: H,
+    interpolation: Interpolation,
+    length: f64,
+    resolution: Resolution,
+}
+
+impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
+    /// Adds the pieces between two positions, from the front to the rear.
+    fn resolve(&self, ends: [f64; 2], pieces: &mut Vec<Piece>) -> Result<(), MdrError> {
+        let mut waiting = vec![ends];
+        while let Some(ends) = waiting.pop() {
+            let piece = self.piece(ends)?;
+            let middle = ends[0].midpoint(ends[1]);
+            let farthest = ends[0].abs().max(ends[1].abs());
+            let smallest = (SMALLEST * farthest).max(f64::MIN_POSITIVE);
+            let indivisible = piece.length() <= smallest || ends.contains(&middle);
+            if self.is_resolved(&piece)? {
+                self.split_at_turning_point(piece, pieces)?;
+            } else if indivisible {
+                pieces.push(piece.straightened());
+            } else {
+                waiting.push([middle, ends[1]]);
+                waiting.push([ends[0], middle]);
+            }
+        }
+        Ok(())
+    }
+
+    fn split_at_turning_point(
+        &self,
+        piece: Piece,
+        pieces: &mut Vec<Piece>,
+    ) -> Result<(), MdrError> {
+        let turn = piece.turning_point().map(|t| piece.position(t));
+        match turn.filter(|x| !piece.ends.contains(x)) {
+            None => pieces.push(piece),
+            Some(turn) => {
+                pieces.push(self.piece([piece.ends[0], turn])?);
+                pieces.push(self.piece([turn, piece.ends[1]])?);
+            }
+        }
+        Ok(())
+    }
+
+    fn piece(&self, ends: [f64; 2]) -> Result<Piece, MdrError> {
+        let mut piece = Piece {
+            heights: [0.0; DEGREE + 1],
+            degree: DEGREE,
+            ends,
+            tail: 0.0,
+            singular: false,
+        };
+        let height = |t: f64| (self.height)(piece.position(t)).unwrap_or(f64::NAN);
+        piece.heights = self.interpolation.of(height);
+        if !piece.heights.iter().all(|c| c.is_finite()) {
+            return Err(self.bad_height(&piece));
+        }
+        piece.tail = remainder(&piece.heights);
+        piece.trim();
+        Ok(piece)
+    }
+
+    /// The first node without a height.
+    fn bad_height(&self, piece: &Piece) -> MdrError {
+        for k in 0..=2 * DEGREE {
+            let position = piece.position(k as f64 / DEGREE as f64 - 1.0);
+            match (self.height)(position) {
+                Err(error) => return error,
+                Ok(value) if !value.is_finite() => {
+                    return MdrError::InvalidHeight { position, value };
+                }
+                Ok(_) => {}
+            }
+        }
+        MdrError::InvalidHeight {
+            position: piece.position(0.0),
+            value: f64::INFINITY,
+        }
+    }
+
+    fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
+        let Resolution {
+            depth,
+            shortest_length,
+            tolerance,
+        } = self.resolution;
+        let rise: f64 = piece.heights[1..].iter().map(|c| c.abs()).sum();
+        // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
+        let steep = piece.length() > SHORT * shortest_length
+            && piece.tail > tolerance * rise
+            && piece.tail * rise * self.length > tolerance * depth * depth * piece.length();
+        Ok(piece.tail <= tolerance * depth && !steep && self.agrees(piece)?)
+    }
+
+    /// Whether the line is where the polynomial says it is, between the nodes as well.
+    fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
+        let share = STATIONS * piece.length() / self.length;
+        let allowed = self.resolution.tolerance * self.resolution.depth;
+        // An irrational stride does not fall into step with a periodic line.
+        const STRIDE: f64 = 0.618_033_988_749_894_9;
+        let mut station = 1.0;
+        while station <= share.ceil() {
+            let t = 2.0 * (station * STRIDE).fract() - 1.0;
+            let difference = (self.height)(piece.position(t))? - value(&piece.heights, t);
+            let close = difference.abs() <= 8.0 * allowed;
+            if !close {
+                return Ok(false);
+            }
+            station += 1.0;
+        }
+        Ok(true)
+    }
+}
+
+/// Size of the terms that are left out, from the decay of the last two pairs; an even line has no odd terms.
+fn remainder(coefficients: &Polynomial) -> f64 {
+    let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
+    let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
+    if last < before {
+        last * (last / before)
+    } else {
+        last
+    }
+}
+
+impl Piece {
+    /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.
+    fn straightened(mut self) -> Self {
+        let [front, rear] = [start_value(&self.heights), end_value(&self.heights)];
+        self.heights = [0.0; DEGREE + 1];
+        self.heights[0] = front.midpoint(rear);
+        self.heights[1] = 0.5 * (rear - front);
+        self.degree = 1;
+        self.singular = true;
+        self
+    }
+
+    /// Drops the terms that are rounding.
+    fn trim(&mut self) {
+        let largest = self.heights.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let noise = 2.0 * f64::EPSILON * largest;
+        while self.degree > 0 && self.heights[self.degree].abs() <= noise {
+            self.heights[self.degree] = 0.0;
+            self.degree -= 1;
+        }
+    }
+}

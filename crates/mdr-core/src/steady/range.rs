@@ -1,0 +1,101 @@
+//! The part of a line that can touch at a depth.
+
+use indenters::{RigidLine, bracketed_root};
+
+use crate::MdrError;
+use crate::element_heights::{checked_height, lowest_candidate};
+
+/// Stations per doubling of the distance from the anchor; narrower parts that come down again may be overlooked.
+const STATIONS_PER_OCTAVE: f64 = 16.0;
+/// An endless line is looked at this many times farther out than where it first rises above the ceiling.
+const OUTLOOK: f64 = 1024.0;
+/// Factor by which the search on an endless line goes outwards.
+const STRIDE: f64 = 8.0;
+
+/// Positions between which all heights below the ceiling lie.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Range {
+    /// Rear and front, \[m].
+    pub(super) ends: [f64; 2],
+    /// Height of the line at the anchor, to which heights are relative, \[m].
+    pub(super) anchor_height: f64,
+    /// Height of the front end above the anchor, \[m].
+    front_height: f64,
+    ends_in_front: bool,
+}
+
+impl Range {
+    /// Everything at most `depth` above the lowest of the kinks, the ends, and x = 0.
+    pub(super) fn below(line: &(impl RigidLine + ?Sized), depth: f64) -> Result<Self, MdrError> {
+        let anchor = lowest_candidate(line)?;
+        let anchor_height = checked_height(line, anchor)?;
+        let excess = |x: f64| Ok(checked_height(line, x)? - anchor_height - depth);
+        let [rear_end, front_end] = line.domain();
+        let rear = outermost(excess, anchor, rear_end)?;
+        let front = outermost(excess, anchor, front_end)?;
+        Ok(Self {
+            ends: [rear, front],
+            anchor_height,
+            front_height: checked_height(line, front)? - anchor_height,
+            ends_in_front: front >= front_end,
+        })
+    }
+
+    /// Refuses a line that ends in front before it reaches the ceiling.
+    ///
+    /// `lowest` is relative to the anchor.
+    pub(super) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
+        let available = self.front_height - lowest;
+        if self.ends_in_front && available < depth {
+            return Err(MdrError::LineTooLow {
+                available,
+                indentation_depth: depth,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// The outermost position between `anchor` and `end` at which the line lies below the ceiling.
+fn outermost(
+    excess: impl Fn(f64) -> Result<f64, MdrError>,
+    anchor: f64,
+    end: f64,
+) -> Result<f64, MdrError> {
+    if end.is_finite() && excess(end)? <= 0.0 {
+        return Ok(end);
+    }
+    let mut outside = if end.is_finite() {
+        end - anchor
+    } else {
+        OUTLOOK * first_above(&excess, anchor, end.signum())?
+    };
+    // The sum of two positions may be rounded beyond the end.
+    let within = |x: f64| if end > anchor { x.min(end) } else { x.max(end) };
+    // The anchor itself lies below the ceiling, so that this ends.
+    loop {
+        let inside = outside * (-1.0 / STATIONS_PER_OCTAVE).exp2();
+        if excess(anchor + inside)? <= 0.0 {
+            let plain = |x: f64| excess(x).unwrap_or(f64::NAN);
+            let [near, far] = [inside, outside].map(|offset| within(anchor + offset));
+            return Ok(bracketed_root(plain, [near, far]).unwrap_or(far));
+        }
+        outside = inside;
+    }
+}
+
+/// A distance, with its sign, at which an endless line lies above the ceiling.
+fn first_above(
+    excess: impl Fn(f64) -> Result<f64, MdrError>,
+    anchor: f64,
+    sign: f64,
+) -> Result<f64, MdrError> {
+    let mut distance = sign;
+    while excess(anchor + distance)? <= 0.0 {
+        distance *= STRIDE;
+        if !distance.is_finite() {
+            return Err(MdrError::NotRising { position: anchor });
+        }
+    }
+    Ok(distance)
+}

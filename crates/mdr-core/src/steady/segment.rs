@@ -1,0 +1,49 @@
+//! A part of the line as a polynomial, from where it comes to where it goes.
+
+use super::legendre::{Interpolation, Polynomial, end_value, value};
+
+/// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
+#[derive(Debug, Clone)]
+pub(super) struct Segment {
+    /// Legendre coefficients of u = d − h̃, \[m].
+    pub(super) displacements: Polynomial,
+    /// Coefficients above this one are zero.
+    pub(super) degree: usize,
+    /// Positions of the front and the rear end, \[m].
+    pub(super) ends: [f64; 2],
+    pub(super) length: f64,
+}
+
+impl Segment {
+    /// Position on the line, \[m].
+    pub(super) fn position(&self, t: f64) -> f64 {
+        0.5 * (self.ends[0] * (1.0 - t) + self.ends[1] * (1.0 + t))
+    }
+
+    pub(super) fn displacement(&self, t: f64) -> f64 {
+        value(&self.displacements[..=self.degree], t)
+    }
+
+    /// Displacement at the rear end, \[m].
+    pub(super) fn end(&self) -> f64 {
+        end_value(&self.displacements)
+    }
+
+    /// The part between two values of t.
+    pub(super) fn part(&self, interpolation: &Interpolation, [from, to]: [f64; 2]) -> Self {
+        if from <= -1.0 && to >= 1.0 {
+            return self.clone();
+        }
+        let half = 0.5 * (to - from);
+        let inside = |s: f64| self.displacement(0.5 * (from + to) + half * s);
+        let mut displacements = interpolation.of(inside);
+        // Interpolation leaves rounding in the terms that are not there.
+        displacements[self.degree + 1..].fill(0.0);
+        Self {
+            displacements,
+            degree: self.degree,
+            ends: [self.position(from), self.position(to)],
+            length: half * self.length,
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! One pass along the line at a given depth: touch, load, release, recovery, touch again.
+
+use indenters::bracketed_root;
+
+use super::foundation::{Foundation, Passage, Recovery};
+use super::profile::{Piece, Profile};
+use super::segment::Segment;
+use crate::MdrError;
+
+/// Positions in a segment at which contact and gap are looked at.
+const SAMPLES: usize = 12;
+/// A gap that is closed by less than this part of the depth is rounding.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Layers thinner than this part of a segment are not looked into.
+const THINNEST: f64 = 1e-9;
+/// Most contact intervals of one line.
+const MAX_CONTACTS: usize = 1 << 12;
+
+/// What a pass sums up to.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sweep {
+    /// ∫ w dx, a quarter of the normal force, [Pa m²].
+    pub(super) load: f64,
+    /// ∫ w h̃' dx, a quarter of the friction force, [Pa m²].
+    pub(super) work: f64,
+    /// Errors of both from what the polynomials of the line leave out.
+    pub(super) load_error: f64,
+    pub(super) work_error: f64,
+    /// Contacts [rear, front], from the front one to the last, \[m].
+    pub(super) contacts: Vec<[f64; 2]>,
+    /// Where the work of a lone dashpot has no limit, \[m].
+    pub(super) too_steep: Option<f64>,
+}
+
+enum Surface {
+    Free(Recovery),
+    Loaded { stresses: Vec<f64>, fresh: bool },
+}
+
+/// Lets the line pass over the foundation.
+pub(super) fn sweep(
+    foundation: &Foundation,
+    profile: &Profile,
+    depth: f64,
+) -> Result<Sweep, MdrError> {
+    let mut march = March {
+        foundation,
+        profile,
+        depth,
+        sums: Sweep::default(),
+        surface: Surface::Free(Recovery::untouched()),
+    };
+    for piece in &profile.pieces {
+        let whole = piece.segment(profile.lowest, depth);
+        let mut start = -1.0;
+        while start < 1.0 {
+            let segment = whole.part(&profile.interpolation, [start, 1.0]);
+            let reached = march.advance(&segment, piece)?;
+            start = if reached >= 1.0 {
+                1.0
+            } else {
+                start + 0.5 * (1.0 - start) * (1.0 + reached)
+            };
+        }
+    }
+    march.end()
+}
+
+struct March<'a> {
+    foundation: &'a Foundation,
+    profile: &'a Profile,
+    depth: f64,
+    sums: Sweep,
+    surface: Surface,
+}
+
+impl March<'_> {
+    /// Moves on to the next event, or the end of the segment; returns where that is.
+    fn advance(&mut self, segment: &Segment, piece: &Piece) -> Result<f64, MdrError> {
+        match std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched())) {
+            Surface::Free(recovery) => self.recover(recovery, segment),
+            Surface::Loaded { stresses, fresh } => {
+                if piece.singular && self.foundation.has_dashpot() {
+                    self.sums.too_steep.get_or_insert(piece.rear());
+                }
+                let passage = self.foundation.pass(segment, &stresses);
+                match release(&passage, self.foundation.has_dashpot() && !fresh) {
+                    None => {
+                        self.add(&passage, segment, piece.tail);
+                        self.surface = Surface::Loaded {
+                            stresses: passage.stresses,
+                            fresh: false,
+                        };
+                        Ok(1.0)
+                    }
+                    Some(t) => {
+                        self.leave(&stresses, segment, t, piece.tail);
+                        Ok(t)
+                    }
+                }
+            }
+        }
+    }
+
+    fn recover(&mut self, mut recovery: Recovery, segment: &Segment) -> Result<f64, MdrError> {
+        let Some(t) = self.touch(&recovery, segment) else {
+            recovery.advance(segment.length);
+            self.surface = Surface::Free(recovery);
+            return Ok(1.0);
+        };
+        if self.sums.contacts.len() == MAX_CONTACTS {
+            return Err(MdrError::TooManyContacts {
+                allowed: MAX_CONTACTS,
+                indentation_depth: self.depth,
+            });
+        }
+        let distance = 0.5 * (1.0 + t) * segment.length;
+        let stresses = if self.sums.contacts.is_empty() {
+            self.foundation.unstrained()
+        } else {
+            self.foundation.free_stresses(&recovery, distance)
+        };
+        let position = segment.position(t);
+        let displacement = self.foundation.free_displacement(&recovery, distance);
+        self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
+        self.sums.contacts.push([position; 2]);
+        self.surface = Surface::Loaded {
+            stresses,
+            fresh: true,
+        };
+        Ok(t)
+    }
+
+    /// Where the line touches a free surface.
+    fn touch(&self, recovery: &Recovery, segment: &Segment) -> Option<f64> {
+        let gap = |t: f64| {
+            let distance = 0.5 * (1.0 + t) * segment.length;
+            self.foundation.free_displacement(recovery, distance) - segment.displacement(t)
+        };
+        let closed = -ROUNDING * self.depth;
+        let mut before = -1.0;
+        for t in samples() {
+            if gap(t) < closed {
+                // On the very start the gap may be closed by rounding; but no element is let go and touched at once.
+                let nearest = if recovery.just_released() { t } else { before };
+                return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
+            }
+            before = t;
+        }
+        None
+    }
+
+    fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
+        let mut stresses = stresses.to_vec();
+        if t > -1.0 {
+            let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
+            let passage = self.foundation.pass(&loaded, &stresses);
+            self.add(&passage, &loaded, tail);
+            stresses = passage.stresses;
+        }
+        // A spring that is let go is not strained; rounding must not count as friction.
+        let displacement = if self.foundation.is_elastic() {
+            0.0
+        } else {
+            segment.displacement(t)
+        };
+        self.close(displacement, &stresses, segment.position(t));
+        self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
+    }
+
+    fn add(&mut self, passage: &Passage, segment: &Segment, tail: f64) {
+        self.sums.load += passage.load;
+        self.sums.work += passage.dissipation;
+        self.sums.load_error += tail * self.foundation.stiffness(segment.length);
+        self.sums.work_error += tail * passage.dissipation_change;
+        if let Some(contact) = self.sums.contacts.last_mut() {
+            contact[0] = segment.ends[1];
+        }
+    }
+
+    fn close(&mut self, displacement: f64, stresses: &[f64], position: f64) {
+        self.sums.work += self.foundation.stored_energy(displacement, stresses);
+        if let Some(contact) = self.sums.contacts.last_mut() {
+            contact[0] = position;
+        }
+    }
+
+    /// The line has passed: what is still loaded springs back.
+    fn end(mut self) -> Result<Sweep, MdrError> {
+        if let Surface::Loaded { stresses, .. } = &self.surface {
+            let last = self.profile.pieces.last();
+            if let Some(piece) = last {
+                let segment = piece.segment(self.profile.lowest, self.depth);
+                let stresses = stresses.clone();
+                self.close(segment.end(), &stresses, segment.ends[1]);
+            }
+        }
+        Ok(self.sums)
+    }
+}
+
+/// Positions from the front to the rear end, denser at both.
+fn samples() -> impl Iterator<Item = f64> {
+    let angle = std::f64::consts::PI / SAMPLES as f64;
+    (1..=SAMPLES).map(move |k| -(angle * k as f64).cos())
+}
+
+/// Where the load would turn to tension.
+fn release(passage: &Passage, may_jump: bool) -> Option<f64> {
+    // With a lone dashpot the load jumps where the slope does.
+    if may_jump && passage.potential(-1.0) < 0.0 {
+        return Some(-1.0);
+    }
+    let mut before = -1.0;
+    for t in layer_samples(passage).into_iter().chain(samples()) {
+        if passage.potential(t) < 0.0 {
+            let inside = |t: f64| passage.potential(t);
+            return Some(bracketed_root(inside, [before, t]).unwrap_or(before));
+        }
+        before = t;
+    }
+    None
+}
+
+/// Positions inside the boundary layers that the other samples step over.
+fn layer_samples(passage: &Passage) -> Vec<f64> {
+    let first = samples().next().unwrap_or(1.0);
+    let thin = passage.layers.iter().rev().map(|layer| layer.ratio.recip());
+    let mut widths: Vec<f64> = thin
+        .filter(|width| *width > THINNEST && width - 1.0 < first)
+        .collect();
+    widths.sort_by(f64::total_cmp);
+    widths.into_iter().map(|width| width - 1.0).collect()
+}

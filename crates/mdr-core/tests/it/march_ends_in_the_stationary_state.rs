@@ -1,0 +1,92 @@
+//! Marching from first touch ends where the direct solution says, for every kind of material, also where the line lets
+//! go and touches again.
+
+use indenters::{AnalyticLine, EquivalentLine, RigidLine};
+use mdr_core::{SlideOptions, SlideRow, SteadyOptions, SteadySliding, slide, steady};
+use rheology::{Compressible, Material};
+
+use crate::support::{Shape, load, prony};
+
+/// Every kind of material, with a time in which it relaxes near one.
+fn materials() -> Vec<Box<dyn Material>> {
+    let branches = [(2.0, 10.0), (5.0, 1.0), (10.0, 0.1)];
+    let solid = prony([1.0, 0.0], &branches);
+    let compressible = Compressible::new(&solid, 0.3).expect("a Poisson ratio");
+    vec![
+        Box::new(prony([1.0, 0.0], &[])),
+        Box::new(prony([0.0, 1.0], &[])),
+        Box::new(prony([1.0, 1.0], &[])),
+        Box::new(prony([0.0, 0.0], &[(1.0, 1.0)])),
+        Box::new(prony([0.0, 0.5], &branches)),
+        Box::new(prony([1.0, 0.5], &branches)),
+        Box::new(prony([0.0, 0.0], &branches)),
+        Box::new(solid),
+        Box::new(compressible),
+    ]
+}
+
+fn directly(line: &impl RigidLine, material: &dyn Material, force: f64) -> SteadySliding {
+    let load = load(force, 1.0);
+    steady(line, material, &load, &SteadyOptions::default()).expect("a stationary state")
+}
+
+fn by_marching(line: &impl RigidLine, material: &dyn Material, force: f64, n: f64) -> SlideRow {
+    let direct = directly(line, material, force);
+    let front = direct.contacts[direct.contacts.len() - 1][1];
+    let length = front - direct.contacts[0][0];
+    let options = SlideOptions {
+        spacing: length / n,
+        drift_tolerance: 1e-6,
+        max_sliding_distance: 100.0 * length,
+    };
+    let transient = slide(line, material, &load(force, 1.0), &options).expect("a stationary state");
+    transient.stationary
+}
+
+/// The load of an element is held over a step: first order in the spacing, which the extrapolation takes away. What is
+/// left is that contacts end between elements; of several short ones each has some tens.
+fn assert_converges(line: &impl RigidLine, material: &dyn Material, force: f64, n: f64) {
+    let direct = directly(line, material, force);
+    let [coarse, fine] = [n, 2.0 * n].map(|n| by_marching(line, material, force, n));
+    let extrapolated = |value: fn(&SlideRow) -> f64| 2.0 * value(&fine) - value(&coarse);
+    let depth = extrapolated(|row| row.indentation_depth);
+    let friction = extrapolated(|row| row.friction_coefficient);
+    let slope = 2.0 * direct.friction_coefficient + 0.1 * direct.indentation_depth;
+    assert!(
+        (depth / direct.indentation_depth - 1.0).abs() < 1.5e-3
+            && (friction - direct.friction_coefficient).abs() < 2.5e-3 * slope,
+        "{material:?}: depth {depth}, friction {friction}, directly {direct:?}"
+    );
+}
+
+#[test]
+fn bodies_of_revolution_end_in_the_stationary_state() {
+    for shape in [Shape::Cone, Shape::Paraboloid] {
+        let body = shape.body(0.5);
+        for material in materials() {
+            assert_converges(&EquivalentLine(&body), material.as_ref(), 1.0, 200.0);
+        }
+    }
+}
+
+/// Bumps that come down one after the other on a surface that has not recovered; without what the branches of the
+/// material remember at the second touch, depths would be off by up to 1.7 %.
+fn bumps() -> impl RigidLine {
+    let height = |x: f64| 0.02 * x * x - 0.2 * (5.0 * x).cos();
+    let slope = |x: f64| 0.04 * x + (5.0 * x).sin();
+    AnalyticLine::new(height, slope, [-8.0, 8.0]).expect("a line")
+}
+
+#[test]
+fn a_line_that_touches_again_ends_in_the_stationary_state() {
+    let line = bumps();
+    let mut most_contacts = 0;
+    for material in materials() {
+        for force in [0.4, 2.0] {
+            let direct = directly(&line, material.as_ref(), force);
+            most_contacts = most_contacts.max(direct.contacts.len());
+            assert_converges(&line, material.as_ref(), force, 400.0);
+        }
+    }
+    assert!(most_contacts >= 2, "only {most_contacts} contact intervals");
+}
