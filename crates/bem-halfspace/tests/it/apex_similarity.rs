@@ -1,0 +1,81 @@
+//! Next to p = 1/2 the friction of a cusp comes from its apex, where the solution is similar to itself: an angular
+//! problem that knows no grid of elements. The tabulated function s(p) approaches the limit that follows from it.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use friction_analytic::scaling_factor;
+use indenters::PowerProfile;
+
+/// Angular elements between −π/2 and π/2.
+const N: usize = 200;
+
+/// Complete elliptic integral K of the complementary parameter, by the arithmetic-geometric mean.
+fn elliptic_k(complementary_parameter: f64) -> f64 {
+    let [mut a, mut b] = [1.0, complementary_parameter.sqrt()];
+    while (a - b).abs() > 1e-15 * a {
+        [a, b] = [0.5 * (a + b), (a * b).sqrt()];
+    }
+    FRAC_PI_2 / a
+}
+
+/// ∫ 2 K(cos²(φ/2)) dφ over the element at a distance of `steps` elements: the logarithm in closed form, the rest by
+/// Simpson's rule.
+fn influence(steps: usize, width: f64) -> f64 {
+    let centre = steps as f64 * width;
+    let smooth = |angle: f64| {
+        let sine = (0.5 * angle).sin();
+        2.0 * elliptic_k(sine * sine) + 2.0 * angle.abs().ln()
+    };
+    let logarithm = |angle: f64| angle * angle.abs().ln() - angle;
+    let [left, right] = [centre - 0.5 * width, centre + 0.5 * width];
+    let middle = if steps == 0 { 1e-8 } else { centre };
+    let rest = width / 6.0 * (smooth(left) + 4.0 * smooth(middle) + smooth(right));
+    rest - 2.0 * (logarithm(right) - logarithm(left))
+}
+
+/// f(θ) ≥ 0 with ∫ k f dθ' = 2π cos θ where f > 0, on the elements of the wedge that is left.
+fn wedge() -> (Vec<f64>, Vec<f64>) {
+    let width = PI / N as f64;
+    let angle = |element: usize| (element as f64 + 0.5) * width - FRAC_PI_2;
+    let mut contact: Vec<usize> = (0..N).collect();
+    loop {
+        let n = contact.len();
+        let matrix = Mat::from_fn(n, n, |row, column| {
+            influence(contact[row].abs_diff(contact[column]), width)
+        });
+        let right = Mat::from_fn(n, 1, |row, _| TAU * angle(contact[row]).cos());
+        let solution = matrix.partial_piv_lu().solve(&right);
+        let pulls = |row: usize| solution[(row, 0)] < 0.0;
+        if !(0..n).any(pulls) {
+            let angles = contact.iter().map(|&element| angle(element)).collect();
+            return (angles, (0..n).map(|row| solution[(row, 0)]).collect());
+        }
+        contact = (0..n).filter(|&row| !pulls(row)).map(|row| contact[row]).collect();
+    }
+}
+
+#[test]
+fn the_scaling_factor_of_sharp_cusps_follows_from_the_apex() {
+    let (angles, pressure) = wedge();
+    let width = PI / N as f64;
+    let integral: f64 = angles.iter().zip(&pressure).map(|(angle, f)| f * angle.cos()).sum();
+    // h̃ = κ c |x|^p, Eq. (9).
+    let stretch = PowerProfile::new(1.0, 0.5).expect("a profile").stretch();
+    let limit = integral * width / (2.0 * stretch * stretch);
+    let edge = angles.iter().fold(0.0, |edge: f64, angle| edge.max(*angle)) + 0.5 * width;
+    assert!(
+        (edge.to_degrees() - 43.0).abs() < 0.5,
+        "the wedge opens by {}°",
+        edge.to_degrees()
+    );
+    // s(p) is smooth in 2p − 1: two values extrapolate to the limit.
+    let [near, far] = [0.501, 0.503].map(|p| scaling_factor(p).expect("a factor"));
+    let extrapolated = near.value - 0.5 * (far.value - near.value);
+    let error = 1.5 * near.error + 0.5 * far.error;
+    assert!(
+        (extrapolated - limit).abs() < error + 1e-4 * limit,
+        "s(1/2) = {limit} from the apex, {extrapolated} ± {error} from the table"
+    );
+}

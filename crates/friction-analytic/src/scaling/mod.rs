@@ -1,0 +1,120 @@
+//! The function s(p): what the half space does to the friction of the one-dimensional model.
+//!
+//! For a power profile h = c r^p the friction of the viscous half space is a fraction s(p) of that of the
+//! one-dimensional model, whatever force, speed, viscosity and coefficient are. Kürschner (2014, Sect. 5) gives
+//! s(1) ≈ 0.55 and s(2) ≈ 0.67 and leaves the function open. Here it is a table of converged values with error bars,
+//! computed with boundary elements, and interpolated.
+
+mod scaling_table;
+
+use indenters::{PowerProfile, SlidingLoad};
+use rheology::Viscous;
+
+use crate::{FrictionError, power_sliding};
+use scaling_table::NODES;
+
+/// Nodes of one interpolating polynomial.
+const STENCIL: usize = 4;
+
+/// A value with its absolute error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct ScalingFactor {
+    /// s(p), or another quantity that was scaled with it.
+    pub value: f64,
+    /// Absolute error of the value.
+    pub error: f64,
+}
+
+/// The scaling factor s(p) of the profile c r^p between half space and one-dimensional model.
+///
+/// Cubic in ln(2p − 1) between the nodes of a table; its error is that of the nodes, weighted as they enter.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
+/// diverge; their ratio does not.
+pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
+    let [first, last] = [NODES[0][0], NODES[NODES.len() - 1][0]];
+    if !(first..=last).contains(&exponent) {
+        return Err(FrictionError::InvalidParameter {
+            parameter: "exponent",
+            value: exponent,
+            allowed: "between 0.501 and 64, where s(p) was computed",
+        });
+    }
+    let above = NODES.partition_point(|[node, ..]| *node < exponent);
+    let start = above.saturating_sub(STENCIL / 2).min(NODES.len() - STENCIL);
+    Ok(interpolate(&NODES[start..start + STENCIL], exponent))
+}
+
+/// Coefficient of friction of a power profile on a viscous half space: s(p) times that of the one-dimensional model.
+///
+/// # Errors
+/// Those of [`power_sliding`] and [`scaling_factor`].
+pub fn half_space_power_friction(
+    profile: &PowerProfile,
+    material: &Viscous,
+    load: &SlidingLoad,
+) -> Result<ScalingFactor, FrictionError> {
+    let line = power_sliding(profile, material, load)?;
+    let factor = scaling_factor(profile.exponent())?;
+    Ok(ScalingFactor {
+        value: factor.value * line.friction_coefficient,
+        error: factor.error * line.friction_coefficient + factor.value * line.error,
+    })
+}
+
+/// Lagrange's polynomial in ln(2p − 1) through the nodes.
+fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> ScalingFactor {
+    let place = |exponent: f64| (2.0 * exponent - 1.0).ln();
+    let at = place(exponent);
+    let mut result = ScalingFactor {
+        value: 0.0,
+        error: 0.0,
+    };
+    for (index, [node, value, error]) in nodes.iter().enumerate() {
+        let others = nodes
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != index);
+        let weight: f64 = others
+            .map(|(_, [other, ..])| (at - place(*other)) / (place(*node) - place(*other)))
+            .product();
+        result.value += weight * value;
+        result.error += weight.abs() * error;
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twice as far apart as they are, the nodes would interpolate with sixteen times the error; even that stays
+    /// within the bars.
+    #[test]
+    fn the_nodes_are_dense_enough() {
+        let every_other: Vec<[f64; 3]> = NODES.iter().copied().step_by(2).collect();
+        for window in 0..=every_other.len() - STENCIL {
+            let [exponent, value, error] = NODES[2 * window + 3];
+            let interpolated = interpolate(&every_other[window..window + STENCIL], exponent);
+            let deviation = (interpolated.value - value).abs();
+            assert!(
+                deviation < interpolated.error + error,
+                "p = {exponent}: {interpolated:?} instead of {value} ± {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_node_is_as_exact_as_promised() {
+        for [exponent, value, error] in NODES {
+            let allowed = if exponent < 0.65 { 1e-3 } else { 1e-4 };
+            assert!(
+                error < allowed * value,
+                "p = {exponent}: {value} ± {error}, allowed {allowed}"
+            );
+        }
+    }
+}
