@@ -63,8 +63,8 @@ struct ScalingFactors {
     /// Exponent p > 1/2 of the profile c r^p; may be given several times [default: 1 and 2].
     #[arg(long = "exponent", value_name = "P")]
     exponents: Vec<f64>,
-    /// Relative error asked for, between 1e-6 and 0.1. What can be reached is about 1e-4 for p from 1 to 4, and less
-    /// for cusps (p < 1) and for steep profiles; beyond it the command says how far it came.
+    /// Relative error asked for, between 1e-6 and 0.1; where 100 000 unknown pressures do not reach it, the command says
+    /// how far it came.
     #[arg(long, default_value_t = 1e-3, value_name = "E")]
     relative_error: f64,
     /// How the result is printed.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, ensure};
 
 use crate::figures::friction_over_speed::{self, Indenter, SPEEDS};
-use crate::figures::{factors, loss_tangent};
+use crate::figures::{factors, loss_tangent, scaling_function};
 use crate::output::read_csv;
 use crate::progress;
 use crate::scaling::scaling_factor;
@@ -21,7 +21,7 @@ const ERROR_TOLERANCE: f64 = 1e-3;
 
 pub(crate) fn check() -> Result<()> {
     let folder = committed();
-    let bar = progress::bar("comparing", 4);
+    let bar = progress::bar("comparing", 5);
     let mut compared = check_loss_tangent(&folder)?;
     bar.inc(1);
     for indenter in [Indenter::Cone, Indenter::Paraboloid] {
@@ -29,6 +29,8 @@ pub(crate) fn check() -> Result<()> {
         bar.inc(1);
     }
     compared += check_factors(&folder)?;
+    bar.inc(1);
+    compared += check_scaling_function(&folder)?;
     bar.finish_and_clear();
     println!("docs/figures: {compared} recomputed numbers agree");
     Ok(())
@@ -179,4 +181,30 @@ fn check_factors(folder: &Path) -> Result<usize> {
         );
     }
     Ok(6 * factors::PAPER.len())
+}
+
+/// The curve against the table it was drawn from, and the table against the half space.
+fn check_scaling_function(folder: &Path) -> Result<usize> {
+    let name = scaling_function::FILE;
+    let committed: Vec<scaling_function::Row> = read_csv(&folder.join(name))?;
+    let recomputed = scaling_function::compute()?;
+    ensure!(
+        committed.len() == recomputed.len(),
+        "{name}: {} rows",
+        committed.len()
+    );
+    for (line, (old, new)) in committed.iter().zip(&recomputed).enumerate() {
+        for (column, pair) in [
+            ("exponent", [old.exponent, new.exponent]),
+            ("s(p)", [old.scaling_factor, new.scaling_factor]),
+            ("error", [old.error, new.error]),
+        ] {
+            compare(
+                &format!("{name} row {}: {column}", line + 1),
+                pair,
+                CLOSED_FORM_TOLERANCE,
+            )?;
+        }
+    }
+    Ok(3 * committed.len() + scaling_function::check_against_the_half_space()?)
 }

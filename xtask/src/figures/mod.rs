@@ -7,6 +7,7 @@ mod friction_over_speed;
 mod loss_tangent;
 mod pictures;
 mod report;
+mod scaling_function;
 
 use std::path::Path;
 
@@ -27,6 +28,7 @@ struct Data {
     paraboloid: Vec<friction_over_speed::Row>,
     factors: Vec<factors::Row>,
     approach: [approach::Approach; 2],
+    scaling_function: Vec<scaling_function::Row>,
 }
 
 /// Computes all figures and writes data, pictures and report into `out`.
@@ -43,6 +45,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
             approach::compute(&factors[0])?,
             approach::compute(&factors[1])?,
         ],
+        scaling_function: scaling_function::compute()?,
         factors,
     };
     write_data(&data, out)?;
@@ -72,6 +75,7 @@ fn write_data(data: &Data, out: &Path) -> Result<()> {
         (Indenter::Cone.file(), to_csv(&data.cone)?),
         (Indenter::Paraboloid.file(), to_csv(&data.paraboloid)?),
         (factors::FILE, to_csv(&data.factors)?),
+        (scaling_function::FILE, to_csv(&data.scaling_function)?),
         (
             "approach.csv",
             to_csv(&[&data.approach[0].rows[..], &data.approach[1].rows].concat())?,

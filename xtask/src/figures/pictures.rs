@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use crate::figures::approach::{self, Approach};
 use crate::figures::friction_over_speed::Row;
-use crate::figures::{Data, loss_tangent};
+use crate::figures::{Data, loss_tangent, scaling_function};
 use crate::plot::{
     Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Series, Shape,
     render_svg,
@@ -47,6 +47,11 @@ pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
             "approach",
             APPROACH,
             &Figure::single(approach_chart([cone, paraboloid])),
+        )?,
+        picture(
+            "scaling_function",
+            &scaling_function::caption(&data.scaling_function),
+            &scaling_function::figure(&data.scaling_function),
         )?,
         picture("pressure", PRESSURE, &pressure_maps([cone, paraboloid]))?,
     ])

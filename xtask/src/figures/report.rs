@@ -36,6 +36,7 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     write_friction(&mut page, &data.cone, pictures, &CONE)?;
     write_friction(&mut page, &data.paraboloid, pictures, &PARABOLOID)?;
     write_approach(&mut page, pictures)?;
+    write_scaling_function(&mut page, pictures)?;
     page.push_str(NOT_STATED);
     page.push_str("</body></html>\n");
     Ok(page)
@@ -110,6 +111,13 @@ fn write_approach(page: &mut String, pictures: &[Picture]) -> Result<()> {
     );
     write_picture(page, pictures, "approach")?;
     write_picture(page, pictures, "pressure")
+}
+
+fn write_scaling_function(page: &mut String, pictures: &[Picture]) -> Result<()> {
+    page.push_str(
+        "<h2>The function s(p)</h2><p class=\"paper\">Paper: the function s(p) for other exponents is unknown.</p>",
+    );
+    write_picture(page, pictures, "scaling_function")
 }
 
 /// What differs between Fig. 7 and Fig. 8.

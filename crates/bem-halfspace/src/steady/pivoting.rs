@@ -1,8 +1,8 @@
 //! Block principal pivoting: guess the contact, close its gaps, exchange what pulls for what penetrates.
 //!
 //! While the number of violations falls, all are exchanged at once. A few exchanges without progress are allowed; then
-//! the larger violations only, so that neighbours at the front do not flip to and fro together; in the end single
-//! exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed roughly, the
+//! the larger violations or every other one, so that neighbours at the front do not flip to and fro together; in the
+//! end single exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed roughly, the
 //! last one to the tolerance.
 
 use crate::BemError;
@@ -12,10 +12,11 @@ use crate::steady::plans::Plans;
 use crate::steady::product::Product;
 use crate::steady::region::Region;
 
-/// Exchanges of all violations without progress before only the larger ones are exchanged, and exchanges without
-/// progress before single ones.
+/// Exchanges without progress up to which all violations are exchanged, then the larger ones, then every other one, and
+/// in the end a single one.
 const BLOCKS: usize = 3;
-const LARGER_ONES: usize = 40;
+const LARGER_ONES: usize = 30;
+const EVERY_OTHER: usize = 200;
 /// Loads and gaps above the negative of this, relative to the largest, count as zero: rounding.
 const ROUNDING: f64 = 1e-12;
 /// Tolerance of the first contact, and its ratio from contact to contact.
@@ -123,6 +124,11 @@ impl Progress {
                     .fold(0.0, f64::max);
                 elements(0.5 * largest)
             }
+            // Neighbours that still flip together are taken apart.
+            ..=EVERY_OTHER => elements(0.0)
+                .into_iter()
+                .filter(|element| (element + self.vain) % 2 == 0)
+                .collect(),
             _ => violations
                 .last()
                 .map(|violation| violation.element)

@@ -1,0 +1,124 @@
+//! The function s(p) that the paper leaves open, from the table of `friction-analytic`.
+
+use anyhow::{Result, ensure};
+use friction_analytic::scaling_factor;
+use serde::{Deserialize, Serialize};
+
+use crate::figures::factors::PAPER;
+use crate::plot::{
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
+};
+use crate::scaling::scaling_factor as solve;
+
+pub(super) const FILE: &str = "scaling_function.csv";
+/// Values of the table, evenly spaced in ln(2p − 1).
+const ROWS: u32 = 181;
+const ORDERS: [f64; 2] = [0.003, 127.0];
+/// Exponents that the check solves anew, with the relative error asked for.
+pub(super) const SOLVED_ANEW: [(f64, f64); 5] = [
+    (0.7, 2e-3),
+    (0.9, 2e-3),
+    (1.5, 5e-4),
+    (3.0, 1e-3),
+    (6.0, 2e-3),
+];
+
+/// One value of the function.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Row {
+    pub(super) exponent: f64,
+    pub(super) scaling_factor: f64,
+    pub(super) error: f64,
+}
+
+pub(super) fn compute() -> Result<Vec<Row>> {
+    (0..ROWS).map(|index| row(exponent(index))).collect()
+}
+
+fn exponent(index: u32) -> f64 {
+    let fraction = f64::from(index) / f64::from(ROWS - 1);
+    0.5 + 0.5 * ORDERS[0] * (ORDERS[1] / ORDERS[0]).powf(fraction)
+}
+
+fn row(exponent: f64) -> Result<Row> {
+    let factor = scaling_factor(exponent)?;
+    Ok(Row {
+        exponent,
+        scaling_factor: factor.value,
+        error: factor.error,
+    })
+}
+
+/// Solves some exponents on the half space and compares with the table, within the bars of both.
+pub(super) fn check_against_the_half_space() -> Result<usize> {
+    for (exponent, relative_error) in SOLVED_ANEW {
+        let (tabulated, solved) = (row(exponent)?, solve(exponent, relative_error)?);
+        let difference = (tabulated.scaling_factor - solved.value).abs();
+        let allowed = tabulated.error + solved.error;
+        ensure!(
+            difference <= allowed,
+            "s({exponent}): {} in the table, {} ± {:e} solved anew, off by {difference:e}, allowed {allowed:e}",
+            tabulated.scaling_factor,
+            solved.value,
+            solved.error
+        );
+    }
+    Ok(SOLVED_ANEW.len())
+}
+
+/// The function above, its relative error below.
+pub(super) fn figure(rows: &[Row]) -> Figure {
+    let points =
+        |value: fn(&Row) -> f64| rows.iter().map(|row| [row.exponent, value(row)]).collect();
+    let line = Line::thick(Dash::Solid);
+    let named = |label: &str, series: Series| Series {
+        label: Some(label.to_owned()),
+        ..series
+    };
+    let crosses = Marker::filled(Shape::Plus);
+    let function = Chart {
+        title: None,
+        x: Axis::log10("exponent p", [0.4, 100.0]),
+        y: Axis::linear("scaling factor s(p)", [0.0, 0.8]),
+        series: vec![
+            named(
+                "boundary elements, converged",
+                Series::line(points(|row| row.scaling_factor), line, Colour::Blue),
+            ),
+            named(
+                "paper, p = 1 and 2",
+                Series::markers(PAPER.map(|(p, s)| [p, s]).to_vec(), crosses, Colour::Red),
+            ),
+        ],
+        legend: LegendPlace::Free,
+    };
+    let errors = Chart {
+        title: None,
+        x: Axis::log10("exponent p", [0.4, 100.0]),
+        y: Axis::log10("relative error bar", [1e-6, 1e-3]),
+        series: vec![Series::line(
+            points(|row| row.error / row.scaling_factor),
+            line,
+            Colour::Blue,
+        )],
+        legend: LegendPlace::Free,
+    };
+    Figure {
+        panels: vec![Panel::from(function), Panel::from(errors)],
+        columns: 1,
+    }
+}
+
+pub(super) fn caption(rows: &[Row]) -> String {
+    let highest = rows
+        .iter()
+        .max_by(|one, other| one.scaling_factor.total_cmp(&other.scaling_factor));
+    let ends = [rows.first(), highest, rows.last()]
+        .map(|row| row.map_or([0.0; 2], |row| [row.exponent, row.scaling_factor]));
+    format!(
+        "The ratio of the friction of the half space to that of the one-dimensional model for the profile c r^p, and its \
+         error bar. From {:.4} for a cusp with p = {:.4} it rises to {:.4} near p = {:.2} and falls to {:.4} for p = {:.0}. \
+         Crosses: the paper's two values.",
+        ends[0][1], ends[0][0], ends[1][1], ends[1][0], ends[2][1], ends[2][0]
+    )
+}
