@@ -1,6 +1,5 @@
 //! A first guess from grids of larger elements.
 
-use crate::Grid;
 use crate::contact::{ContactOptions, ContactState, Control, Question, solve_normalised};
 use crate::convolution::Surroundings;
 
@@ -26,22 +25,18 @@ pub(super) fn start_from_coarser(
     {
         return;
     }
-    let shape = [rows.div_ceil(2), columns.div_ceil(2)];
-    let Ok(coarse_grid) = Grid::new(shape, grid.spacing().map(|edge| 2.0 * edge)) else {
-        return;
-    };
     let control = match control {
         Control::NormalForce(total) => Control::NormalForce(0.25 * total),
         depth @ Control::IndentationDepth(_) => depth,
     };
     let coarse_separation = mean_of_four(separation, [rows, columns]);
-    let coarse_convolution = convolution.on_grid(&coarse_grid);
+    let coarse_convolution = convolution.on_grid(&grid.blocks());
     let mut coarse = ContactState::new(&coarse_convolution);
     let question = (&coarse_convolution, &coarse_separation[..], control);
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_normalised(question, &mut coarse, &COARSE);
     for (row, loads) in state.load.chunks_exact_mut(columns).enumerate() {
-        let coarse = &coarse.load[row / 2 * shape[1]..];
+        let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
         for (column, load) in loads.iter_mut().enumerate() {
             *load = coarse[column / 2];
         }

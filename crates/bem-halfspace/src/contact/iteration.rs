@@ -1,38 +1,42 @@
 //! Preconditioned conjugate gradients on a contact set that follows the solution.
 //!
 //! On a given set of elements in contact the load solves linear equations, whose matrix is a part of the convolution;
-//! the same part of the approximate inverse, `|q|/(2π)`, preconditions it, so that the number of iterations hardly
-//! depends on the grid. The set changes when its violations, tension inside and penetration outside, outweigh what is
+//! the same part of an approximate inverse preconditions it, so that the number of iterations hardly depends on the
+//! grid. The set changes when its violations, tension inside and penetration outside, outweigh what is
 //! left of the linear equations: all violating elements change sides at once (a primal-dual active set, Hintermüller,
 //! Ito & Kunisch 2003, DOI 10.1137/S1052623401383558). Such a method ends on all but contrived problems; where the
 //! number of violations does not fall, only the last of them changes sides, after an accurate solution, which ends
 //! always (Júdice & Pires 1994, DOI 10.1016/0305-0548(94)90106-6).
 
+use crate::contact::contact_set::ContactSet;
+use crate::contact::preconditioner::Preconditioner;
 use crate::contact::{ContactOptions, ContactState, Control, Outcome, Question};
-use crate::{BemError, Convolution, ConvolutionWorkspace};
+use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
 const PATIENCE: usize = 10;
 
+/// The contact changes when its violations are this many times the gaps inside.
+const PRIORITY: f64 = 2.0;
+
 /// Buffers beside the load and its displacement.
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
-    inverse: Convolution,
-    inverse_workspace: ConvolutionWorkspace,
-    in_contact: Vec<bool>,
+    preconditioner: Preconditioner,
+    contact: ContactSet,
+    /// Minus the gap in the contact, zero outside.
     residual: Vec<f64>,
+    /// Zero outside the contact.
     direction: Vec<f64>,
     image: Vec<f64>,
 }
 
 impl Fields {
-    fn new(convolution: &Convolution) -> Self {
-        let inverse = Convolution::inverse(convolution.grid());
-        let n = convolution.grid().n_elements();
+    fn new(grid: &Grid) -> Self {
+        let n = grid.n_elements();
         Self {
-            inverse_workspace: inverse.workspace(),
-            inverse,
-            in_contact: vec![false; n],
+            preconditioner: Preconditioner::new(grid),
+            contact: ContactSet::new(grid.shape()),
             residual: vec![0.0; n],
             direction: vec![0.0; n],
             image: vec![0.0; n],
@@ -49,8 +53,6 @@ struct Violations {
     tension: f64,
     /// Largest penetration outside the contact.
     penetration: f64,
-    /// Number of elements under tension or penetrating by more than the tolerance.
-    n_wrong: usize,
     /// Largest displacement in the contact.
     deflection: f64,
 }
@@ -78,7 +80,6 @@ pub(super) struct Iteration<'a> {
     displacement: &'a mut [f64],
     workspace: &'a mut ConvolutionWorkspace,
     fields: &'a mut Fields,
-    n_contact: usize,
     indentation_depth: f64,
     /// Residual times preconditioned residual in the previous iteration; 0 starts a new set of directions.
     previous_product: f64,
@@ -106,8 +107,7 @@ impl<'a> Iteration<'a> {
             workspace: &mut state.workspace,
             fields: state
                 .fields
-                .get_or_insert_with(|| Box::new(Fields::new(convolution))),
-            n_contact: 0,
+                .get_or_insert_with(|| Box::new(Fields::new(convolution.grid()))),
             indentation_depth: 0.0,
             previous_product: 0.0,
             fresh: false,
@@ -124,7 +124,7 @@ impl<'a> Iteration<'a> {
             self.find_depth();
             let violations = self.measure();
             let residual = violations.relative();
-            if residual <= self.tolerance && violations.n_wrong == 0 {
+            if residual <= self.tolerance && violations.tension <= 0.0 {
                 if self.fresh {
                     return Ok(self.outcome(iterations, &violations));
                 }
@@ -167,28 +167,35 @@ impl<'a> Iteration<'a> {
             Control::IndentationDepth(depth) => (depth, 0.0),
         };
         let vanishes = self.control == Control::NormalForce(0.0);
-        let elements = self.load.iter_mut().zip(self.separation);
-        for ((load, separation), in_contact) in elements.zip(&mut self.fields.in_contact) {
+        for (load, separation) in self.load.iter_mut().zip(self.separation) {
             let guessed = *load > 0.0 && separation.is_finite();
-            *in_contact = !vanishes && (guessed || (!loaded && *separation < below));
-            *load = match (*in_contact, guessed) {
-                (true, true) => *load,
-                (true, false) => uniform,
-                (false, _) => 0.0,
-            };
+            *load = if guessed { *load } else { 0.0 };
         }
-        self.count_contact();
+        let (load, separation) = (&*self.load, self.separation);
+        let fields = &mut *self.fields;
+        fields.contact.assign(|element| {
+            !vanishes && (load[element] > 0.0 || (!loaded && separation[element] < below))
+        });
+        if !loaded {
+            for element in fields.contact.elements() {
+                self.load[element] = uniform;
+            }
+        }
+        fields.residual.fill(0.0);
+        fields.direction.fill(0.0);
+        self.match_force();
         self.refresh();
     }
 
-    /// Counts the contact and scales its load to the prescribed force.
-    fn count_contact(&mut self) {
-        self.n_contact = self.fields.in_contact.iter().filter(|is| **is).count();
-        if let Control::NormalForce(total) = self.control {
-            let sum: f64 = self.load.iter().sum();
-            // Divided last, because the quotient of extreme loads may overflow.
-            let scaled = |load: f64| if sum > 0.0 { load / sum * total } else { 0.0 };
-            self.load.iter_mut().for_each(|load| *load = scaled(*load));
+    /// Scales the load to the prescribed force.
+    fn match_force(&mut self) {
+        let Control::NormalForce(total) = self.control else {
+            return;
+        };
+        let sum: f64 = self.load.iter().sum();
+        for load in &mut *self.load {
+            // Multiplied last, because the quotient of extreme forces may overflow.
+            *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
         }
     }
 
@@ -204,18 +211,16 @@ impl<'a> Iteration<'a> {
 
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
     fn find_depth(&mut self) {
+        let contact = &self.fields.contact;
+        let height = |element: usize| self.separation[element] + self.displacement[element];
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
-            Control::NormalForce(_) if self.n_contact == 0 => {
+            Control::NormalForce(_) if contact.len() == 0 => {
                 let heights = self.separation.iter().copied();
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
-                let elements = self.separation.iter().zip(&*self.displacement);
-                let heights = elements.zip(&self.fields.in_contact);
-                let in_contact = heights.filter(|(_, in_contact)| **in_contact);
-                let sum: f64 = in_contact.map(|((s, u), _)| s + u).sum();
-                sum / self.n_contact as f64
+                contact.elements().map(height).sum::<f64>() / contact.len() as f64
             }
         };
     }
@@ -225,69 +230,73 @@ impl<'a> Iteration<'a> {
         let unit = self.convolution.self_influence();
         let mut found = Violations::default();
         let mut not_a_number = false;
-        let elements = self.separation.iter().zip(&*self.displacement);
-        let elements = elements.zip(self.load.iter().zip(&self.fields.in_contact));
-        for (((separation, displacement), (load, in_contact)), residual) in
-            elements.zip(&mut self.fields.residual)
-        {
-            let gap = separation + displacement - self.indentation_depth;
+        let Fields {
+            contact, residual, ..
+        } = &mut *self.fields;
+        contact.elements().for_each(|element| {
+            let (load, displacement) = (self.load[element], self.displacement[element]);
+            let gap = self.separation[element] + displacement - self.indentation_depth;
             not_a_number |= gap.is_nan();
-            if *in_contact {
-                *residual = -gap;
-                found.gap = found.gap.max(gap.abs());
-                found.tension = found.tension.max(-load * unit);
-                found.deflection = found.deflection.max(displacement.max(load * unit));
-                found.n_wrong += usize::from(*load < 0.0);
-            } else {
-                *residual = 0.0;
-                found.penetration = found.penetration.max(-gap);
-            }
-        }
+            residual[element] = -gap;
+            found.gap = larger(found.gap, gap.abs());
+            found.tension = larger(found.tension, -load * unit);
+            found.deflection = larger(found.deflection, larger(displacement, load * unit));
+        });
         if not_a_number {
             found.gap = f64::NAN;
-        } else if found.penetration > self.tolerance * found.deflection {
-            let is_wrong = |&element: &usize| self.is_wrong(element, &found);
-            found.n_wrong = (0..self.load.len()).filter(is_wrong).count();
         }
+        found.penetration = larger(0.0, self.indentation_depth - self.lowest_outside());
         found
     }
 
-    /// Whether the element is under tension, or outside and penetrating by more than the tolerance.
-    fn is_wrong(&self, element: usize, violations: &Violations) -> bool {
-        if self.fields.in_contact[element] {
+    fn lowest_outside(&self) -> f64 {
+        let ranges = self.fields.contact.outside();
+        let lowest = ranges
+            .map(|range| lowest_sum(&self.separation[range.clone()], &self.displacement[range]));
+        lowest.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether the element is under tension, or outside and below the height at which it penetrates.
+    fn is_wrong(&self, element: usize, lowest: f64) -> bool {
+        if self.fields.contact.contains(element) {
             return self.load[element] < 0.0;
         }
-        let height = self.separation[element] + self.displacement[element];
-        height - self.indentation_depth < -self.tolerance * violations.deflection
+        self.separation[element] + self.displacement[element] < lowest
     }
 
     fn set_is_due(&self, violations: &Violations) -> bool {
-        if violations.n_wrong == 0 {
+        let allowed = self.tolerance * violations.deflection;
+        if violations.tension <= 0.0 && violations.penetration <= allowed {
             return false;
         }
-        let solved = violations.gap <= self.tolerance * violations.deflection;
-        let outweighed = violations.tension.max(violations.penetration) >= violations.gap;
-        solved || (self.patience > 0 && self.improved && outweighed)
+        let worst = violations.tension.max(violations.penetration);
+        let outweighed = worst >= PRIORITY * violations.gap;
+        violations.gap <= allowed || (self.patience > 0 && self.improved && outweighed)
     }
 
     fn change_contact(&mut self, violations: &Violations) {
-        if violations.n_wrong < self.fewest_wrong {
-            self.fewest_wrong = violations.n_wrong;
+        let lowest = self.indentation_depth - self.tolerance * violations.deflection;
+        let is_wrong = |&element: &usize| self.is_wrong(element, lowest);
+        let n_wrong = (0..self.load.len()).filter(is_wrong).count();
+        if n_wrong < self.fewest_wrong {
+            self.fewest_wrong = n_wrong;
             self.patience = PATIENCE;
         } else {
             self.patience = self.patience.saturating_sub(1);
         }
+        let mut left = if self.patience == 0 { 1 } else { n_wrong };
         for element in (0..self.load.len()).rev() {
-            if self.is_wrong(element, violations) {
-                self.fields.in_contact[element] ^= true;
+            if left > 0 && self.is_wrong(element, lowest) {
+                left -= 1;
+                let fields = &mut *self.fields;
+                fields.contact.flip(element);
+                (fields.residual[element], fields.direction[element]) = (0.0, 0.0);
                 self.load[element] = 0.0;
-                if self.patience == 0 {
-                    break;
-                }
             }
         }
+        self.fields.contact.find_runs();
         self.improved = false;
-        self.count_contact();
+        self.match_force();
         self.refresh();
     }
 
@@ -296,63 +305,80 @@ impl<'a> Iteration<'a> {
         self.find_direction();
         let rows = self.convolution.grid().shape()[0];
         let Fields {
-            direction, image, ..
+            contact,
+            direction,
+            image,
+            ..
         } = &mut *self.fields;
         self.convolution
             .apply(self.workspace, (direction, 0..rows), (image, 0..rows));
-        let energy = dot(direction, image);
+        let energy: f64 = contact.elements().map(|k| direction[k] * image[k]).sum();
         // The load of a single element has nowhere to go.
         let length = if energy == 0.0 {
             0.0
         } else {
             self.previous_product / energy
         };
-        add_multiple(self.load, length, direction);
-        add_multiple(self.displacement, length, image);
+        contact
+            .elements()
+            .for_each(|k| self.load[k] += length * direction[k]);
+        for (displacement, image) in self.displacement.iter_mut().zip(&*image) {
+            *displacement += length * image;
+        }
         self.fresh = false;
         self.improved = true;
     }
 
     fn find_direction(&mut self) {
-        let rows = self.convolution.grid().shape()[0];
         let Fields {
-            inverse,
-            inverse_workspace,
-            in_contact,
+            preconditioner,
+            contact,
             residual,
             direction,
-            image,
+            image: preconditioned,
         } = &mut *self.fields;
-        inverse.apply(inverse_workspace, (residual, 0..rows), (image, 0..rows));
-        let preconditioned = image;
-        for (value, in_contact) in preconditioned.iter_mut().zip(&*in_contact) {
-            *value = if *in_contact { *value } else { 0.0 };
-        }
-        if let Control::NormalForce(_) = self.control {
-            let mean = preconditioned.iter().sum::<f64>() / self.n_contact as f64;
-            for (value, in_contact) in preconditioned.iter_mut().zip(&*in_contact) {
-                *value -= if *in_contact { mean } else { 0.0 };
+        preconditioner.apply(contact, residual, preconditioned);
+        let mean = match self.control {
+            Control::NormalForce(_) => {
+                contact.elements().map(|k| preconditioned[k]).sum::<f64>() / contact.len() as f64
             }
-        }
-        let product = dot(residual, preconditioned);
+            Control::IndentationDepth(_) => 0.0,
+        };
+        let work = |k: usize| residual[k] * (preconditioned[k] - mean);
+        let product: f64 = contact.elements().map(work).sum();
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
             0.0
         };
-        for (direction, value) in direction.iter_mut().zip(&*preconditioned) {
-            *direction = conjugation.mul_add(*direction, *value);
-        }
+        contact.elements().for_each(|k| {
+            direction[k] = preconditioned[k] - mean + conjugation * direction[k];
+        });
         self.previous_product = product;
     }
 }
 
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    left.iter().zip(right).map(|(a, b)| a * b).sum()
+/// The larger of two numbers of which none is NaN; faster than `f64::max`.
+fn larger(left: f64, right: f64) -> f64 {
+    if left > right { left } else { right }
 }
 
-fn add_multiple(to: &mut [f64], factor: f64, values: &[f64]) {
-    for (to, value) in to.iter_mut().zip(values) {
-        *to += factor * value;
+/// The lowest sum of two heights each; several at a time, because one comparison would wait for the other.
+fn lowest_sum(left: &[f64], right: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let (left, left_rest) = left.as_chunks::<LANES>();
+    let (right, right_rest) = right.as_chunks::<LANES>();
+    let mut lowest = [f64::INFINITY; LANES];
+    for (left, right) in left.iter().zip(right) {
+        for lane in 0..LANES {
+            let sum = left[lane] + right[lane];
+            lowest[lane] = if sum < lowest[lane] {
+                sum
+            } else {
+                lowest[lane]
+            };
+        }
     }
+    let rest = left_rest.iter().zip(right_rest).map(|(a, b)| a + b);
+    lowest.into_iter().chain(rest).fold(f64::INFINITY, f64::min)
 }

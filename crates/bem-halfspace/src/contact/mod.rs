@@ -10,7 +10,9 @@
 
 mod coarser;
 mod contact_box;
+mod contact_set;
 mod iteration;
+mod preconditioner;
 mod solve;
 mod state;
 

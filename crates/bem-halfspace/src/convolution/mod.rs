@@ -90,12 +90,13 @@ impl Convolution {
         convolution
     }
 
-    /// Approximate inverse of the influence: waves times `|q|/(2π)`, the mean like the longest wave. A cheap
-    /// preconditioner, because it needs no padding.
-    pub(crate) fn inverse(grid: &Grid) -> Self {
-        let padded = grid.shape().map(fast_length);
-        let mut convolution = Self::planned(grid, Surroundings::Periodic, padded);
-        convolution.spectrum = convolution.inverse_spectrum();
+    /// A convolution on the blocks of two by two elements of a grid that multiplies a wave by the `symbol` of its wave
+    /// vector \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
+    pub(crate) fn on_blocks(grid: &Grid, symbol: impl Fn([f64; 2]) -> f64) -> Self {
+        let blocks = grid.blocks();
+        let padded = blocks.shape().map(fast_length);
+        let mut convolution = Self::planned(&blocks, Surroundings::Periodic, padded);
+        convolution.spectrum = convolution.positive_spectrum(symbol);
         convolution
     }
 

@@ -12,15 +12,13 @@ impl Convolution {
         1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
     }
 
-    /// Spectrum of a function of |q|, the length of the wave vector in \[rad/m].
-    fn spectrum_of(&self, symbol: impl Fn(f64) -> f64) -> Vec<f64> {
+    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.normalisation();
         let column = |column: usize| {
-            let q_y = column as f64 * unit_y;
-            let symbol = &symbol;
+            let (symbol, q_y) = (&symbol, column as f64 * unit_y);
             (0..=self.padded[0] / 2)
-                .map(move |row| symbol((row as f64 * unit_x).hypot(q_y)) * normalisation)
+                .map(move |row| symbol([row as f64 * unit_x, q_y]) * normalisation)
         };
         (0..self.n_columns()).flat_map(column).collect()
     }
@@ -30,14 +28,26 @@ impl Convolution {
         [0, 1].map(|axis| 2.0 * PI / (self.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
+    /// Spectrum of waves on an infinite half space, without their mean.
     pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
-        self.spectrum_of(|q| if q > 0.0 { 2.0 * PI / q } else { 0.0 })
+        self.spectrum_of(|[q_x, q_y]| {
+            let q = q_x.hypot(q_y);
+            if q > 0.0 { 2.0 * PI / q } else { 0.0 }
+        })
     }
 
-    pub(super) fn inverse_spectrum(&self) -> Vec<f64> {
+    /// Spectrum of a symbol where that is positive, for the mean that of the longest wave.
+    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
-        let longest = unit_x.min(unit_y);
-        self.spectrum_of(|q| q.max(longest) / (2.0 * PI))
+        let longest = if unit_x < unit_y {
+            [unit_x, 0.0]
+        } else {
+            [0.0, unit_y]
+        };
+        self.spectrum_of(|q| {
+            let q = if q == [0.0, 0.0] { longest } else { q };
+            symbol(q).max(0.0)
+        })
     }
 
     /// Value of the kernel at the origin.
