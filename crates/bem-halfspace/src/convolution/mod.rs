@@ -205,20 +205,24 @@ impl Convolution {
         wanted: &Range<usize>,
     ) {
         let ConvolutionWorkspace { rows, tiles, lanes } = workspace;
-        let tile_length = TILE * self.grid.shape()[0];
-        for_each_lane(lanes, (tiles, tile_length), |first, lane, tiles| {
-            for (tile, values) in (first..).zip(tiles.chunks_exact_mut(tile_length)) {
+        let n_x = self.grid.shape()[0];
+        for_each_lane(lanes, (tiles, n_x), |first, lane, tiles| {
+            for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(n_x)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
                 self.gather_columns(lane, rows, (&columns, loaded));
                 self.convolve_columns(lane, &columns);
-                let wanted_values = &mut values[wanted.start * TILE..wanted.end * TILE];
-                for (row, values) in wanted.clone().zip(wanted_values.chunks_exact_mut(TILE)) {
-                    for (column, value) in values[..columns.len()].iter_mut().enumerate() {
-                        *value = lane.columns[column * self.padded[0] + row];
+                for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
+                    for (column, value) in piece[..columns.len()].iter_mut().enumerate() {
+                        *value = lane.columns[column * self.column_stride() + row];
                     }
                 }
             }
         });
+    }
+
+    /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
+    const fn column_stride(&self) -> usize {
+        self.padded[0] + TILE
     }
 
     fn gather_columns(
@@ -227,29 +231,28 @@ impl Convolution {
         rows: &[Complex<f64>],
         (columns, loaded): (&Range<usize>, &Range<usize>),
     ) {
-        let length = self.padded[0];
-        for column in lane.columns[..columns.len() * length].chunks_exact_mut(length) {
+        let stride = self.column_stride();
+        for column in lane.columns.chunks_exact_mut(stride) {
             column[..loaded.start].fill(ZERO);
             column[loaded.end..].fill(ZERO);
         }
         for row in loaded.clone() {
             let values = &rows[row * self.n_columns()..][columns.clone()];
             for (column, value) in values.iter().enumerate() {
-                lane.columns[column * length + row] = *value;
+                lane.columns[column * stride + row] = *value;
             }
         }
     }
 
     fn convolve_columns(&self, lane: &mut Lane, columns: &Range<usize>) {
-        let length = self.padded[0];
-        let values = &mut lane.columns[..columns.len() * length];
-        self.column_forward
-            .process_with_scratch(values, &mut lane.scratch);
-        for (values, column) in values.chunks_exact_mut(length).zip(columns.clone()) {
+        let stored = lane.columns.chunks_exact_mut(self.column_stride());
+        for (column, values) in columns.clone().zip(stored) {
+            let values = &mut values[..self.padded[0]];
+            let scratch = &mut lane.scratch;
+            self.column_forward.process_with_scratch(values, scratch);
             self.multiply_column(values, column);
+            self.column_inverse.process_with_scratch(values, scratch);
         }
-        self.column_inverse
-            .process_with_scratch(values, &mut lane.scratch);
     }
 
     fn multiply_column(&self, values: &mut [Complex<f64>], column: usize) {
@@ -275,9 +278,13 @@ impl Convolution {
         let result = &mut result[wanted.start * n_y..wanted.end * n_y];
         for_each_lane(lanes, (result, n_y), |first, lane, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(n_y)) {
-                let pieces = tiles.chunks_exact(TILE * n_x);
-                for (piece, found) in lane.half_row.chunks_mut(TILE).zip(pieces) {
-                    piece.copy_from_slice(&found[row * TILE..][..piece.len()]);
+                let mut pieces = tiles[row..].iter().step_by(n_x);
+                let (whole, rest) = lane.half_row.as_chunks_mut::<TILE>();
+                for (values, piece) in whole.iter_mut().zip(&mut pieces) {
+                    *values = *piece;
+                }
+                for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
+                    *value = *found;
                 }
                 self.transform_half_row(lane);
                 values.copy_from_slice(&lane.row[..n_y]);

@@ -18,8 +18,8 @@ const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
 pub struct ConvolutionWorkspace {
     /// Transformed rows, [row][column].
     pub(super) rows: Vec<Complex<f64>>,
-    /// Columns after the kernel, [tile][row][column of the tile].
-    pub(super) tiles: Vec<Complex<f64>>,
+    /// Columns after the kernel, [tile][row].
+    pub(super) tiles: Vec<[Complex<f64>; TILE]>,
     pub(super) lanes: Vec<Lane>,
 }
 
@@ -38,7 +38,7 @@ impl ConvolutionWorkspace {
         let n_lanes = n_lanes(convolution.grid.n_elements());
         Self {
             rows: vec![ZERO; n_x * convolution.n_columns()],
-            tiles: vec![ZERO; n_x * convolution.n_tiles() * TILE],
+            tiles: vec![[ZERO; TILE]; n_x * convolution.n_tiles()],
             lanes: (0..n_lanes).map(|_| Lane::new(convolution)).collect(),
         }
     }
@@ -55,7 +55,7 @@ impl Lane {
         Self {
             row: convolution.row_forward.make_input_vec(),
             half_row: convolution.row_forward.make_output_vec(),
-            columns: vec![ZERO; TILE * convolution.padded[0]],
+            columns: vec![ZERO; TILE * convolution.column_stride()],
             scratch: vec![ZERO; scratch.into_iter().fold(0, usize::max)],
         }
     }
