@@ -16,7 +16,7 @@ use bem_halfspace::{
 
 /// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
 const COMPLIANCE: f64 = 4.0;
-const REFERENCE_TOLERANCE: f64 = 1e-11;
+const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
 
 struct Scene {

@@ -220,7 +220,13 @@ impl<'a> Iteration<'a> {
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
-                contact.elements().map(height).sum::<f64>() / contact.len() as f64
+                let mean_above = |level: f64| {
+                    let heights = contact.elements().map(|element| height(element) - level);
+                    heights.sum::<f64>() / contact.len() as f64
+                };
+                // Again from the first mean, because no direction removes what the long sum has rounded.
+                let mean = mean_above(0.0);
+                mean + mean_above(mean)
             }
         };
     }

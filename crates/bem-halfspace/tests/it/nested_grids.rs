@@ -51,6 +51,25 @@ fn iterations_hardly_depend_on_the_grid() {
     );
 }
 
+/// Sums over many elements do not end the convergence early.
+#[test]
+fn the_residual_falls_to_rounding() {
+    let (convolution, heights) = hertz(512);
+    let mut state = ContactState::new(&convolution);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation: &heights,
+        compliance: 4.0,
+        control: Control::NormalForce(0.036),
+    };
+    let options = ContactOptions {
+        tolerance: 1e-13,
+        max_iterations: 60,
+    };
+    let contact = solve_contact(&problem, &mut state, &options).expect("a contact");
+    assert!(contact.residual <= 1e-13, "{contact:?}");
+}
+
 /// A guess that is wrong, and lies elsewhere, leads to the same answer.
 #[test]
 fn the_guess_does_not_matter() {
