@@ -15,6 +15,7 @@ mod plot;
 mod progress;
 mod scaling;
 mod scene;
+mod stationary;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -41,6 +42,8 @@ enum Command {
     ScalingTable(ScalingTable),
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),
+    /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed. CSV.
+    MeasureStationary(stationary::MeasureStationary),
     /// Run everything that CI checks.
     Ci,
 }
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         }
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::FitMaterial(options) => material::fit(&options),
+        Command::MeasureStationary(options) => stationary::measure(&options),
         Command::Ci => ci::run(),
     };
     match outcome {

@@ -87,6 +87,14 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
             &["reproduce-figures", "--everything"],
             "unexpected argument",
         ),
+        (
+            &["measure-stationary", "--largest", "nan"],
+            "between 2e3 and 1e7, but is NaN",
+        ),
+        (
+            &["measure-stationary", "--table", "colours"],
+            "possible values: growth, speed, error-bars",
+        ),
         (&["reproduce"], "unrecognized subcommand"),
     ] {
         let output = xtask(arguments);
@@ -103,7 +111,13 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
 
 #[test]
 fn every_command_explains_itself() {
-    for command in ["reproduce-figures", "scaling-factors", "fit-material", "ci"] {
+    for command in [
+        "reproduce-figures",
+        "scaling-factors",
+        "fit-material",
+        "measure-stationary",
+        "ci",
+    ] {
         let output = xtask(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0), "{command}");
         assert!(

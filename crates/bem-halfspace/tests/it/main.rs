@@ -18,7 +18,7 @@ mod steady_bad_input;
 mod steady_estimate;
 mod steady_invariance;
 mod support;
-mod transient_and_stationary_agree;
 #[cfg(feature = "rayon")]
 mod thread_count;
+mod transient_and_stationary_agree;
 mod wake_kernel;

@@ -1,0 +1,57 @@
+//! Stationary sliding of the paraboloid: one grid of three sizes, and friction to a relative error.
+
+use std::error::Error;
+
+use bem_halfspace::Footprint;
+use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
+use benches::report_error;
+use criterion::Criterion;
+use friction_analytic::power_sliding;
+use indenters::{PowerProfile, SlidingLoad};
+use rheology::Viscous;
+
+/// Elements along the contact length of the one-dimensional model; the contact has about 2.2 times the square of it.
+const ELEMENTS: [f64; 3] = [20.0, 60.0, 180.0];
+/// Δy/Δx.
+const ASPECT: f64 = 0.5;
+const TOLERANCE: f64 = 1e-7;
+const MAX_ITERATIONS: usize = 500;
+const RELATIVE_ERROR: f64 = 1e-3;
+/// Converged ratio s₂ of the friction on the half space to that on the line, from `docs/figures/scaling_factors.csv`,
+/// which puts its error at 6.3e-5.
+const SCALING_FACTOR: f64 = 0.69955;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let body = PowerProfile::paraboloid(1.0)?;
+    let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
+    let line = power_sliding(&body, &material, &load)?;
+    let exact = SCALING_FACTOR * line.friction_coefficient;
+    let mut criterion = Criterion::default().sample_size(10).configure_from_args();
+    for elements in ELEMENTS {
+        let spacing = line.contact_length() / elements;
+        let options = SteadyOptions {
+            spacing: [spacing, ASPECT * spacing],
+            phase: [0.0, 0.0],
+            footprint: Footprint::of_body(&body, &material, &load)?,
+            tolerance: TOLERANCE,
+            max_iterations: MAX_ITERATIONS,
+        };
+        let run = || steady(&body, &material, &load, &options);
+        let solution = run()?;
+        let name = format!("stationary/{} unknowns", solution.unknowns);
+        let friction = solution.friction_coefficient;
+        report_error(&name, "friction coefficient", [friction, exact]);
+        criterion.bench_function(&name, |bencher| bencher.iter(run));
+    }
+    let options = FrictionOptions {
+        relative_error: RELATIVE_ERROR,
+        ..FrictionOptions::default()
+    };
+    let run = || steady_friction(&body, &material, &load, &options);
+    let name = format!("stationary/friction to {RELATIVE_ERROR:e}");
+    let friction = run()?.friction_coefficient;
+    report_error(&name, "friction coefficient", [friction, exact]);
+    criterion.bench_function(&name, |bencher| bencher.iter(run));
+    criterion.final_summary();
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! What the measurements of the stationary solver write and say, on the quick cases.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A table as its columns are named, one map per row.
+type Rows = Vec<std::collections::HashMap<String, String>>;
+
+/// Runs the quick measurements into an empty folder; returns the folder and what was printed.
+fn measured(name: &str, tables: &[&str]) -> (PathBuf, String) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::remove_dir_all(&folder).ok();
+    let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
+        .args(["measure-stationary", "--quick", "--out"])
+        .arg(&folder)
+        .args(tables.iter().flat_map(|table| ["--table", table]))
+        .output()
+        .expect("the command runs");
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{message}");
+    (folder, String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+fn read(path: &Path) -> Rows {
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let rows = reader.deserialize().collect::<Result<Rows, _>>();
+    rows.expect("rows of the table")
+}
+
+fn number(row: &std::collections::HashMap<String, String>, column: &str) -> f64 {
+    row[column]
+        .parse()
+        .unwrap_or_else(|error| panic!("{column} = {:?}: {error}", row[column]))
+}
+
+#[test]
+fn error_bars_are_compared_with_finer_solutions() {
+    let (folder, printed) = measured("error-bars", &["error-bars"]);
+    let rows = read(&folder.join("error_bars.csv"));
+    assert_eq!(rows.len(), 12, "four bodies, three shapes of elements");
+    for row in &rows {
+        let [friction, bar, reference, error, deviation] = [
+            "friction",
+            "error_bar",
+            "reference_friction",
+            "reference_error",
+            "deviation",
+        ]
+        .map(|column| number(row, column));
+        assert!(
+            ((friction - reference).abs() - deviation).abs() <= 1e-12 && bar > 0.0,
+            "{row:?}"
+        );
+        let holds = deviation <= bar + error;
+        assert_eq!(row["holds"], holds.to_string(), "{row:?}");
+        assert!(
+            error < number(row, "relative_error_asked") * reference,
+            "the reference is finer: {row:?}"
+        );
+    }
+    let held = rows.iter().filter(|row| row["holds"] == "true").count();
+    let said = format!("{held} of 12 error bars hold");
+    assert!(printed.contains(&said), "expected '{said}' in {printed}");
+    assert!(
+        !folder.join("growth.csv").exists(),
+        "only the table asked for is made"
+    );
+}
+
+#[test]
+fn growth_and_speed_are_measured_with_their_errors() {
+    let (folder, printed) = measured("growth-and-speed", &["growth", "speed"]);
+    let growth = read(&folder.join("growth.csv"));
+    let elements: Vec<f64> = growth
+        .iter()
+        .map(|row| number(row, "elements_in_contact"))
+        .collect();
+    // The area of the contact is known to one or two per cent on the grid that the spacings follow from.
+    let close = |got: f64, asked: f64| (got / asked - 1.0).abs() < 0.06;
+    assert!(
+        elements.len() == 2 && close(elements[0], 1e3) && close(elements[1], 4e3),
+        "about 1000 and 4000 elements, got {elements:?}"
+    );
+    for row in &growth {
+        // One grid of a thousand elements is within a few tenths of a per cent.
+        assert!(number(row, "relative_deviation").abs() < 5e-3, "{row:?}");
+        let half = number(row, "elements_in_contact") / number(row, "unknowns");
+        assert!((half - 2.0).abs() < 0.1, "mirror symmetry: {row:?}");
+    }
+    let speed = read(&folder.join("speed.csv"));
+    let march = speed.last().expect("the march in time");
+    assert_eq!(march["solver"], "march in time", "{march:?}");
+    assert!(
+        number(march, "deviation") <= number(march, "relative_error_asked"),
+        "the march is as exact as asked: {march:?}"
+    );
+    for said in ["exponent of growth", "of the processor time of the march"] {
+        assert!(printed.contains(said), "expected '{said}' in {printed}");
+    }
+}
