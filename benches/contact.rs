@@ -12,7 +12,7 @@ const MARGIN: f64 = 1.5;
 
 fn main() -> Result<(), BemError> {
     let mut criterion = Criterion::default().configure_from_args();
-    for edge in [32, 128] {
+    for edge in [128, 256, 512, 1024, 2048] {
         hertz(&mut criterion, edge)?;
     }
     criterion.final_summary();
@@ -38,6 +38,7 @@ fn hertz(criterion: &mut Criterion, edge: usize) -> Result<(), BemError> {
     let name = format!("contact/{edge}x{edge}");
     report_error(&name, "depth", [depth, 2.0]);
     let mut group = criterion.benchmark_group(name);
+    group.sample_size(10);
     for (start, state) in [("cold", unloaded), ("warm", loaded)] {
         group.bench_function(start, |bencher| {
             let problem = at_force(force);

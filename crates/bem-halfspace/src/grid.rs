@@ -35,6 +35,14 @@ impl Grid {
         Ok(Self { shape, spacing })
     }
 
+    /// The grid of blocks of two by two elements that covers this one.
+    pub(crate) fn blocks(&self) -> Self {
+        Self {
+            shape: self.shape.map(|n| n.div_ceil(2)),
+            spacing: self.spacing.map(|edge| 2.0 * edge),
+        }
+    }
+
     /// Number of elements [n_x, n_y].
     #[must_use]
     pub const fn shape(&self) -> [usize; 2] {

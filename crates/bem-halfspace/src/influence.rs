@@ -13,7 +13,10 @@ use crate::rectangle::{PlaneKernel, integrate, product_asinh};
 /// the surface of a viscous one at the rate `P K / (4 π η)`.
 #[must_use]
 pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
-    integrate::<Reciprocal>(offset.map(f64::abs), edges)
+    // Lengths in units of the longer edge neither overflow nor underflow when they are squared.
+    let unit = edges[0].max(edges[1]);
+    let [offset, edges] = [offset, edges].map(|lengths| lengths.map(|length| length.abs() / unit));
+    unit * integrate::<Reciprocal>(offset, edges)
 }
 
 /// 1/r.
@@ -21,7 +24,7 @@ struct Reciprocal;
 
 impl PlaneKernel for Reciprocal {
     fn value(x: f64, y: f64) -> f64 {
-        1.0 / x.hypot(y)
+        1.0 / (x * x + y * y).sqrt()
     }
 
     fn strip_along_x(x: f64, a: f64, y: f64) -> f64 {

@@ -2,24 +2,32 @@
 //!
 //! The closed form, a difference of the double antiderivative between the four corners, is exact near the rectangle; far
 //! away it loses (r/Δ)² units in the last place. Along a direction whose edge is short compared with the distance of
-//! the singularities, a Gauss rule of eight or four points integrates to rounding without any cancellation. The two are chosen
+//! the singularities, a Gauss rule of at most eight points integrates to rounding without any cancellation. The two are chosen
 //! per direction, so that slender rectangles are as accurate as squares.
 
-/// From this many edges on the Gauss rule of eight points errs by less than (1/16)^16 of the integrand.
+/// From this many edges on the Gauss rule errs by less than (1/16)^16 of the integrand.
 pub(crate) const FAR: f64 = 8.0;
-/// And from this many on the rule of four points errs by less than (1/128)^8.
-const VERY_FAR: f64 = 64.0;
 
-/// Positive nodes and weights of the Gauss–Legendre rules with eight and four points on [−1, 1] (NIST DLMF 3.5).
-const FOUR_POINTS: [(f64, f64); 2] = [
-    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
-    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-];
-const EIGHT_POINTS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_27),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+/// Gauss–Legendre rules on [−1, 1] (NIST DLMF 3.5) as positive nodes and weights, each with the distance in edges from
+/// which it errs by less than rounding: with n points the error is below (1/2·distance)^(2n) of the integrand.
+const RULES: [(f64, &[(f64, f64)]); 3] = [
+    (8192.0, &[(0.577_350_269_189_625_8, 1.0)]),
+    (
+        64.0,
+        &[
+            (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
+            (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+        ],
+    ),
+    (
+        FAR,
+        &[
+            (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+            (0.525_532_409_916_329, 0.313_706_645_877_887_27),
+            (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+            (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+        ],
+    ),
 ];
 
 /// A kernel on the plane, singular on the axis y = 0 only, and its antiderivatives.
@@ -44,13 +52,13 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         x.hypot((y - 0.5 * b).max(0.0)),
         y.hypot((x - 0.5 * a).max(0.0)),
     ];
-    match [rule(clearance[0] / a), rule(clearance[1] / b)] {
-        [Some(along_x), Some(along_y)] => gauss(along_x, [x, a], |x| {
-            gauss(along_y, [y, b], |y| K::value(x, y))
+    match (rule(clearance[0], a), rule(clearance[1], b)) {
+        (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
+            gauss((along_y, y, b), |y| K::value(x, y))
         }),
-        [Some(along_x), None] => gauss(along_x, [x, a], |x| K::strip_along_y(x, y, b)),
-        [None, Some(along_y)] => gauss(along_y, [y, b], |y| K::strip_along_x(x, a, y)),
-        [None, None] => {
+        (Some(along_x), None) => gauss((along_x, x, a), |x| K::strip_along_y(x, y, b)),
+        (None, Some(along_y)) => gauss((along_y, y, b), |y| K::strip_along_x(x, a, y)),
+        (None, None) => {
             let [left, right, lower, upper] = [x - 0.5 * a, x + 0.5 * a, y - 0.5 * b, y + 0.5 * b];
             K::corner(right, upper) - K::corner(left, upper) - K::corner(right, lower)
                 + K::corner(left, lower)
@@ -58,19 +66,14 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
     }
 }
 
-/// The rule for singularities that lie `clearance` edges away; none where only the closed form is exact.
-fn rule(clearance: f64) -> Option<&'static [(f64, f64)]> {
-    if clearance >= VERY_FAR {
-        Some(&FOUR_POINTS)
-    } else if clearance >= FAR {
-        Some(&EIGHT_POINTS)
-    } else {
-        None
-    }
+/// The shortest rule for an edge whose singularities are that far; none near.
+fn rule(clearance: f64, edge: f64) -> Option<&'static [(f64, f64)]> {
+    let suits = |(distance, _): &&(f64, &'static [(f64, f64)])| clearance >= distance * edge;
+    RULES.iter().find(suits).map(|(_, rule)| *rule)
 }
 
-/// Integral of a function over the edge around `centre`.
-fn gauss(rule: &[(f64, f64)], [centre, edge]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+/// Integral of a function by a rule over the edge around `centre`.
+fn gauss((rule, centre, edge): (&[(f64, f64)], f64, f64), function: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * edge;
     let pair = |&(node, weight): &(f64, f64)| {
         weight * (function(centre - half * node) + function(centre + half * node))

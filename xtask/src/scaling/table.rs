@@ -11,10 +11,13 @@ use crate::output::{read_csv, to_csv, write_atomically};
 use crate::progress;
 use crate::scaling::{ScalingFactor, scaling_factor};
 
-/// The nodes are 2p − 1 = `FIRST_ORDER` … `LAST_ORDER` with equal ratios: dense where s bends, next to p = 1/2.
-const FIRST_ORDER: f64 = 2e-3;
+/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
+/// p = 1/2.
 const LAST_ORDER: f64 = 127.0;
+const STEP: f64 = 0.153_594_4;
 const N_NODES: usize = 73;
+/// Exponents that differ by less belong to the same node.
+const SAME: f64 = 1e-6;
 /// Relative errors asked for: of cusps, whose apex dominates the friction; of steep profiles, whose contact is a thin
 /// crescent in a large box; and of the others.
 const CUSP: f64 = 0.65;
@@ -47,7 +50,7 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
     let known = |exponent: f64| {
         nodes
             .iter()
-            .any(|node| node.exponent.total_cmp(&exponent).is_eq())
+            .any(|node| (node.exponent / exponent - 1.0).abs() < SAME)
     };
     let missing: Vec<f64> = (0..N_NODES).map(exponent).filter(|p| !known(*p)).collect();
     let bar = progress::bar("scaling table", missing.len());
@@ -66,8 +69,7 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
 }
 
 fn exponent(index: usize) -> f64 {
-    let fraction = index as f64 / (N_NODES - 1) as f64;
-    0.5 + 0.5 * FIRST_ORDER * (LAST_ORDER / FIRST_ORDER).powf(fraction)
+    0.5 + 0.5 * LAST_ORDER * (-STEP * index as f64).exp()
 }
 
 fn node(exponent: f64) -> Result<Node> {

@@ -8,13 +8,20 @@
 //! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
+mod coarser;
+mod contact_box;
+mod contact_set;
 mod iteration;
+mod preconditioner;
+mod solve;
 mod state;
 
 use std::f64::consts::PI;
 
+use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
-use iteration::Iteration;
+pub(crate) use contact_box::ContactBox;
+pub(crate) use solve::{Outcome, Question, solve_normalised};
 pub use state::ContactState;
 
 /// What is prescribed at the instant.
@@ -81,20 +88,21 @@ const MAX_TOLERANCE: f64 = 1e-2;
 
 /// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
 ///
-/// Conjugate gradients projected onto the contact, which loses elements under tension and gains elements that
-/// penetrate (Polonsky & Keer 1999, Wear 231, 206), with one convolution per iteration where the contact stands.
+/// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact where that
+/// is much smaller than the grid. How it iterates is in `docs/theory/contact.md`.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and
-/// non-negative or a depth that is not finite; [`BemError::LengthMismatch`], [`BemError::InvalidHeight`];
-/// [`BemError::ContactNotConverged`] with the residual reached.
+/// non-negative, a depth that is not finite or, on a periodic half space, not below the mean of the separation;
+/// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::ContactNotConverged`] with the residual
+/// reached.
 pub fn solve_contact(
     problem: &ContactProblem,
     state: &mut ContactState,
     options: &ContactOptions,
 ) -> Result<Contact, BemError> {
     validate(problem, state)?;
-    validate_options(options)?;
+    options.validate()?;
     // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
     let load_per_pressure = problem.compliance / (4.0 * PI);
     let area = problem.convolution.grid().element_area();
@@ -103,8 +111,10 @@ pub fn solve_contact(
         depth @ Control::IndentationDepth(_) => depth,
     };
     state.scale_load(load_per_pressure);
-    let outcome = Iteration::new(problem, control, state).run(options);
+    let question = (problem.convolution, problem.separation, control);
+    let outcome = solve_normalised(question, state, options);
     state.scale_load(1.0 / load_per_pressure);
+    state.list_contact();
     let outcome = outcome?;
     Ok(Contact {
         indentation_depth: outcome.indentation_depth,
@@ -115,17 +125,18 @@ pub fn solve_contact(
     })
 }
 
-fn validate_options(options: &ContactOptions) -> Result<(), BemError> {
-    let value = options.tolerance;
-    if value > 0.0 && value <= MAX_TOLERANCE {
-        return Ok(());
+impl ContactOptions {
+    pub(crate) fn validate(&self) -> Result<(), BemError> {
+        let value = self.tolerance;
+        if value > 0.0 && value <= MAX_TOLERANCE {
+            return Ok(());
+        }
+        Err(BemError::InvalidParameter {
+            parameter: "contact tolerance",
+            value,
+            allowed: "greater than 0 and at most 1e-2",
+        })
     }
-    let allowed = "greater than 0 and at most 1e-2";
-    Err(BemError::InvalidParameter {
-        parameter: "contact tolerance",
-        value,
-        allowed,
-    })
 }
 
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
@@ -154,6 +165,14 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
             value,
         });
     }
+    validate_control(problem)
+}
+
+fn validate_control(problem: &ContactProblem) -> Result<(), BemError> {
+    let full = |depth: f64| {
+        let mean = problem.separation.iter().sum::<f64>() / problem.separation.len() as f64;
+        problem.convolution.surroundings() == Surroundings::Periodic && depth >= mean
+    };
     match problem.control {
         Control::NormalForce(value) if !(value.is_finite() && value >= 0.0) => {
             let allowed = "finite and not negative (there is no adhesion)";
@@ -167,6 +186,11 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
             parameter: "indentation_depth",
             value,
             allowed: "finite",
+        }),
+        Control::IndentationDepth(value) if full(value) => Err(BemError::InvalidParameter {
+            parameter: "indentation_depth",
+            value,
+            allowed: "below the mean height, at which a periodic contact is full and its pressure is not determined",
         }),
         _ if problem.separation.iter().all(|height| !height.is_finite()) => {
             let allowed = "below infinity in at least one element";

@@ -1,5 +1,7 @@
 //! What a contact solve overwrites.
 
+use crate::contact::contact_box::ContactBox;
+use crate::contact::iteration::Fields;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next.
@@ -7,12 +9,13 @@ use crate::{Convolution, ConvolutionWorkspace};
 pub struct ContactState {
     pub(super) load: Vec<f64>,
     pub(super) displacement: Vec<f64>,
-    pub(super) direction: Vec<f64>,
-    pub(super) image: Vec<f64>,
-    /// Elements in contact, increasing; those that penetrate without being in contact.
+    /// Elements in contact, increasing.
     pub(super) contact: Vec<usize>,
-    pub(super) penetrating: Vec<usize>,
     pub(super) workspace: ConvolutionWorkspace,
+    /// Buffers of the iteration, made when it first runs on the whole grid.
+    pub(super) fields: Option<Box<Fields>>,
+    /// The part of the grid on which the iteration last ran instead.
+    pub(super) inner: Option<Box<ContactBox>>,
 }
 
 impl ContactState {
@@ -23,11 +26,10 @@ impl ContactState {
         Self {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
-            direction: vec![0.0; n],
-            image: vec![0.0; n],
-            contact: Vec::with_capacity(n),
-            penetrating: Vec::with_capacity(n),
+            contact: Vec::new(),
             workspace: convolution.workspace(),
+            fields: None,
+            inner: None,
         }
     }
 
@@ -37,7 +39,8 @@ impl ContactState {
         &self.load
     }
 
-    /// The pressure to start from, \[Pa], row-major. Negative values count as zero.
+    /// The pressure to start from, \[Pa], row-major. Negative values count as zero; without any pressure the solver
+    /// starts from solutions on coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
         &mut self.load
     }
@@ -58,5 +61,11 @@ impl ContactState {
         for load in &mut self.load {
             *load *= factor;
         }
+    }
+
+    pub(super) fn list_contact(&mut self) {
+        self.contact.clear();
+        let loaded = |&element: &usize| self.load[element] > 0.0;
+        self.contact.extend((0..self.load.len()).filter(loaded));
     }
 }

@@ -1,18 +1,19 @@
 //! One step of sliding after the other.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 use std::ops::Range;
 
 use indenters::{SlidingLoad, Surface};
 use rheology::Viscous;
 
+use crate::bounds::Bounds;
+use crate::contact::{ContactBox, Outcome};
 use crate::error::positive;
 use crate::footprint::depth_scale;
 use crate::grid::elements_along;
-use crate::slide::contact_box::{Bounds, ContactBox};
 use crate::slide::sampled_indenter::SampledIndenter;
 use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField, SlideOptions, SlideRow, Transient};
-use crate::{BemError, Contact, Convolution, ConvolutionWorkspace, Grid};
+use crate::{BemError, Control, Convolution, ConvolutionWorkspace, Grid};
 
 /// The simulation between two steps. Heights are in units of the depth scale, lengths in units of Δx.
 pub(super) struct March {
@@ -43,7 +44,7 @@ impl March {
         let [dx, dy] = options.spacing;
         positive("spacing along x", dx)?;
         positive("spacing along y", dy)?;
-        positive("contact tolerance", options.contact.tolerance)?;
+        options.contact.validate()?;
         let counts = options.footprint.elements(options.spacing)?;
         let shape = counts.map(|[before, after]| before + after + 1);
         let apex = counts.map(|[before, _]| before);
@@ -60,7 +61,7 @@ impl March {
             shape,
             apex,
             indenter,
-            contact_box: ContactBox::new(first_bounds, dy / dx)?,
+            contact_box: ContactBox::new(first_bounds, [1.0, dy / dx])?,
             workspace: track.workspace(),
             track_pressure: vec![0.0; track_grid.n_elements()],
             increment: vec![0.0; track_grid.n_elements()],
@@ -79,7 +80,7 @@ impl March {
         self.steps_done += 1;
         loop {
             self.set_separation();
-            let contact = self.contact_box.solve(&self.options.contact)?;
+            let contact = self.solve_box()?;
             self.find_increment();
             let mut bounds = self.contact_bounds();
             if self.include_penetration(&mut bounds, contact.indentation_depth) {
@@ -92,6 +93,14 @@ impl March {
             }
             return self.record(&contact, &bounds);
         }
+    }
+
+    /// Solves the step in the box. With x = α P / (4π) in units of D/Δx and lengths in Δx the total load is
+    /// Δx/(πΔy), whatever the scene.
+    fn solve_box(&mut self) -> Result<Outcome, BemError> {
+        let [dx, dy] = self.options.spacing;
+        let control = Control::NormalForce(FRAC_1_PI * dx / dy);
+        self.contact_box.solve(control, &self.options.contact)
     }
 
     /// Rows of the track under the footprint.
@@ -134,13 +143,8 @@ impl March {
     }
 
     fn contact_bounds(&self) -> Bounds {
-        let mut elements = self
-            .contact_box
-            .loaded_elements()
-            .map(|(element, _)| element);
-        let mut bounds = Bounds::around(elements.next().unwrap_or(self.apex));
-        elements.for_each(|element| bounds.include(element));
-        bounds
+        let elements = self.contact_box.loaded_elements();
+        Bounds::of(elements.map(|(element, _)| element)).unwrap_or(Bounds::around(self.apex))
     }
 
     /// Extends the bounds to all elements outside the box that the indenter penetrates.
@@ -177,23 +181,24 @@ impl March {
             .boundary_reached(self.steps_done as f64 * self.options.spacing[0]))
     }
 
-    fn record(&self, contact: &Contact, bounds: &Bounds) -> Result<SlideRow, BemError> {
+    fn record(&self, contact: &Outcome, bounds: &Bounds) -> Result<SlideRow, BemError> {
         let [dx, dy] = self.options.spacing;
         let sliding_distance = self.steps_done as f64 * dx;
         let edge = |axis: usize, element: usize| {
             (element as f64 - self.apex[axis] as f64 - 0.5) * self.options.spacing[axis]
         };
         self.check_walls()?;
+        let n_contact = self.contact_box.loaded_elements().count();
         Ok(SlideRow {
             sliding_distance,
             time: sliding_distance / self.load.velocity(),
             indentation_depth: contact.indentation_depth * self.depth_scale,
             friction_coefficient: self.weighted_slope(&self.indenter.mean_slope),
             friction_coefficient_end_of_step: self.weighted_slope(&self.indenter.end_slope),
-            contact_area: contact.n_contact as f64 * dx * dy,
+            contact_area: n_contact as f64 * dx * dy,
             contact_x: [edge(0, bounds.lower[0]), edge(0, bounds.upper[0])],
             contact_y: [edge(1, bounds.lower[1]), edge(1, bounds.upper[1])],
-            n_contact: contact.n_contact,
+            n_contact,
             iterations: contact.iterations,
         })
     }

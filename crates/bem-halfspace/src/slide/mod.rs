@@ -10,7 +10,6 @@
 //! and at the end of the step the contact conditions hold. Inside, heights are measured in D = F_N/(4ηv) and lengths in
 //! Δx, so that only ratios enter.
 
-mod contact_box;
 mod march;
 mod sampled_indenter;
 mod stationary;

@@ -7,7 +7,9 @@ mod convolution_is_the_sum;
 mod dense_reference;
 mod elastic_contact;
 mod influence_coefficients;
+mod nested_grids;
 mod normal_indentation;
+mod periodic_contact;
 mod sliding_converges;
 mod sliding_invariance;
 mod square_punch;
@@ -16,5 +18,7 @@ mod steady_bad_input;
 mod steady_estimate;
 mod steady_invariance;
 mod support;
+#[cfg(feature = "rayon")]
+mod thread_count;
 mod transient_and_stationary_agree;
 mod wake_kernel;

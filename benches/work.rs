@@ -1,0 +1,166 @@
+//! Time, error, peak memory and iterations of contact solves, and the time as a multiple of one real Fourier transform
+//! there and back of the padded grid, measured between the solves.
+//!
+//! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- rough FILE …` with the heights of a square grid on a
+//! side of length 1 as little-endian numbers of eight bytes.
+
+#![expect(clippy::print_stdout, reason = "the table is the purpose")]
+
+use std::error::Error;
+use std::fs;
+
+use bem_halfspace::{
+    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
+
+/// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
+const COMPLIANCE: f64 = 4.0;
+const REFERENCE_TOLERANCE: f64 = 1e-12;
+const REPETITIONS: usize = 3;
+
+struct Scene {
+    name: &'static str,
+    convolution: Convolution,
+    heights: Vec<f64>,
+    /// Reaches an error of the pressure of 1e-8.
+    tolerance: f64,
+    force: f64,
+    /// Time to make the convolution, \[s].
+    setup: f64,
+    /// Edge of the grid that the transforms of a plain solver have.
+    padded: usize,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let mut words = arguments.iter().filter(|word| *word != "--bench");
+    println!("scene n iterations error bytes/element setup[s] solve[s] pair[s] solve/pair");
+    match words.next().map(String::as_str) {
+        Some("hertz") => words.try_for_each(|n| report(&hertz(n.parse()?)?)),
+        Some("rough") => words.try_for_each(|file| report(&rough(file)?)),
+        _ => report(&hertz(256)?),
+    }
+}
+
+/// Hertz contact with the radius 0.3 on the unit square, apex between the four middle elements.
+fn hertz(n: usize) -> Result<Scene, Box<dyn Error>> {
+    let edge = 1.0 / n as f64;
+    let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
+    let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
+    let grid = Grid::new([n; 2], [edge; 2])?;
+    let start = processor_time()?;
+    let convolution = Convolution::new(&grid);
+    Ok(Scene {
+        name: "hertz",
+        setup: processor_time()? - start,
+        convolution,
+        heights: (0..n * n).map(height).collect(),
+        tolerance: 5e-10,
+        force: 4.0 / 3.0 * 0.3_f64.powi(3),
+        padded: 2 * n,
+    })
+}
+
+/// A periodic surface, pressed with the mean pressure 0.05 on its summits.
+fn rough(file: &str) -> Result<Scene, Box<dyn Error>> {
+    let bytes = fs::read(file)?;
+    let (numbers, _) = bytes.as_chunks::<8>();
+    let heights: Vec<f64> = numbers
+        .iter()
+        .map(|bytes| -f64::from_le_bytes(*bytes))
+        .collect();
+    let n = heights.len().isqrt();
+    let grid = Grid::new([n; 2], [1.0 / n as f64; 2])?;
+    let start = processor_time()?;
+    let convolution = Convolution::periodic(&grid);
+    Ok(Scene {
+        name: "rough",
+        setup: processor_time()? - start,
+        convolution,
+        heights,
+        tolerance: 5e-9,
+        force: 0.05,
+        padded: n,
+    })
+}
+
+fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), Box<dyn Error>> {
+    let problem = ContactProblem {
+        convolution: &scene.convolution,
+        separation: &scene.heights,
+        compliance: COMPLIANCE,
+        control: Control::NormalForce(scene.force),
+    };
+    let options = ContactOptions {
+        tolerance,
+        max_iterations: 500,
+    };
+    let start = processor_time()?;
+    let mut state = ContactState::new(&scene.convolution);
+    let contact = solve_contact(&problem, &mut state, &options)?;
+    Ok((contact, state, processor_time()? - start))
+}
+
+fn report(scene: &Scene) -> Result<(), Box<dyn Error>> {
+    let grid = scene.convolution.grid();
+    let before = memory("VmRSS:")?;
+    let (contact, state, mut fastest) = solve(scene, scene.tolerance)?;
+    let bytes = (memory("VmHWM:")? - before) / grid.n_elements() as f64;
+    let mut pair = f64::INFINITY;
+    for _ in 0..REPETITIONS {
+        pair = pair.min(transform_pair(scene.padded)?);
+        fastest = fastest.min(solve(scene, scene.tolerance)?.2);
+    }
+    let (_, reference, _) = solve(scene, REFERENCE_TOLERANCE)?;
+    let error = deviation(state.pressure(), reference.pressure());
+    println!(
+        "{} {} {} {error:.1e} {bytes:.0} {:.3} {fastest:.4} {pair:.4} {:.1}",
+        scene.name,
+        grid.shape()[0],
+        contact.iterations,
+        scene.setup,
+        fastest / pair
+    );
+    Ok(())
+}
+
+/// Time of a real transform there and back, with a multiplication between, of a grid with this edge, \[s].
+fn transform_pair(edge: usize) -> Result<f64, Box<dyn Error>> {
+    let convolution = Convolution::periodic(&Grid::new([edge; 2], [1.0; 2])?);
+    let mut workspace = convolution.workspace();
+    let values = vec![1.0; edge * edge];
+    let mut result = vec![0.0; edge * edge];
+    let (start, mut pairs) = (processor_time()?, 0.0);
+    let mut spent = 0.0;
+    // Longer than the steps in which the system counts.
+    while spent < 0.2 {
+        convolution.apply(&mut workspace, (&values, 0..edge), (&mut result, 0..edge));
+        pairs += 1.0;
+        spent = processor_time()? - start;
+    }
+    Ok(spent / pairs)
+}
+
+/// Time on the processor of this thread, which other work on the machine disturbs less than the clock on the wall, \[s]
+/// (Linux).
+fn processor_time() -> Result<f64, Box<dyn Error>> {
+    let text = fs::read_to_string("/proc/thread-self/schedstat")?;
+    let nanoseconds = text.split_whitespace().next().ok_or("no time")?;
+    Ok(nanoseconds.parse::<f64>()? * 1e-9)
+}
+
+/// Relative difference in the mean square.
+fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
+    let pairs = actual.iter().zip(expected);
+    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
+}
+
+/// A line of the memory that this process has, in bytes (Linux).
+fn memory(line: &str) -> Result<f64, Box<dyn Error>> {
+    let status = fs::read_to_string("/proc/self/status")?;
+    let found = status.lines().find_map(|text| text.strip_prefix(line));
+    let number = found.and_then(|text| text.split_whitespace().next());
+    Ok(1024.0 * number.ok_or("no such line")?.parse::<f64>()?)
+}

@@ -1,0 +1,85 @@
+//! Boxes of elements.
+
+use std::ops::Range;
+
+use crate::fast_length::fast_length;
+
+/// Half-open ranges of rows and columns of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Bounds {
+    pub(crate) lower: [usize; 2],
+    pub(crate) upper: [usize; 2],
+}
+
+impl Bounds {
+    pub(crate) const fn around(element: [usize; 2]) -> Self {
+        Self {
+            lower: element,
+            upper: [element[0] + 1, element[1] + 1],
+        }
+    }
+
+    /// The smallest box that holds all elements; none without any.
+    pub(crate) fn of(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
+        elements.fold(None, |bounds: Option<Self>, element| {
+            let mut bounds = bounds.unwrap_or(Self::around(element));
+            bounds.include(element);
+            Some(bounds)
+        })
+    }
+
+    pub(crate) fn include(&mut self, element: [usize; 2]) {
+        for (axis, &index) in element.iter().enumerate() {
+            self.lower[axis] = self.lower[axis].min(index);
+            self.upper[axis] = self.upper[axis].max(index + 1);
+        }
+    }
+
+    pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
+        self.rows().contains(&row) && self.columns().contains(&column)
+    }
+
+    pub(crate) fn contains_all(&self, other: &Self) -> bool {
+        (0..2).all(|axis| {
+            self.lower[axis] <= other.lower[axis] && other.upper[axis] <= self.upper[axis]
+        })
+    }
+
+    pub(crate) const fn rows(&self) -> Range<usize> {
+        self.lower[0]..self.upper[0]
+    }
+
+    pub(crate) const fn columns(&self) -> Range<usize> {
+        self.lower[1]..self.upper[1]
+    }
+
+    pub(crate) const fn shape(&self) -> [usize; 2] {
+        [self.upper[0] - self.lower[0], self.upper[1] - self.lower[1]]
+    }
+
+    pub(crate) const fn n_elements(&self) -> usize {
+        self.shape()[0] * self.shape()[1]
+    }
+
+    /// Position in a field with `columns` columns of the rows of the box.
+    pub(crate) fn row_ranges(&self, columns: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let Self { lower, upper } = *self;
+        (lower[0]..upper[0]).map(move |row| row * columns + lower[1]..row * columns + upper[1])
+    }
+
+    /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast.
+    pub(crate) fn with_margin(&self, field: [usize; 2]) -> Self {
+        let mut grown = *self;
+        for (axis, &available) in field.iter().enumerate() {
+            let needed = self.shape()[axis];
+            let wanted = needed + (needed / 16).max(2) * 2;
+            let length = (fast_length(2 * wanted) / 2).min(available);
+            let behind = (length - needed) / 2;
+            grown.lower[axis] = self.lower[axis]
+                .saturating_sub(behind)
+                .min(available - length);
+            grown.upper[axis] = grown.lower[axis] + length;
+        }
+        grown
+    }
+}

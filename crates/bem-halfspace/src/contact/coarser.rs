@@ -1,0 +1,68 @@
+//! A first guess from grids of larger elements.
+
+use crate::contact::{ContactOptions, ContactState, Control, Question, solve_normalised};
+use crate::convolution::Surroundings;
+
+/// A grid with fewer elements along an edge is solved without a guess.
+const SMALLEST_EDGE: usize = 32;
+
+/// A guess needs no more: its elements err by more.
+const COARSE: ContactOptions = ContactOptions {
+    tolerance: 1e-3,
+    max_iterations: 100,
+};
+
+/// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
+pub(super) fn start_from_coarser(
+    (convolution, separation, control): Question,
+    state: &mut ContactState,
+) {
+    let grid = convolution.grid();
+    let [rows, columns] = grid.shape();
+    let halves = rows.is_multiple_of(2) && columns.is_multiple_of(2);
+    if rows.min(columns) < SMALLEST_EDGE
+        || (convolution.surroundings() == Surroundings::Periodic && !halves)
+    {
+        return;
+    }
+    let control = match control {
+        Control::NormalForce(total) => Control::NormalForce(0.25 * total),
+        depth @ Control::IndentationDepth(_) => depth,
+    };
+    let coarse_separation = mean_of_four(separation, [rows, columns]);
+    let coarse_convolution = convolution.on_grid(&grid.blocks());
+    let mut coarse = ContactState::new(&coarse_convolution);
+    let question = (&coarse_convolution, &coarse_separation[..], control);
+    // What was reached is a guess too; the finer grid decides whether the problem can be solved.
+    let _guess = solve_normalised(question, &mut coarse, &COARSE);
+    for (row, loads) in state.load.chunks_exact_mut(columns).enumerate() {
+        let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
+        for (column, load) in loads.iter_mut().enumerate() {
+            *load = coarse[column / 2];
+        }
+    }
+}
+
+/// Mean of the finite heights of two by two elements; `+∞` where there are none.
+fn mean_of_four(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+    let mean = |row: usize, column: usize| {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in row..(row + 2).min(rows) {
+            for column in column..(column + 2).min(columns) {
+                let height = heights[row * columns + column];
+                if height.is_finite() {
+                    sum += height;
+                    count += 1.0;
+                }
+            }
+        }
+        if count > 0.0 {
+            sum / count
+        } else {
+            f64::INFINITY
+        }
+    };
+    let starts = (0..rows).step_by(2);
+    let pairs = starts.flat_map(|row| (0..columns).step_by(2).map(move |column| (row, column)));
+    pairs.map(|(row, column)| mean(row, column)).collect()
+}

@@ -1,0 +1,115 @@
+//! Where to iterate, and from which first guess.
+
+use crate::bounds::Bounds;
+use crate::contact::coarser::start_from_coarser;
+use crate::contact::contact_box::ContactBox;
+use crate::contact::iteration::Iteration;
+use crate::contact::{ContactOptions, ContactState, Control};
+use crate::convolution::Surroundings;
+use crate::{BemError, Convolution};
+
+/// What is asked on a grid: its convolution, the separation \[m] and the control, a force as the sum of the loads
+/// `x = α P / (4π)`.
+pub(crate) type Question<'a> = (&'a Convolution, &'a [f64], Control);
+
+/// What a solve found beside the load.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Outcome {
+    pub(crate) indentation_depth: f64,
+    pub(crate) total_load: f64,
+    pub(crate) iterations: usize,
+    /// Largest displacement in the contact, \[m].
+    pub(crate) deflection: f64,
+    pub(crate) residual: f64,
+}
+
+/// A box pays when it is smaller than this part of the grid.
+const LARGEST_BOX: f64 = 0.6;
+
+/// Solves the contact for the load `x = α P / (4π)`, whose displacement is `K x`.
+pub(crate) fn solve_normalised(
+    question: Question,
+    state: &mut ContactState,
+    options: &ContactOptions,
+) -> Result<Outcome, BemError> {
+    if state.load.iter().all(|load| *load <= 0.0) {
+        start_from_coarser(question, state);
+    }
+    let columns = question.0.grid().shape()[1];
+    let loaded = state
+        .load
+        .iter()
+        .enumerate()
+        .filter(|(_, load)| **load > 0.0);
+    let bounds = Bounds::of(loaded.map(|(index, _)| [index / columns, index % columns]));
+    solve_around(bounds, question, state, options)
+}
+
+/// Iterates on a box around the bounds if that pays, else on the whole grid.
+fn solve_around(
+    bounds: Option<Bounds>,
+    question: Question,
+    state: &mut ContactState,
+    options: &ContactOptions,
+) -> Result<Outcome, BemError> {
+    let (convolution, ..) = question;
+    let grid = convolution.grid();
+    let pays = |bounds: &Bounds| {
+        let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
+        part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
+    };
+    let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape()));
+    let Some((bounds, outer)) = bounds.zip(with_margin.filter(pays)) else {
+        return Iteration::new(question, state, options).run(options.max_iterations);
+    };
+    let mut inner = match state.inner.take() {
+        Some(inner) if suits(&inner, &bounds, &outer) => inner,
+        _ => Box::new(ContactBox::new(outer, grid.spacing())?),
+    };
+    inner.take_from((question.1, &state.load), grid.shape()[1]);
+    let outcome = inner.solve(question.2, options);
+    inner.give_to(&mut state.load, grid.shape()[1]);
+    let solved = inner.bounds;
+    state.inner = Some(inner);
+    check_around(&solved, question, (state, outcome?), options)
+}
+
+/// Whether a box can serve again: the bounds are inside, and it is not much larger than a new one.
+fn suits(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
+    inner.bounds.contains_all(bounds) && inner.bounds.n_elements() <= 2 * outer.n_elements()
+}
+
+/// Computes the displacement of the whole grid; where it penetrates outside the box, the box grows.
+fn check_around(
+    solved: &Bounds,
+    question: Question,
+    (state, outcome): (&mut ContactState, Outcome),
+    options: &ContactOptions,
+) -> Result<Outcome, BemError> {
+    let (convolution, separation, _) = question;
+    let [rows, columns] = convolution.grid().shape();
+    convolution.apply(
+        &mut state.workspace,
+        (&state.load, solved.rows()),
+        (&mut state.displacement, 0..rows),
+    );
+    let mut bounds = *solved;
+    // The box and the grid round differently, so the tolerance of the box would be too sharp here.
+    let highest = outcome.indentation_depth - 2.0 * options.tolerance * outcome.deflection;
+    let heights = separation.iter().zip(&state.displacement).enumerate();
+    for (index, (separation, displacement)) in heights {
+        let element = [index / columns, index % columns];
+        if separation + displacement < highest && !solved.contains(element) {
+            bounds.include(element);
+        }
+    }
+    if bounds == *solved {
+        return Ok(outcome);
+    }
+    let again = solve_around(Some(bounds), question, state, options)?;
+    let iterations = outcome.iterations + again.iterations;
+    Ok(Outcome {
+        iterations,
+        ..again
+    })
+}

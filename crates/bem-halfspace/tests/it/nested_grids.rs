@@ -1,0 +1,118 @@
+//! The contact solver costs the same number of iterations on every grid, and boxes and guesses change nothing.
+
+use bem_halfspace::{
+    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
+
+const OPTIONS: ContactOptions = ContactOptions {
+    tolerance: 1e-10,
+    max_iterations: 200,
+};
+
+/// Hertz contact of radius 0.3 on the unit square for E* = R = 1, apex between four elements.
+fn hertz(n: usize) -> (Convolution, Vec<f64>) {
+    let edge = 1.0 / n as f64;
+    let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
+    let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
+    let grid = Grid::new([n, n], [edge; 2]).expect("a valid grid");
+    (Convolution::new(&grid), (0..n * n).map(height).collect())
+}
+
+fn solve(
+    (convolution, heights): (&Convolution, &[f64]),
+    state: &mut ContactState,
+    control: Control,
+) -> Contact {
+    let problem = ContactProblem {
+        convolution,
+        separation: heights,
+        compliance: 4.0,
+        control,
+    };
+    solve_contact(&problem, state, &OPTIONS).expect("a contact")
+}
+
+#[test]
+fn iterations_hardly_depend_on_the_grid() {
+    let iterations = [64, 128, 256, 512].map(|n| {
+        let (convolution, heights) = hertz(n);
+        let mut state = ContactState::new(&convolution);
+        let force = Control::NormalForce(0.036);
+        let contact = solve((&convolution, &heights), &mut state, force);
+        // Second order in the depth: 0.09 (0.3/h)^-2 with a factor of order one.
+        let error = (contact.indentation_depth / 0.09 - 1.0).abs();
+        assert!(error < 4.0 / (n * n) as f64, "{n}: {contact:?}");
+        contact.iterations
+    });
+    assert!(
+        2 * iterations[3] <= 3 * iterations[1] && iterations[3] <= 25,
+        "iterations {iterations:?}"
+    );
+}
+
+/// Sums over many elements do not end the convergence early.
+#[test]
+fn the_residual_falls_to_rounding() {
+    let (convolution, heights) = hertz(512);
+    let mut state = ContactState::new(&convolution);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation: &heights,
+        compliance: 4.0,
+        control: Control::NormalForce(0.036),
+    };
+    let options = ContactOptions {
+        tolerance: 1e-13,
+        max_iterations: 60,
+    };
+    let contact = solve_contact(&problem, &mut state, &options).expect("a contact");
+    assert!(contact.residual <= 1e-13, "{contact:?}");
+}
+
+/// A guess that is wrong, and lies elsewhere, leads to the same answer.
+#[test]
+fn the_guess_does_not_matter() {
+    let (convolution, heights) = hertz(96);
+    let problem = (&convolution, &heights[..]);
+    for control in [Control::NormalForce(0.036), Control::IndentationDepth(0.09)] {
+        let mut cold = ContactState::new(&convolution);
+        let expected = solve(problem, &mut cold, control);
+        let mut warm = ContactState::new(&convolution);
+        warm.pressure_mut()[..700].fill(1.0);
+        let actual = solve(problem, &mut warm, control);
+        assert_eq!(actual.n_contact, expected.n_contact, "{control:?}");
+        let scale = expected.normal_force / 0.3;
+        for (actual, expected) in warm.pressure().iter().zip(cold.pressure()) {
+            let error = (actual - expected).abs() / scale;
+            assert!(error < 1e-7, "{control:?}: {actual} instead of {expected}");
+        }
+        let again = solve(problem, &mut warm, control);
+        assert!(again.iterations <= 1, "solved already: {again:?}");
+    }
+}
+
+/// The displacement is that of the pressure on the whole grid, and nothing penetrates outside the box either.
+#[test]
+fn distant_summits_are_found_outside_the_box() {
+    let (convolution, mut heights) = hertz(96);
+    // Lower than the surface around the contact at the same place.
+    let summits = [96 * 2 + 2, 96 * 90 + 50];
+    for summit in summits {
+        heights[summit] = 0.05;
+    }
+    let mut state = ContactState::new(&convolution);
+    state.pressure_mut()[96 * 48 + 48] = 1.0;
+    let control = Control::NormalForce(0.036);
+    let contact = solve((&convolution, &heights), &mut state, control);
+    for summit in summits {
+        assert!(
+            state.pressure()[summit] > 0.0,
+            "summit {summit} carries load"
+        );
+    }
+    for (height, displacement) in heights.iter().zip(state.displacement()) {
+        let gap = height + displacement - contact.indentation_depth;
+        assert!(gap > -1e-10, "gap {gap}");
+    }
+}

@@ -1,0 +1,200 @@
+//! Contact with a periodic surface: Westergaard's wave from first touch to full contact, and rough surfaces near full
+//! contact.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::{
+    BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
+use casebook::group;
+
+const TIGHT: ContactOptions = ContactOptions {
+    tolerance: 1e-11,
+    max_iterations: 500,
+};
+
+fn solve(
+    convolution: &Convolution,
+    (heights, shear_modulus): (&[f64], f64),
+    control: Control,
+) -> Result<(Contact, ContactState), BemError> {
+    let mut state = ContactState::new(convolution);
+    let problem = ContactProblem {
+        convolution,
+        separation: heights,
+        compliance: 1.0 / shear_modulus,
+        control,
+    };
+    let contact = solve_contact(&problem, &mut state, &TIGHT)?;
+    Ok((contact, state))
+}
+
+/// Wave h = D (1 − cos kx) of length 1 on `n` elements per wave and two across, crest in the middle of the first.
+fn wave(n: usize, amplitude: f64) -> (Convolution, Vec<f64>) {
+    let edge = 1.0 / n as f64;
+    // Elements of another width show whether both spacings are used.
+    let grid = Grid::new([n, 2], [edge, 3.0 * edge]).expect("a valid grid");
+    let height = |index: usize| amplitude * (1.0 - (2.0 * PI * (index / 2) as f64 * edge).cos());
+    (
+        Convolution::periodic(&grid),
+        (0..2 * n).map(height).collect(),
+    )
+}
+
+/// Mean relative deviation of the pressure from Westergaard's, weighted with the pressure, and half-width of contact.
+fn westergaard_error(n: usize, [amplitude, mean, half_width]: [f64; 3]) -> [f64; 2] {
+    let (convolution, heights) = wave(n, amplitude);
+    let area = 3.0 / n as f64 * 2.0;
+    let force = Control::NormalForce(mean * area);
+    let (contact, state) = solve(&convolution, (&heights, 1.0), force).expect("a contact");
+    let edge = (PI * half_width).sin().powi(2);
+    let exact = |row: usize| {
+        let angle = PI * row as f64 / n as f64;
+        let inside = (edge - angle.sin().powi(2)).max(0.0);
+        2.0 * mean * angle.cos().abs() / edge * inside.sqrt()
+    };
+    let rows = 0..n;
+    let deviation: f64 = rows
+        .map(|row| (state.pressure()[2 * row] - exact(row)).abs())
+        .sum();
+    let width = contact.n_contact as f64 / 2.0 / n as f64;
+    [deviation / n as f64 / mean, 0.5 * width - half_width]
+}
+
+#[test]
+fn westergaards_pressure_is_reached_from_first_touch_to_full_contact() {
+    for case in group("BEM-08")
+        .iter()
+        .filter(|case| case.has_input("p_mean"))
+    {
+        let Some(half_width) = case.expected("a") else {
+            continue;
+        };
+        let scene = [case.input("amplitude"), case.input("p_mean"), half_width];
+        let errors = [128, 512].map(|n| westergaard_error(n, scene));
+        // Between samples the spectral kernel sees a trigonometric polynomial; at the edge of the contact, where the
+        // pressure is like a square root, that errs by the spacing to the power 3/2 when averaged.
+        let order = (errors[0][0] / errors[1][0]).log2() / 2.0;
+        assert!(
+            order > 1.2 && errors[1][0] < 1e-3,
+            "{}: order {order}, errors {errors:?}",
+            case.id()
+        );
+        assert!(
+            errors[1][1].abs() <= 1.0 / 512.0,
+            "{}: half-width off by {}",
+            case.id(),
+            errors[1][1]
+        );
+    }
+}
+
+/// Beyond p* = 2 G k D the wave is flat and the pressure is its mean plus p* cos kx, exactly on any grid.
+#[test]
+fn full_contact_of_a_wave_is_exact() {
+    let (n, amplitude, shear_modulus) = (48, 0.01, 2.5);
+    let (convolution, heights) = wave(n, amplitude);
+    let full = 2.0 * shear_modulus * 2.0 * PI * amplitude;
+    for mean in [1.001 * full, 3.0 * full] {
+        let force = Control::NormalForce(mean * 6.0 / n as f64);
+        let (contact, state) = solve(&convolution, (&heights, shear_modulus), force).expect("full");
+        assert_eq!(contact.n_contact, 2 * n, "{contact:?}");
+        let error = (contact.indentation_depth / amplitude - 1.0).abs();
+        assert!(error < 1e-10, "the depth is the mean height: {contact:?}");
+        for row in 0..n {
+            let expected = mean + full * (2.0 * PI * row as f64 / n as f64).cos();
+            let actual = state.pressure()[2 * row];
+            let error = (actual - expected).abs() / mean;
+            assert!(error < 1e-9, "row {row}: {actual} instead of {expected}");
+        }
+    }
+}
+
+#[test]
+fn force_and_depth_are_two_ways_to_ask_the_same() {
+    let (convolution, heights) = wave(64, 0.01);
+    let force = Control::NormalForce(0.03 * 6.0 / 64.0);
+    let (given, _) = solve(&convolution, (&heights, 1.0), force).expect("a contact");
+    let depth = Control::IndentationDepth(given.indentation_depth);
+    let (found, _) = solve(&convolution, (&heights, 1.0), depth).expect("a contact");
+    let error = (found.normal_force / given.normal_force - 1.0).abs();
+    assert!(error < 1e-8, "{found:?} instead of {given:?}");
+}
+
+/// From the mean height on the contact is full, and no depth determines its pressure.
+#[test]
+fn a_depth_beyond_full_contact_is_refused() {
+    let (convolution, heights) = wave(16, 0.01);
+    for depth in [0.010_000_1, 0.5] {
+        let control = Control::IndentationDepth(depth);
+        match solve(&convolution, (&heights, 1.0), control) {
+            Err(BemError::InvalidParameter {
+                parameter, value, ..
+            }) => {
+                assert_eq!(
+                    (parameter, value),
+                    ("indentation_depth", depth),
+                    "what is refused"
+                );
+            }
+            other => panic!("{other:?} at the depth {depth}"),
+        }
+    }
+}
+
+/// Waves of many lengths and all directions with fixed pseudo-random phases over `n` × `n` elements of side 1, each
+/// times a factor of its wave number.
+fn rough(n: usize, factor: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut seed = 1_u64;
+    let mut phase = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 * PI
+    };
+    let short = (0..24).flat_map(|k| [[k, 24 - k], [k, k - 24]]);
+    let waves: Vec<[f64; 4]> = short
+        .chain([[3, 1], [2, -5], [7, 4], [0, 6]])
+        .map(|wave| {
+            let [x, y] = wave.map(|k| 2.0 * PI * f64::from(k));
+            let q = x.hypot(y);
+            [x, y, factor(q) * q.powf(-1.8), phase()]
+        })
+        .collect();
+    let height = |index: usize| -> f64 {
+        let [x, y] = [index / n, index % n].map(|k| k as f64 / n as f64);
+        let wave = |[k, l, a, phase]: &[f64; 4]| a * (k * x + l * y + phase).cos();
+        waves.iter().map(wave).sum()
+    };
+    (0..n * n).map(height).collect()
+}
+
+/// Contacts of all sizes take about the same number of iterations, the last holes included; and the contact is full
+/// from the mean pressure on that cancels the tension 2 G |q| h of the deepest valley.
+#[test]
+fn no_contact_stalls_from_one_element_to_full() {
+    let n = 128;
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
+    let convolution = Convolution::periodic(&grid);
+    let heights = rough(n, |_| 1.0);
+    let full = rough(n, |q| 2.0 * q).into_iter().fold(0.0, f64::max);
+    let mut parts = Vec::new();
+    for part in [1e-9, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999, 1.001] {
+        let control = Control::NormalForce(part * full);
+        let (contact, state) = solve(&convolution, (&heights, 1.0), control).expect("a contact");
+        assert!(contact.iterations < 60, "{part} of full: {contact:?}");
+        let force: f64 = state.pressure().iter().sum::<f64>() * grid.element_area();
+        let error = (force / full / part - 1.0).abs();
+        assert!(error < 1e-12, "force {force} instead of {part} of {full}");
+        parts.push(contact.n_contact);
+    }
+    assert!(parts.is_sorted(), "more force, more contact: {parts:?}");
+    let [first, .., before, last] = parts[..] else {
+        panic!("{parts:?}")
+    };
+    assert_eq!((first, last), (1, n * n), "first touch and full contact");
+    let missing = n * n - before;
+    assert!(
+        (1..n * n / 100).contains(&missing),
+        "{missing} of {parts:?}"
+    );
+}

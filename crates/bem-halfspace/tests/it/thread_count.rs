@@ -1,0 +1,36 @@
+//! Results do not depend on the number of threads, to the last bit.
+
+use bem_halfspace::{
+    ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
+};
+use rayon::ThreadPoolBuilder;
+
+#[test]
+fn one_and_three_threads_agree_to_the_last_bit() {
+    let n = 200;
+    let height = |index: usize| {
+        let [x, y] = [(index / n) as f64 - 90.3, (index % n) as f64 - 110.8];
+        0.004 * (x * x + 1.3 * y * y) + (0.3 * x).sin() * (0.2 * y).cos()
+    };
+    let heights: Vec<f64> = (0..n * n).map(height).collect();
+    let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
+    for new in [Convolution::new, Convolution::periodic] {
+        let solve = || {
+            let convolution = new(&grid);
+            let mut state = ContactState::new(&convolution);
+            let problem = ContactProblem {
+                convolution: &convolution,
+                separation: &heights,
+                compliance: 1.0,
+                control: Control::NormalForce(4000.0),
+            };
+            let contact = solve_contact(&problem, &mut state, &ContactOptions::default());
+            (contact.expect("a contact"), state.pressure().to_vec())
+        };
+        let [one, three] = [1, 3].map(|threads| {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("a pool").install(solve)
+        });
+        assert_eq!(one, three, "the same contact on one and three threads");
+    }
+}
