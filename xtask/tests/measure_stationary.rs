@@ -60,6 +60,7 @@ fn error_bars_are_compared_with_finer_solutions() {
         );
     }
     let held = rows.iter().filter(|row| row["holds"] == "true").count();
+    assert_eq!(held, 12, "of twelve bars hold: {rows:?}");
     let said = format!("{held} of 12 error bars hold");
     assert!(printed.contains(&said), "expected '{said}' in {printed}");
     assert!(

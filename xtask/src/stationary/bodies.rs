@@ -17,9 +17,14 @@ const EXPONENTS: [f64; 14] = [
 const RADII: [f64; 3] = [0.1, 0.3, 1.0];
 /// From this exponent on the contact is a narrow crescent, for which narrow elements are no help.
 const CRESCENT: f64 = 4.0;
-/// From this exponent on, and below the other, solutions far finer than the others cost too much.
-const DULL: f64 = 20.0;
-const SHARP: f64 = 0.7;
+/// Up to the first and from the second exponent on a small error costs a minute or more.
+const COSTLY: [f64; 2] = [0.7, 12.0];
+/// Relative errors asked for, and those of the references over them.
+const ASKED: f64 = 1e-3;
+const ASKED_WHERE_COSTLY: f64 = 3e-3;
+const FINER: f64 = 0.1;
+const FINER_WHERE_COSTLY: f64 = 0.2;
+const QUICK_ASKED: f64 = 3e-3;
 
 type Solve = Box<dyn Fn(&FrictionOptions) -> Result<FrictionEstimate, BemError>>;
 
@@ -28,8 +33,10 @@ pub(super) struct Case {
     pub(super) name: String,
     /// p of a power profile.
     pub(super) exponent: Option<f64>,
-    /// How the solution is computed that the others are compared with.
-    pub(super) reference: FrictionOptions,
+    /// Relative error asked for.
+    pub(super) relative_error: f64,
+    /// Relative error of the reference over that.
+    finer: f64,
     pub(super) solve: Solve,
 }
 
@@ -43,31 +50,33 @@ impl Case {
         Ok(Self {
             name: name.into(),
             exponent,
-            reference: reference(exponent),
+            relative_error: ASKED,
+            finer: FINER,
             solve: Box::new(move |options| steady_friction(&body, &material, &load, options)),
         })
     }
 
     fn power(exponent: f64) -> Result<Self> {
         let body = PowerProfile::new(1.0, exponent)?;
-        Self::new(format!("r^{exponent}"), Some(exponent), body)
+        let case = Self::new(format!("r^{exponent}"), Some(exponent), body)?;
+        if exponent > COSTLY[0] && exponent < COSTLY[1] {
+            return Ok(case);
+        }
+        Ok(Self {
+            relative_error: ASKED_WHERE_COSTLY,
+            finer: FINER_WHERE_COSTLY,
+            ..case
+        })
     }
-}
 
-fn reference(exponent: Option<f64>) -> FrictionOptions {
-    let costly = |p: f64| p >= DULL || p <= SHARP;
-    FrictionOptions {
-        relative_error: if exponent.is_some_and(costly) {
-            4e-4
-        } else {
-            1e-4
-        },
-        aspect: if exponent.is_some_and(|p| p >= CRESCENT) {
-            1.0
-        } else {
-            0.5
-        },
-        ..FrictionOptions::default()
+    /// How the solution is computed that the others are compared with.
+    pub(super) fn reference(&self) -> FrictionOptions {
+        let is_crescent = self.exponent.is_some_and(|p| p >= CRESCENT);
+        FrictionOptions {
+            relative_error: self.finer * self.relative_error,
+            aspect: if is_crescent { 1.0 } else { 0.5 },
+            ..FrictionOptions::default()
+        }
     }
 }
 
@@ -125,7 +134,7 @@ pub(super) fn quick() -> Result<Vec<Case>> {
         Hyperboloid::new(0.3, 1.0)?,
     )?);
     for case in &mut cases {
-        case.reference.relative_error = 3e-4;
+        case.relative_error = QUICK_ASKED;
     }
     Ok(cases)
 }
