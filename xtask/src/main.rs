@@ -1,4 +1,4 @@
-//! Commands of the workspace: figures, scaling factors, materials, checks.
+//! Commands of the workspace: figures, scaling factors, materials, scenes, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![allow(
@@ -13,8 +13,11 @@ mod material;
 mod output;
 mod plot;
 mod progress;
+mod run;
 mod scaling;
 mod scene;
+mod scene_file;
+mod sweep;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -41,6 +44,12 @@ enum Command {
     ScalingTable(ScalingTable),
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),
+    /// Solve one scene.
+    Run(run::Run),
+    /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
+    Sweep(sweep::Sweep),
+    /// Print the JSON Schema of scene files.
+    SceneSchema,
     /// Run everything that CI checks.
     Ci,
 }
@@ -85,6 +94,9 @@ fn main() -> ExitCode {
         }
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::FitMaterial(options) => material::fit(&options),
+        Command::Run(options) => run::run(&options),
+        Command::Sweep(options) => sweep::sweep(&options),
+        Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),
         Command::Ci => ci::run(),
     };
     match outcome {

@@ -52,7 +52,10 @@ fn wedge() -> (Vec<f64>, Vec<f64>) {
             let angles = contact.iter().map(|&element| angle(element)).collect();
             return (angles, (0..n).map(|row| solution[(row, 0)]).collect());
         }
-        contact = (0..n).filter(|&row| !pulls(row)).map(|row| contact[row]).collect();
+        contact = (0..n)
+            .filter(|&row| !pulls(row))
+            .map(|row| contact[row])
+            .collect();
     }
 }
 
@@ -60,7 +63,11 @@ fn wedge() -> (Vec<f64>, Vec<f64>) {
 fn the_scaling_factor_of_sharp_cusps_follows_from_the_apex() {
     let (angles, pressure) = wedge();
     let width = PI / N as f64;
-    let integral: f64 = angles.iter().zip(&pressure).map(|(angle, f)| f * angle.cos()).sum();
+    let integral: f64 = angles
+        .iter()
+        .zip(&pressure)
+        .map(|(angle, f)| f * angle.cos())
+        .sum();
     // h̃ = κ c |x|^p, Eq. (9).
     let stretch = PowerProfile::new(1.0, 0.5).expect("a profile").stretch();
     let limit = integral * width / (2.0 * stretch * stretch);
