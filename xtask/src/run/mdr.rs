@@ -71,7 +71,7 @@ pub(super) fn transient(
             Err(error) => Err(error.into()),
         }
     };
-    let friction = |rows: &Vec<SlideRow>| rows.last().map_or(0.0, |row| row.friction_coefficient);
+    let friction = |rows: &Vec<SlideRow>| friction_at_end(rows, distance.is_some());
     let Resolved {
         value: rows, error, ..
     } = resolve(accuracy, LARGEST_CHAIN, solve, friction)?;
@@ -85,10 +85,21 @@ pub(super) fn transient(
         iterations: rows.len(),
         left_out: vec!["half space"],
         ..Answer::new(Method::MdrTransient, Model::Line, load.normal_force())
-            .with_friction(last.friction_coefficient, error)
+            .with_friction(friction(&rows), error)
     };
     answer.fields.history = rows.iter().map(history).collect();
     Ok(answer)
+}
+
+/// The friction of a step belongs to its middle; on the way to the stationary state the end is half a step further.
+fn friction_at_end(rows: &[SlideRow], on_the_way: bool) -> f64 {
+    match rows {
+        [.., before, last] if on_the_way => {
+            1.5 * last.friction_coefficient - 0.5 * before.friction_coefficient
+        }
+        [.., last] => last.friction_coefficient,
+        [] => 0.0,
+    }
 }
 
 fn history(row: &SlideRow) -> HistoryRow {

@@ -25,7 +25,7 @@ pub(crate) use offer::{NotOffered, choose};
 pub(crate) use question::Question;
 pub(crate) use solve::solve;
 
-use crate::output::WrongInput;
+use crate::output::{WrongInput, print_line};
 use crate::progress;
 use crate::scene_file::{Method, SceneError, Source, scene_file};
 
@@ -70,11 +70,11 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     if options.out.is_none() {
         answer.left_out.push("files");
     }
-    print(&answer, options)?;
+    print(&answer, options, question.method.is_none())?;
     if let Some(out) = &options.out {
         files::write(&answer, out)?;
         if options.format == Format::Table {
-            println!("written into {}", out.display());
+            print_line(&format!("written into {}", out.display()))?;
         }
     }
     Ok(())
@@ -95,10 +95,10 @@ pub(crate) fn not_offered(source: &Source, error: &NotOffered) -> WrongInput {
     source.locate(&SceneError::together(key, error.to_string()))
 }
 
-fn print(answer: &Answer, options: &Run) -> Result<()> {
+fn print(answer: &Answer, options: &Run, chosen: bool) -> Result<()> {
     match options.format {
         Format::Json => {
-            println!("{}", serde_json::to_string_pretty(answer)?);
+            print_line(&serde_json::to_string_pretty(answer)?)?;
             // The result on the standard output stays JSON.
             if options.explain {
                 eprintln!("{}", explain::table(answer));
@@ -106,10 +106,17 @@ fn print(answer: &Answer, options: &Run) -> Result<()> {
         }
         Format::Table => {
             let (method, model) = (answer.method.name(), answer.model_name());
-            println!("method {method}, {model}, {:.3} s", answer.seconds);
-            println!("{}", answer.table());
+            let seconds = answer.seconds;
+            let why = if chosen {
+                ", the cheapest that answers the scene"
+            } else {
+                ""
+            };
+            print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
+            print_line(&answer.table())?;
             if options.explain {
-                println!("\nnot needed, and left out:\n{}", explain::table(answer));
+                let omissions = explain::table(answer);
+                print_line(&format!("\nnot needed, and left out:\n{omissions}"))?;
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use toml::Table;
 use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
 
 use super::{SceneError, SceneFile};
 use crate::output::WrongInput;
@@ -85,6 +85,12 @@ impl Source {
 /// # Errors
 /// [`SceneError::Form`] for an unknown or missing key or a value of the wrong type.
 pub(crate) fn scene_file(table: Table) -> Result<SceneFile, SceneError> {
+    for (key, value) in &table {
+        check_tables(key, value)?;
+    }
+    for key in ["indenter", "material"] {
+        check_kind(key, &table)?;
+    }
     serde_path_to_error::deserialize(table).map_err(|error| {
         let path = error.path().to_string();
         let problem = error.inner().message().trim().to_owned();
@@ -93,6 +99,53 @@ pub(crate) fn scene_file(table: Table) -> Result<SceneFile, SceneError> {
             problem,
         }
     })
+}
+
+/// Refuses lists where tables belong, of which serde would take the values in the order of the keys.
+fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
+    let Some(table) = value.as_table() else {
+        let problem = format!(
+            "a table is needed, and not a value of type {}",
+            value.type_str()
+        );
+        return Err(SceneError::together(key, problem));
+    };
+    for (name, value) in table {
+        let inner = format!("{key}.{name}");
+        match value {
+            Value::Table(_) => check_tables(&inner, value)?,
+            Value::Array(elements) => {
+                for (index, element) in elements.iter().enumerate() {
+                    check_tables(&format!("{inner}[{index}]"), element)?;
+                }
+            }
+            other if ["indenter", "material"].contains(&key) && table.len() == 1 => {
+                let problem = format!(
+                    "a table is needed, and not a value of type {}",
+                    other.type_str()
+                );
+                return Err(SceneError::together(inner, problem));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Indenter and material are one table each, whose name is the kind.
+fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
+    let Some(kinds) = table.get(key).and_then(Value::as_table) else {
+        return Ok(());
+    };
+    if kinds.len() == 1 {
+        return Ok(());
+    }
+    let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
+    let [count, names] = [kinds.len().to_string(), names.join(", ")];
+    Err(SceneError::together(
+        key,
+        format!("exactly one kind is needed, as in [{key}.kind], but there are {count}: {names}"),
+    ))
 }
 
 /// The path with the key that is unknown or missing.

@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 
 use super::file::{RowTable, lines, read};
 use super::wrong_row;
-use crate::output::{WrongInput, write_atomically};
+use crate::output::{WrongInput, print_line, write_atomically};
 
 /// Joins files of one sweep, in the order of the points, and says which points none of them has.
 pub(super) fn merge(paths: &[PathBuf], out: &Path) -> Result<()> {
@@ -37,7 +37,7 @@ pub(super) fn merge(paths: &[PathBuf], out: &Path) -> Result<()> {
         out,
         lines(&first.header, rows.values().copied())?.as_bytes(),
     )?;
-    println!("{} points in {}", rows.len(), out.display());
+    print_line(&format!("{} points in {}", rows.len(), out.display()))?;
     let points = sweep.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
     let missing: Vec<String> = (0..points.unwrap_or(0))
         .filter(|point| !rows.contains_key(point))

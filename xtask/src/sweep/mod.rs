@@ -15,7 +15,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use rayon::prelude::*;
 
-use crate::output::WrongInput;
+use crate::output::{WrongInput, print_line};
 use crate::progress;
 use crate::scene_file::Source;
 use file::SweepFile;
@@ -93,12 +93,11 @@ fn compute(plan: &Plan, options: &Sweep) -> Result<()> {
     }
     bar.finish_and_clear();
     let failures = file.finish()?;
-    println!(
-        "{} points computed, {} in {}",
-        missing.len(),
-        file.len(),
+    let [computed, there] = [missing.len(), file.len()];
+    print_line(&format!(
+        "{computed} points computed, {there} in {}",
         path.display()
-    );
+    ))?;
     if failures > 0 {
         bail!(
             "{failures} of {} points could not be computed; the column `failure` says why",

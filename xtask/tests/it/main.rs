@@ -1,4 +1,9 @@
-//! What a user types, and what comes back; one binary, one module per command.
+//! What a user types, and what comes back; one binary, one module per claim.
 
 mod commands;
+mod documented_commands;
 mod fit_material;
+mod malformed_scenes;
+mod scenes;
+mod support;
+mod sweeps;
