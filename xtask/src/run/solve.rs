@@ -58,7 +58,7 @@ fn slid(
     let motion = (question.control, velocity);
     match method {
         Method::Analytic => closed(question, body, (velocity, distance)),
-        Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)),
+        Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)?),
         Method::MdrTransient => {
             let load = load(motion)?;
             mdr::transient(body, material, (&load, distance), accuracy)
@@ -112,10 +112,10 @@ fn viscous(question: &Question) -> Result<Viscous> {
     }
 }
 
-/// A fixed resolution is refused where nothing has one.
-const fn relative_error(accuracy: Accuracy) -> f64 {
+/// Where nothing has a fixed resolution.
+fn relative_error(accuracy: Accuracy) -> Result<f64> {
     match accuracy {
-        Accuracy::RelativeError(error) => error,
-        Accuracy::Elements(_) => 0.1,
+        Accuracy::RelativeError(error) => Ok(error),
+        Accuracy::Elements(elements) => bail!("the method has no {elements} elements"),
     }
 }

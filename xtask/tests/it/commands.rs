@@ -103,7 +103,14 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
 
 #[test]
 fn every_command_explains_itself() {
-    for command in ["reproduce-figures", "scaling-factors", "fit-material", "ci"] {
+    for command in [
+        "reproduce-figures",
+        "scaling-factors",
+        "fit-material",
+        "run",
+        "sweep",
+        "ci",
+    ] {
         let output = xtask(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0), "{command}");
         assert!(
