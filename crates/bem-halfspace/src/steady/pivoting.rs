@@ -123,7 +123,7 @@ impl Progress {
         } else if self.vain <= EVERY_OTHER {
             // Neighbours that still flip together are taken apart.
             let mut chosen = at_least(0.0);
-            chosen.retain(|element| (element + self.vain) % 2 == 0);
+            chosen.retain(|element| (element + self.vain).is_multiple_of(2));
             chosen
         } else {
             let last = violations.last();
