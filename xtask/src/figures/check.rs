@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, ensure};
 
 use crate::figures::friction_over_speed::{self, Indenter, SPEEDS};
-use crate::figures::{factors, loss_tangent, scaling_function};
+use crate::figures::{factors, loss_tangent, scaling_function, stationary};
 use crate::output::read_csv;
 use crate::progress;
 use crate::scaling::scaling_factor;
@@ -18,10 +18,12 @@ const SIMULATION_TOLERANCE: f64 = 1e-6;
 const PAPER_TOLERANCE: f64 = 0.02;
 /// An error bar is a difference of numbers that round.
 const ERROR_TOLERANCE: f64 = 1e-3;
+/// Elements by which the outline of a contact may move, and a little for rounding.
+const OUTLINE_TOLERANCE: f64 = 1.001;
 
 pub(crate) fn check() -> Result<()> {
     let folder = committed();
-    let bar = progress::bar("comparing", 5);
+    let bar = progress::bar("comparing", 6);
     let mut compared = check_loss_tangent(&folder)?;
     bar.inc(1);
     for indenter in [Indenter::Cone, Indenter::Paraboloid] {
@@ -31,6 +33,8 @@ pub(crate) fn check() -> Result<()> {
     compared += check_factors(&folder)?;
     bar.inc(1);
     compared += check_scaling_function(&folder)?;
+    bar.inc(1);
+    compared += check_outlines(&folder)?;
     bar.finish_and_clear();
     println!("docs/figures: {compared} recomputed numbers agree");
     Ok(())
@@ -207,4 +211,34 @@ fn check_scaling_function(folder: &Path) -> Result<usize> {
         }
     }
     Ok(3 * committed.len() + scaling_function::check_against_the_half_space()?)
+}
+
+/// All outlines. Rounding may decide about single elements, so each point may move by one.
+fn check_outlines(folder: &Path) -> Result<usize> {
+    let committed: Vec<stationary::Row> = read_csv(&folder.join(stationary::FILE))?;
+    let contacts = stationary::compute()?;
+    let recomputed: Vec<_> = contacts
+        .iter()
+        .flat_map(|contact| &contact.outline)
+        .collect();
+    ensure!(
+        committed.len() == recomputed.len(),
+        "{}: {} rows instead of {}",
+        stationary::FILE,
+        committed.len(),
+        recomputed.len()
+    );
+    for (line, (old, new)) in committed.iter().zip(recomputed).enumerate() {
+        let moved = [(old.y, new.y), (old.rear, new.rear), (old.front, new.front)]
+            .map(|(old, new)| (old - new).abs())
+            .into_iter()
+            .fold((old.exponent - new.exponent).abs(), f64::max);
+        ensure!(
+            moved <= OUTLINE_TOLERANCE * new.element,
+            "{} row {}: committed {old:?}, recomputed {new:?}",
+            stationary::FILE,
+            line + 1
+        );
+    }
+    Ok(3 * committed.len())
 }

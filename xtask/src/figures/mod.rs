@@ -2,12 +2,14 @@
 
 mod approach;
 mod check;
+mod contact_maps;
 mod factors;
 mod friction_over_speed;
 mod loss_tangent;
 mod pictures;
 mod report;
 mod scaling_function;
+mod stationary;
 
 use std::path::Path;
 
@@ -29,6 +31,7 @@ struct Data {
     factors: Vec<factors::Row>,
     approach: [approach::Approach; 2],
     scaling_function: Vec<scaling_function::Row>,
+    contacts: Vec<stationary::Contact>,
 }
 
 /// Computes all figures and writes data, pictures and report into `out`.
@@ -46,6 +49,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
             approach::compute(&factors[1])?,
         ],
         scaling_function: scaling_function::compute()?,
+        contacts: stationary::compute()?,
         factors,
     };
     write_data(&data, out)?;
@@ -70,6 +74,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
 }
 
 fn write_data(data: &Data, out: &Path) -> Result<()> {
+    let outlines = data.contacts.iter().flat_map(|contact| &contact.outline);
     for (name, table) in [
         (loss_tangent::FILE, to_csv(&data.loss_tangent)?),
         (Indenter::Cone.file(), to_csv(&data.cone)?),
@@ -80,6 +85,7 @@ fn write_data(data: &Data, out: &Path) -> Result<()> {
             "approach.csv",
             to_csv(&[&data.approach[0].rows[..], &data.approach[1].rows].concat())?,
         ),
+        (stationary::FILE, to_csv(&outlines.collect::<Vec<_>>())?),
     ] {
         write_atomically(&out.join(name), table.as_bytes())?;
     }

@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use crate::figures::approach::{self, Approach};
 use crate::figures::friction_over_speed::Row;
-use crate::figures::{Data, loss_tangent, scaling_function};
+use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
 use crate::plot::{
     Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Series, Shape,
     render_svg,
@@ -54,6 +54,11 @@ pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
             &scaling_function::figure(&data.scaling_function),
         )?,
         picture("pressure", PRESSURE, &pressure_maps([cone, paraboloid]))?,
+        picture(
+            "stationary_contact",
+            &contact_maps::caption(&data.contacts),
+            &contact_maps::figure(&data.contacts),
+        )?,
     ])
 }
 

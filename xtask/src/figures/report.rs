@@ -37,6 +37,10 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     write_friction(&mut page, &data.paraboloid, pictures, &PARABOLOID)?;
     write_approach(&mut page, pictures)?;
     write_scaling_function(&mut page, pictures)?;
+    page.push_str(
+        "<h2>The stationary contact</h2><p>Not in the paper; from the stationary problem, solved directly.</p>",
+    );
+    write_picture(&mut page, pictures, "stationary_contact")?;
     page.push_str(NOT_STATED);
     page.push_str("</body></html>\n");
     Ok(page)

@@ -1,0 +1,162 @@
+//! Outline and pressure of the stationary contact for four power profiles.
+
+use anyhow::Result;
+use bem_halfspace::Footprint;
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::progress;
+use crate::scene::Scene;
+
+pub(super) const FILE: &str = "stationary_contact.csv";
+
+/// Exponents, and elements along the contact length of the one-dimensional model: the blunter the body, the narrower its
+/// contact.
+pub(super) const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 150), (16.0, 300)];
+/// The lowest point lies at a corner of four elements, so that edges of elements are round numbers of the length.
+const PHASE: [f64; 2] = [0.5, 0.5];
+/// Gaps left in contact, relative to F_N/(4ηv).
+const TOLERANCE: f64 = 1e-9;
+const MAX_ITERATIONS: usize = 500;
+
+/// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Row {
+    pub(super) exponent: f64,
+    /// Δx = Δy, which is how exactly the outline is known.
+    pub(super) element: f64,
+    /// Centre of the column, across the sliding direction.
+    pub(super) y: f64,
+    pub(super) rear: f64,
+    pub(super) front: f64,
+}
+
+/// The stationary contact of one profile; lengths in contact lengths of the one-dimensional model.
+#[derive(Debug)]
+pub(super) struct Contact {
+    pub(super) exponent: f64,
+    /// Elements along that length.
+    pub(super) elements: usize,
+    /// From one side of the contact to the other.
+    pub(super) outline: Vec<Row>,
+    contact_length: f64,
+    mean_pressure: f64,
+    solution: SteadySliding,
+}
+
+impl Contact {
+    /// Pressure of the element at a position, over the mean of the contact.
+    pub(super) fn pressure(&self, position: [f64; 2]) -> f64 {
+        let position = position.map(|coordinate| coordinate * self.contact_length);
+        self.solution.pressure.at(position) / self.mean_pressure
+    }
+
+    /// Where the middle column touches.
+    pub(super) fn middle(&self) -> &Row {
+        &self.outline[self.outline.len() / 2]
+    }
+
+    /// Half the breadth of the contact.
+    pub(super) fn half_breadth(&self) -> f64 {
+        self.solution.contact_y[1] / self.contact_length
+    }
+}
+
+/// The contacts of all profiles.
+pub(super) fn compute() -> Result<Vec<Contact>> {
+    let bar = progress::bar("stationary contacts", PROFILES.len());
+    let contacts = PROFILES.par_iter().map(|&profile| {
+        let contact = contact(profile);
+        bar.inc(1);
+        contact
+    });
+    let contacts = contacts.collect();
+    bar.finish_and_clear();
+    contacts
+}
+
+fn contact((exponent, elements): (f64, usize)) -> Result<Contact> {
+    let scene = Scene::unit(exponent)?;
+    let contact_length = scene.theory()?.contact_length();
+    let options = SteadyOptions {
+        spacing: [contact_length / elements as f64; 2],
+        phase: PHASE,
+        footprint: Footprint::of_body(&scene.body, &scene.material, &scene.load)?,
+        tolerance: TOLERANCE,
+        max_iterations: MAX_ITERATIONS,
+    };
+    let solution = steady(&scene.body, &scene.material, &scene.load, &options)?;
+    Ok(Contact {
+        exponent,
+        elements,
+        outline: outline(&solution, (exponent, elements)),
+        contact_length,
+        mean_pressure: solution.normal_force / solution.contact_area,
+        solution,
+    })
+}
+
+fn outline(solution: &SteadySliding, (exponent, elements): (f64, usize)) -> Vec<Row> {
+    let field = &solution.pressure;
+    let [rows, columns] = field.grid.shape();
+    let length = field.grid.spacing()[0] * elements as f64;
+    let element = 1.0 / elements as f64;
+    let centre = |axis: usize, index: usize| field.origin[axis] / length + index as f64 * element;
+    let touched = |column: usize| {
+        let mut loaded = (0..rows).filter(|row| field.pressure[row * columns + column] > 0.0);
+        let rear = loaded.next()?;
+        let front = loaded.next_back().unwrap_or(rear);
+        Some(Row {
+            exponent,
+            element,
+            y: centre(1, column),
+            rear: centre(0, rear) - 0.5 * element,
+            front: centre(0, front) + 0.5 * element,
+        })
+    };
+    (0..columns).filter_map(touched).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the caption says of all contacts.
+    #[test]
+    fn contact_is_on_the_front_half_with_a_loaded_front_and_an_unloaded_rear() {
+        let mut lengths = Vec::new();
+        for (exponent, elements) in [(1.0, 30), (2.0, 40), (4.0, 60), (16.0, 150)] {
+            let contact = contact((exponent, elements)).expect("a contact");
+            let rows = &contact.outline;
+            let last = rows.len() - 1;
+            for (column, row) in rows.iter().enumerate() {
+                assert!(row.rear >= 0.0 && row.front > row.rear, "{row:?}");
+                let other = &rows[last - column];
+                let same = row.rear.to_bits() == other.rear.to_bits();
+                assert!(
+                    same && (row.y + other.y).abs() < 1e-9,
+                    "{row:?} and {other:?}"
+                );
+            }
+            let middle = contact.middle();
+            lengths.push(middle.front - middle.rear);
+            let half = 0.5 * middle.element;
+            let [rear, next_to_front] = [middle.rear + half, middle.front - 3.0 * half]
+                .map(|x| contact.pressure([x, middle.y]));
+            assert!(
+                next_to_front > 1.5,
+                "p = {exponent}: {next_to_front} at the front"
+            );
+            // The cone has its tip there, where the pressure is singular too.
+            assert!(
+                exponent < 1.5 || rear < 0.5,
+                "p = {exponent}: {rear} at the rear"
+            );
+        }
+        assert!(
+            lengths.is_sorted_by(|longer, shorter| longer > shorter),
+            "{lengths:?}"
+        );
+    }
+}
