@@ -1,4 +1,4 @@
-//! Commands of the workspace: figures, scaling factors, materials, checks.
+//! Commands of the workspace: figures, scaling factors, materials, scenes, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![allow(
@@ -13,9 +13,12 @@ mod material;
 mod output;
 mod plot;
 mod progress;
+mod run;
 mod scaling;
 mod scene;
+mod scene_file;
 mod stationary;
+mod sweep;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -44,6 +47,12 @@ enum Command {
     FitMaterial(material::FitMaterial),
     /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed. CSV.
     MeasureStationary(stationary::MeasureStationary),
+    /// Solve one scene.
+    Run(run::Run),
+    /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
+    Sweep(sweep::Sweep),
+    /// Print the JSON Schema of scene files.
+    SceneSchema,
     /// Run everything that CI checks.
     Ci,
 }
@@ -89,6 +98,9 @@ fn main() -> ExitCode {
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::FitMaterial(options) => material::fit(&options),
         Command::MeasureStationary(options) => stationary::measure(&options),
+        Command::Run(options) => run::run(&options),
+        Command::Sweep(options) => sweep::sweep(&options),
+        Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),
         Command::Ci => ci::run(),
     };
     match outcome {

@@ -1,6 +1,7 @@
 //! Files that are whole or not there, and the error that means wrong input.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -18,6 +19,16 @@ impl std::fmt::Display for WrongInput {
 }
 
 impl std::error::Error for WrongInput {}
+
+/// Prints a line; a reader that has seen enough is no error.
+pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
+    match writeln!(std::io::stdout(), "{text}") {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(error).context("printing")
+        }
+        _ => Ok(()),
+    }
+}
 
 /// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.
 pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {

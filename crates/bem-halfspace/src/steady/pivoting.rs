@@ -97,43 +97,39 @@ impl Default for Progress {
 }
 
 impl Progress {
-    /// The violations to exchange: all, then the larger ones, then the last.
+    /// The violations to exchange: all, then the larger ones, then every other one, then the last.
     fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
         if violations.len() < self.fewest {
             (self.fewest, self.vain) = (violations.len(), 0);
         } else {
             self.vain += 1;
         }
-        let elements = |threshold: f64| {
-            let large = violations
+        let at_least = |threshold: f64| -> Vec<usize> {
+            violations
                 .iter()
-                .filter(move |violation| violation.size >= threshold);
-            large.map(|violation| violation.element).collect()
+                .filter(|violation| violation.size >= threshold)
+                .map(|violation| violation.element)
+                .collect()
         };
+        // Only neighbours of different kinds hinder each other.
         let alike = violations
             .windows(2)
             .all(|pair| pair[0].pulls == pair[1].pulls);
-        match self.vain {
-            0..=BLOCKS => elements(0.0),
-            // Only neighbours of different kinds hinder each other.
-            ..=LARGER_ONES if alike => elements(0.0),
-            ..=LARGER_ONES => {
-                let largest = violations
-                    .iter()
-                    .map(|violation| violation.size)
-                    .fold(0.0, f64::max);
-                elements(0.5 * largest)
-            }
+        if self.vain <= BLOCKS || alike && self.vain <= LARGER_ONES {
+            at_least(0.0)
+        } else if self.vain <= LARGER_ONES {
+            let sizes = violations.iter().map(|violation| violation.size);
+            at_least(0.5 * sizes.fold(0.0, f64::max))
+        } else if self.vain <= EVERY_OTHER {
             // Neighbours that still flip together are taken apart.
-            ..=EVERY_OTHER => elements(0.0)
+            let mut chosen = at_least(0.0);
+            chosen.retain(|element| (element + self.vain).is_multiple_of(2));
+            chosen
+        } else {
+            let last = violations.last();
+            last.map(|violation| violation.element)
                 .into_iter()
-                .filter(|element| (element + self.vain) % 2 == 0)
-                .collect(),
-            _ => violations
-                .last()
-                .map(|violation| violation.element)
-                .into_iter()
-                .collect(),
+                .collect()
         }
     }
 }

@@ -53,16 +53,7 @@ impl SteadySliding {
                 depth_scale: mesh.loading.depth_scale,
             });
         }
-        let shape = bounds.map(|[first, last]| last + 1 - first);
         let spacing = mesh.options.spacing;
-        let grid = Grid::new(shape, spacing)?;
-        let pressure_unit = mesh.loading.pressure_unit(spacing);
-        let total_load = mesh.total_load(solution);
-        let mut pressure = vec![0.0; grid.n_elements()];
-        for ([row, column], value) in &loaded {
-            pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] =
-                value * pressure_unit;
-        }
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
             [
@@ -70,24 +61,41 @@ impl SteadySliding {
                 mesh.centre(axis, bounds[axis][1]) + half,
             ]
         });
-        let origin = [0, 1].map(|axis| mesh.centre(axis, bounds[axis][0]));
+        let pressure = pressure_field(mesh, &loaded, bounds)?;
+        let total_load = mesh.total_load(solution);
         Ok(Self {
             friction_coefficient: mesh.friction(solution),
             normal_force: mesh.loading.force_of(total_load, spacing),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
-            contact_area: loaded.len() as f64 * grid.element_area(),
+            contact_area: loaded.len() as f64 * pressure.grid.element_area(),
             contact_x: edges[0],
             contact_y: edges[1],
             unknowns: solution.loads.len(),
             iterations: solution.iterations,
             residual: solution.residual,
-            pressure: PressureField {
-                grid,
-                origin,
-                pressure,
-            },
+            pressure,
         })
     }
+}
+
+/// The pressure over the bounding box of the contact.
+fn pressure_field(
+    mesh: &Mesh,
+    loaded: &[([usize; 2], f64)],
+    bounds: [[usize; 2]; 2],
+) -> Result<PressureField, BemError> {
+    let shape = bounds.map(|[first, last]| last + 1 - first);
+    let grid = Grid::new(shape, mesh.options.spacing)?;
+    let unit = mesh.loading.pressure_unit(mesh.options.spacing);
+    let mut pressure = vec![0.0; grid.n_elements()];
+    for ([row, column], load) in loaded {
+        pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] = load * unit;
+    }
+    Ok(PressureField {
+        grid,
+        origin: [0, 1].map(|axis| mesh.centre(axis, bounds[axis][0])),
+        pressure,
+    })
 }
 
 /// First and last loaded row and column.

@@ -116,6 +116,8 @@ fn every_command_explains_itself() {
         "scaling-factors",
         "fit-material",
         "measure-stationary",
+        "run",
+        "sweep",
         "ci",
     ] {
         let output = xtask(&[command, "--help"]);

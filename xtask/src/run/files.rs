@@ -1,0 +1,109 @@
+//! The files of one answer: result.json, fields as NPY and CSV, pictures as SVG and PNG.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+
+use super::answer::Answer;
+use super::pictures;
+use crate::output::{WrongInput, to_csv, write_atomically};
+use crate::plot::{Figure, PNG_WIDTH, render_png, render_svg};
+
+#[derive(Debug, Serialize)]
+struct PressureRow {
+    x_m: f64,
+    y_m: f64,
+    pressure_pa: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct LineRow {
+    x_m: f64,
+    load_n_per_m: f64,
+}
+
+/// Writes what the answer has; result.json comes last: with it the others are there.
+pub(super) fn write(answer: &Answer, out: &Path) -> Result<()> {
+    std::fs::create_dir_all(out)
+        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
+    write_pressure(answer, out)?;
+    write_line(answer, out)?;
+    write_history(answer, out)?;
+    let result = format!("{}\n", serde_json::to_string_pretty(answer)?);
+    write_atomically(&out.join("result.json"), result.as_bytes())
+}
+
+fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
+    let Some(field) = &answer.fields.pressure else {
+        return Ok(());
+    };
+    let shape = field.grid.shape();
+    let place =
+        |axis: usize, index: usize| field.origin[axis] + index as f64 * field.grid.spacing()[axis];
+    let row = |(index, pressure): (usize, &f64)| PressureRow {
+        x_m: place(0, index / shape[1]),
+        y_m: place(1, index % shape[1]),
+        pressure_pa: *pressure,
+    };
+    let rows: Vec<PressureRow> = field.pressure.iter().enumerate().map(row).collect();
+    write_atomically(&out.join("pressure.csv"), to_csv(&rows)?.as_bytes())?;
+    write_atomically(&out.join("pressure.npy"), &npy(&field.pressure, &shape))?;
+    for (axis, name) in ["pressure_x.npy", "pressure_y.npy"].into_iter().enumerate() {
+        let places: Vec<f64> = (0..shape[axis]).map(|index| place(axis, index)).collect();
+        write_atomically(&out.join(name), &npy(&places, &[places.len()]))?;
+    }
+    draw(&pictures::pressure(field)?, out, "pressure")
+}
+
+fn write_line(answer: &Answer, out: &Path) -> Result<()> {
+    let points = &answer.fields.line_load;
+    if points.is_empty() {
+        return Ok(());
+    }
+    let row = |[x_m, load_n_per_m]: &[f64; 2]| LineRow {
+        x_m: *x_m,
+        load_n_per_m: *load_n_per_m,
+    };
+    let rows: Vec<LineRow> = points.iter().map(row).collect();
+    write_atomically(&out.join("line_load.csv"), to_csv(&rows)?.as_bytes())?;
+    let flat = points.concat();
+    write_atomically(&out.join("line_load.npy"), &npy(&flat, &[points.len(), 2]))?;
+    draw(&pictures::line_load(points), out, "line_load")
+}
+
+fn write_history(answer: &Answer, out: &Path) -> Result<()> {
+    let rows = &answer.fields.history;
+    if rows.is_empty() {
+        return Ok(());
+    }
+    write_atomically(&out.join("history.csv"), to_csv(rows)?.as_bytes())?;
+    draw(&pictures::history(rows), out, "history")
+}
+
+fn draw(figure: &Figure, out: &Path, name: &str) -> Result<()> {
+    let say = || format!("drawing {name}");
+    let svg = render_svg(figure).with_context(say)?;
+    write_atomically(&out.join(format!("{name}.svg")), svg.as_bytes())?;
+    let png = render_png(&svg, PNG_WIDTH).with_context(say)?;
+    write_atomically(&out.join(format!("{name}.png")), &png)
+}
+
+/// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
+fn npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
+    let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
+    let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
+    // Magic, version, length and header together are a multiple of 64 bytes and end with a line feed.
+    let unpadded = PREFIX.len() + 2 + header.len() + 1;
+    header.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
+    header.push('\n');
+    let mut bytes = PREFIX.to_vec();
+    let length = u16::try_from(header.len()).unwrap_or(u16::MAX);
+    bytes.extend(length.to_le_bytes());
+    bytes.extend(header.bytes());
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
+}
+
+/// Magic and version.
+const PREFIX: &[u8] = b"\x93NUMPY\x01\x00";

@@ -1,0 +1,185 @@
+//! Which methods answer which scenes.
+
+use friction_analytic::scaling_factor;
+use rheology::RheologyError;
+use thiserror::Error;
+
+use super::body::{Body, Revolution};
+use super::half_space::{Simple, simple};
+use super::question::{Motion, Question};
+use crate::scene_file::{Accuracy, Control, Method, Model};
+
+/// The methods from cheap to expensive.
+const BY_COST: [Method; 5] = [
+    Method::Analytic,
+    Method::MdrSteady,
+    Method::MdrTransient,
+    Method::BemSteady,
+    Method::BemTransient,
+];
+
+/// Why no method is asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub(crate) enum NotOffered {
+    /// The method that the scene names does not answer it.
+    #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
+    Method {
+        method: Method,
+        why: &'static str,
+        offered: Vec<Method>,
+    },
+    /// No method does.
+    #[error("no method answers this scene yet: {}", reasons(refusals))]
+    AnyMethod {
+        refusals: Vec<(Method, &'static str)>,
+    },
+    /// The material cannot be reduced to the incompressible one with the same surface.
+    #[error(transparent)]
+    Material(#[from] RheologyError),
+}
+
+fn others(offered: &[Method]) -> String {
+    if offered.is_empty() {
+        return "no other method does either".to_owned();
+    }
+    let names: Vec<String> = offered.iter().map(|method| method.name()).collect();
+    format!("these do: {}", names.join(", "))
+}
+
+fn reasons(refusals: &[(Method, &'static str)]) -> String {
+    let reason = |(method, why): &(Method, &'static str)| format!("{}: {why}", method.name());
+    let reasons: Vec<String> = refusals.iter().map(reason).collect();
+    reasons.join("; ")
+}
+
+/// The method of the scene, or the cheapest that answers it.
+///
+/// # Errors
+/// [`NotOffered`], with what is offered instead.
+pub(crate) fn choose(question: &Question) -> Result<Method, NotOffered> {
+    let simple = simple(&*question.material)?;
+    let why = |method| refusal(method, question, simple.as_ref());
+    let offered = || BY_COST.into_iter().filter(|&m| why(m).is_none());
+    match question.method {
+        None => offered().next().ok_or_else(|| NotOffered::AnyMethod {
+            refusals: BY_COST
+                .into_iter()
+                .filter_map(|method| Some((method, why(method)?)))
+                .collect(),
+        }),
+        Some(method) => match why(method) {
+            None => Ok(method),
+            Some(why) => Err(NotOffered::Method {
+                method,
+                why,
+                offered: offered().collect(),
+            }),
+        },
+    }
+}
+
+/// Why a method does not answer, if it does not.
+fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
+    let Body::Revolution(body) = &question.body else {
+        return Some(match question.body {
+            Body::Cylinder => "it needs a body of revolution, and a cylinder is none",
+            _ => "it needs a body of revolution, and a height map is none",
+        });
+    };
+    match (method, question.motion) {
+        (Method::Analytic, _) if matches!(question.accuracy, Accuracy::Elements(_)) => {
+            Some("closed forms have no elements; give relative_error instead")
+        }
+        (Method::Analytic, Motion::Pressing { .. }) => None,
+        (Method::Analytic, Motion::Sliding { distance, .. }) => match question.model {
+            Some(Model::HalfSpace) => closed_half_space(question, body, simple, distance),
+            _ => closed_line(question, body, simple, distance),
+        },
+        (Method::MdrSteady | Method::MdrTransient, Motion::Sliding { .. })
+            if question.model == Some(Model::HalfSpace) =>
+        {
+            Some("it answers for the one-dimensional model, and the scene asks for the half space")
+        }
+        (Method::BemSteady | Method::BemTransient, Motion::Sliding { .. })
+            if question.model == Some(Model::Line) =>
+        {
+            Some("it answers for the half space, and the scene asks for the one-dimensional model")
+        }
+        (Method::MdrSteady | Method::BemSteady, Motion::Pressing { .. }) => {
+            Some("nothing slides, and without sliding there is no stationary state to solve for")
+        }
+        (Method::MdrSteady, Motion::Sliding { distance, .. }) => match question.accuracy {
+            _ if distance.is_some() => Some(STATIONARY),
+            Accuracy::Elements(_) => {
+                Some("it chooses its polynomials itself; give relative_error instead of elements")
+            }
+            Accuracy::RelativeError(_) => None,
+        },
+        (Method::MdrTransient | Method::BemTransient, Motion::Pressing { .. }) => {
+            at_depth(question).then_some("it presses with a force; analytic holds a depth")
+        }
+        (Method::MdrTransient, Motion::Sliding { .. }) => {
+            at_depth(question).then_some("it slides under a force, not at a depth")
+        }
+        (Method::BemSteady | Method::BemTransient, Motion::Sliding { .. }) => {
+            on_half_space(question, simple)
+        }
+    }
+}
+
+const STATIONARY: &str = "it answers the stationary state, without duration and sliding_distance";
+
+fn at_depth(question: &Question) -> bool {
+    matches!(question.control, Control::IndentationDepth(_))
+}
+
+fn on_half_space(question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
+    if !matches!(simple, Some(Simple::Viscous(_))) {
+        return Some("boundary elements slide on a viscous half space only, so far");
+    }
+    at_depth(question).then_some("it slides under a force, not at a depth")
+}
+
+fn closed_line(
+    question: &Question,
+    body: &Revolution,
+    simple: Option<&Simple>,
+    distance: Option<f64>,
+) -> Option<&'static str> {
+    let cone_or_paraboloid = match body {
+        Revolution::Power(profile) => [1.0, 2.0].contains(&profile.exponent()),
+        _ => false,
+    };
+    match (simple, distance) {
+        (Some(Simple::Viscous(_)), None) => None,
+        (Some(Simple::Viscous(_)), Some(_)) if cone_or_paraboloid => {
+            at_depth(question).then_some("the way to the stationary state is known under a force")
+        }
+        (Some(Simple::Viscous(_)), Some(_)) => {
+            Some("only of cone and paraboloid the way to the stationary state has a closed form")
+        }
+        (Some(Simple::KelvinVoigt(_) | Simple::Maxwell(_)), None) if cone_or_paraboloid => None,
+        (_, Some(_)) => Some("the way to the stationary state is known on a viscous material only"),
+        _ => Some("there is no closed form for this body on this material"),
+    }
+}
+
+fn closed_half_space(
+    question: &Question,
+    body: &Revolution,
+    simple: Option<&Simple>,
+    distance: Option<f64>,
+) -> Option<&'static str> {
+    let (Revolution::Power(profile), Some(Simple::Viscous(_))) = (body, simple) else {
+        return Some("on the half space the friction of powers on a viscous material is tabulated");
+    };
+    let tabulated = scaling_factor(profile.exponent()).map(|s| s.error / s.value);
+    let known = |asked| tabulated.is_ok_and(|error| error <= asked);
+    if !matches!(question.accuracy, Accuracy::RelativeError(asked) if known(asked)) {
+        return Some("the table of s(p) does not know this exponent to the relative error");
+    }
+    if distance.is_some() {
+        return Some(STATIONARY);
+    }
+    on_half_space(question, simple)
+}

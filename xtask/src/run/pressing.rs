@@ -1,0 +1,194 @@
+//! Normal indentation, on any material.
+//!
+//! While the contact grows, or stays as it is, half space and line agree exactly (Lee & Radok 1960), and a constant force
+//! acts on every material like the impulse F J(t) on a dashpot of unit viscosity:
+//!
+//! ```text
+//! 8 ∫₀^a x h̃' dx = 2 (1 − ν) F J(t)         constant force
+//! F(t) = 8 G(t)/(2 (1 − ν)) ∫₀^a x h̃' dx    constant depth, contact radius a
+//! ```
+
+use std::f64::consts::PI;
+
+use anyhow::{Result, bail};
+use bem_halfspace::{ContactOptions, Footprint};
+use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
+use indenters::{EquivalentLine, PowerProfile, contact_radius};
+use rheology::{Material, Viscous};
+
+use super::answer::{Answer, ContactBox};
+use super::body::Revolution;
+use super::half_space::Simple;
+use super::resolution::{Resolved, resolve};
+use crate::scene_file::{Accuracy, Control, Method, Model};
+
+/// Relative error of the depth by quadrature.
+const QUADRATURE: f64 = 1e-10;
+
+/// The dashpot on which an impulse does what the material does with F J(t).
+fn unit_dashpot() -> Result<Viscous> {
+    Ok(Viscous::new(1.0)?)
+}
+
+fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+    let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
+    Ok(force * compliance)
+}
+
+/// Closed form or quadrature.
+pub(super) fn analytic(
+    body: &Revolution,
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+    simple: Option<&Simple>,
+) -> Result<Answer> {
+    let (force, contact) = match control {
+        Control::NormalForce(force) => {
+            let impulse = impulse(material, force, duration)?;
+            let contact = indentation_after_impulse(body, &unit_dashpot()?, impulse)?;
+            (force, contact)
+        }
+        Control::IndentationDepth(depth) => held(body, material, depth, duration)?,
+    };
+    let radius = contact.contact_radius;
+    let depth = contact.indentation_depth;
+    let peak_pressure = match (body, simple) {
+        (Revolution::Power(profile), Some(Simple::Elastic)) => {
+            peak_of_power(profile, material, radius)?
+        }
+        _ => None,
+    };
+    Ok(Answer {
+        indentation_depth: Some(depth),
+        indentation_depth_error: Some(QUADRATURE * depth),
+        contact_area: Some(PI * radius * radius),
+        contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
+        peak_pressure,
+        left_out: vec!["elements", "time steps", "gradients", "friction"],
+        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+    })
+}
+
+/// Force and contact of a body that is held at a depth.
+fn held(
+    body: &Revolution,
+    material: &dyn Material,
+    depth: f64,
+    duration: f64,
+) -> Result<(f64, Indentation)> {
+    let modulus = material.relaxation_modulus(duration)?;
+    let stiffness = modulus / material.half_space_factor();
+    let force = stiffness * impulse_to_depth(body, &unit_dashpot()?, depth)?;
+    if !(force.is_finite() && force > 0.0) {
+        bail!(
+            "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
+        );
+    }
+    let contact = Indentation {
+        contact_radius: contact_radius(body, depth)?,
+        indentation_depth: depth,
+    };
+    Ok((force, contact))
+}
+
+/// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
+fn peak_of_power(
+    profile: &PowerProfile,
+    material: &dyn Material,
+    radius: f64,
+) -> Result<Option<f64>> {
+    let p = profile.exponent();
+    if p <= 1.0 {
+        return Ok(None);
+    }
+    let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
+    let height = indenters::Axisymmetric::line_height(profile, radius);
+    Ok(Some(
+        4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
+    ))
+}
+
+/// The chain of elements, in as many steps as elements.
+pub(super) fn chain(
+    body: &Revolution,
+    material: &dyn Material,
+    (force, duration): (f64, f64),
+    accuracy: Accuracy,
+) -> Result<Answer> {
+    let radius = radius(body, material, force, duration)?;
+    let solve = |elements: usize| {
+        let times: Vec<f64> = (1..=elements)
+            .map(|step| duration * (step as f64 / elements as f64))
+            .collect();
+        let spacing = 2.0 * radius / elements as f64;
+        let options = mdr_core::IndentOptions { spacing };
+        let line = EquivalentLine(body);
+        let rows = mdr_core::indent(&line, material, force, &times, &options)?;
+        last(rows)
+    };
+    let Resolved {
+        value: row,
+        error,
+        elements,
+    } = resolve(accuracy, LARGEST_CHAIN, solve, |row| row.indentation_depth)?;
+    Ok(Answer {
+        indentation_depth: Some(row.indentation_depth),
+        indentation_depth_error: Some(error),
+        contact_box: row.contact.map(ContactBox::along),
+        unknowns: row.n_contact,
+        iterations: elements,
+        left_out: vec!["half space", "gradients", "friction"],
+        ..Answer::new(Method::MdrTransient, Model::Line, force)
+    })
+}
+
+/// Boundary elements, in one step: the steps that lead to a constant force do not count.
+pub(super) fn boundary_elements(
+    body: &Revolution,
+    material: &dyn Material,
+    (force, duration): (f64, f64),
+    accuracy: Accuracy,
+) -> Result<Answer> {
+    let radius = radius(body, material, force, duration)?;
+    let time = impulse(material, force, duration)? / force;
+    let dashpot = unit_dashpot()?;
+    let solve = |elements: usize| {
+        let options = bem_halfspace::indent::IndentOptions {
+            spacing: [2.0 * radius / elements as f64; 2],
+            footprint: Footprint::square(1.3 * radius),
+            contact: ContactOptions::default(),
+        };
+        let load = (force, &[time][..]);
+        last(bem_halfspace::indent::indent(
+            body, &dashpot, load, &options,
+        )?)
+    };
+    let Resolved {
+        value: row, error, ..
+    } = resolve(accuracy, LARGEST_GRID, solve, |row| row.indentation_depth)?;
+    Ok(Answer {
+        indentation_depth: Some(row.indentation_depth),
+        indentation_depth_error: Some(error),
+        contact_area: Some(row.contact_area),
+        unknowns: row.n_contact,
+        iterations: 1,
+        left_out: vec!["time steps", "gradients", "friction"],
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
+    })
+}
+
+const LARGEST_CHAIN: usize = 16_384;
+const LARGEST_GRID: usize = 512;
+
+/// The radius that the contact will have, for the size of the elements only.
+fn radius(body: &Revolution, material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+    let impulse = impulse(material, force, duration)?;
+    Ok(indentation_after_impulse(body, &unit_dashpot()?, impulse)?.contact_radius)
+}
+
+fn last<R>(rows: Vec<R>) -> Result<R> {
+    match rows.into_iter().next_back() {
+        Some(row) => Ok(row),
+        None => bail!("the march made no step"),
+    }
+}

@@ -1,0 +1,143 @@
+//! The file of a sweep, which grows row by row.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use super::plan::Plan;
+use super::row::{Row, header, identity};
+use super::wrong_row;
+use crate::output::{WrongInput, write_atomically};
+
+/// An open file and what it has.
+#[derive(Debug)]
+pub(super) struct SweepFile {
+    path: PathBuf,
+    header: Vec<String>,
+    rows: BTreeMap<usize, Row>,
+    /// Whether the rows in the file are in the order of their points.
+    sorted: bool,
+    file: File,
+}
+
+impl SweepFile {
+    /// Begins a file, or goes on with one; what an interruption left of its last line is cut off.
+    pub(super) fn open(path: &Path, plan: &Plan, resume: bool) -> Result<Self> {
+        let mut rows = Vec::new();
+        if resume && path.exists() {
+            let table = read(path)?;
+            check(path, plan, &table)?;
+            rows = table.rows;
+        }
+        let header = header(plan);
+        let begun = lines(&header, rows.iter().map(|row| &row.fields))?;
+        write_atomically(path, begun.as_bytes())?;
+        let file = OpenOptions::new().append(true).open(path);
+        Ok(Self {
+            path: path.to_owned(),
+            header,
+            sorted: rows.is_sorted_by_key(|row| row.point),
+            rows: rows.into_iter().map(|row| (row.point, row)).collect(),
+            file: file.with_context(|| format!("writing {}", path.display()))?,
+        })
+    }
+
+    pub(super) fn has(&self, point: usize) -> bool {
+        self.rows.contains_key(&point)
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Writes a row in one piece.
+    pub(super) fn append(&mut self, row: &Row) -> Result<()> {
+        let text = line(&row.fields)?;
+        let written = self.file.write_all(text.as_bytes());
+        written.with_context(|| format!("writing {}", self.path.display()))?;
+        let last = self.rows.last_key_value();
+        self.sorted &= last.is_none_or(|(point, _)| *point < row.point);
+        self.rows.insert(row.point, row.clone());
+        Ok(())
+    }
+
+    /// Puts the rows in order and counts those that failed.
+    pub(super) fn finish(&self) -> Result<usize> {
+        if !self.sorted {
+            let fields = self.rows.values().map(|row| &row.fields);
+            write_atomically(&self.path, lines(&self.header, fields)?.as_bytes())?;
+        }
+        Ok(self.rows.values().filter(|row| row.failed()).count())
+    }
+}
+
+/// The whole lines of a file of rows.
+#[derive(Debug)]
+pub(super) struct RowTable {
+    pub(super) header: Vec<String>,
+    pub(super) rows: Vec<Row>,
+}
+
+/// Reads a file up to its last whole line.
+pub(super) fn read(path: &Path) -> Result<RowTable, WrongInput> {
+    let bytes =
+        fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))?;
+    let end = bytes.iter().rposition(|byte| *byte == b'\n');
+    let whole = &bytes[..end.map_or(0, |end| end + 1)];
+    let mut reader = csv::Reader::from_reader(whole);
+    let wrong = |line: usize, problem: &dyn std::fmt::Display| {
+        wrong_row(path, line, &format!("no row of a sweep: {problem}"))
+    };
+    let header = reader.headers().map_err(|error| wrong(1, &error))?;
+    let header: Vec<String> = header.iter().map(str::to_owned).collect();
+    let mut rows = Vec::new();
+    for (index, record) in reader.records().enumerate() {
+        let line = index + 2;
+        let record = record.map_err(|error| wrong(line, &error))?;
+        let fields: Vec<String> = record.iter().map(str::to_owned).collect();
+        let number = fields
+            .get(1)
+            .and_then(|number| number.parse::<usize>().ok());
+        let point = number.and_then(|number| number.checked_sub(1));
+        let point = point.ok_or_else(|| wrong(line, &"the number of its point is missing"))?;
+        rows.push(Row { point, fields });
+    }
+    Ok(RowTable { header, rows })
+}
+
+/// Rows of another sweep are refused.
+fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
+    let other = "the file is of another scene or has other values of --vary; give another --out";
+    let empty = table.rows.is_empty() && table.header.is_empty();
+    if !empty && table.header != header(plan) {
+        return Err(wrong_row(path, 1, other));
+    }
+    for (index, row) in table.rows.iter().enumerate() {
+        let expected = (row.point < plan.n_points()).then(|| identity(plan, row.point));
+        if !expected.is_some_and(|expected| row.fields.starts_with(&expected)) {
+            return Err(wrong_row(path, index + 2, other));
+        }
+    }
+    Ok(())
+}
+
+/// A header and rows as the text of a file.
+pub(super) fn lines<'a>(
+    header: &[String],
+    rows: impl Iterator<Item = &'a Vec<String>>,
+) -> Result<String> {
+    let mut text = line(header)?;
+    for row in rows {
+        text.push_str(&line(row)?);
+    }
+    Ok(text)
+}
+
+fn line(fields: &[String]) -> Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(fields)?;
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}

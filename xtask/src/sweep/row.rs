@@ -1,0 +1,99 @@
+//! One row of a sweep: which point it is, and what came out.
+
+use anyhow::Result;
+
+use super::plan::Plan;
+use crate::run::Answer;
+
+/// The columns before and after the keys that vary.
+const BEFORE: [&str; 3] = ["sweep", "point", "points"];
+const AFTER: [&str; 16] = [
+    "method",
+    "model",
+    "friction_coefficient",
+    "friction_coefficient_error",
+    "normal_force",
+    "tangential_force",
+    "indentation_depth",
+    "indentation_depth_error",
+    "contact_area",
+    "peak_pressure",
+    "x_min",
+    "x_max",
+    "y_min",
+    "y_max",
+    "unknowns",
+    "failure",
+];
+
+/// The fields of a row; times are not among them, because they differ from run to run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Row {
+    /// Counted from 0.
+    pub(super) point: usize,
+    pub(super) fields: Vec<String>,
+}
+
+impl Row {
+    pub(super) fn new(plan: &Plan, point: usize, answer: Result<Answer>) -> Self {
+        let mut fields = identity(plan, point);
+        match answer {
+            Ok(answer) => fields.extend(results(&answer)),
+            Err(error) => {
+                fields.extend(vec![String::new(); AFTER.len() - 1]);
+                // A row is a line.
+                fields.push(format!("{error:#}").replace(['\n', '\r'], " "));
+            }
+        }
+        Self { point, fields }
+    }
+
+    pub(super) fn failed(&self) -> bool {
+        self.fields
+            .last()
+            .is_some_and(|failure| !failure.is_empty())
+    }
+}
+
+/// The names of the columns.
+pub(super) fn header(plan: &Plan) -> Vec<String> {
+    let names = BEFORE.into_iter().chain(plan.keys()).chain(AFTER);
+    names.map(str::to_owned).collect()
+}
+
+/// What tells a row from every other: sweep, point counted from 1, number of points, values.
+pub(super) fn identity(plan: &Plan, point: usize) -> Vec<String> {
+    let values = plan.values(point);
+    [
+        plan.fingerprint.clone(),
+        (point + 1).to_string(),
+        plan.n_points().to_string(),
+    ]
+    .into_iter()
+    .chain(values.iter().map(|value| format!("{value:?}")))
+    .collect()
+}
+
+fn results(answer: &Answer) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+    let edges = answer.contact_box;
+    let numbers = [
+        answer.friction_coefficient,
+        answer.friction_coefficient_error,
+        Some(answer.normal_force),
+        answer.tangential_force,
+        answer.indentation_depth,
+        answer.indentation_depth_error,
+        answer.contact_area,
+        answer.peak_pressure,
+        edges.map(|edges| edges.x_min),
+        edges.map(|edges| edges.x_max),
+        edges.and_then(|edges| edges.y_min),
+        edges.and_then(|edges| edges.y_max),
+    ];
+    let mut fields = vec![answer.method.name(), answer.model.name().to_owned()];
+    fields.extend(numbers.map(number));
+    fields.push(answer.unknowns.to_string());
+    fields.push(String::new());
+    fields
+}

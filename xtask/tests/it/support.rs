@@ -1,0 +1,48 @@
+//! What the tests of scenes share.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// An empty folder of this name.
+pub(crate) fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::remove_dir_all(&folder).ok();
+    fs::create_dir_all(&folder).expect("the folder can be made");
+    folder
+}
+
+/// The command, ready to run.
+pub(crate) fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    command.args(arguments);
+    command
+}
+
+/// The command, run.
+pub(crate) fn xtask(arguments: &[&str]) -> Output {
+    command(arguments).output().expect("the command runs")
+}
+
+pub(crate) fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// A path as an argument.
+pub(crate) fn argument(path: &Path) -> &str {
+    path.to_str().expect("a path in Unicode")
+}
+
+/// A committed scene.
+pub(crate) fn example(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("../examples/scenes").join(name)
+}
+
+/// The result of a scene as JSON.
+pub(crate) fn run_json(arguments: &[&str]) -> serde_json::Value {
+    let output = xtask(&[&["run", "--format", "json"], arguments].concat());
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
