@@ -14,7 +14,7 @@ use crate::{FrictionError, power_sliding};
 use scaling_table::NODES;
 
 /// Nodes of one interpolating polynomial.
-const STENCIL: usize = 4;
+const STENCIL: usize = 6;
 
 /// A value with its absolute error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +29,12 @@ pub struct ScalingFactor {
 
 /// The scaling factor s(p) of the profile c r^p between half space and one-dimensional model.
 ///
-/// Cubic in ln(2p − 1) between the nodes of a table; its error is that of the nodes, weighted as they enter: below 1e-3
-/// of the value for cusps with p < 0.65, 5e-4 for steep profiles with p > 10, and 1e-4 between.
+/// A polynomial of the fifth degree in ln(2p − 1) through the nearest nodes of a table. Its error is that of the nodes,
+/// weighted as they enter: about 1e-3 of the value at most for cusps with p < 0.65, 5e-4 for steep profiles with p > 10,
+/// and 1e-4 between.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
+/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 40.5. At p = 1/2 both frictions
 /// diverge; their ratio does not.
 pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
     let [first, last] = [NODES[0][0], NODES[NODES.len() - 1][0]];
@@ -41,7 +42,7 @@ pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
         return Err(FrictionError::InvalidParameter {
             parameter: "exponent",
             value: exponent,
-            allowed: "between 0.501 and 64, where s(p) was computed",
+            allowed: "between 0.501 and 40.5, where s(p) was computed",
         });
     }
     let above = NODES.partition_point(|[node, ..]| *node < exponent);
@@ -92,13 +93,13 @@ fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> ScalingFactor {
 mod tests {
     use super::*;
 
-    /// Twice as far apart as they are, the nodes would interpolate with sixteen times the error; even that stays
+    /// Twice as far apart as they are, the nodes would interpolate with sixty-four times the error; even that stays
     /// within the bars.
     #[test]
     fn the_nodes_are_dense_enough() {
         let every_other: Vec<[f64; 3]> = NODES.iter().copied().step_by(2).collect();
         for window in 0..=every_other.len() - STENCIL {
-            let [exponent, value, error] = NODES[2 * window + 3];
+            let [exponent, value, error] = NODES[2 * window + STENCIL - 1];
             let interpolated = interpolate(&every_other[window..window + STENCIL], exponent);
             let deviation = (interpolated.value - value).abs();
             assert!(
