@@ -41,7 +41,7 @@ enum Command {
     ReproduceFigures(ReproduceFigures),
     /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
     ScalingFactors(ScalingFactors),
-    /// Compute the function s(p) that friction-analytic interpolates; takes about an hour.
+    /// Compute the function s(p) that friction-analytic interpolates; takes long, and goes on where it was interrupted.
     ScalingTable(ScalingTable),
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),

@@ -2,8 +2,8 @@
 //!
 //! While the number of violations falls, all are exchanged at once. A few exchanges without progress are allowed; then
 //! the larger violations or every other one, so that neighbours at the front do not flip to and fro together; in the
-//! end single exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed roughly, the
-//! last one to the tolerance.
+//! end single exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed
+//! roughly, the last one to the tolerance.
 
 use crate::BemError;
 use crate::steady::contact_system::{Closure, close_gaps};
@@ -46,10 +46,10 @@ pub(super) fn solve(
     let target = mesh.options.tolerance;
     let mut search = Search::new(mesh, plans, guess);
     let mut progress = Progress::default();
-    let mut residual = f64::MAX;
+    let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.close();
-        residual = state.residual;
+        (residual, made) = (state.residual, iterations);
         if state.violations.is_empty() {
             if residual <= target {
                 return Ok(search.finish(residual, iterations));
@@ -65,7 +65,7 @@ pub(super) fn solve(
         }
     }
     Err(BemError::ContactNotConverged {
-        iterations: mesh.options.max_iterations,
+        iterations: made,
         residual,
         tolerance: target,
     })

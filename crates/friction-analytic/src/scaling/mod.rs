@@ -30,8 +30,8 @@ pub struct ScalingFactor {
 /// The scaling factor s(p) of the profile c r^p between half space and one-dimensional model.
 ///
 /// A polynomial of the fifth degree in ln(2p − 1) through the nearest nodes of a table. Its error is that of the nodes,
-/// weighted as they enter: about 1e-3 of the value at most for cusps with p < 0.65, 5e-4 for steep profiles with p > 10,
-/// and 1e-4 between.
+/// weighted as they enter: at most about 1e-3 of the value for cusps with p < 0.65 and for steep profiles with p > 10,
+/// and about 1e-4 between.
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 40.5. At p = 1/2 both frictions
