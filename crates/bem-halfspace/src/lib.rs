@@ -41,6 +41,7 @@ mod footprint;
 mod grid;
 pub mod indent;
 mod influence;
+mod plane_transform;
 mod rectangle;
 pub mod slide;
 pub mod steady;

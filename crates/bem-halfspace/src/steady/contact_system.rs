@@ -115,11 +115,12 @@ impl<'mesh> ContactSystem<'mesh> {
             let depth = (control.right - control.load * self.total(&loads)) / control.depth;
             return (loads, depth);
         }
-        if self.total(&loads) <= 0.0 {
-            loads.clone_from(&self.lowered);
+        // A change of depth changes the force without gaps, nearly.
+        let missing = control.right / control.load - self.total(&loads);
+        let change = missing / self.total(&self.lowered);
+        for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
+            *load += change * lowered;
         }
-        let scale = control.right / (control.load * self.total(&loads));
-        loads.iter_mut().for_each(|load| *load *= scale);
         let moved = self.product.displacements(&loads, &self.region);
         let heights = self
             .contact

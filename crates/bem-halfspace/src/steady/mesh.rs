@@ -250,6 +250,19 @@ impl Mesh {
         self.loading.equation(self.options.spacing)
     }
 
+    /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
+    pub(super) fn balance(&self, loads: &mut [f64]) {
+        let control = self.control();
+        if control.depth == 0.0 {
+            let weighted = loads
+                .iter()
+                .enumerate()
+                .map(|(element, load)| self.weight(element) * load);
+            let scale = control.right / (control.load * weighted.sum::<f64>());
+            loads.iter_mut().for_each(|load| *load *= scale);
+        }
+    }
+
     /// Sum of the loads of the whole.
     pub(super) fn total_load(&self, solution: &Solution) -> f64 {
         let weighted = |(element, load): &(usize, f64)| self.weight(*element) * load;

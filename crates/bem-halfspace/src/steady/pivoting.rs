@@ -17,11 +17,13 @@ use crate::steady::region::Region;
 const BLOCKS: usize = 3;
 const LARGER_ONES: usize = 30;
 const EVERY_OTHER: usize = 200;
-/// Loads and gaps above the negative of this, relative to the largest, count as zero: rounding.
-const ROUNDING: f64 = 1e-12;
-/// Tolerance of the first contact, and its ratio from contact to contact.
+/// Largest tolerance of the first contact, and its ratio from contact to contact.
 const FIRST_TOLERANCE: f64 = 1e-4;
 const TOLERANCE_RATIO: f64 = 0.1;
+/// Part of the violation by an element at the front on the wrong side that gaps may reach without hiding it.
+const HIDDEN: f64 = 1e-2;
+/// Part of the tolerance asked for to which the last contacts are closed, for the gaps far above their root mean square.
+const LAST: f64 = 0.2;
 /// A tolerance that fails this far below the target fails because of rounding.
 const HOPELESS: f64 = 1e-3;
 /// The largest gap of a contact is that many times its root mean square, at most, as a rule.
@@ -58,9 +60,9 @@ pub(super) fn solve(
             if search.tolerance < HOPELESS * target {
                 break;
             }
-            search.tolerance = target.min(search.tolerance * TOLERANCE_RATIO);
+            search.tolerance *= TOLERANCE_RATIO.max(0.5 * target / residual);
         } else {
-            search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(target);
+            search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
             search.exchange(progress.choose(&state.violations));
         }
     }
@@ -162,7 +164,7 @@ impl<'mesh> Search<'mesh> {
             inside: vec![false; mesh.n_elements()],
             loads: vec![0.0; mesh.n_elements()],
             depth: 0.0,
-            tolerance: FIRST_TOLERANCE.max(mesh.options.tolerance),
+            tolerance: first_tolerance(guess.len()).max(LAST * mesh.options.tolerance),
             product: Product::new(plans, &all),
             plans,
             all,
@@ -191,37 +193,50 @@ impl<'mesh> Search<'mesh> {
             self.loads[element] = load;
         }
         self.depth = depth;
+        self.drop_slight_pulls();
         self.state()
     }
 
-    fn state(&mut self) -> State {
-        let largest = self
-            .loads
-            .iter()
-            .fold(0.0, |largest: f64, load| largest.max(load.abs()));
-        let moved = self.product.displacements(&self.loads, &self.all);
-        let mut state = State {
-            violations: Vec::new(),
-            residual: 0.0,
-        };
-        for (element, moved) in moved.into_iter().enumerate() {
-            let gap = self.mesh.height(element) + moved - self.depth;
-            let (size, allowed) = if self.inside[element] {
-                state.residual = state.residual.max(gap.abs());
-                (-self.loads[element], ROUNDING * largest)
-            } else {
-                (-gap, self.tolerance)
-            };
-            if size > allowed {
-                let pulls = self.inside[element];
-                state.violations.push(Violation {
-                    element,
-                    size,
-                    pulls,
-                });
+    /// Takes elements out of the contact that pull so slightly that all of them together change the force, and with it
+    /// the displacements, less than the tolerance.
+    fn drop_slight_pulls(&mut self) {
+        let [mut pulls, mut total] = [0.0; 2];
+        for load in &self.loads {
+            total += load;
+            pulls -= load.min(0.0);
+        }
+        if pulls >= self.mesh.options.tolerance * total {
+            return;
+        }
+        for (inside, load) in self.inside.iter_mut().zip(&mut self.loads) {
+            if *load < 0.0 {
+                (*inside, *load) = (false, 0.0);
             }
         }
-        state
+        self.mesh.balance(&mut self.loads);
+    }
+
+    fn state(&mut self) -> State {
+        let moved = self.product.displacements(&self.loads, &self.all);
+        let gap = |(element, moved)| self.mesh.height(element) + moved - self.depth;
+        let gaps: Vec<f64> = moved.into_iter().enumerate().map(gap).collect();
+        let closed = gaps.iter().zip(&self.inside).filter(|(_, inside)| **inside);
+        let residual = closed.fold(0.0, |largest: f64, (gap, _)| largest.max(gap.abs()));
+        // Smaller penetrations are not told from the gaps that are left.
+        let allowed = residual.max(self.mesh.options.tolerance);
+        let violation = |(element, gap): (usize, f64)| {
+            let pulls = self.inside[element];
+            let size = if pulls { -self.loads[element] } else { -gap };
+            (size > if pulls { 0.0 } else { allowed }).then_some(Violation {
+                element,
+                size,
+                pulls,
+            })
+        };
+        State {
+            violations: gaps.into_iter().enumerate().filter_map(violation).collect(),
+            residual,
+        }
     }
 
     fn exchange(&mut self, elements: Vec<usize>) {
@@ -244,4 +259,11 @@ impl<'mesh> Search<'mesh> {
             residual,
         }
     }
+}
+
+/// Tolerance of the first contact, of about so many elements: the gap opens with the power 3/2 of the distance from the
+/// front.
+fn first_tolerance(n_elements: usize) -> f64 {
+    let along = (n_elements as f64).sqrt().max(1.0);
+    FIRST_TOLERANCE.min(HIDDEN * along.powf(-1.5))
 }

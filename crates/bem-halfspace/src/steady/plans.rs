@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use crate::fast_length::fast_length;
-use crate::steady::plane_transform::{PlaneTransform, Spectrum};
+use crate::plane_transform::PlaneTransform;
+use crate::steady::filter::Spectrum;
 use crate::steady::wake_table::WakeTable;
 use crate::steady::wiener_hopf::InverseFactors;
 
@@ -47,7 +48,7 @@ impl Plans {
             || {
                 let transform = PlaneTransform::new(padded);
                 let value = |row, column| table.at(signed_offset(row, padded[0]), column);
-                let spectrum = transform.spectrum(value, |_, _, _| {});
+                let spectrum = transform.spectrum(value, |_, _| {});
                 KernelSpectrum {
                     transform,
                     spectrum,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::steady::plane_transform::Scratch;
+use crate::plane_transform::Workspace;
 use crate::steady::plans::{KernelSpectrum, Plans};
 use crate::steady::region::Region;
 
@@ -10,7 +10,7 @@ use crate::steady::region::Region;
 #[derive(Debug)]
 pub(super) struct Product {
     kernel: Arc<KernelSpectrum>,
-    scratch: Scratch,
+    workspace: Workspace,
     field: Vec<f64>,
 }
 
@@ -18,7 +18,7 @@ impl Product {
     pub(super) fn new(plans: &mut Plans, region: &Region) -> Self {
         let kernel = plans.kernel(region.shape);
         Self {
-            scratch: kernel.transform.scratch(region.shape[0]),
+            workspace: Workspace::new(&kernel.transform, region.shape),
             field: vec![0.0; region.n_places()],
             kernel,
         }
@@ -31,11 +31,7 @@ impl Product {
             transform,
             spectrum,
         } = &*self.kernel;
-        transform.filter(
-            &mut self.scratch,
-            (&mut self.field, region.shape[1]),
-            spectrum,
-        );
+        transform.filter(&mut self.workspace, &mut self.field, spectrum);
         region.gather(&self.field)
     }
 }

@@ -13,7 +13,8 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 
 use crate::fast_length::fast_length;
-use crate::steady::plane_transform::{PlaneTransform, Scratch, Spectrum};
+use crate::plane_transform::{PlaneTransform, Workspace};
+use crate::steady::filter::Spectrum;
 use crate::steady::plans::{Plans, signed_offset};
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
@@ -60,7 +61,7 @@ pub(super) struct WienerHopf {
     factors: Arc<InverseFactors>,
     /// Weight of the order that is exact at the front.
     front: Vec<f64>,
-    scratch: Scratch,
+    workspace: Workspace,
     field: Vec<f64>,
 }
 
@@ -69,7 +70,7 @@ impl WienerHopf {
         let factors = plans.inverse_factors(region.shape);
         Self {
             front: region.fractions_from_rear(),
-            scratch: factors.transform.scratch(region.shape[0]),
+            workspace: Workspace::new(&factors.transform, region.shape),
             field: vec![0.0; region.n_places()],
             factors,
         }
@@ -98,28 +99,20 @@ impl WienerHopf {
         } = &*self.factors;
         let spectrum = if sweep { with_sum } else { counter_sweep };
         region.spread(vector, &mut self.field);
-        transform.filter(
-            &mut self.scratch,
-            (&mut self.field, region.shape[1]),
-            spectrum,
-        );
+        transform.filter(&mut self.workspace, &mut self.field, spectrum);
         *vector = region.gather(&self.field);
     }
 }
 
 /// Replaces a real and positive transform along x by the inverse of its factor that looks towards smaller x only.
-fn invert_causal_factor(
-    transform: &PlaneTransform,
-    scratch: &mut Scratch,
-    column: &mut [Complex<f64>],
-) {
+fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>]) {
     let length = column.len();
     // A periodic kernel that is cut off may graze zero where it should not.
     let floor = f64::EPSILON * column.iter().map(|value| value.re).fold(0.0, f64::max);
     for value in column.iter_mut() {
         *value = Complex::new(value.re.max(floor).ln(), 0.0);
     }
-    transform.column_back(scratch, column);
+    transform.column_back(column);
     let half = length / 2;
     for (index, value) in column.iter_mut().enumerate() {
         let share = match index {
@@ -130,7 +123,7 @@ fn invert_causal_factor(
         };
         *value *= -share / length as f64;
     }
-    transform.column_forward(scratch, column);
+    transform.column_forward(column);
     for value in column {
         *value = value.exp();
     }

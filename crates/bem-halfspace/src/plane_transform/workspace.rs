@@ -1,4 +1,4 @@
-//! What a convolution overwrites, divided into lanes that work side by side.
+//! What a filter overwrites, divided into lanes that work side by side.
 
 #[cfg(feature = "rayon")]
 use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
@@ -6,19 +6,21 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, Parall
 use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
-use crate::Convolution;
-use crate::convolution::{TILE, ZERO};
+use crate::plane_transform::{PlaneTransform, TILE, ZERO};
 
 /// Below this many elements threads cost more than they gain.
 #[cfg(feature = "rayon")]
 const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
 
-/// What a convolution overwrites; one per caller, made by [`Convolution::workspace`].
+/// What a filter of fields of one shape overwrites. With the feature `rayon`, one set of buffers per thread of the pool
+/// in which it was made.
 #[derive(Debug, Clone)]
-pub struct ConvolutionWorkspace {
+pub(crate) struct Workspace {
+    /// Rows and columns of the fields.
+    pub(super) shape: [usize; 2],
     /// Transformed rows, [row][column].
     pub(super) rows: Vec<Complex<f64>>,
-    /// Columns after the kernel, [tile][row].
+    /// Columns after the product, [tile][row].
     pub(super) tiles: Vec<[Complex<f64>; TILE]>,
     pub(super) lanes: Vec<Lane>,
 }
@@ -32,30 +34,37 @@ pub(super) struct Lane {
     pub(super) scratch: Vec<Complex<f64>>,
 }
 
-impl ConvolutionWorkspace {
-    pub(super) fn new(convolution: &Convolution) -> Self {
-        let n_x = convolution.grid.shape()[0];
-        let n_lanes = n_lanes(convolution.grid.n_elements());
+impl Workspace {
+    /// For fields of `shape`, which the period of the transform holds.
+    pub(crate) fn new(transform: &PlaneTransform, shape: [usize; 2]) -> Self {
         Self {
-            rows: vec![ZERO; n_x * convolution.n_columns()],
-            tiles: vec![[ZERO; TILE]; n_x * convolution.n_tiles()],
-            lanes: (0..n_lanes).map(|_| Lane::new(convolution)).collect(),
+            shape,
+            rows: vec![ZERO; shape[0] * transform.n_columns()],
+            tiles: vec![[ZERO; TILE]; shape[0] * transform.n_tiles()],
+            lanes: (0..n_lanes(shape[0] * shape[1]))
+                .map(|_| Lane::new(transform))
+                .collect(),
         }
+    }
+
+    /// Rows and columns of the fields.
+    pub(crate) const fn shape(&self) -> [usize; 2] {
+        self.shape
     }
 }
 
 impl Lane {
-    pub(super) fn new(convolution: &Convolution) -> Self {
+    fn new(transform: &PlaneTransform) -> Self {
         let scratch = [
-            convolution.row_forward.get_scratch_len(),
-            convolution.row_inverse.get_scratch_len(),
-            convolution.column_forward.get_inplace_scratch_len(),
-            convolution.column_inverse.get_inplace_scratch_len(),
+            transform.row_forward.get_scratch_len(),
+            transform.row_inverse.get_scratch_len(),
+            transform.column_forward.get_inplace_scratch_len(),
+            transform.column_inverse.get_inplace_scratch_len(),
         ];
         Self {
-            row: convolution.row_forward.make_input_vec(),
-            half_row: convolution.row_forward.make_output_vec(),
-            columns: vec![ZERO; TILE * convolution.column_stride()],
+            row: transform.row_forward.make_input_vec(),
+            half_row: transform.row_forward.make_output_vec(),
+            columns: vec![ZERO; TILE * transform.column_stride()],
             scratch: vec![ZERO; scratch.into_iter().fold(0, usize::max)],
         }
     }

@@ -1,0 +1,221 @@
+//! Filtering of a real field on a rectangle of elements by a product in Fourier space.
+//!
+//! Rows are transformed only where they carry something and back only where the result is wanted, and each column
+//! passes through forward transform, product and inverse transform while it is in the cache, so that the padded field
+//! never exists as a whole.
+
+mod workspace;
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+pub(crate) use workspace::Workspace;
+use workspace::{Lane, for_each_lane};
+
+/// Columns that pass together: eight complex numbers fill two cache lines.
+const TILE: usize = 8;
+pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+
+/// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
+#[derive(Clone)]
+pub(crate) struct PlaneTransform {
+    padded: [usize; 2],
+    row_forward: Arc<dyn RealToComplex<f64>>,
+    row_inverse: Arc<dyn ComplexToReal<f64>>,
+    column_forward: Arc<dyn Fft<f64>>,
+    column_inverse: Arc<dyn Fft<f64>>,
+}
+
+impl fmt::Debug for PlaneTransform {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter
+            .debug_struct("PlaneTransform")
+            .field("padded", &self.padded)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PlaneTransform {
+    /// Plans the transforms.
+    pub(crate) fn new(padded: [usize; 2]) -> Self {
+        let mut real = RealFftPlanner::new();
+        let mut complex = FftPlanner::new();
+        Self {
+            padded,
+            row_forward: real.plan_fft_forward(padded[1]),
+            row_inverse: real.plan_fft_inverse(padded[1]),
+            column_forward: complex.plan_fft_forward(padded[0]),
+            column_inverse: complex.plan_fft_inverse(padded[0]),
+        }
+    }
+
+    pub(crate) const fn padded(&self) -> [usize; 2] {
+        self.padded
+    }
+
+    /// What forward and inverse transform multiply a field with, inverted.
+    pub(crate) const fn normalisation(&self) -> f64 {
+        1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
+    }
+
+    /// Number of columns of a transformed field; the other half of the period follows from them.
+    pub(crate) const fn n_columns(&self) -> usize {
+        self.padded[1] / 2 + 1
+    }
+
+    const fn n_tiles(&self) -> usize {
+        self.n_columns().div_ceil(TILE)
+    }
+
+    /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
+    const fn column_stride(&self) -> usize {
+        self.padded[0] + TILE
+    }
+
+    /// Transforms a real row of the whole period; its values are overwritten.
+    pub(crate) fn transform_row(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+        let mut scratch = self.row_forward.make_scratch_vec();
+        self.row_forward_with(&mut scratch, row, transformed);
+    }
+
+    fn row_forward_with(
+        &self,
+        scratch: &mut [Complex<f64>],
+        row: &mut [f64],
+        transformed: &mut [Complex<f64>],
+    ) {
+        let done = self
+            .row_forward
+            .process_with_scratch(row, transformed, scratch);
+        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+    }
+
+    /// Transforms columns of the whole period, without normalisation.
+    pub(crate) fn column_forward(&self, columns: &mut [Complex<f64>]) {
+        self.column_forward.process(columns);
+    }
+
+    /// The way back of [`column_forward`](Self::column_forward).
+    pub(crate) fn column_back(&self, columns: &mut [Complex<f64>]) {
+        self.column_inverse.process(columns);
+    }
+
+    /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
+    pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
+        let (width, n_columns) = (workspace.shape[1], self.n_columns());
+        let Workspace { rows, lanes, .. } = workspace;
+        let rows = &mut rows[loaded.start * n_columns..loaded.end * n_columns];
+        for_each_lane(lanes, (rows, n_columns), |first, lane, rows| {
+            for (row, transformed) in (loaded.start + first..).zip(rows.chunks_exact_mut(n_columns))
+            {
+                lane.row[..width].copy_from_slice(&field[row * width..(row + 1) * width]);
+                lane.row[width..].fill(0.0);
+                self.row_forward_with(&mut lane.scratch, &mut lane.row, transformed);
+            }
+        });
+    }
+
+    /// Applies `multiply` to every column of the transform of the rows `loaded`, and keeps the rows `wanted`.
+    pub(crate) fn pass(
+        &self,
+        workspace: &mut Workspace,
+        (loaded, wanted): (&Range<usize>, &Range<usize>),
+        multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
+    ) {
+        let n_rows = workspace.shape[0];
+        let Workspace {
+            rows, tiles, lanes, ..
+        } = workspace;
+        for_each_lane(lanes, (tiles, n_rows), |first, lane, tiles| {
+            for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(n_rows)) {
+                let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
+                self.gather_columns(lane, rows, (&columns, loaded));
+                self.multiply_columns(lane, &columns, &multiply);
+                for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
+                    for (column, value) in piece[..columns.len()].iter_mut().enumerate() {
+                        *value = lane.columns[column * self.column_stride() + row];
+                    }
+                }
+            }
+        });
+    }
+
+    fn gather_columns(
+        &self,
+        lane: &mut Lane,
+        rows: &[Complex<f64>],
+        (columns, loaded): (&Range<usize>, &Range<usize>),
+    ) {
+        let stride = self.column_stride();
+        for column in lane.columns.chunks_exact_mut(stride) {
+            column[..loaded.start].fill(ZERO);
+            column[loaded.end..].fill(ZERO);
+        }
+        for row in loaded.clone() {
+            let values = &rows[row * self.n_columns()..][columns.clone()];
+            for (column, value) in values.iter().enumerate() {
+                lane.columns[column * stride + row] = *value;
+            }
+        }
+    }
+
+    fn multiply_columns(
+        &self,
+        lane: &mut Lane,
+        columns: &Range<usize>,
+        multiply: impl Fn(usize, &mut [Complex<f64>]),
+    ) {
+        let stored = lane.columns.chunks_exact_mut(self.column_stride());
+        for (column, values) in columns.clone().zip(stored) {
+            let values = &mut values[..self.padded[0]];
+            let scratch = &mut lane.scratch;
+            self.column_forward.process_with_scratch(values, scratch);
+            multiply(column, values);
+            self.column_inverse.process_with_scratch(values, scratch);
+        }
+    }
+
+    /// Writes the rows `wanted` of the result; the other rows are left as they are.
+    pub(crate) fn read(
+        &self,
+        workspace: &mut Workspace,
+        result: &mut [f64],
+        wanted: &Range<usize>,
+    ) {
+        let [n_rows, width] = workspace.shape;
+        let Workspace { tiles, lanes, .. } = workspace;
+        let result = &mut result[wanted.start * width..wanted.end * width];
+        for_each_lane(lanes, (result, width), |first, lane, result| {
+            for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
+                let mut pieces = tiles[row..].iter().step_by(n_rows);
+                let (whole, rest) = lane.half_row.as_chunks_mut::<TILE>();
+                for (values, piece) in whole.iter_mut().zip(&mut pieces) {
+                    *values = *piece;
+                }
+                for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
+                    *value = *found;
+                }
+                self.transform_half_row(lane);
+                values.copy_from_slice(&lane.row[..width]);
+            }
+        });
+    }
+
+    fn transform_half_row(&self, lane: &mut Lane) {
+        // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
+        lane.half_row[0].im = 0.0;
+        if self.padded[1].is_multiple_of(2) {
+            lane.half_row[self.n_columns() - 1].im = 0.0;
+        }
+        let scratch = &mut lane.scratch;
+        let done =
+            self.row_inverse
+                .process_with_scratch(&mut lane.half_row, &mut lane.row, scratch);
+        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+    }
+}
