@@ -1,9 +1,12 @@
 //! Results do not depend on the number of threads, to the last bit.
 
+use bem_halfspace::steady::{SteadyOptions, steady};
 use bem_halfspace::{
     ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
 };
 use rayon::ThreadPoolBuilder;
+
+use crate::support::Scene;
 
 #[test]
 fn one_and_three_threads_agree_to_the_last_bit() {
@@ -27,10 +30,28 @@ fn one_and_three_threads_agree_to_the_last_bit() {
             let contact = solve_contact(&problem, &mut state, &ContactOptions::default());
             (contact.expect("a contact"), state.pressure().to_vec())
         };
-        let [one, three] = [1, 3].map(|threads| {
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("a pool").install(solve)
-        });
+        let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
         assert_eq!(one, three, "the same contact on one and three threads");
     }
+}
+
+#[test]
+fn stationary_sliding_is_the_same_on_one_and_three_threads() {
+    let scene = Scene::unit(2.0);
+    let spacing = scene.contact_length() / 80.0;
+    let options = SteadyOptions {
+        spacing: [spacing, 0.5 * spacing],
+        phase: [0.1, 0.3],
+        footprint: scene.options(80.0, 1.0).footprint,
+        tolerance: 1e-8,
+        max_iterations: 100,
+    };
+    let solve = || steady(&scene.body, &scene.material, &scene.load, &options).expect("a solution");
+    let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
+    assert_eq!(one, three, "the same pressure on one and three threads");
+}
+
+fn on_threads<T: Send>(threads: usize, work: impl Fn() -> T + Send + Sync) -> T {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("a pool").install(work)
 }
