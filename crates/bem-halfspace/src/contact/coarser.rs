@@ -1,16 +1,10 @@
 //! A first guess from grids of larger elements.
 
-use crate::contact::{ContactOptions, ContactState, Control, Question, solve_normalised};
+use crate::contact::{Accuracy, ContactState, Control, Question, solve_normalised};
 use crate::convolution::Surroundings;
 
 /// A grid with fewer elements along an edge is solved without a guess.
 const SMALLEST_EDGE: usize = 32;
-
-/// A guess needs no more: its elements err by more.
-const COARSE: ContactOptions = ContactOptions {
-    tolerance: 1e-3,
-    max_iterations: 100,
-};
 
 /// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
 pub(super) fn start_from_coarser(
@@ -34,7 +28,7 @@ pub(super) fn start_from_coarser(
     let mut coarse = ContactState::new(&coarse_convolution);
     let question = (&coarse_convolution, &coarse_separation[..], control);
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
-    let _guess = solve_normalised(question, &mut coarse, &COARSE);
+    let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
     for (row, loads) in state.load.chunks_exact_mut(columns).enumerate() {
         let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
         for (column, load) in loads.iter_mut().enumerate() {

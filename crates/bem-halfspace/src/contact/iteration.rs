@@ -10,7 +10,7 @@
 
 use crate::contact::contact_set::ContactSet;
 use crate::contact::preconditioner::Preconditioner;
-use crate::contact::{ContactOptions, ContactState, Control, Outcome, Question};
+use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
@@ -95,13 +95,12 @@ impl<'a> Iteration<'a> {
     pub(super) fn new(
         (convolution, separation, control): Question<'a>,
         state: &'a mut ContactState,
-        options: &ContactOptions,
     ) -> Self {
         Self {
             convolution,
             separation,
             control,
-            tolerance: options.tolerance,
+            tolerance: 0.0,
             load: &mut state.load,
             displacement: &mut state.displacement,
             workspace: &mut state.workspace,
@@ -117,13 +116,16 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    pub(super) fn run(mut self, max_iterations: usize) -> Result<Outcome, BemError> {
+    pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Outcome, BemError> {
         self.start();
         let mut iterations = 0;
         loop {
             self.find_depth();
             let violations = self.measure();
             let residual = violations.relative();
+            if iterations == 0 {
+                self.tolerance = accuracy.target(residual);
+            }
             if residual <= self.tolerance && violations.tension <= 0.0 {
                 if self.fresh {
                     return Ok(self.outcome(iterations, &violations));
@@ -132,7 +134,7 @@ impl<'a> Iteration<'a> {
                 continue;
             }
             // Where numbers overflow there is no way on.
-            if iterations >= max_iterations || residual.is_nan() {
+            if iterations >= accuracy.max_iterations || residual.is_nan() {
                 let residual = Some(residual).filter(|residual| !residual.is_nan());
                 return Err(BemError::ContactNotConverged {
                     iterations,
