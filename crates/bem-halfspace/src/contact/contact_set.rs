@@ -2,13 +2,18 @@
 
 use std::ops::Range;
 
+use crate::bands::Bands;
+
 /// Elements in contact, as runs of neighbours, so that what concerns the contact costs as much as the contact is large.
 #[derive(Debug, Clone)]
 pub(super) struct ContactSet {
     in_contact: Vec<bool>,
     columns: usize,
-    /// Each in one row.
+    bands: Bands,
+    /// Each in one row; with room for as many as there can be, so that a change does not allocate.
     runs: Vec<Range<usize>>,
+    /// Number of runs before each row, and of all.
+    runs_before: Vec<usize>,
     n_elements: usize,
 }
 
@@ -18,7 +23,9 @@ impl ContactSet {
         Self {
             in_contact: vec![false; rows * columns],
             columns,
-            runs: Vec::new(),
+            bands: Bands::new([rows, columns]),
+            runs: Vec::with_capacity(rows * columns.div_ceil(2)),
+            runs_before: vec![0; rows + 1],
             n_elements: 0,
         }
     }
@@ -39,13 +46,16 @@ impl ContactSet {
     /// Finds the runs after changes.
     pub(super) fn find_runs(&mut self) {
         self.runs.clear();
-        let rows = self.in_contact.chunks_exact(self.columns);
         let mut end = 0;
-        for run in rows.flat_map(|row| row.chunk_by(|left, right| left == right)) {
-            if run[0] {
-                self.runs.push(end..end + run.len());
+        let rows = self.in_contact.chunks_exact(self.columns);
+        for (row, runs_before) in rows.zip(&mut self.runs_before[1..]) {
+            for run in row.chunk_by(|left, right| left == right) {
+                if run[0] {
+                    self.runs.push(end..end + run.len());
+                }
+                end += run.len();
             }
-            end += run.len();
+            *runs_before = self.runs.len();
         }
         self.n_elements = self.runs.iter().map(ExactSizeIterator::len).sum();
     }
@@ -54,22 +64,30 @@ impl ContactSet {
         self.n_elements
     }
 
-    /// The elements in contact as ranges of neighbours in one row, increasing.
-    pub(super) fn runs(&self) -> &[Range<usize>] {
-        &self.runs
+    pub(super) const fn bands(&self) -> Bands {
+        self.bands
     }
 
-    /// The elements in contact, increasing.
-    pub(super) fn elements(&self) -> impl Iterator<Item = usize> {
-        self.runs.iter().flat_map(Clone::clone)
+    /// The elements of a band in contact as ranges of neighbours in one row, increasing.
+    pub(super) fn runs(&self, band: usize) -> &[Range<usize>] {
+        let rows = self.bands.rows(band);
+        &self.runs[self.runs_before[rows.start]..self.runs_before[rows.end]]
     }
 
-    /// The runs of elements outside the contact.
-    pub(super) fn outside(&self) -> impl Iterator<Item = Range<usize>> {
-        let starts = std::iter::once(0).chain(self.runs.iter().map(|run| run.end));
-        let ends = self.runs.iter().map(|run| run.start);
-        let ends = ends.chain(std::iter::once(self.in_contact.len()));
+    /// The elements of a band outside the contact as ranges, increasing.
+    pub(super) fn gaps(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
+        let Range { start, end } = self.bands.elements(band);
+        let runs = self.runs(band);
+        let starts = std::iter::once(start).chain(runs.iter().map(|run| run.end));
+        let ends = runs.iter().map(|run| run.start);
+        let ends = ends.chain(std::iter::once(end));
         starts.zip(ends).map(|(start, end)| start..end)
+    }
+
+    /// Sum over the elements in contact of what a run of them contributes.
+    pub(super) fn sum(&self, of_run: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+        self.bands
+            .sum(|band| self.runs(band).iter().cloned().map(&of_run).sum())
     }
 
     pub(super) fn contains(&self, element: usize) -> bool {

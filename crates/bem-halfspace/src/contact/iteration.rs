@@ -10,6 +10,7 @@
 
 use crate::contact::contact_set::ContactSet;
 use crate::contact::preconditioner::Preconditioner;
+use crate::contact::violations::{Surface, Violations};
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
@@ -40,33 +41,6 @@ impl Fields {
             residual: vec![0.0; n],
             direction: vec![0.0; n],
             image: vec![0.0; n],
-        }
-    }
-}
-
-/// How far the conditions of contact are violated, as lengths.
-#[derive(Debug, Clone, Copy, Default)]
-struct Violations {
-    /// Largest |gap| in the contact.
-    gap: f64,
-    /// Largest tension in the contact, as the displacement that it causes at its own element.
-    tension: f64,
-    /// Largest penetration outside the contact.
-    penetration: f64,
-    /// Largest displacement in the contact.
-    deflection: f64,
-}
-
-impl Violations {
-    /// The largest relative to the deflection; zero where there is neither, NaN where numbers overflow.
-    fn relative(&self) -> f64 {
-        let largest = self.gap.max(self.tension).max(self.penetration);
-        if self.gap.is_nan() {
-            f64::NAN
-        } else if largest == 0.0 {
-            0.0
-        } else {
-            largest / self.deflection
         }
     }
 }
@@ -154,7 +128,7 @@ impl<'a> Iteration<'a> {
     fn outcome(&self, iterations: usize, violations: &Violations) -> Outcome {
         Outcome {
             indentation_depth: self.indentation_depth,
-            total_load: self.load.iter().sum(),
+            total_load: self.total_load(),
             iterations,
             deflection: violations.deflection,
             residual: violations.relative(),
@@ -179,8 +153,12 @@ impl<'a> Iteration<'a> {
             !vanishes && (load[element] > 0.0 || (!loaded && separation[element] < below))
         });
         if !loaded {
-            for element in fields.contact.elements() {
-                self.load[element] = uniform;
+            for (element, load) in self.load.iter_mut().enumerate() {
+                *load = if fields.contact.contains(element) {
+                    uniform
+                } else {
+                    0.0
+                };
             }
         }
         fields.residual.fill(0.0);
@@ -194,11 +172,19 @@ impl<'a> Iteration<'a> {
         let Control::NormalForce(total) = self.control else {
             return;
         };
-        let sum: f64 = self.load.iter().sum();
-        for load in &mut *self.load {
-            // Multiplied last, because the quotient of extreme forces may overflow.
-            *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-        }
+        let sum = self.total_load();
+        let bands = self.fields.contact.bands();
+        bands.for_each([&mut *self.load], |_, [load]| {
+            for load in load {
+                // Multiplied last, because the quotient of extreme forces may overflow.
+                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+            }
+        });
+    }
+
+    fn total_load(&self) -> f64 {
+        let bands = self.fields.contact.bands();
+        bands.sum(|band| self.load[bands.elements(band)].iter().sum())
     }
 
     /// Computes the displacement from the load.
@@ -214,7 +200,6 @@ impl<'a> Iteration<'a> {
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
     fn find_depth(&mut self) {
         let contact = &self.fields.contact;
-        let height = |element: usize| self.separation[element] + self.displacement[element];
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) if contact.len() == 0 => {
@@ -222,9 +207,10 @@ impl<'a> Iteration<'a> {
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
+                let height = |element: usize| self.separation[element] + self.displacement[element];
                 let mean_above = |level: f64| {
-                    let heights = contact.elements().map(|element| height(element) - level);
-                    heights.sum::<f64>() / contact.len() as f64
+                    let sum = contact.sum(|run| run.map(|element| height(element) - level).sum());
+                    sum / contact.len() as f64
                 };
                 // Again from the first mean, because no direction removes what the long sum has rounded.
                 let mean = mean_above(0.0);
@@ -233,35 +219,15 @@ impl<'a> Iteration<'a> {
         };
     }
 
-    /// Stores the residual of the linear equations, the gap in the contact, and finds what is violated.
     fn measure(&mut self) -> Violations {
-        let unit = self.convolution.self_influence();
-        let mut found = Violations::default();
-        let mut not_a_number = false;
-        let Fields {
-            contact, residual, ..
-        } = &mut *self.fields;
-        contact.elements().for_each(|element| {
-            let (load, displacement) = (self.load[element], self.displacement[element]);
-            let gap = self.separation[element] + displacement - self.indentation_depth;
-            not_a_number |= gap.is_nan();
-            residual[element] = -gap;
-            found.gap = larger(found.gap, gap.abs());
-            found.tension = larger(found.tension, -load * unit);
-            found.deflection = larger(found.deflection, larger(displacement, load * unit));
-        });
-        if not_a_number {
-            found.gap = f64::NAN;
-        }
-        found.penetration = larger(0.0, self.indentation_depth - self.lowest_outside());
-        found
-    }
-
-    fn lowest_outside(&self) -> f64 {
-        let ranges = self.fields.contact.outside();
-        let lowest = ranges
-            .map(|range| lowest_sum(&self.separation[range.clone()], &self.displacement[range]));
-        lowest.fold(f64::INFINITY, f64::min)
+        let surface = Surface {
+            separation: self.separation,
+            displacement: self.displacement,
+            load: self.load,
+            indentation_depth: self.indentation_depth,
+            self_influence: self.convolution.self_influence(),
+        };
+        surface.measure(&self.fields.contact, &mut self.fields.residual)
     }
 
     /// Whether the element is under tension, or outside and below the height at which it penetrates.
@@ -285,7 +251,9 @@ impl<'a> Iteration<'a> {
     fn change_contact(&mut self, violations: &Violations) {
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
         let is_wrong = |&element: &usize| self.is_wrong(element, lowest);
-        let n_wrong = (0..self.load.len()).filter(is_wrong).count();
+        let bands = self.fields.contact.bands();
+        let count = |band| bands.elements(band).filter(is_wrong).count();
+        let n_wrong = bands.fold([], |band, []| count(band), |left, right| left + right);
         if n_wrong < self.fewest_wrong {
             self.fewest_wrong = n_wrong;
             self.patience = PATIENCE;
@@ -320,19 +288,24 @@ impl<'a> Iteration<'a> {
         } = &mut *self.fields;
         self.convolution
             .apply(self.workspace, (direction, 0..rows), (image, 0..rows));
-        let energy: f64 = contact.elements().map(|k| direction[k] * image[k]).sum();
+        let (direction, image) = (&*direction, &*image);
+        let energy = contact.sum(|run| dot(&direction[run.clone()], &image[run]));
         // The load of a single element has nowhere to go.
         let length = if energy == 0.0 {
             0.0
         } else {
             self.previous_product / energy
         };
-        contact
-            .elements()
-            .for_each(|k| self.load[k] += length * direction[k]);
-        for (displacement, image) in self.displacement.iter_mut().zip(&*image) {
-            *displacement += length * image;
-        }
+        let bands = contact.bands();
+        let fields = [&mut *self.load, &mut *self.displacement];
+        bands.for_each(fields, |band, [load, displacement]| {
+            let elements = bands.elements(band);
+            for run in contact.runs(band) {
+                let local = run.start - elements.start..run.end - elements.start;
+                add(&mut load[local], length, &direction[run.clone()]);
+            }
+            add(displacement, length, &image[elements]);
+        });
         self.fresh = false;
         self.improved = true;
     }
@@ -346,47 +319,44 @@ impl<'a> Iteration<'a> {
             image: preconditioned,
         } = &mut *self.fields;
         preconditioner.apply(contact, residual, preconditioned);
+        let (residual, preconditioned) = (&*residual, &*preconditioned);
         let mean = match self.control {
             Control::NormalForce(_) => {
-                contact.elements().map(|k| preconditioned[k]).sum::<f64>() / contact.len() as f64
+                contact.sum(|run| preconditioned[run].iter().sum()) / contact.len() as f64
             }
             Control::IndentationDepth(_) => 0.0,
         };
         let work = |k: usize| residual[k] * (preconditioned[k] - mean);
-        let product: f64 = contact.elements().map(work).sum();
+        let product = contact.sum(|run| run.map(work).sum());
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
             0.0
         };
-        contact.elements().for_each(|k| {
-            direction[k] = preconditioned[k] - mean + conjugation * direction[k];
+        let bands = contact.bands();
+        bands.for_each([direction], |band, [direction]| {
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                let local = run.start - first..run.end - first;
+                for (direction, value) in direction[local]
+                    .iter_mut()
+                    .zip(&preconditioned[run.clone()])
+                {
+                    *direction = value - mean + conjugation * *direction;
+                }
+            }
         });
         self.previous_product = product;
     }
 }
 
-/// The larger of two numbers of which none is NaN; faster than `f64::max`.
-fn larger(left: f64, right: f64) -> f64 {
-    if left > right { left } else { right }
+fn dot(left: &[f64], right: &[f64]) -> f64 {
+    left.iter().zip(right).map(|(a, b)| a * b).sum()
 }
 
-/// The lowest sum of two heights each; several at a time, because one comparison would wait for the other.
-fn lowest_sum(left: &[f64], right: &[f64]) -> f64 {
-    const LANES: usize = 8;
-    let (left, left_rest) = left.as_chunks::<LANES>();
-    let (right, right_rest) = right.as_chunks::<LANES>();
-    let mut lowest = [f64::INFINITY; LANES];
-    for (left, right) in left.iter().zip(right) {
-        for lane in 0..LANES {
-            let sum = left[lane] + right[lane];
-            lowest[lane] = if sum < lowest[lane] {
-                sum
-            } else {
-                lowest[lane]
-            };
-        }
+/// Adds a multiple.
+fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
     }
-    let rest = left_rest.iter().zip(right_rest).map(|(a, b)| a + b);
-    lowest.into_iter().chain(rest).fold(f64::INFINITY, f64::min)
 }

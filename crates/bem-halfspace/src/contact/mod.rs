@@ -16,6 +16,7 @@ mod iteration;
 mod preconditioner;
 mod solve;
 mod state;
+mod violations;
 
 use std::f64::consts::PI;
 

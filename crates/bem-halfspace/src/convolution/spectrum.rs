@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::bands::fold_parts;
 use crate::convolution::ZERO;
 use crate::{Convolution, influence};
 
@@ -12,15 +13,20 @@ impl Convolution {
         1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
     }
 
-    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.normalisation();
-        let column = |column: usize| {
-            let (symbol, q_y) = (&symbol, column as f64 * unit_y);
-            (0..=self.padded[0] / 2)
-                .map(move |row| symbol([row as f64 * unit_x, q_y]) * normalisation)
-        };
-        (0..self.n_columns()).flat_map(column).collect()
+        let length = self.padded[0] / 2 + 1;
+        let mut spectrum = vec![0.0; self.n_columns() * length];
+        for_each_group(&mut spectrum, length, |first, group| {
+            for (column, values) in (first..).zip(group.chunks_exact_mut(length)) {
+                let q_y = column as f64 * unit_y;
+                for (row, value) in values.iter_mut().enumerate() {
+                    *value = symbol([row as f64 * unit_x, q_y]) * normalisation;
+                }
+            }
+        });
+        spectrum
     }
 
     /// Wave numbers of the longest waves along x and y, \[rad/m].
@@ -37,7 +43,7 @@ impl Convolution {
     }
 
     /// Spectrum of a symbol where that is positive, for the mean that of the longest wave.
-    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let longest = if unit_x < unit_y {
             [unit_x, 0.0]
@@ -76,53 +82,84 @@ impl Convolution {
     /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
         let rows = self.transformed_kernel_rows();
-        let [length, half] = [self.padded[0], self.padded[0] / 2];
-        let mut values = vec![ZERO; length];
-        let mut scratch = vec![ZERO; self.column_forward.get_inplace_scratch_len()];
-        let mut spectrum = vec![0.0; self.n_columns() * (half + 1)];
-        let normalisation = self.normalisation();
-        for (pair, spectrum) in spectrum.chunks_mut(2 * (half + 1)).enumerate() {
-            values.fill(ZERO);
-            for (row, transformed) in rows.chunks_exact(self.n_columns()).enumerate() {
-                let second = transformed.get(2 * pair + 1).copied();
-                let value = Complex::new(transformed[2 * pair], second.map_or(0.0, |value| value));
-                values[row] = value;
-                values[(length - row) % length] = value;
+        let length = self.padded[0] / 2 + 1;
+        let mut spectrum = vec![0.0; self.n_columns() * length];
+        for_each_group(&mut spectrum, length, |first, group| {
+            let mut values = vec![ZERO; self.padded[0]];
+            let mut scratch = vec![ZERO; self.column_forward.get_inplace_scratch_len()];
+            for (pair, spectrum) in group.chunks_mut(2 * length).enumerate() {
+                self.gather_kernel_columns(&rows, first + 2 * pair, &mut values);
+                self.column_forward
+                    .process_with_scratch(&mut values, &mut scratch);
+                self.separate(&values, spectrum);
             }
-            self.column_forward
-                .process_with_scratch(&mut values, &mut scratch);
-            let (first, second) = spectrum.split_at_mut(half + 1);
-            for (spectrum, value) in first.iter_mut().zip(&values) {
-                *spectrum = value.re * normalisation;
-            }
-            for (spectrum, value) in second.iter_mut().zip(&values) {
-                *spectrum = value.im * normalisation;
-            }
-        }
+        });
         spectrum
+    }
+
+    /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
+    fn gather_kernel_columns(&self, rows: &[f64], column: usize, values: &mut [Complex<f64>]) {
+        values.fill(ZERO);
+        for (row, transformed) in rows.chunks_exact(self.n_columns()).enumerate() {
+            let second = transformed.get(column + 1).copied();
+            let value = Complex::new(transformed[column], second.map_or(0.0, |value| value));
+            values[row] = value;
+            values[(self.padded[0] - row) % self.padded[0]] = value;
+        }
+    }
+
+    fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
+        let normalisation = self.normalisation();
+        let (first, second) = spectrum.split_at_mut(self.padded[0] / 2 + 1);
+        for (spectrum, value) in first.iter_mut().zip(values) {
+            *spectrum = value.re * normalisation;
+        }
+        for (spectrum, value) in second.iter_mut().zip(values) {
+            *spectrum = value.im * normalisation;
+        }
     }
 
     /// Transforms of the kernel along y, [offset along x][column]; the kernel is even, so they are real.
     fn transformed_kernel_rows(&self) -> Vec<f64> {
-        let [n_x, n_y] = self.grid.shape();
-        let [dx, dy] = self.grid.spacing();
-        let mut values = self.row_forward.make_input_vec();
-        let mut transformed = self.row_forward.make_output_vec();
-        let mut scratch = self.row_forward.make_scratch_vec();
-        let mut rows = Vec::with_capacity(n_x * self.n_columns());
-        for row in 0..n_x {
-            values.fill(0.0);
-            for column in 0..n_y {
-                let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
-                values[column] = coefficient;
-                values[(self.padded[1] - column) % self.padded[1]] = coefficient;
+        let n_columns = self.n_columns();
+        let mut rows = vec![0.0; self.grid.shape()[0] * n_columns];
+        for_each_group(&mut rows, n_columns, |first, group| {
+            let mut values = self.row_forward.make_input_vec();
+            let mut transformed = self.row_forward.make_output_vec();
+            let mut scratch = self.row_forward.make_scratch_vec();
+            for (row, result) in (first..).zip(group.chunks_exact_mut(n_columns)) {
+                self.fill_kernel_row(row, &mut values);
+                let done = self.row_forward.process_with_scratch(
+                    &mut values,
+                    &mut transformed,
+                    &mut scratch,
+                );
+                debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+                for (result, value) in result.iter_mut().zip(&transformed) {
+                    *result = value.re;
+                }
             }
-            let done =
-                self.row_forward
-                    .process_with_scratch(&mut values, &mut transformed, &mut scratch);
-            debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
-            rows.extend(transformed.iter().map(|value| value.re));
-        }
+        });
         rows
     }
+
+    fn fill_kernel_row(&self, row: usize, values: &mut [f64]) {
+        let [dx, dy] = self.grid.spacing();
+        values.fill(0.0);
+        for column in 0..self.grid.shape()[1] {
+            let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
+            values[column] = coefficient;
+            values[(self.padded[1] - column) % self.padded[1]] = coefficient;
+        }
+    }
+}
+
+/// Rows that share their buffers; an even number, because columns pass in pairs.
+const GROUP: usize = 16;
+
+/// Does the work on groups of rows of so many values side by side; `work` gets the number of the first row.
+fn for_each_group(values: &mut [f64], length: usize, work: impl Fn(usize, &mut [f64]) + Sync) {
+    let groups = 0..values.len().div_ceil(GROUP * length);
+    let in_group = |group, [values]: [&mut [f64]; 1]| work(group * GROUP, values);
+    fold_parts(groups, [(values, GROUP * length)], &in_group, &|(), ()| ());
 }
