@@ -42,10 +42,10 @@ impl Bands {
     }
 
     /// Does the work of every band on its part of the fields, which have one value per element.
-    pub(crate) fn fold<const N: usize, R: Send>(
+    pub(crate) fn fold<const N: usize, T: Send, R: Send>(
         &self,
-        fields: [&mut [f64]; N],
-        work: impl Fn(usize, [&mut [f64]; N]) -> R + Sync,
+        fields: [&mut [T]; N],
+        work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
         let unit = self.rows_per_band * self.shape[1];
@@ -54,27 +54,36 @@ impl Bands {
     }
 
     /// Does the work of every band on its part of the fields.
-    pub(crate) fn for_each<const N: usize>(
+    pub(crate) fn for_each<const N: usize, T: Send>(
         &self,
-        fields: [&mut [f64]; N],
-        work: impl Fn(usize, [&mut [f64]; N]) + Sync,
+        fields: [&mut [T]; N],
+        work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
         self.fold(fields, work, |(), ()| ());
     }
 
-    /// Sum of what the bands contribute, pairwise.
+    /// What the bands contribute, combined pairwise.
+    pub(crate) fn gather<R: Send>(
+        &self,
+        work: impl Fn(usize) -> R + Sync,
+        combine: impl Fn(R, R) -> R + Sync,
+    ) -> R {
+        self.fold::<0, (), R>([], |band, []| work(band), combine)
+    }
+
+    /// Sum of what the bands contribute.
     pub(crate) fn sum(&self, work: impl Fn(usize) -> f64 + Sync) -> f64 {
-        self.fold([], |band, []| work(band), |left, right| left + right)
+        self.gather(work, |left, right| left + right)
     }
 }
 
 /// Does the work of every part of a range on its part of the fields, of which each has so many values per part.
 ///
 /// The halves of the range are combined, and those are of their halves: the order is always the same.
-pub(crate) fn fold_parts<const N: usize, R: Send>(
+pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
     parts: Range<usize>,
-    fields: [(&mut [f64], usize); N],
-    work: &(impl Fn(usize, [&mut [f64]; N]) -> R + Sync),
+    fields: Fields<T, N>,
+    work: &(impl Fn(usize, [&mut [T]; N]) -> R + Sync),
     combine: &(impl Fn(R, R) -> R + Sync),
 ) -> R {
     if parts.len() <= 1 {
@@ -89,11 +98,12 @@ pub(crate) fn fold_parts<const N: usize, R: Send>(
     combine(left, right)
 }
 
-type Fields<'a, const N: usize> = [(&'a mut [f64], usize); N];
+/// Fields, and how many values of each belong to a part.
+type Fields<'a, T, const N: usize> = [(&'a mut [T], usize); N];
 
 /// The fields before and behind so many parts.
-fn split<const N: usize>(fields: Fields<N>, parts: usize) -> (Fields<N>, Fields<N>) {
-    let mut behind = [(); N].map(|()| (<&mut [f64]>::default(), 0));
+fn split<T, const N: usize>(fields: Fields<T, N>, parts: usize) -> (Fields<T, N>, Fields<T, N>) {
+    let mut behind = [(); N].map(|()| (<&mut [T]>::default(), 0));
     let mut slots = behind.iter_mut();
     let before = fields.map(|(field, unit)| {
         let (lower, upper) = field.split_at_mut(parts * unit);
@@ -103,6 +113,22 @@ fn split<const N: usize>(fields: Fields<N>, parts: usize) -> (Fields<N>, Fields<
         (lower, unit)
     });
     (before, behind)
+}
+
+/// Copies of a value, first touched by the threads that share the memory from then on.
+#[cfg(feature = "rayon")]
+pub(crate) fn copies<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+    let mut values = Vec::new();
+    let numbers = (0..count).into_par_iter().with_min_len(MIN_ELEMENTS);
+    numbers.map(|_| value).collect_into_vec(&mut values);
+    values
+}
+
+/// Copies of a value.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn copies<T: Copy>(value: T, count: usize) -> Vec<T> {
+    vec![value; count]
 }
 
 #[cfg(feature = "rayon")]

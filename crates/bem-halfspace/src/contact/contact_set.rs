@@ -31,16 +31,21 @@ impl ContactSet {
     }
 
     /// Takes the elements for which `in_contact` says so.
-    pub(super) fn assign(&mut self, in_contact: impl Fn(usize) -> bool) {
-        for (element, is) in self.in_contact.iter_mut().enumerate() {
-            *is = in_contact(element);
-        }
+    pub(super) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
+        self.change(|element, is| in_contact(element) != is);
         self.find_runs();
     }
 
-    /// Moves an element into the contact or out of it; [`find_runs`](Self::find_runs) must follow.
-    pub(super) fn flip(&mut self, element: usize) {
-        self.in_contact[element] ^= true;
+    /// Moves elements into the contact or out of it; `changes` is asked whether, and told where the element is.
+    ///
+    /// [`find_runs`](Self::find_runs) must follow.
+    pub(super) fn change(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
+        let bands = self.bands;
+        bands.for_each([&mut self.in_contact], |band, [in_contact]| {
+            for (element, is) in bands.elements(band).zip(in_contact) {
+                *is ^= changes(element, *is);
+            }
+        });
     }
 
     /// Finds the runs after changes.
@@ -88,6 +93,18 @@ impl ContactSet {
     pub(super) fn sum(&self, of_run: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
         self.bands
             .sum(|band| self.runs(band).iter().cloned().map(&of_run).sum())
+    }
+
+    /// Number of elements for which `is` says so, told where they are, and the last of them.
+    pub(super) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
+        let in_band = |band| {
+            let found = |&element: &usize| is(element, self.in_contact[element]);
+            let found = self.bands.elements(band).filter(found);
+            found.fold((0, 0), |(count, _), element| (count + 1, element))
+        };
+        let both =
+            |left: (usize, usize), right: (usize, usize)| (left.0 + right.0, left.1.max(right.1));
+        self.bands.gather(in_band, both)
     }
 
     pub(super) fn contains(&self, element: usize) -> bool {

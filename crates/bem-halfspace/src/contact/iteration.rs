@@ -143,26 +143,27 @@ impl<'a> Iteration<'a> {
             Control::IndentationDepth(depth) => (depth, 0.0),
         };
         let vanishes = self.control == Control::NormalForce(0.0);
-        for (load, separation) in self.load.iter_mut().zip(self.separation) {
-            let guessed = *load > 0.0 && separation.is_finite();
-            *load = if guessed { *load } else { 0.0 };
-        }
-        let (load, separation) = (&*self.load, self.separation);
         let fields = &mut *self.fields;
+        let (separation, bands) = (self.separation, fields.contact.bands());
+        let cleared = [&mut *self.load, &mut fields.residual, &mut fields.direction];
+        bands.for_each(cleared, |band, [load, residual, direction]| {
+            residual.fill(0.0);
+            direction.fill(0.0);
+            for (load, separation) in load.iter_mut().zip(&separation[bands.elements(band)]) {
+                let guessed = *load > 0.0 && separation.is_finite();
+                *load = if guessed { *load } else { 0.0 };
+            }
+        });
+        let load = &*self.load;
         fields.contact.assign(|element| {
             !vanishes && (load[element] > 0.0 || (!loaded && separation[element] < below))
         });
         if !loaded {
             for (element, load) in self.load.iter_mut().enumerate() {
-                *load = if fields.contact.contains(element) {
-                    uniform
-                } else {
-                    0.0
-                };
+                let inside = fields.contact.contains(element);
+                *load = if inside { uniform } else { 0.0 };
             }
         }
-        fields.residual.fill(0.0);
-        fields.direction.fill(0.0);
         self.match_force();
         self.refresh();
     }
@@ -230,14 +231,6 @@ impl<'a> Iteration<'a> {
         surface.measure(&self.fields.contact, &mut self.fields.residual)
     }
 
-    /// Whether the element is under tension, or outside and below the height at which it penetrates.
-    fn is_wrong(&self, element: usize, lowest: f64) -> bool {
-        if self.fields.contact.contains(element) {
-            return self.load[element] < 0.0;
-        }
-        self.separation[element] + self.displacement[element] < lowest
-    }
-
     fn set_is_due(&self, violations: &Violations) -> bool {
         let allowed = self.tolerance * violations.deflection;
         if violations.tension <= 0.0 && violations.penetration <= allowed {
@@ -250,30 +243,51 @@ impl<'a> Iteration<'a> {
 
     fn change_contact(&mut self, violations: &Violations) {
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
-        let is_wrong = |&element: &usize| self.is_wrong(element, lowest);
-        let bands = self.fields.contact.bands();
-        let count = |band| bands.elements(band).filter(is_wrong).count();
-        let n_wrong = bands.fold([], |band, []| count(band), |left, right| left + right);
+        let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
+        // Under tension, or outside and below the height at which it penetrates.
+        let is_wrong = |element: usize, inside: bool| {
+            if inside {
+                load[element] < 0.0
+            } else {
+                separation[element] + displacement[element] < lowest
+            }
+        };
+        let contact = &mut self.fields.contact;
+        let (n_wrong, last) = contact.find_last(is_wrong);
         if n_wrong < self.fewest_wrong {
             self.fewest_wrong = n_wrong;
             self.patience = PATIENCE;
         } else {
             self.patience = self.patience.saturating_sub(1);
         }
-        let mut left = if self.patience == 0 { 1 } else { n_wrong };
-        for element in (0..self.load.len()).rev() {
-            if left > 0 && self.is_wrong(element, lowest) {
-                left -= 1;
-                let fields = &mut *self.fields;
-                fields.contact.flip(element);
-                (fields.residual[element], fields.direction[element]) = (0.0, 0.0);
-                self.load[element] = 0.0;
-            }
-        }
+        let first = if self.patience == 0 { last } else { 0 };
+        contact.change(|element, inside| element >= first && is_wrong(element, inside));
+        self.unload_left();
         self.fields.contact.find_runs();
         self.improved = false;
         self.match_force();
         self.refresh();
+    }
+
+    /// Clears what has just left the contact, while the runs are still those before.
+    fn unload_left(&mut self) {
+        let Fields {
+            contact,
+            residual,
+            direction,
+            ..
+        } = &mut *self.fields;
+        let bands = contact.bands();
+        bands.for_each([&mut *self.load, residual, direction], |band, fields| {
+            let first = bands.elements(band).start;
+            for field in fields {
+                for element in contact.runs(band).iter().flat_map(Clone::clone) {
+                    if !contact.contains(element) {
+                        field[element - first] = 0.0;
+                    }
+                }
+            }
+        });
     }
 
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.

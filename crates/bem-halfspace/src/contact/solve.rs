@@ -35,13 +35,9 @@ pub(crate) fn solve_normalised(
     if state.load.iter().all(|load| *load <= 0.0) {
         start_from_coarser(question, state);
     }
-    let columns = question.0.grid().shape()[1];
-    let loaded = state
-        .load
-        .iter()
-        .enumerate()
-        .filter(|(_, load)| **load > 0.0);
-    let bounds = Bounds::of(loaded.map(|(index, _)| [index / columns, index % columns]));
+    let load = &state.load;
+    let shape = question.0.grid().shape();
+    let bounds = Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
     solve_around(bounds, question, state, accuracy)
 }
 
@@ -93,19 +89,17 @@ fn check_around(
         (&state.load, solved.rows()),
         (&mut state.displacement, 0..rows),
     );
-    let mut bounds = *solved;
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.
     let highest = outcome.indentation_depth - 2.0 * accuracy.tolerance * outcome.deflection;
-    let heights = separation.iter().zip(&state.displacement).enumerate();
-    for (index, (separation, displacement)) in heights {
-        let element = [index / columns, index % columns];
-        if separation + displacement < highest && !solved.contains(element) {
-            bounds.include(element);
-        }
-    }
-    if bounds == *solved {
+    let displacement = &state.displacement;
+    let penetrates = |element: [usize; 2]| {
+        let index = element[0] * columns + element[1];
+        separation[index] + displacement[index] < highest && !solved.contains(element)
+    };
+    let Some(outside) = Bounds::of_field([rows, columns], penetrates) else {
         return Ok(outcome);
-    }
+    };
+    let bounds = solved.union(&outside);
     let again = solve_around(Some(bounds), question, state, accuracy)?;
     let iterations = outcome.iterations + again.iterations;
     Ok(Outcome {

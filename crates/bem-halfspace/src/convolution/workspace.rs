@@ -7,6 +7,7 @@ use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
 use crate::Convolution;
+use crate::bands::copies;
 use crate::convolution::{TILE, ZERO};
 
 /// Below this many elements threads cost more than they gain.
@@ -37,8 +38,8 @@ impl ConvolutionWorkspace {
         let n_x = convolution.grid.shape()[0];
         let n_lanes = n_lanes(convolution.grid.n_elements());
         Self {
-            rows: vec![ZERO; n_x * convolution.n_columns()],
-            tiles: vec![[ZERO; TILE]; n_x * convolution.n_tiles()],
+            rows: copies(ZERO, n_x * convolution.n_columns()),
+            tiles: copies([ZERO; TILE], n_x * convolution.n_tiles()),
             lanes: (0..n_lanes).map(|_| Lane::new(convolution)).collect(),
         }
     }
