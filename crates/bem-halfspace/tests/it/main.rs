@@ -1,5 +1,6 @@
 //! The claims of the crate, one file each.
 
+mod allocations;
 mod apex_similarity;
 mod bad_input;
 mod contact_limits;
