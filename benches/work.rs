@@ -1,23 +1,32 @@
 //! Time, error, peak memory and iterations of contact solves, and the time as a multiple of one real Fourier transform
 //! there and back of the padded grid, measured between the solves.
 //!
-//! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- rough FILE …` with the heights of a square grid on a
-//! side of length 1 as little-endian numbers of eight bytes.
+//! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- rough 512 1024`; with `--features rayon` also the
+//! time on the wall on two threads. Instead of a number of elements along the edge, `rough` takes a file with the
+//! heights of a square grid on a side of length 1 as little-endian numbers of eight bytes.
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
 
-use std::error::Error;
 use std::fs;
+use std::process::Command;
+use std::time::Instant;
 
 use bem_halfspace::{
     Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
 };
+use benches::{Failure, on_threads, self_affine};
 
 /// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
 const COMPLIANCE: f64 = 4.0;
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
+/// Numbers of threads of which the time on the wall is measured.
+const THREADS: &[usize] = if cfg!(feature = "rayon") {
+    &[1, 2]
+} else {
+    &[1]
+};
 
 struct Scene {
     name: &'static str,
@@ -32,19 +41,43 @@ struct Scene {
     padded: usize,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let mut words = arguments.iter().filter(|word| *word != "--bench");
-    println!("scene n iterations error bytes/element setup[s] solve[s] pair[s] solve/pair");
-    match words.next().map(String::as_str) {
-        Some("hertz") => words.try_for_each(|n| report(&hertz(n.parse()?)?)),
-        Some("rough") => words.try_for_each(|file| report(&rough(file)?)),
-        _ => report(&hertz(256)?),
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.split_last() {
+        Some((&"--bench", [name, sizes @ ..])) if !sizes.is_empty() => report_each(name, sizes),
+        Some((size, [name])) => on_threads(1, || report(&scene(name, size)?))?,
+        _ => on_threads(1, || report(&hertz(256)?))?,
+    }
+}
+
+/// Every size in a process of its own, whose memory is not that of the size before.
+fn report_each(name: &str, sizes: &[&str]) -> Result<(), Failure> {
+    println!(
+        "scene n iterations error bytes/element setup[s] solve[s] pair[s] solve/pair wall[s] on {THREADS:?} threads"
+    );
+    for size in sizes {
+        let status = Command::new(std::env::current_exe()?)
+            .args([name, *size])
+            .status()?;
+        if !status.success() {
+            return Err(format!("no result for {name} {size}").into());
+        }
+    }
+    Ok(())
+}
+
+fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
+    match (name, size.parse()) {
+        ("hertz", Ok(n)) => hertz(n),
+        ("rough", Ok(n)) => rough(self_affine(n)),
+        ("rough", Err(_)) => rough(heights_in(size)?),
+        _ => Err(format!("there is no scene {name} {size}").into()),
     }
 }
 
 /// Hertz contact with the radius 0.3 on the unit square, apex between the four middle elements.
-fn hertz(n: usize) -> Result<Scene, Box<dyn Error>> {
+fn hertz(n: usize) -> Result<Scene, Failure> {
     let edge = 1.0 / n as f64;
     let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
     let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
@@ -63,14 +96,8 @@ fn hertz(n: usize) -> Result<Scene, Box<dyn Error>> {
 }
 
 /// A periodic surface, pressed with the mean pressure 0.05 on its summits.
-fn rough(file: &str) -> Result<Scene, Box<dyn Error>> {
-    let bytes = fs::read(file)?;
-    let (numbers, _) = bytes.as_chunks::<8>();
-    let heights: Vec<f64> = numbers
-        .iter()
-        .map(|bytes| -f64::from_le_bytes(*bytes))
-        .collect();
-    let n = heights.len().isqrt();
+fn rough(summits: Vec<f64>) -> Result<Scene, Failure> {
+    let n = summits.len().isqrt();
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2])?;
     let start = processor_time()?;
     let convolution = Convolution::periodic(&grid);
@@ -78,14 +105,23 @@ fn rough(file: &str) -> Result<Scene, Box<dyn Error>> {
         name: "rough",
         setup: processor_time()? - start,
         convolution,
-        heights,
+        heights: summits.into_iter().map(|summit| -summit).collect(),
         tolerance: 5e-9,
         force: 0.05,
         padded: n,
     })
 }
 
-fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), Box<dyn Error>> {
+fn heights_in(file: &str) -> Result<Vec<f64>, Failure> {
+    let bytes = fs::read(file)?;
+    let (numbers, _) = bytes.as_chunks::<8>();
+    Ok(numbers
+        .iter()
+        .map(|bytes| f64::from_le_bytes(*bytes))
+        .collect())
+}
+
+fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), Failure> {
     let problem = ContactProblem {
         convolution: &scene.convolution,
         separation: &scene.heights,
@@ -102,8 +138,10 @@ fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), 
     Ok((contact, state, processor_time()? - start))
 }
 
-fn report(scene: &Scene) -> Result<(), Box<dyn Error>> {
+fn report(scene: &Scene) -> Result<(), Failure> {
     let grid = scene.convolution.grid();
+    // Forgets the peak of making the scene.
+    fs::write("/proc/self/clear_refs", "5")?;
     let before = memory("VmRSS:")?;
     let (contact, state, mut fastest) = solve(scene, scene.tolerance)?;
     let bytes = (memory("VmHWM:")? - before) / grid.n_elements() as f64;
@@ -115,18 +153,31 @@ fn report(scene: &Scene) -> Result<(), Box<dyn Error>> {
     let (_, reference, _) = solve(scene, REFERENCE_TOLERANCE)?;
     let error = deviation(state.pressure(), reference.pressure());
     println!(
-        "{} {} {} {error:.1e} {bytes:.0} {:.3} {fastest:.4} {pair:.4} {:.1}",
+        "{} {} {} {error:.1e} {bytes:.0} {:.3} {fastest:.4} {pair:.4} {:.1} {:.3?}",
         scene.name,
         grid.shape()[0],
         contact.iterations,
         scene.setup,
-        fastest / pair
+        fastest / pair,
+        wall_times(scene)?,
     );
     Ok(())
 }
+/// Shortest times on the wall, \[s], one per number of threads.
+fn wall_times(scene: &Scene) -> Result<Vec<f64>, Failure> {
+    let mut shortest = vec![f64::INFINITY; THREADS.len()];
+    for _ in 0..REPETITIONS {
+        for (&threads, shortest) in THREADS.iter().zip(&mut shortest) {
+            let start = Instant::now();
+            on_threads(threads, || solve(scene, scene.tolerance).map(drop))??;
+            *shortest = shortest.min(start.elapsed().as_secs_f64());
+        }
+    }
+    Ok(shortest)
+}
 
 /// Time of a real transform there and back, with a multiplication between, of a grid with this edge, \[s].
-fn transform_pair(edge: usize) -> Result<f64, Box<dyn Error>> {
+fn transform_pair(edge: usize) -> Result<f64, Failure> {
     let convolution = Convolution::periodic(&Grid::new([edge; 2], [1.0; 2])?);
     let mut workspace = convolution.workspace();
     let values = vec![1.0; edge * edge];
@@ -144,7 +195,7 @@ fn transform_pair(edge: usize) -> Result<f64, Box<dyn Error>> {
 
 /// Time on the processor of this thread, which other work on the machine disturbs less than the clock on the wall, \[s]
 /// (Linux).
-fn processor_time() -> Result<f64, Box<dyn Error>> {
+fn processor_time() -> Result<f64, Failure> {
     let text = fs::read_to_string("/proc/thread-self/schedstat")?;
     let nanoseconds = text.split_whitespace().next().ok_or("no time")?;
     Ok(nanoseconds.parse::<f64>()? * 1e-9)
@@ -158,7 +209,7 @@ fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// A line of the memory that this process has, in bytes (Linux).
-fn memory(line: &str) -> Result<f64, Box<dyn Error>> {
+fn memory(line: &str) -> Result<f64, Failure> {
     let status = fs::read_to_string("/proc/self/status")?;
     let found = status.lines().find_map(|text| text.strip_prefix(line));
     let number = found.and_then(|text| text.split_whitespace().next());

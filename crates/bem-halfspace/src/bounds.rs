@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::bands::Bands;
 use crate::fast_length::fast_length;
 
 /// Half-open ranges of rows and columns of a field.
@@ -26,6 +27,37 @@ impl Bounds {
             bounds.include(element);
             Some(bounds)
         })
+    }
+
+    /// The smallest box that holds the elements of a field, as [row, column], for which `is` says so.
+    pub(crate) fn of_field(
+        shape: [usize; 2],
+        is: impl Fn([usize; 2]) -> bool + Sync,
+    ) -> Option<Self> {
+        let bands = Bands::new(shape);
+        let in_row = |row: usize| {
+            let columns = 0..shape[1];
+            let first = columns.clone().find(|&column| is([row, column]))?;
+            let last = columns.rev().find(|&column| is([row, column]))?;
+            Some(Self {
+                lower: [row, first],
+                upper: [row + 1, last + 1],
+            })
+        };
+        let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
+            (Some(left), Some(right)) => Some(left.union(&right)),
+            (left, right) => left.or(right),
+        };
+        let in_band = |band| bands.rows(band).map(in_row).fold(None, both);
+        bands.gather(in_band, both)
+    }
+
+    /// The smallest box that holds both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            lower: [0, 1].map(|axis| self.lower[axis].min(other.lower[axis])),
+            upper: [0, 1].map(|axis| self.upper[axis].max(other.upper[axis])),
+        }
     }
 
     pub(crate) fn include(&mut self, element: [usize; 2]) {

@@ -1,16 +1,11 @@
 //! A first guess from grids of larger elements.
 
-use crate::contact::{ContactOptions, ContactState, Control, Question, solve_normalised};
+use crate::bands::Bands;
+use crate::contact::{Accuracy, ContactState, Control, Question, solve_normalised};
 use crate::convolution::Surroundings;
 
 /// A grid with fewer elements along an edge is solved without a guess.
 const SMALLEST_EDGE: usize = 32;
-
-/// A guess needs no more: its elements err by more.
-const COARSE: ContactOptions = ContactOptions {
-    tolerance: 1e-3,
-    max_iterations: 100,
-};
 
 /// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
 pub(super) fn start_from_coarser(
@@ -34,13 +29,16 @@ pub(super) fn start_from_coarser(
     let mut coarse = ContactState::new(&coarse_convolution);
     let question = (&coarse_convolution, &coarse_separation[..], control);
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
-    let _guess = solve_normalised(question, &mut coarse, &COARSE);
-    for (row, loads) in state.load.chunks_exact_mut(columns).enumerate() {
-        let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
-        for (column, load) in loads.iter_mut().enumerate() {
-            *load = coarse[column / 2];
+    let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
+    let bands = Bands::new([rows, columns]);
+    bands.for_each([&mut state.load], |band, [loads]| {
+        for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
+            let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
+            for (column, load) in loads.iter_mut().enumerate() {
+                *load = coarse[column / 2];
+            }
         }
-    }
+    });
 }
 
 /// Mean of the finite heights of two by two elements; `+∞` where there are none.
@@ -62,7 +60,15 @@ fn mean_of_four(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
             f64::INFINITY
         }
     };
-    let starts = (0..rows).step_by(2);
-    let pairs = starts.flat_map(|row| (0..columns).step_by(2).map(move |column| (row, column)));
-    pairs.map(|(row, column)| mean(row, column)).collect()
+    let shape = [rows, columns].map(|n| n.div_ceil(2));
+    let mut means = vec![0.0; shape[0] * shape[1]];
+    let bands = Bands::new(shape);
+    bands.for_each([&mut means], |band, [means]| {
+        for (row, means) in bands.rows(band).zip(means.chunks_exact_mut(shape[1])) {
+            for (column, value) in means.iter_mut().enumerate() {
+                *value = mean(2 * row, 2 * column);
+            }
+        }
+    });
+    means
 }

@@ -1,7 +1,7 @@
 //! A part of a grid on which the contact is solved.
 
 use crate::bounds::Bounds;
-use crate::contact::{ContactState, Control, Outcome, solve_normalised};
+use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
 use crate::{BemError, ContactOptions, Convolution, Grid};
 
 /// Contact solver on a box of elements around the contact.
@@ -65,8 +65,16 @@ impl ContactBox {
         control: Control,
         options: &ContactOptions,
     ) -> Result<Outcome, BemError> {
+        self.solve_to(control, &options.into())
+    }
+
+    pub(super) fn solve_to(
+        &mut self,
+        control: Control,
+        accuracy: &Accuracy,
+    ) -> Result<Outcome, BemError> {
         let question = (&self.convolution, &self.separation[..], control);
-        solve_normalised(question, &mut self.state, options)
+        solve_normalised(question, &mut self.state, accuracy)
     }
 
     /// Elements with load, as [row, column] of the field in which the box lies, and their load.

@@ -10,7 +10,8 @@
 
 use crate::contact::contact_set::ContactSet;
 use crate::contact::preconditioner::Preconditioner;
-use crate::contact::{ContactOptions, ContactState, Control, Outcome, Question};
+use crate::contact::violations::{Surface, Violations};
+use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
@@ -44,33 +45,6 @@ impl Fields {
     }
 }
 
-/// How far the conditions of contact are violated, as lengths.
-#[derive(Debug, Clone, Copy, Default)]
-struct Violations {
-    /// Largest |gap| in the contact.
-    gap: f64,
-    /// Largest tension in the contact, as the displacement that it causes at its own element.
-    tension: f64,
-    /// Largest penetration outside the contact.
-    penetration: f64,
-    /// Largest displacement in the contact.
-    deflection: f64,
-}
-
-impl Violations {
-    /// The largest relative to the deflection; zero where there is neither, NaN where numbers overflow.
-    fn relative(&self) -> f64 {
-        let largest = self.gap.max(self.tension).max(self.penetration);
-        if self.gap.is_nan() {
-            f64::NAN
-        } else if largest == 0.0 {
-            0.0
-        } else {
-            largest / self.deflection
-        }
-    }
-}
-
 pub(super) struct Iteration<'a> {
     convolution: &'a Convolution,
     separation: &'a [f64],
@@ -95,13 +69,12 @@ impl<'a> Iteration<'a> {
     pub(super) fn new(
         (convolution, separation, control): Question<'a>,
         state: &'a mut ContactState,
-        options: &ContactOptions,
     ) -> Self {
         Self {
             convolution,
             separation,
             control,
-            tolerance: options.tolerance,
+            tolerance: 0.0,
             load: &mut state.load,
             displacement: &mut state.displacement,
             workspace: &mut state.workspace,
@@ -117,13 +90,16 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    pub(super) fn run(mut self, max_iterations: usize) -> Result<Outcome, BemError> {
+    pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Outcome, BemError> {
         self.start();
         let mut iterations = 0;
         loop {
             self.find_depth();
             let violations = self.measure();
             let residual = violations.relative();
+            if iterations == 0 {
+                self.tolerance = accuracy.target(residual);
+            }
             if residual <= self.tolerance && violations.tension <= 0.0 {
                 if self.fresh {
                     return Ok(self.outcome(iterations, &violations));
@@ -132,7 +108,7 @@ impl<'a> Iteration<'a> {
                 continue;
             }
             // Where numbers overflow there is no way on.
-            if iterations >= max_iterations || residual.is_nan() {
+            if iterations >= accuracy.max_iterations || residual.is_nan() {
                 let residual = Some(residual).filter(|residual| !residual.is_nan());
                 return Err(BemError::ContactNotConverged {
                     iterations,
@@ -152,7 +128,7 @@ impl<'a> Iteration<'a> {
     fn outcome(&self, iterations: usize, violations: &Violations) -> Outcome {
         Outcome {
             indentation_depth: self.indentation_depth,
-            total_load: self.load.iter().sum(),
+            total_load: self.total_load(),
             iterations,
             deflection: violations.deflection,
             residual: violations.relative(),
@@ -167,22 +143,27 @@ impl<'a> Iteration<'a> {
             Control::IndentationDepth(depth) => (depth, 0.0),
         };
         let vanishes = self.control == Control::NormalForce(0.0);
-        for (load, separation) in self.load.iter_mut().zip(self.separation) {
-            let guessed = *load > 0.0 && separation.is_finite();
-            *load = if guessed { *load } else { 0.0 };
-        }
-        let (load, separation) = (&*self.load, self.separation);
         let fields = &mut *self.fields;
+        let (separation, bands) = (self.separation, fields.contact.bands());
+        let cleared = [&mut *self.load, &mut fields.residual, &mut fields.direction];
+        bands.for_each(cleared, |band, [load, residual, direction]| {
+            residual.fill(0.0);
+            direction.fill(0.0);
+            for (load, separation) in load.iter_mut().zip(&separation[bands.elements(band)]) {
+                let guessed = *load > 0.0 && separation.is_finite();
+                *load = if guessed { *load } else { 0.0 };
+            }
+        });
+        let load = &*self.load;
         fields.contact.assign(|element| {
             !vanishes && (load[element] > 0.0 || (!loaded && separation[element] < below))
         });
         if !loaded {
-            for element in fields.contact.elements() {
-                self.load[element] = uniform;
+            for (element, load) in self.load.iter_mut().enumerate() {
+                let inside = fields.contact.contains(element);
+                *load = if inside { uniform } else { 0.0 };
             }
         }
-        fields.residual.fill(0.0);
-        fields.direction.fill(0.0);
         self.match_force();
         self.refresh();
     }
@@ -192,11 +173,19 @@ impl<'a> Iteration<'a> {
         let Control::NormalForce(total) = self.control else {
             return;
         };
-        let sum: f64 = self.load.iter().sum();
-        for load in &mut *self.load {
-            // Multiplied last, because the quotient of extreme forces may overflow.
-            *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-        }
+        let sum = self.total_load();
+        let bands = self.fields.contact.bands();
+        bands.for_each([&mut *self.load], |_, [load]| {
+            for load in load {
+                // Multiplied last, because the quotient of extreme forces may overflow.
+                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+            }
+        });
+    }
+
+    fn total_load(&self) -> f64 {
+        let bands = self.fields.contact.bands();
+        bands.sum(|band| self.load[bands.elements(band)].iter().sum())
     }
 
     /// Computes the displacement from the load.
@@ -212,7 +201,6 @@ impl<'a> Iteration<'a> {
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
     fn find_depth(&mut self) {
         let contact = &self.fields.contact;
-        let height = |element: usize| self.separation[element] + self.displacement[element];
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) if contact.len() == 0 => {
@@ -220,9 +208,10 @@ impl<'a> Iteration<'a> {
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
+                let height = |element: usize| self.separation[element] + self.displacement[element];
                 let mean_above = |level: f64| {
-                    let heights = contact.elements().map(|element| height(element) - level);
-                    heights.sum::<f64>() / contact.len() as f64
+                    let sum = contact.sum(|run| run.map(|element| height(element) - level).sum());
+                    sum / contact.len() as f64
                 };
                 // Again from the first mean, because no direction removes what the long sum has rounded.
                 let mean = mean_above(0.0);
@@ -231,43 +220,15 @@ impl<'a> Iteration<'a> {
         };
     }
 
-    /// Stores the residual of the linear equations, the gap in the contact, and finds what is violated.
     fn measure(&mut self) -> Violations {
-        let unit = self.convolution.self_influence();
-        let mut found = Violations::default();
-        let mut not_a_number = false;
-        let Fields {
-            contact, residual, ..
-        } = &mut *self.fields;
-        contact.elements().for_each(|element| {
-            let (load, displacement) = (self.load[element], self.displacement[element]);
-            let gap = self.separation[element] + displacement - self.indentation_depth;
-            not_a_number |= gap.is_nan();
-            residual[element] = -gap;
-            found.gap = larger(found.gap, gap.abs());
-            found.tension = larger(found.tension, -load * unit);
-            found.deflection = larger(found.deflection, larger(displacement, load * unit));
-        });
-        if not_a_number {
-            found.gap = f64::NAN;
-        }
-        found.penetration = larger(0.0, self.indentation_depth - self.lowest_outside());
-        found
-    }
-
-    fn lowest_outside(&self) -> f64 {
-        let ranges = self.fields.contact.outside();
-        let lowest = ranges
-            .map(|range| lowest_sum(&self.separation[range.clone()], &self.displacement[range]));
-        lowest.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Whether the element is under tension, or outside and below the height at which it penetrates.
-    fn is_wrong(&self, element: usize, lowest: f64) -> bool {
-        if self.fields.contact.contains(element) {
-            return self.load[element] < 0.0;
-        }
-        self.separation[element] + self.displacement[element] < lowest
+        let surface = Surface {
+            separation: self.separation,
+            displacement: self.displacement,
+            load: self.load,
+            indentation_depth: self.indentation_depth,
+            self_influence: self.convolution.self_influence(),
+        };
+        surface.measure(&self.fields.contact, &mut self.fields.residual)
     }
 
     fn set_is_due(&self, violations: &Violations) -> bool {
@@ -282,28 +243,51 @@ impl<'a> Iteration<'a> {
 
     fn change_contact(&mut self, violations: &Violations) {
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
-        let is_wrong = |&element: &usize| self.is_wrong(element, lowest);
-        let n_wrong = (0..self.load.len()).filter(is_wrong).count();
+        let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
+        // Under tension, or outside and below the height at which it penetrates.
+        let is_wrong = |element: usize, inside: bool| {
+            if inside {
+                load[element] < 0.0
+            } else {
+                separation[element] + displacement[element] < lowest
+            }
+        };
+        let contact = &mut self.fields.contact;
+        let (n_wrong, last) = contact.find_last(is_wrong);
         if n_wrong < self.fewest_wrong {
             self.fewest_wrong = n_wrong;
             self.patience = PATIENCE;
         } else {
             self.patience = self.patience.saturating_sub(1);
         }
-        let mut left = if self.patience == 0 { 1 } else { n_wrong };
-        for element in (0..self.load.len()).rev() {
-            if left > 0 && self.is_wrong(element, lowest) {
-                left -= 1;
-                let fields = &mut *self.fields;
-                fields.contact.flip(element);
-                (fields.residual[element], fields.direction[element]) = (0.0, 0.0);
-                self.load[element] = 0.0;
-            }
-        }
+        let first = if self.patience == 0 { last } else { 0 };
+        contact.change(|element, inside| element >= first && is_wrong(element, inside));
+        self.unload_left();
         self.fields.contact.find_runs();
         self.improved = false;
         self.match_force();
         self.refresh();
+    }
+
+    /// Clears what has just left the contact, while the runs are still those before.
+    fn unload_left(&mut self) {
+        let Fields {
+            contact,
+            residual,
+            direction,
+            ..
+        } = &mut *self.fields;
+        let bands = contact.bands();
+        bands.for_each([&mut *self.load, residual, direction], |band, fields| {
+            let first = bands.elements(band).start;
+            for field in fields {
+                for element in contact.runs(band).iter().flat_map(Clone::clone) {
+                    if !contact.contains(element) {
+                        field[element - first] = 0.0;
+                    }
+                }
+            }
+        });
     }
 
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.
@@ -318,19 +302,24 @@ impl<'a> Iteration<'a> {
         } = &mut *self.fields;
         self.convolution
             .apply(self.workspace, (direction, 0..rows), (image, 0..rows));
-        let energy: f64 = contact.elements().map(|k| direction[k] * image[k]).sum();
+        let (direction, image) = (&*direction, &*image);
+        let energy = contact.sum(|run| dot(&direction[run.clone()], &image[run]));
         // The load of a single element has nowhere to go.
         let length = if energy == 0.0 {
             0.0
         } else {
             self.previous_product / energy
         };
-        contact
-            .elements()
-            .for_each(|k| self.load[k] += length * direction[k]);
-        for (displacement, image) in self.displacement.iter_mut().zip(&*image) {
-            *displacement += length * image;
-        }
+        let bands = contact.bands();
+        let fields = [&mut *self.load, &mut *self.displacement];
+        bands.for_each(fields, |band, [load, displacement]| {
+            let elements = bands.elements(band);
+            for run in contact.runs(band) {
+                let local = run.start - elements.start..run.end - elements.start;
+                add(&mut load[local], length, &direction[run.clone()]);
+            }
+            add(displacement, length, &image[elements]);
+        });
         self.fresh = false;
         self.improved = true;
     }
@@ -344,47 +333,44 @@ impl<'a> Iteration<'a> {
             image: preconditioned,
         } = &mut *self.fields;
         preconditioner.apply(contact, residual, preconditioned);
+        let (residual, preconditioned) = (&*residual, &*preconditioned);
         let mean = match self.control {
             Control::NormalForce(_) => {
-                contact.elements().map(|k| preconditioned[k]).sum::<f64>() / contact.len() as f64
+                contact.sum(|run| preconditioned[run].iter().sum()) / contact.len() as f64
             }
             Control::IndentationDepth(_) => 0.0,
         };
         let work = |k: usize| residual[k] * (preconditioned[k] - mean);
-        let product: f64 = contact.elements().map(work).sum();
+        let product = contact.sum(|run| run.map(work).sum());
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
             0.0
         };
-        contact.elements().for_each(|k| {
-            direction[k] = preconditioned[k] - mean + conjugation * direction[k];
+        let bands = contact.bands();
+        bands.for_each([direction], |band, [direction]| {
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                let local = run.start - first..run.end - first;
+                for (direction, value) in direction[local]
+                    .iter_mut()
+                    .zip(&preconditioned[run.clone()])
+                {
+                    *direction = value - mean + conjugation * *direction;
+                }
+            }
         });
         self.previous_product = product;
     }
 }
 
-/// The larger of two numbers of which none is NaN; faster than `f64::max`.
-fn larger(left: f64, right: f64) -> f64 {
-    if left > right { left } else { right }
+fn dot(left: &[f64], right: &[f64]) -> f64 {
+    left.iter().zip(right).map(|(a, b)| a * b).sum()
 }
 
-/// The lowest sum of two heights each; several at a time, because one comparison would wait for the other.
-fn lowest_sum(left: &[f64], right: &[f64]) -> f64 {
-    const LANES: usize = 8;
-    let (left, left_rest) = left.as_chunks::<LANES>();
-    let (right, right_rest) = right.as_chunks::<LANES>();
-    let mut lowest = [f64::INFINITY; LANES];
-    for (left, right) in left.iter().zip(right) {
-        for lane in 0..LANES {
-            let sum = left[lane] + right[lane];
-            lowest[lane] = if sum < lowest[lane] {
-                sum
-            } else {
-                lowest[lane]
-            };
-        }
+/// Adds a multiple.
+fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
     }
-    let rest = left_rest.iter().zip(right_rest).map(|(a, b)| a + b);
-    lowest.into_iter().chain(rest).fold(f64::INFINITY, f64::min)
 }

@@ -8,6 +8,7 @@
 //! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
+mod accuracy;
 mod coarser;
 mod contact_box;
 mod contact_set;
@@ -15,11 +16,13 @@ mod iteration;
 mod preconditioner;
 mod solve;
 mod state;
+mod violations;
 
 use std::f64::consts::PI;
 
 use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
+use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
 pub(crate) use solve::{Outcome, Question, solve_normalised};
 pub use state::ContactState;
@@ -112,7 +115,7 @@ pub fn solve_contact(
     };
     state.scale_load(load_per_pressure);
     let question = (problem.convolution, problem.separation, control);
-    let outcome = solve_normalised(question, state, options);
+    let outcome = solve_normalised(question, state, &options.into());
     state.scale_load(1.0 / load_per_pressure);
     state.list_contact();
     let outcome = outcome?;

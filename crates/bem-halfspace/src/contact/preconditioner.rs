@@ -10,6 +10,7 @@
 //! and on blocks of two by two elements, where a convolution costs a quarter and needs no padding, what is missing to
 //! `|q|` for the long waves. Restricted to the contact it remains positive definite, as conjugate gradients need it.
 
+use crate::bands::fold_parts;
 use crate::contact::contact_set::ContactSet;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
@@ -49,28 +50,44 @@ impl Preconditioner {
 
     /// Applies the inverse to a residual that vanishes outside the contact; the result is set in the contact only.
     pub(super) fn apply(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
+        self.find_means(contact, residual);
         let [block_rows, block_columns] = self.blocks.grid().shape();
-        self.means.fill(0.0);
-        for run in contact.runs() {
-            let (row, column) = (run.start / self.shape[1], run.start % self.shape[1]);
-            let means = &mut self.means[row / 2 * block_columns..];
-            for (column, value) in (column..).zip(&residual[run.clone()]) {
-                means[column / 2] += 0.25 * value;
-            }
-        }
         self.blocks.apply(
             &mut self.workspace,
             (&self.means, 0..block_rows),
             (&mut self.images, 0..block_rows),
         );
-        for run in contact.runs() {
-            let (row, column) = (run.start / self.shape[1], run.start % self.shape[1]);
-            let images = &self.images[row / 2 * block_columns..];
-            for (column, element) in (column..).zip(run.clone()) {
-                let differences = self.differences(residual, element, [row, column]);
-                result[element] = images[column / 2] + differences;
+        let bands = contact.bands();
+        let this = &*self;
+        bands.for_each([result], |band, [result]| {
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                let (row, column) = (run.start / this.shape[1], run.start % this.shape[1]);
+                let images = &this.images[row / 2 * block_columns..];
+                for (column, element) in (column..).zip(run.clone()) {
+                    let differences = this.differences(residual, element, [row, column]);
+                    result[element - first] = images[column / 2] + differences;
+                }
             }
-        }
+        });
+    }
+
+    fn find_means(&mut self, contact: &ContactSet, residual: &[f64]) {
+        let (bands, columns) = (contact.bands(), self.shape[1]);
+        let block_columns = self.blocks.grid().shape()[1];
+        let blocks_per_band = bands.rows_per_band() / 2 * block_columns;
+        let in_band = |band, [means]: [&mut [f64]; 1]| {
+            means.fill(0.0);
+            for run in contact.runs(band) {
+                let (row, column) = (run.start / columns, run.start % columns);
+                let means = &mut means[(row - bands.rows(band).start) / 2 * block_columns..];
+                for (column, value) in (column..).zip(&residual[run.clone()]) {
+                    means[column / 2] += 0.25 * value;
+                }
+            }
+        };
+        let means = [(&mut self.means[..], blocks_per_band)];
+        fold_parts(0..bands.n_bands(), means, &in_band, &|(), ()| ());
     }
 
     fn differences(&self, residual: &[f64], element: usize, [row, column]: [usize; 2]) -> f64 {

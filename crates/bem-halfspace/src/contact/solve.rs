@@ -4,7 +4,7 @@ use crate::bounds::Bounds;
 use crate::contact::coarser::start_from_coarser;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::iteration::Iteration;
-use crate::contact::{ContactOptions, ContactState, Control};
+use crate::contact::{Accuracy, ContactState, Control};
 use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 
@@ -30,19 +30,15 @@ const LARGEST_BOX: f64 = 0.6;
 pub(crate) fn solve_normalised(
     question: Question,
     state: &mut ContactState,
-    options: &ContactOptions,
+    accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     if state.load.iter().all(|load| *load <= 0.0) {
         start_from_coarser(question, state);
     }
-    let columns = question.0.grid().shape()[1];
-    let loaded = state
-        .load
-        .iter()
-        .enumerate()
-        .filter(|(_, load)| **load > 0.0);
-    let bounds = Bounds::of(loaded.map(|(index, _)| [index / columns, index % columns]));
-    solve_around(bounds, question, state, options)
+    let load = &state.load;
+    let shape = question.0.grid().shape();
+    let bounds = Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
+    solve_around(bounds, question, state, accuracy)
 }
 
 /// Iterates on a box around the bounds if that pays, else on the whole grid.
@@ -50,7 +46,7 @@ fn solve_around(
     bounds: Option<Bounds>,
     question: Question,
     state: &mut ContactState,
-    options: &ContactOptions,
+    accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     let (convolution, ..) = question;
     let grid = convolution.grid();
@@ -60,18 +56,18 @@ fn solve_around(
     };
     let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape()));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(pays)) else {
-        return Iteration::new(question, state, options).run(options.max_iterations);
+        return Iteration::new(question, state).run(accuracy);
     };
     let mut inner = match state.inner.take() {
         Some(inner) if suits(&inner, &bounds, &outer) => inner,
         _ => Box::new(ContactBox::new(outer, grid.spacing())?),
     };
     inner.take_from((question.1, &state.load), grid.shape()[1]);
-    let outcome = inner.solve(question.2, options);
+    let outcome = inner.solve_to(question.2, accuracy);
     inner.give_to(&mut state.load, grid.shape()[1]);
     let solved = inner.bounds;
     state.inner = Some(inner);
-    check_around(&solved, question, (state, outcome?), options)
+    check_around(&solved, question, (state, outcome?), accuracy)
 }
 
 /// Whether a box can serve again: the bounds are inside, and it is not much larger than a new one.
@@ -84,7 +80,7 @@ fn check_around(
     solved: &Bounds,
     question: Question,
     (state, outcome): (&mut ContactState, Outcome),
-    options: &ContactOptions,
+    accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     let (convolution, separation, _) = question;
     let [rows, columns] = convolution.grid().shape();
@@ -93,20 +89,18 @@ fn check_around(
         (&state.load, solved.rows()),
         (&mut state.displacement, 0..rows),
     );
-    let mut bounds = *solved;
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.
-    let highest = outcome.indentation_depth - 2.0 * options.tolerance * outcome.deflection;
-    let heights = separation.iter().zip(&state.displacement).enumerate();
-    for (index, (separation, displacement)) in heights {
-        let element = [index / columns, index % columns];
-        if separation + displacement < highest && !solved.contains(element) {
-            bounds.include(element);
-        }
-    }
-    if bounds == *solved {
+    let highest = outcome.indentation_depth - 2.0 * accuracy.tolerance * outcome.deflection;
+    let displacement = &state.displacement;
+    let penetrates = |element: [usize; 2]| {
+        let index = element[0] * columns + element[1];
+        separation[index] + displacement[index] < highest && !solved.contains(element)
+    };
+    let Some(outside) = Bounds::of_field([rows, columns], penetrates) else {
         return Ok(outcome);
-    }
-    let again = solve_around(Some(bounds), question, state, options)?;
+    };
+    let bounds = solved.union(&outside);
+    let again = solve_around(Some(bounds), question, state, accuracy)?;
     let iterations = outcome.iterations + again.iterations;
     Ok(Outcome {
         iterations,

@@ -69,7 +69,7 @@ impl Convolution {
 
     /// A convolution on the blocks of two by two elements of a grid that multiplies a wave by the `symbol` of its wave
     /// vector \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
-    pub(crate) fn on_blocks(grid: &Grid, symbol: impl Fn([f64; 2]) -> f64) -> Self {
+    pub(crate) fn on_blocks(grid: &Grid, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
         let blocks = grid.blocks();
         let padded = blocks.shape().map(fast_length);
         let mut convolution = Self::planned(&blocks, Surroundings::Periodic, padded);

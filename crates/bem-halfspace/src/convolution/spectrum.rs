@@ -4,26 +4,30 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::bands::fold_parts;
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 
 impl Convolution {
-    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
-        let column = |column: usize| {
-            let (symbol, q_y) = (&symbol, column as f64 * unit_y);
-            (0..=self.transform.padded()[0] / 2)
-                .map(move |row| symbol([row as f64 * unit_x, q_y]) * normalisation)
-        };
-        (0..self.transform.n_columns()).flat_map(column).collect()
+        let length = self.transform.padded()[0] / 2 + 1;
+        let mut spectrum = vec![0.0; self.transform.n_columns() * length];
+        for_each_group(&mut spectrum, length, |first, group| {
+            for (column, values) in (first..).zip(group.chunks_exact_mut(length)) {
+                let q_y = column as f64 * unit_y;
+                for (row, value) in values.iter_mut().enumerate() {
+                    *value = symbol([row as f64 * unit_x, q_y]) * normalisation;
+                }
+            }
+        });
+        spectrum
     }
 
     /// Wave numbers of the longest waves along x and y, \[rad/m].
     fn wave_numbers(&self) -> [f64; 2] {
-        [0, 1].map(|axis| {
-            2.0 * PI / (self.transform.padded()[axis] as f64 * self.grid.spacing()[axis])
-        })
+        [0, 1].map(|axis| 2.0 * PI / (self.transform.padded()[axis] as f64 * self.grid.spacing()[axis]))
     }
 
     /// Spectrum of waves on an infinite half space, without their mean.
@@ -35,7 +39,7 @@ impl Convolution {
     }
 
     /// Spectrum of a symbol where that is positive, for the mean that of the longest wave.
-    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    pub(super) fn positive_spectrum(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let longest = if unit_x < unit_y {
             [unit_x, 0.0]
@@ -74,48 +78,76 @@ impl Convolution {
     /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
         let rows = self.transformed_kernel_rows();
-        let [length, half] = [self.transform.padded()[0], self.transform.padded()[0] / 2];
-        let mut values = vec![ZERO; length];
-        let mut spectrum = vec![0.0; self.transform.n_columns() * (half + 1)];
-        let normalisation = self.transform.normalisation();
-        for (pair, spectrum) in spectrum.chunks_mut(2 * (half + 1)).enumerate() {
-            values.fill(ZERO);
-            for (row, transformed) in rows.chunks_exact(self.transform.n_columns()).enumerate() {
-                let second = transformed.get(2 * pair + 1).copied();
-                let value = Complex::new(transformed[2 * pair], second.map_or(0.0, |value| value));
-                values[row] = value;
-                values[(length - row) % length] = value;
+        let length = self.transform.padded()[0] / 2 + 1;
+        let mut spectrum = vec![0.0; self.transform.n_columns() * length];
+        for_each_group(&mut spectrum, length, |first, group| {
+            let mut values = vec![ZERO; self.transform.padded()[0]];
+            for (pair, spectrum) in group.chunks_mut(2 * length).enumerate() {
+                self.gather_kernel_columns(&rows, first + 2 * pair, &mut values);
+                self.transform.column_forward(&mut values);
+                self.separate(&values, spectrum);
             }
-            self.transform.column_forward(&mut values);
-            let (first, second) = spectrum.split_at_mut(half + 1);
-            for (spectrum, value) in first.iter_mut().zip(&values) {
-                *spectrum = value.re * normalisation;
-            }
-            for (spectrum, value) in second.iter_mut().zip(&values) {
-                *spectrum = value.im * normalisation;
-            }
-        }
+        });
         spectrum
+    }
+
+    /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
+    fn gather_kernel_columns(&self, rows: &[f64], column: usize, values: &mut [Complex<f64>]) {
+        values.fill(ZERO);
+        for (row, transformed) in rows.chunks_exact(self.transform.n_columns()).enumerate() {
+            let second = transformed.get(column + 1).copied();
+            let value = Complex::new(transformed[column], second.map_or(0.0, |value| value));
+            values[row] = value;
+            values[(self.transform.padded()[0] - row) % self.transform.padded()[0]] = value;
+        }
+    }
+
+    fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
+        let normalisation = self.transform.normalisation();
+        let (first, second) = spectrum.split_at_mut(self.transform.padded()[0] / 2 + 1);
+        for (spectrum, value) in first.iter_mut().zip(values) {
+            *spectrum = value.re * normalisation;
+        }
+        for (spectrum, value) in second.iter_mut().zip(values) {
+            *spectrum = value.im * normalisation;
+        }
     }
 
     /// Transforms of the kernel along y, [offset along x][column]; the kernel is even, so they are real.
     fn transformed_kernel_rows(&self) -> Vec<f64> {
-        let [n_x, n_y] = self.grid.shape();
-        let [dx, dy] = self.grid.spacing();
-        let mut values = vec![0.0; self.transform.padded()[1]];
-        let mut transformed = vec![ZERO; self.transform.n_columns()];
-        let mut rows = Vec::with_capacity(n_x * self.transform.n_columns());
-        for row in 0..n_x {
-            values.fill(0.0);
-            for column in 0..n_y {
-                let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
-                values[column] = coefficient;
-                values[(self.transform.padded()[1] - column) % self.transform.padded()[1]] =
-                    coefficient;
+        let n_columns = self.transform.n_columns();
+        let mut rows = vec![0.0; self.grid.shape()[0] * n_columns];
+        for_each_group(&mut rows, n_columns, |first, group| {
+            let mut values = vec![0.0; self.transform.padded()[1]];
+            let mut transformed = vec![ZERO; n_columns];
+            for (row, result) in (first..).zip(group.chunks_exact_mut(n_columns)) {
+                self.fill_kernel_row(row, &mut values);
+                self.transform.transform_row(&mut values, &mut transformed);
+                for (result, value) in result.iter_mut().zip(&transformed) {
+                    *result = value.re;
+                }
             }
-            self.transform.transform_row(&mut values, &mut transformed);
-            rows.extend(transformed.iter().map(|value| value.re));
-        }
+        });
         rows
     }
+
+    fn fill_kernel_row(&self, row: usize, values: &mut [f64]) {
+        let [dx, dy] = self.grid.spacing();
+        values.fill(0.0);
+        for column in 0..self.grid.shape()[1] {
+            let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
+            values[column] = coefficient;
+            values[(self.transform.padded()[1] - column) % self.transform.padded()[1]] = coefficient;
+        }
+    }
+}
+
+/// Rows that share their buffers; an even number, because columns pass in pairs.
+const GROUP: usize = 16;
+
+/// Does the work on groups of rows of so many values side by side; `work` gets the number of the first row.
+fn for_each_group(values: &mut [f64], length: usize, work: impl Fn(usize, &mut [f64]) + Sync) {
+    let groups = 0..values.len().div_ceil(GROUP * length);
+    let in_group = |group, [values]: [&mut [f64]; 1]| work(group * GROUP, values);
+    fold_parts(groups, [(values, GROUP * length)], &in_group, &|(), ()| ());
 }

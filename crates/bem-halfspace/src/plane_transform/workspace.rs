@@ -6,6 +6,7 @@ use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, Parall
 use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
+use crate::bands::copies;
 use crate::plane_transform::{PlaneTransform, TILE, ZERO};
 
 /// Below this many elements threads cost more than they gain.
@@ -39,8 +40,8 @@ impl Workspace {
     pub(crate) fn new(transform: &PlaneTransform, shape: [usize; 2]) -> Self {
         Self {
             shape,
-            rows: vec![ZERO; shape[0] * transform.n_columns()],
-            tiles: vec![[ZERO; TILE]; shape[0] * transform.n_tiles()],
+            rows: copies(ZERO, shape[0] * transform.n_columns()),
+            tiles: copies([ZERO; TILE], shape[0] * transform.n_tiles()),
             lanes: (0..n_lanes(shape[0] * shape[1]))
                 .map(|_| Lane::new(transform))
                 .collect(),

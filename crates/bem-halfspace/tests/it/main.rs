@@ -1,7 +1,10 @@
 //! The claims of the crate, one file each.
 
+mod allocations;
 mod apex_similarity;
+mod axisymmetric_contact;
 mod bad_input;
+mod contact_identities;
 mod contact_limits;
 mod convolution_is_the_sum;
 mod dense_reference;

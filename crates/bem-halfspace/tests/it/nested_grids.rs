@@ -35,7 +35,7 @@ fn solve(
 
 #[test]
 fn iterations_hardly_depend_on_the_grid() {
-    let iterations = [64, 128, 256, 512].map(|n| {
+    let iterations = [128, 256, 512, 1024].map(|n| {
         let (convolution, heights) = hertz(n);
         let mut state = ContactState::new(&convolution);
         let force = Control::NormalForce(0.036);
@@ -45,8 +45,10 @@ fn iterations_hardly_depend_on_the_grid() {
         assert!(error < 4.0 / (n * n) as f64, "{n}: {contact:?}");
         contact.iterations
     });
+    // Guesses that end at one residual on all grids fail here: with them it is 14, 14, 17, 20.
+    let [coarse, .., fine] = iterations;
     assert!(
-        2 * iterations[3] <= 3 * iterations[1] && iterations[3] <= 25,
+        4 * fine <= 5 * coarse && fine <= 20,
         "iterations {iterations:?}"
     );
 }

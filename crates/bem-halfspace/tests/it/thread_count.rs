@@ -9,7 +9,7 @@ use rayon::ThreadPoolBuilder;
 use crate::support::Scene;
 
 #[test]
-fn one_and_three_threads_agree_to_the_last_bit() {
+fn one_two_and_three_threads_agree_to_the_last_bit() {
     let n = 200;
     let height = |index: usize| {
         let [x, y] = [(index / n) as f64 - 90.3, (index % n) as f64 - 110.8];
@@ -30,7 +30,8 @@ fn one_and_three_threads_agree_to_the_last_bit() {
             let contact = solve_contact(&problem, &mut state, &ContactOptions::default());
             (contact.expect("a contact"), state.pressure().to_vec())
         };
-        let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
+        let [one, two, three] = [1, 2, 3].map(|threads| on_threads(threads, solve));
+        assert_eq!(one, two, "the same contact on one and two threads");
         assert_eq!(one, three, "the same contact on one and three threads");
     }
 }

@@ -1,0 +1,69 @@
+//! Neither an iteration nor a whole solve allocates where the state is kept.
+
+use allocation_counter::measure;
+use bem_halfspace::{
+    BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
+
+const EDGE: usize = 96;
+
+/// A paraboloid with ripples, under whose load the contact changes often before it is found.
+fn heights() -> Vec<f64> {
+    let height = |index: usize| {
+        let [x, y] = [(index / EDGE) as f64 - 45.3, (index % EDGE) as f64 - 50.8];
+        0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).sin() * (0.7 * y).cos()
+    };
+    (0..EDGE * EDGE).map(height).collect()
+}
+
+/// Solves from the pressure 1 on some rows in at most so many iterations.
+fn solve(
+    problem: &ContactProblem,
+    state: &mut ContactState,
+    max_iterations: usize,
+) -> Result<Contact, BemError> {
+    state.pressure_mut().fill(0.0);
+    state.pressure_mut()[35 * EDGE..55 * EDGE].fill(1.0);
+    let options = ContactOptions {
+        tolerance: 1e-10,
+        max_iterations,
+    };
+    solve_contact(problem, state, &options)
+}
+
+fn solves_without_allocation() {
+    let grid = Grid::new([EDGE, EDGE], [1.0, 1.0]).expect("a valid grid");
+    for new in [Convolution::new, Convolution::periodic] {
+        let convolution = new(&grid);
+        let problem = ContactProblem {
+            convolution: &convolution,
+            separation: &heights(),
+            compliance: 1.0,
+            control: Control::NormalForce(2000.0),
+        };
+        let mut state = ContactState::new(&convolution);
+        for limit in [4, 500] {
+            let first = solve(&problem, &mut state, limit);
+            let mut again = None;
+            let counted = measure(|| again = Some(solve(&problem, &mut state, limit)));
+            assert_eq!(again.as_ref(), Some(&first), "at most {limit} iterations");
+            assert_eq!(first.is_ok(), limit == 500, "iterations of {first:?}");
+            assert_eq!(counted.count_total, 0, "{counted:?} in {first:?}");
+        }
+    }
+}
+
+#[cfg(not(feature = "rayon"))]
+#[test]
+fn a_solve_with_a_kept_state_does_not_allocate() {
+    solves_without_allocation();
+}
+
+/// On the thread of a pool, because handing work to a pool allocates there.
+#[cfg(feature = "rayon")]
+#[test]
+fn a_solve_with_a_kept_state_does_not_allocate() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a pool").install(solves_without_allocation);
+}
