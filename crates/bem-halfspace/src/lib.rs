@@ -42,8 +42,10 @@ mod grid;
 pub mod indent;
 mod influence;
 mod rectangle;
+mod resolution;
 pub mod slide;
 pub mod steady;
+mod stepping;
 
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Control, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};
@@ -51,3 +53,4 @@ pub use error::BemError;
 pub use footprint::Footprint;
 pub use grid::Grid;
 pub use influence::influence;
+pub use resolution::Resolution;
