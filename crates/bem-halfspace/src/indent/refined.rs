@@ -3,7 +3,7 @@
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
 use indenters::Surface;
-use rheology::Material;
+use rheology::{CreepSpectrum, Material};
 
 use super::{IndentOptions, IndentRow, IndentStep, indent_history};
 use crate::error::{below_one, positive};
@@ -34,7 +34,8 @@ impl Default for TimeOptions {
 pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
     pub rows: Vec<IndentRow>,
-    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history.
+    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the last
+    /// change by halving them, or what elements may do that yield within a step.
     pub time_error: f64,
     /// Steps made between two rows.
     pub steps_per_row: usize,
@@ -113,6 +114,7 @@ pub fn indent_history_refined(
         let rows = indent_history(surface, material, &steps, options)?;
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
+    let creep = material.creep();
     let mut coarse = run(1)?;
     let mut before: Option<Vec<IndentRow>> = None;
     let (mut n, mut error) = (1, 1.0);
@@ -121,6 +123,7 @@ pub fn indent_history_refined(
         let fine = run(n)?;
         let rows = extrapolated(&coarse, &fine);
         error = before.map_or(1.0, |before| difference(&before, &rows));
+        error = error.max(unresolved(&creep, times, n)?);
         if error <= time_options.relative_error {
             return Ok(IndentHistory {
                 rows,
@@ -167,6 +170,24 @@ fn extrapolated(coarse: &[IndentRow], fine: &[IndentRow]) -> Vec<IndentRow> {
         ..*fine
     };
     coarse.iter().zip(fine).map(row).collect()
+}
+
+/// What elements may do that yield faster than a step: their time relative to that between two rows, by their part of
+/// the compliance. No comparison of steps that are all longer would show it.
+fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
+    let starts = std::iter::once(0.0).chain(times.iter().copied());
+    let mut largest = 0.0_f64;
+    for (start, end) in starts.zip(times) {
+        let interval = end - start;
+        let compliance = creep.creep_compliance(interval)?;
+        for element in creep.elements() {
+            if element.retardation_time * (n as f64) < interval {
+                let part = element.compliance / compliance;
+                largest = largest.max(part * (element.retardation_time / interval));
+            }
+        }
+    }
+    Ok(largest)
 }
 
 /// Largest difference of force and depth relative to the largest of each.

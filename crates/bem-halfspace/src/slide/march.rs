@@ -93,7 +93,7 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let Some(instant) = self.stepping.advance()? else {
             return Ok(None);
         };
-        let slopes = Slopes::over(self.surface, &self.stepping, &instant.leg)?;
+        let slopes = Slopes::over(self.surface, &self.stepping, &instant)?;
         self.largest_rise = slopes.largest * self.stepping.resolution.spacing[0];
         self.steepness = slopes.steepness;
         Ok(Some(self.row(&instant, &slopes)))

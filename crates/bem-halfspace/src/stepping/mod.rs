@@ -132,11 +132,6 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         self.window.n_elements()
     }
 
-    /// Part of the compliance of the last step that is there at once.
-    pub(crate) fn elastic_share(&self) -> f64 {
-        self.material.creep.instantaneous_compliance() / self.step.response()
-    }
-
     /// Elements with load in the last step, and their loads, of which only the ratios matter.
     pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         self.contact_box.loaded_elements()
@@ -257,9 +252,8 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
     fn set_separation(&mut self, first_row: usize) {
         self.window
             .history(&self.step, first_row, &mut self.separation);
-        let factor = self.material.factor;
         for (separation, height) in self.separation.iter_mut().zip(&self.heights) {
-            *separation = height + factor * *separation;
+            *separation += height;
         }
     }
 

@@ -1,7 +1,7 @@
 //! The elements that the footprint passes, and what they remember.
 //!
 //! ```text
-//! u = history + α K P / (4π)        at the end of a step
+//! u = history + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
 //! ```
 //! Every element keeps one number per retardation element of the material, and one for free flow. A material that
 //! remembers nothing needs no more elements than the footprint has.
@@ -121,7 +121,7 @@ impl Window {
             .chunks_exact_mut(columns)
             .zip(self.memory[wanted.start * per_row..].chunks_exact_mut(per_row));
         for (increment, memory) in increments {
-            // From here on the load potential that caused the displacement.
+            // From here on the load potential that caused the displacement, times 2 (1 − ν).
             for value in &mut *increment {
                 *value /= compliance;
             }

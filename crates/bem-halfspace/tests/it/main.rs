@@ -1,12 +1,16 @@
 //! The claims of the crate, one file each.
 
+mod any_material_slides;
 mod apex_similarity;
+mod arbitrary_motions;
 mod bad_input;
 mod contact_limits;
 mod convolution_is_the_sum;
 mod dense_reference;
 mod elastic_contact;
+mod indentation_follows_lee_radok_and_ting;
 mod influence_coefficients;
+mod interrupted_marches;
 mod nested_grids;
 mod normal_indentation;
 mod periodic_contact;

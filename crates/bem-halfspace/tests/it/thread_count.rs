@@ -1,9 +1,14 @@
 //! Results do not depend on the number of threads, to the last bit.
 
+use bem_halfspace::Footprint;
+use bem_halfspace::slide::{SlideOptions, slide};
 use bem_halfspace::{
     ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
 };
+use indenters::{PowerProfile, SlidingLoad};
 use rayon::ThreadPoolBuilder;
+
+use crate::support::prony;
 
 #[test]
 fn one_and_three_threads_agree_to_the_last_bit() {
@@ -33,4 +38,25 @@ fn one_and_three_threads_agree_to_the_last_bit() {
         });
         assert_eq!(one, three, "the same contact on one and three threads");
     }
+}
+
+#[test]
+fn a_slide_is_the_same_on_one_and_three_threads() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    let material = prony([0.1, 0.0], &[(1.0, 1.0)]);
+    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
+    // More than the 2^13 elements for which a second thread is taken.
+    let options = SlideOptions {
+        spacing: [0.04; 2],
+        footprint: Footprint::square(1.8),
+        sliding_distance: 0.4,
+        contact: ContactOptions::default(),
+    };
+    let [one, three] = [1, 3].map(|threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let run = || slide(&body, &material, &load, &options);
+        pool.expect("a pool").install(run).expect("a transient")
+    });
+    assert!(one.n_elements > 8192, "{} elements", one.n_elements);
+    assert_eq!(one, three, "the same slide on one and three threads");
 }
