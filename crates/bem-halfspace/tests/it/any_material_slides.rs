@@ -235,8 +235,18 @@ fn a_march_stops_when_the_friction_is_stationary() {
             state.friction_coefficient
         );
     }
-    let too_short = options(0.2, 2.4, 4.0);
+}
+
+#[test]
+fn a_way_too_short_for_the_stationary_state_is_an_error() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
     let viscous = Viscous::new(1.2).expect("a material");
+    let wanted = StationaryOptions {
+        tolerance: 1e-3,
+        over_distance: 3.0,
+    };
+    let too_short = options(0.2, 2.4, 4.0);
     let result = slide_to_stationary(&body, &viscous, (&load, &too_short), &wanted);
     assert!(
         matches!(result, Err(BemError::NotStationary { drift, .. }) if drift > 1e-3),
