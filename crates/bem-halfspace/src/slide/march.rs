@@ -8,7 +8,7 @@ use rheology::Material;
 use crate::error::positive;
 use crate::grid::elements_along;
 use crate::slide::motion::{Motion, MotionRow};
-use crate::slide::slopes::Slopes;
+use crate::slide::slopes::{MeanSlopes, Slopes};
 use crate::slide::{PressureField, SlideOptions};
 use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
 use crate::{BemError, Control, Grid, Resolution};
@@ -17,8 +17,8 @@ use crate::{BemError, Control, Grid, Resolution};
 pub struct March<'scene, S: ?Sized> {
     surface: &'scene S,
     stepping: Stepping<'scene, S>,
-    largest_rise: f64,
-    steepness: f64,
+    slopes: Slopes,
+    means: MeanSlopes,
 }
 
 impl<S: ?Sized> fmt::Debug for March<'_, S> {
@@ -78,8 +78,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         Ok(Self {
             surface,
             stepping: Stepping::new(surface, material, route, resolution)?,
-            largest_rise: 0.0,
-            steepness: 0.0,
+            slopes: Slopes::default(),
+            means: MeanSlopes::default(),
         })
     }
 
@@ -93,10 +93,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let Some(instant) = self.stepping.advance()? else {
             return Ok(None);
         };
-        let slopes = Slopes::over(self.surface, &self.stepping, &instant)?;
-        self.largest_rise = slopes.largest * self.stepping.resolution.spacing[0];
-        self.steepness = slopes.steepness;
-        Ok(Some(self.row(&instant, &slopes)))
+        self.means = self.slopes.over(self.surface, &self.stepping, &instant)?;
+        Ok(Some(self.row(&instant)))
     }
 
     /// What is needed to go on from here in a later run.
@@ -152,19 +150,19 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
 
     /// Largest rise of the body over an element in contact, \[m].
     pub(super) fn largest_rise(&self) -> f64 {
-        self.largest_rise
+        self.means.largest * self.stepping.resolution.spacing[0]
     }
 
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
     pub(super) fn steepness(&self) -> f64 {
-        self.steepness
+        self.means.steepness
     }
 
     pub(super) fn half_space(&self) -> &HalfSpace {
         &self.stepping.material
     }
 
-    fn row(&self, instant: &Instant, slopes: &Slopes) -> MotionRow {
+    fn row(&self, instant: &Instant) -> MotionRow {
         let Instant { leg, bounds, .. } = instant;
         let [dx, dy] = self.stepping.resolution.spacing;
         let half = 0.5;
@@ -175,8 +173,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
             position: leg.position,
             indentation_depth: instant.indentation_depth,
             normal_force: instant.normal_force,
-            tangential_force: instant.normal_force * slopes.mean,
-            tangential_force_end_of_step: instant.normal_force * slopes.end,
+            tangential_force: instant.normal_force * self.means.met,
+            tangential_force_end_of_step: instant.normal_force * self.means.end,
             contact_area: instant.n_contact as f64 * dx * dy,
             contact_x: bounds.map(|bounds| [bounds.lower[0], bounds.upper[0]].map(x)),
             contact_y: bounds.map(|bounds| [bounds.lower[1], bounds.upper[1]].map(y)),

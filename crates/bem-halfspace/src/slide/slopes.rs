@@ -17,10 +17,10 @@ use crate::BemError;
 use crate::stepping::{Instant, Leg, Stepping};
 
 /// Slopes of the loaded elements, weighted with their pressure; zero without contact.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Slopes {
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct MeanSlopes {
     /// Mean of the slope that the pressure of the step meets: F_h / F_N.
-    pub(super) mean: f64,
+    pub(super) met: f64,
     /// Mean of ∂h/∂x at the end of the step.
     pub(super) end: f64,
     /// Mean of the modulus of the slope.
@@ -29,40 +29,80 @@ pub(super) struct Slopes {
     pub(super) largest: f64,
 }
 
+/// Slopes over the footprint, found when they are first needed.
+#[derive(Debug, Default)]
+pub(super) struct Slopes {
+    chord: Chord,
+    /// The slope that is met and that at the end of the step, per element.
+    known: Vec<Option<[f64; 2]>>,
+}
+
 impl Slopes {
-    /// Slopes over the step that has been made.
+    /// Means over the step that has been made.
     pub(super) fn over<S: Surface + ?Sized>(
+        &mut self,
         surface: &S,
         stepping: &Stepping<'_, S>,
         instant: &Instant,
-    ) -> Result<Self, BemError> {
-        let leg = &instant.leg;
-        let chord = Chord::new(elastic_share(stepping, instant)?, leg);
-        let spacing = stepping.resolution.spacing[0];
-        let (mut along, mut end, mut uphill, mut normal) = (0.0, 0.0, 0.0, 0.0);
-        let mut largest = 0.0_f64;
-        for ([row, column], load) in stepping.loaded_elements() {
-            let [here, across] = [stepping.along(row, leg.offset), stepping.across(column)];
-            let height = |place: f64| surface.height([place * spacing, across]);
-            let slope = chord.slope(here, height) / spacing;
-            let position = [here * spacing, across];
-            if !slope.is_finite() {
-                let [x, y] = position;
-                return Err(BemError::VerticalWall { x, y });
-            }
-            along += load * slope;
-            uphill += load * slope.abs();
-            end += load * checked_gradient(surface, position)?;
+    ) -> Result<MeanSlopes, BemError> {
+        self.turn_to(
+            Chord::new(elastic_share(stepping, instant)?, &instant.leg),
+            stepping.layout.shape,
+        );
+        let mut sum = MeanSlopes::default();
+        let mut normal = 0.0;
+        for (element, load) in stepping.loaded_elements() {
+            let [met, end] = self.at(surface, stepping, element)?;
+            sum.met += load * met;
+            sum.end += load * end;
+            sum.steepness += load * met.abs();
+            sum.largest = sum.largest.max(met);
             normal += load;
-            largest = largest.max(slope);
         }
-        let normal = if normal > 0.0 { normal } else { 1.0 };
-        Ok(Self {
-            mean: along / normal,
-            end: end / normal,
-            steepness: uphill / normal,
-            largest,
+        if normal == 0.0 {
+            return Ok(sum);
+        }
+        Ok(MeanSlopes {
+            met: sum.met / normal,
+            end: sum.end / normal,
+            steepness: sum.steepness / normal,
+            ..sum
         })
+    }
+
+    /// Forgets the slopes of another chord.
+    fn turn_to(&mut self, chord: Chord, [rows, columns]: [usize; 2]) {
+        if self.known.is_empty() || self.chord != chord {
+            self.chord = chord;
+            self.known.clear();
+            self.known.resize(rows * columns, None);
+        }
+    }
+
+    fn at<S: Surface + ?Sized>(
+        &mut self,
+        surface: &S,
+        stepping: &Stepping<'_, S>,
+        [row, column]: [usize; 2],
+    ) -> Result<[f64; 2], BemError> {
+        let index = row * stepping.layout.shape[1] + column;
+        if let Some(known) = self.known[index] {
+            return Ok(known);
+        }
+        let spacing = stepping.resolution.spacing[0];
+        let [here, y] = [
+            stepping.along(row, stepping.offset()),
+            stepping.across(column),
+        ];
+        let height = |place: f64| surface.height([place * spacing, y]);
+        let met = self.chord.rise(here, height) / spacing;
+        let x = here * spacing;
+        if !met.is_finite() {
+            return Err(BemError::VerticalWall { x, y });
+        }
+        let slopes = [met, checked_gradient(surface, [x, y])?];
+        self.known[index] = Some(slopes);
+        Ok(slopes)
     }
 }
 
@@ -118,8 +158,10 @@ fn langevin(y: f64) -> f64 {
 }
 
 /// A piece of the body around the place that an element meets, in elements.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Chord {
+    /// Where the elements stand under the body.
+    offset: f64,
     centre: f64,
     length: f64,
 }
@@ -128,6 +170,7 @@ impl Chord {
     fn new(elastic_share: f64, leg: &Leg) -> Self {
         let part = 0.5 * (1.0 - elastic_share);
         Self {
+            offset: leg.offset,
             centre: part * leg.advance,
             // The mean over the way of a dashpot; the element alone for a spring.
             length: (2.0 * part * leg.advance.abs()).max(1.0),
@@ -135,7 +178,7 @@ impl Chord {
     }
 
     /// Rise of the body per element.
-    fn slope(&self, here: f64, height: impl Fn(f64) -> f64) -> f64 {
+    fn rise(&self, here: f64, height: impl Fn(f64) -> f64) -> f64 {
         let centre = here + self.centre;
         let half = 0.5 * self.length;
         (height(centre + half) - height(centre - half)) / self.length

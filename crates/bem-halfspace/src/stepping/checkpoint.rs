@@ -1,5 +1,7 @@
 //! A long run in pieces.
 
+use std::ops::Range;
+
 use indenters::Surface;
 use rheology::ExponentialStep;
 
@@ -53,15 +55,17 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         self.window
             .memory_mut(memory)
             .copy_from_slice(&state.memory);
-        if let Some(last) = self.steps_done.checked_sub(1) {
-            self.time_step = self.route.legs[last].time_step;
-            self.step = ExponentialStep::creep(&self.material.creep, self.time_step)?;
-        }
-        Ok(())
+        let Some(last) = self.steps_done.checked_sub(1) else {
+            return Ok(());
+        };
+        let last = self.route.legs[last];
+        self.time_step = last.time_step;
+        self.step = ExponentialStep::creep(&self.material.creep, self.time_step)?;
+        self.sample(last.offset)
     }
 
     /// The empty box of a state, and the rows that it remembers.
-    fn check(&self, state: &MarchState) -> Result<(ContactBox, std::ops::Range<usize>), BemError> {
+    fn check(&self, state: &MarchState) -> Result<(ContactBox, Range<usize>), BemError> {
         let [lower, upper] = state.contact_box;
         let n_steps = self.route.legs.len();
         at_most("steps done", state.steps_done, n_steps)?;

@@ -55,6 +55,11 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
         assert_eq!(state.steps_done(), interruption, "steps in the state");
         let mut second = new();
         second.resume(&state).expect("a state of the same scene");
+        assert_eq!(
+            second.pressure(),
+            first.pressure(),
+            "pressure after {interruption} steps"
+        );
         rows.extend(rest(&mut second));
         assert_eq!(rows, expected, "interrupted after {interruption} steps");
     }
