@@ -1,6 +1,7 @@
 //! What can be wrong with a question to the half space, and what was reached when it could not be answered.
 
 use indenters::IndenterError;
+use rheology::RheologyError;
 use thiserror::Error;
 
 /// Why the half space gives no answer.
@@ -87,13 +88,13 @@ pub enum BemError {
     },
     /// The body rises too much over one element in contact for its mean slope to mean anything.
     #[error(
-        "the body rises by {rise} m over one element in contact, more than F_N / (4 η v) = {depth_scale} m; \
+        "the body rises by {rise} m over one element in contact, more than the depth scale {depth_scale} m; \
          take a smaller spacing"
     )]
     SlopeNotResolved {
         /// Rise over the element, \[m].
         rise: f64,
-        /// Depth scale F_N / (4 η v), \[m].
+        /// Depth scale F_N J(L/v) / (4 L) of a contact of length L, F_N / (4 η v) on a dashpot, \[m].
         depth_scale: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
@@ -111,18 +112,31 @@ pub enum BemError {
     },
     /// The friction coefficient still changes at the end of the sliding distance.
     #[error(
-        "no stationary state after sliding {sliding_distance} m: over the last half of that distance the friction \
-         coefficient changed by {drift:e} of its value {friction_coefficient}, the tolerance is {tolerance:e}"
+        "no stationary state after sliding {sliding_distance} m: the friction coefficient still changes by {drift:e} of \
+         its value {friction_coefficient}, the tolerance is {tolerance:e}"
     )]
     NotStationary {
         /// Sliding distance reached, \[m].
         sliding_distance: f64,
-        /// Relative change of the friction coefficient over the second half of the distance.
+        /// Relative change of the friction coefficient over the second half of the distance, or the distance asked for.
         drift: f64,
         /// Friction coefficient at the end.
         friction_coefficient: f64,
         /// Tolerance asked for.
         tolerance: f64,
+    },
+    /// The steps in time are too long for the error asked for.
+    #[error(
+        "with {steps} steps between two rows the error of force and depth by the steps in time is {error:e}, \
+         not {relative_error:e}"
+    )]
+    TimeNotResolved {
+        /// Steps made between two rows.
+        steps: usize,
+        /// Relative error reached.
+        error: f64,
+        /// Relative error asked for.
+        relative_error: f64,
     },
     /// The friction coefficient was not reached to the error asked for.
     #[error(
@@ -140,6 +154,9 @@ pub enum BemError {
     /// The rigid body refuses the question.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
+    /// The material refuses the question.
+    #[error(transparent)]
+    Material(#[from] RheologyError),
 }
 
 /// Checks that `value` is finite and greater than zero.

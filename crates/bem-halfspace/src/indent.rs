@@ -1,29 +1,32 @@
-//! Normal indentation under a constant force, without sliding.
+//! Normal indentation without sliding, on any linear viscoelastic half space: constant force, or any history of force
+//! or depth.
 //!
-//! While the contact grows, the impulse ∫ P dt solves the elastic contact problem at the depth of the moment (Radok
-//! 1957), on any grid and with any steps in time: only the elements cause an error.
+//! While the contact grows, w at every moment is a sum of elastic contacts at the depths so far (Lee & Radok 1960), on
+//! any grid. On a dashpot only the impulse counts, and on an elastic half space only the moment, so that steps in time
+//! cause no error; on any other material the error is of first order in their lengths, because the load of an element
+//! is held over a step.
 
-use std::collections::BTreeSet;
+mod refined;
 
 use indenters::Surface;
-use rheology::Viscous;
+use rheology::Material;
 
 use crate::error::positive;
 use crate::slide::MIN_CONTACT_ELEMENTS;
-use crate::{
-    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    solve_contact,
-};
+use crate::stepping::{Instant, Route, Stepping};
+use crate::{BemError, Control, Resolution};
+pub use refined::{IndentHistory, PiecewiseLinear, TimeOptions, indent_history_refined};
 
 /// Resolution of an indentation.
+pub type IndentOptions = Resolution;
+
+/// One step of a history; its control holds from the step before, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IndentOptions {
-    /// Edges of an element [Δx, Δy], \[m].
-    pub spacing: [f64; 2],
-    /// Where contact may occur.
-    pub footprint: Footprint,
-    /// How exactly each step is solved.
-    pub contact: ContactOptions,
+pub struct IndentStep {
+    /// Time at the end of the step, since first touch, \[s].
+    pub time: f64,
+    /// What is given there.
+    pub control: Control,
 }
 
 /// The state at one time.
@@ -34,105 +37,74 @@ pub struct IndentRow {
     pub time: f64,
     /// Depth of the lowest point, \[m].
     pub indentation_depth: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
     /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
     /// Number of elements in contact.
     pub n_contact: usize,
 }
 
-/// Presses `surface` into an undeformed viscous half space with the constant `normal_force` \[N]; returns the state at
-/// each of the `times` \[s], which must increase and be greater than zero.
+/// Presses `surface` into an undeformed half space with the constant `normal_force` \[N]; returns the state at each of
+/// the `times` \[s], one step each, which must increase and be greater than zero.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for a force or a time out of range; [`BemError::GridTooLarge`];
-/// [`BemError::GridTooCoarse`] when the contact at the end covers fewer than three elements along x or y;
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`].
+/// [`BemError::InvalidParameter`] for a force that is not positive; otherwise like [`indent_history`].
 pub fn indent(
-    surface: &impl Surface,
-    material: &Viscous,
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
     (normal_force, times): (f64, &[f64]),
     options: &IndentOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
     positive("normal_force", normal_force)?;
-    positive("number of times", times.len() as f64)?;
-    positive("spacing along x", options.spacing[0])?;
-    positive("spacing along y", options.spacing[1])?;
-    let counts = options.footprint.elements(options.spacing)?;
-    let grid = Grid::new(
-        counts.map(|[before, after]| before + after + 1),
-        options.spacing,
-    )?;
-    let convolution = Convolution::new(&grid);
-    let mut state = ContactState::new(&convolution);
-    let mut separation = sample(surface, &grid, counts);
-    let mut previous = 0.0;
-    let mut step = |&time: &f64| -> Result<IndentRow, BemError> {
-        let problem = ContactProblem {
-            convolution: &convolution,
-            separation: &separation,
-            compliance: material.step_compliance(positive("time step", time - previous)?),
-            control: Control::NormalForce(normal_force),
-        };
-        let contact = solve_contact(&problem, &mut state, &options.contact)?;
-        check_boundary(&state, &grid, &options.footprint)?;
-        previous = time;
-        for (separation, displacement) in separation.iter_mut().zip(state.displacement()) {
-            *separation += displacement;
-        }
-        Ok(IndentRow {
-            time,
-            indentation_depth: contact.indentation_depth,
-            contact_area: contact.n_contact as f64 * grid.element_area(),
-            n_contact: contact.n_contact,
-        })
+    let step = |time: &f64| IndentStep {
+        time: *time,
+        control: Control::NormalForce(normal_force),
     };
-    let rows = times.iter().map(&mut step).collect::<Result<Vec<_>, _>>()?;
-    check_resolution(&state, grid.shape()[1])?;
-    Ok(rows)
+    let steps: Vec<IndentStep> = times.iter().map(step).collect();
+    indent_history(surface, material, &steps, options)
 }
 
-/// A contact of fewer rows or columns has no meaningful size.
-fn check_resolution(state: &ContactState, columns: usize) -> Result<(), BemError> {
-    let distinct = |index: fn(usize, usize) -> usize| {
-        state
-            .contact()
-            .iter()
-            .map(|&element| index(element, columns))
-            .collect::<BTreeSet<_>>()
-            .len()
-    };
-    let elements = distinct(|element, columns| element / columns)
-        .min(distinct(|element, columns| element % columns));
-    if elements < MIN_CONTACT_ELEMENTS {
+/// Presses `surface` into an undeformed half space and lets it go again, step by step.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for no steps, times that do not increase from above zero, or numbers out of range;
+/// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when no contact covers three elements along x and y;
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
+/// [`BemError::Material`].
+pub fn indent_history(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    steps: &[IndentStep],
+    options: &IndentOptions,
+) -> Result<Vec<IndentRow>, BemError> {
+    let ends = steps.iter().map(|step| (step.time, 0.0, step.control));
+    let route = Route::through(ends, positive("spacing along x", options.spacing[0])?)?;
+    let mut stepping = Stepping::new(surface, material, route, options)?;
+    let mut rows = Vec::with_capacity(steps.len());
+    let mut largest = 0;
+    while let Some(instant) = stepping.advance()? {
+        let size = instant
+            .bounds
+            .map_or(0, |bounds| bounds.shape()[0].min(bounds.shape()[1]));
+        largest = largest.max(size);
+        rows.push(row(&instant, options));
+    }
+    if largest < MIN_CONTACT_ELEMENTS {
         return Err(BemError::GridTooCoarse {
-            elements,
+            elements: largest,
             needed: MIN_CONTACT_ELEMENTS,
         });
     }
-    Ok(())
+    Ok(rows)
 }
 
-fn sample(surface: &impl Surface, grid: &Grid, counts: [[usize; 2]; 2]) -> Vec<f64> {
-    let columns = grid.shape()[1];
-    let position =
-        |index: usize, axis: usize| (index as f64 - counts[axis][0] as f64) * grid.spacing()[axis];
-    let height =
-        |index: usize| surface.height([position(index / columns, 0), position(index % columns, 1)]);
-    (0..grid.n_elements()).map(height).collect()
-}
-
-fn check_boundary(
-    state: &ContactState,
-    grid: &Grid,
-    footprint: &Footprint,
-) -> Result<(), BemError> {
-    let [rows, columns] = grid.shape();
-    let at_boundary = |&index: &usize| {
-        let (row, column) = (index / columns, index % columns);
-        row == 0 || column == 0 || row + 1 == rows || column + 1 == columns
-    };
-    if state.contact().iter().any(at_boundary) {
-        return Err(footprint.boundary_reached(0.0));
+fn row(instant: &Instant, options: &IndentOptions) -> IndentRow {
+    IndentRow {
+        time: instant.leg.time,
+        indentation_depth: instant.indentation_depth,
+        normal_force: instant.normal_force,
+        contact_area: instant.n_contact as f64 * options.spacing[0] * options.spacing[1],
+        n_contact: instant.n_contact,
     }
-    Ok(())
 }

@@ -1,13 +1,14 @@
-//! Boundary elements for rigid indenters on a viscous half space.
+//! Boundary elements for rigid indenters on a viscous or viscoelastic half space.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
 //! coefficients by fast convolution; the contact conditions are solved to a stated tolerance at every step. Four
 //! questions can be asked, in modules named like those of the one-dimensional solver:
 //!
-//! * [`contact`]: one instant, elastic or a step of a viscous history, at given force or depth;
-//! * [`indent`]: normal indentation under a constant force;
-//! * [`slide`]: sliding from first touch, through the transition, towards the stationary state;
-//! * [`steady`]: stationary sliding, solved directly, with an error bar.
+//! * [`contact`]: one instant, elastic or a step of a history, at given force or depth;
+//! * [`indent`]: normal indentation, any history of force or depth, on any linear viscoelastic material;
+//! * [`slide`]: sliding from first touch, through the transition, towards the stationary state, and any other motion,
+//!   on any linear viscoelastic material;
+//! * [`steady`]: stationary sliding on a viscous half space, solved directly, with an error bar.
 //!
 //! ```
 //! use bem_halfspace::slide::{SlideOptions, slide};
@@ -44,8 +45,10 @@ pub mod indent;
 mod influence;
 mod plane_transform;
 mod rectangle;
+mod resolution;
 pub mod slide;
 pub mod steady;
+mod stepping;
 
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Control, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};
@@ -53,3 +56,4 @@ pub use error::BemError;
 pub use footprint::Footprint;
 pub use grid::Grid;
 pub use influence::influence;
+pub use resolution::Resolution;

@@ -27,7 +27,9 @@ impl Convolution {
 
     /// Wave numbers of the longest waves along x and y, \[rad/m].
     fn wave_numbers(&self) -> [f64; 2] {
-        [0, 1].map(|axis| 2.0 * PI / (self.transform.padded()[axis] as f64 * self.grid.spacing()[axis]))
+        [0, 1].map(|axis| {
+            2.0 * PI / (self.transform.padded()[axis] as f64 * self.grid.spacing()[axis])
+        })
     }
 
     /// Spectrum of waves on an infinite half space, without their mean.
@@ -137,7 +139,8 @@ impl Convolution {
         for column in 0..self.grid.shape()[1] {
             let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
             values[column] = coefficient;
-            values[(self.transform.padded()[1] - column) % self.transform.padded()[1]] = coefficient;
+            values[(self.transform.padded()[1] - column) % self.transform.padded()[1]] =
+                coefficient;
         }
     }
 }

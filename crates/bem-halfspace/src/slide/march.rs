@@ -1,288 +1,185 @@
-//! One step of sliding after the other.
+//! Sliding, one step after the other.
 
-use std::f64::consts::{FRAC_1_PI, PI};
-use std::ops::Range;
+use std::fmt;
 
 use indenters::{SlidingLoad, Surface};
-use rheology::Viscous;
+use rheology::Material;
 
-use crate::bounds::Bounds;
-use crate::contact::{ContactBox, Outcome};
 use crate::error::positive;
-use crate::footprint::depth_scale;
 use crate::grid::elements_along;
-use crate::slide::sampled_indenter::SampledIndenter;
-use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField, SlideOptions, SlideRow, Transient};
-use crate::{BemError, Control, Convolution, ConvolutionWorkspace, Grid};
+use crate::slide::motion::{Motion, MotionRow};
+use crate::slide::slopes::{MeanSlopes, Slopes};
+use crate::slide::{PressureField, SlideOptions};
+use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
+use crate::{BemError, Control, Grid, Resolution};
 
-/// The simulation between two steps. Heights are in units of the depth scale, lengths in units of Δx.
-pub(super) struct March {
-    options: SlideOptions,
-    load: SlidingLoad,
-    depth_scale: f64,
-    /// Number of elements of the footprint, and the one under the lowest point.
-    shape: [usize; 2],
-    apex: [usize; 2],
-    indenter: SampledIndenter,
-    contact_box: ContactBox,
-    /// Convolution and fields over all elements that the footprint ever passes.
-    track: Convolution,
-    workspace: ConvolutionWorkspace,
-    track_pressure: Vec<f64>,
-    increment: Vec<f64>,
-    displacement: Vec<f64>,
-    steps_done: usize,
+/// An indenter on its way over a half space.
+pub struct March<'scene, S: ?Sized> {
+    surface: &'scene S,
+    stepping: Stepping<'scene, S>,
+    slopes: Slopes,
+    means: MeanSlopes,
 }
 
-impl March {
-    pub(super) fn new(
-        surface: &impl Surface,
-        material: &Viscous,
+impl<S: ?Sized> fmt::Debug for March<'_, S> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("March").finish_non_exhaustive()
+    }
+}
+
+impl<'scene, S: Surface + ?Sized> March<'scene, S> {
+    /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
+    /// of an element at position zero.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
+    /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
+    pub fn new(
+        surface: &'scene S,
+        material: &(impl Material + ?Sized),
+        motions: &[Motion],
+        resolution: &Resolution,
+    ) -> Result<Self, BemError> {
+        let ends = motions
+            .iter()
+            .map(|motion| (motion.time, motion.position, motion.control));
+        let spacing = positive("spacing along x", resolution.spacing[0])?;
+        let route = Route::through(ends, spacing)?;
+        Self::on(route, surface, material, resolution)
+    }
+
+    /// The march that [`slide`](crate::slide::slide) makes.
+    ///
+    /// # Errors
+    /// Like [`new`](Self::new).
+    pub fn sliding(
+        surface: &'scene S,
+        material: &(impl Material + ?Sized),
         load: &SlidingLoad,
         options: &SlideOptions,
     ) -> Result<Self, BemError> {
-        let [dx, dy] = options.spacing;
-        positive("spacing along x", dx)?;
-        positive("spacing along y", dy)?;
-        options.contact.validate()?;
-        let counts = options.footprint.elements(options.spacing)?;
-        let shape = counts.map(|[before, after]| before + after + 1);
-        let apex = counts.map(|[before, _]| before);
-        let n_steps = elements_along(positive("sliding_distance", options.sliding_distance)?, dx)?;
-        let depth_scale = positive("F_N / (4 η v)", depth_scale(material, load))?;
-        let track_grid = Grid::new([shape[0] + n_steps, shape[1]], [1.0, dy / dx])?;
-        let indenter = SampledIndenter::new(surface, options.spacing, (shape, apex), depth_scale)?;
-        let track = Convolution::new(&track_grid);
-        let first_bounds = Bounds::around(indenter.lowest(shape[1])).with_margin(shape);
+        let spacing = positive("spacing along x", options.spacing[0])?;
+        let distance = positive("sliding_distance", options.sliding_distance)?;
+        let n_steps = elements_along(distance, spacing)?;
+        let [rows, columns] = options.resolution().layout()?.shape;
+        // Refused before so many steps are made.
+        Grid::new([rows + n_steps, columns], options.spacing)?;
+        let control = Control::NormalForce(load.normal_force());
+        let route = Route::straight(n_steps, [spacing, load.velocity()], control)?;
+        Self::on(route, surface, material, &options.resolution())
+    }
+
+    fn on(
+        route: Route,
+        surface: &'scene S,
+        material: &(impl Material + ?Sized),
+        resolution: &Resolution,
+    ) -> Result<Self, BemError> {
         Ok(Self {
-            options: *options,
-            load: *load,
-            depth_scale,
-            shape,
-            apex,
-            indenter,
-            contact_box: ContactBox::new(first_bounds, [1.0, dy / dx])?,
-            workspace: track.workspace(),
-            track_pressure: vec![0.0; track_grid.n_elements()],
-            increment: vec![0.0; track_grid.n_elements()],
-            displacement: vec![0.0; track_grid.n_elements()],
-            track,
-            steps_done: 0,
+            surface,
+            stepping: Stepping::new(surface, material, route, resolution)?,
+            slopes: Slopes::default(),
+            means: MeanSlopes::default(),
         })
     }
 
-    pub(super) fn n_steps(&self) -> usize {
-        self.track.grid().shape()[0] - self.shape[0]
-    }
-
-    /// Advances the indenter by one element and solves the contact at its new position.
-    pub(super) fn step(&mut self) -> Result<SlideRow, BemError> {
-        self.steps_done += 1;
-        loop {
-            self.set_separation();
-            let contact = self.solve_box()?;
-            self.find_increment();
-            let mut bounds = self.contact_bounds();
-            if self.include_penetration(&mut bounds, contact.indentation_depth) {
-                self.contact_box = self.contact_box.moved_to(bounds.with_margin(self.shape))?;
-                continue;
-            }
-            self.check_footprint(&bounds)?;
-            for (displacement, increment) in self.displacement.iter_mut().zip(&self.increment) {
-                *displacement += increment;
-            }
-            return self.record(&contact, &bounds);
-        }
-    }
-
-    /// Solves the step in the box. With x = α P / (4π) in units of D/Δx and lengths in Δx the total load is
-    /// Δx/(πΔy), whatever the scene.
-    fn solve_box(&mut self) -> Result<Outcome, BemError> {
-        let [dx, dy] = self.options.spacing;
-        let control = Control::NormalForce(FRAC_1_PI * dx / dy);
-        self.contact_box.solve(control, &self.options.contact)
-    }
-
-    /// Rows of the track under the footprint.
-    fn rows(&self) -> Range<usize> {
-        self.steps_done..self.steps_done + self.shape[0]
-    }
-
-    /// Index into the track of an element of the footprint.
-    const fn on_track(&self, [row, column]: [usize; 2]) -> usize {
-        (row + self.steps_done) * self.shape[1] + column
-    }
-
-    fn set_separation(&mut self) {
-        let Bounds { lower, upper } = self.contact_box.bounds;
-        let mut separation = std::mem::take(&mut self.contact_box.separation);
-        separation.clear();
-        for row in lower[0]..upper[0] {
-            let heights = &self.indenter.height[row * self.shape[1]..][lower[1]..upper[1]];
-            let displacements = &self.displacement[self.on_track([row, lower[1]])..];
-            separation.extend(heights.iter().zip(displacements).map(|(h, u)| h + u));
-        }
-        self.contact_box.separation = separation;
-    }
-
-    /// Displacement of the step in and ahead of the footprint; what lies behind is never touched again.
-    fn find_increment(&mut self) {
-        let loaded = self.contact_box.bounds.lower[0]..self.contact_box.bounds.upper[0];
-        let loaded = loaded.start + self.steps_done..loaded.end + self.steps_done;
-        self.track_pressure[loaded.start * self.shape[1]..loaded.end * self.shape[1]].fill(0.0);
-        for (element, pressure) in self.contact_box.loaded_elements() {
-            self.track_pressure[(element[0] + self.steps_done) * self.shape[1] + element[1]] =
-                pressure;
-        }
-        let wanted = self.rows().start..self.track.grid().shape()[0];
-        self.track.apply(
-            &mut self.workspace,
-            (&self.track_pressure, loaded),
-            (&mut self.increment, wanted),
-        );
-    }
-
-    fn contact_bounds(&self) -> Bounds {
-        let elements = self.contact_box.loaded_elements();
-        Bounds::of(elements.map(|(element, _)| element)).unwrap_or(Bounds::around(self.apex))
-    }
-
-    /// Extends the bounds to all elements outside the box that the indenter penetrates.
-    fn include_penetration(&self, bounds: &mut Bounds, depth: f64) -> bool {
-        let deflection = self.increment[self.rows().start * self.shape[1]..]
-            .iter()
-            .fold(0.0, |largest: f64, increment| largest.max(*increment));
-        // The box and the track round differently, so the box's own tolerance would be too sharp here.
-        let allowed = -2.0 * self.options.contact.tolerance * deflection;
-        let mut found = false;
-        for row in 0..self.shape[0] {
-            for column in 0..self.shape[1] {
-                let index = self.on_track([row, column]);
-                let surface = self.displacement[index] + self.increment[index];
-                let gap = self.indenter.height[row * self.shape[1] + column] + surface - depth;
-                if gap < allowed && !self.contact_box.bounds.contains([row, column]) {
-                    bounds.include([row, column]);
-                    found = true;
-                }
-            }
-        }
-        found
-    }
-
-    fn check_footprint(&self, bounds: &Bounds) -> Result<(), BemError> {
-        let inside =
-            (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < self.shape[axis]);
-        if inside {
-            return Ok(());
-        }
-        Err(self
-            .options
-            .footprint
-            .boundary_reached(self.steps_done as f64 * self.options.spacing[0]))
-    }
-
-    fn record(&self, contact: &Outcome, bounds: &Bounds) -> Result<SlideRow, BemError> {
-        let [dx, dy] = self.options.spacing;
-        let sliding_distance = self.steps_done as f64 * dx;
-        let edge = |axis: usize, element: usize| {
-            (element as f64 - self.apex[axis] as f64 - 0.5) * self.options.spacing[axis]
+    /// Makes the next step; nothing at the end of the way.
+    ///
+    /// # Errors
+    /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
+    /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for a slope that is not a number;
+    /// [`BemError::Material`].
+    pub fn step(&mut self) -> Result<Option<MotionRow>, BemError> {
+        let Some(instant) = self.stepping.advance()? else {
+            return Ok(None);
         };
-        self.check_walls()?;
-        let n_contact = self.contact_box.loaded_elements().count();
-        Ok(SlideRow {
-            sliding_distance,
-            time: sliding_distance / self.load.velocity(),
-            indentation_depth: contact.indentation_depth * self.depth_scale,
-            friction_coefficient: self.weighted_slope(&self.indenter.mean_slope),
-            friction_coefficient_end_of_step: self.weighted_slope(&self.indenter.end_slope),
-            contact_area: n_contact as f64 * dx * dy,
-            contact_x: [edge(0, bounds.lower[0]), edge(0, bounds.upper[0])],
-            contact_y: [edge(1, bounds.lower[1]), edge(1, bounds.upper[1])],
-            n_contact,
-            iterations: contact.iterations,
-        })
+        self.means = self.slopes.over(self.surface, &self.stepping, &instant)?;
+        Ok(Some(self.row(&instant)))
     }
 
-    /// A wall is a finite height beside an infinite one, so that the mean slope is infinite.
-    fn check_walls(&self) -> Result<(), BemError> {
-        let infinite = |[row, column]: [usize; 2]| {
-            self.indenter.mean_slope[row * self.shape[1] + column].is_infinite()
-        };
-        let mut loaded = self
-            .contact_box
-            .loaded_elements()
-            .map(|(element, _)| element);
-        let Some([row, column]) = loaded.find(|&element| infinite(element)) else {
-            return Ok(());
-        };
-        let position = |axis: usize, index: usize| {
-            (index as f64 - self.apex[axis] as f64) * self.options.spacing[axis]
-        };
-        Err(BemError::VerticalWall {
-            x: position(0, row),
-            y: position(1, column),
-        })
+    /// What is needed to go on from here in a later run.
+    #[must_use]
+    pub fn state(&self) -> MarchState {
+        self.stepping.state()
     }
 
-    /// Largest rise of the body over an element in contact, [m].
-    fn largest_rise(&self) -> f64 {
-        let rise = |[row, column]: [usize; 2]| {
-            self.indenter.mean_slope[row * self.shape[1] + column] * self.options.spacing[0]
-        };
-        self.contact_box
-            .loaded_elements()
-            .map(|(element, _)| rise(element))
-            .fold(0.0, f64::max)
+    /// Goes on from the `state` of a march of the same scene; the steps are the same to the last bit.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit the scene.
+    pub fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
+        self.stepping.resume(state)
     }
 
-    /// Mean of a slope over the contact, weighted with the pressure: F_h / F_N.
-    fn weighted_slope(&self, slope: &[f64]) -> f64 {
-        let (mut tangential, mut normal) = (0.0, 0.0);
-        for ([row, column], pressure) in self.contact_box.loaded_elements() {
-            tangential += pressure * slope[row * self.shape[1] + column];
-            normal += pressure;
-        }
-        tangential / normal
+    /// Number of values that an element remembers: one per retardation element of the material, one more for free
+    /// flow, none for an elastic material.
+    #[must_use]
+    pub fn n_fields(&self) -> usize {
+        self.stepping.n_fields()
     }
 
-    /// Closes the simulation after its last step.
-    pub(super) fn finish(self, rows: Vec<SlideRow>) -> Result<Transient, BemError> {
-        let bounds = self.contact_bounds();
-        let elements = bounds.shape()[0].min(bounds.shape()[1]);
-        if elements < MIN_CONTACT_ELEMENTS {
-            return Err(BemError::GridTooCoarse {
-                elements,
-                needed: MIN_CONTACT_ELEMENTS,
-            });
-        }
-        let (rise, depth_scale) = (self.largest_rise(), self.depth_scale);
-        if rise > depth_scale {
-            return Err(BemError::SlopeNotResolved { rise, depth_scale });
-        }
-        let n_elements = self.track.grid().n_elements();
-        Ok(Transient {
-            rows,
-            pressure: self.pressure_field(&bounds)?,
-            n_elements,
-        })
+    /// Number of elements of the half space that are followed.
+    #[must_use]
+    pub fn n_elements(&self) -> usize {
+        self.stepping.n_elements()
     }
 
-    fn pressure_field(&self, bounds: &Bounds) -> Result<PressureField, BemError> {
-        let [dx, dy] = self.options.spacing;
+    /// Pressure in the last step; a single element without pressure where there is no contact.
+    ///
+    /// # Errors
+    /// None after a step that succeeded.
+    pub fn pressure(&self) -> Result<PressureField, BemError> {
+        let stepping = &self.stepping;
+        let unit = stepping.pressure_per_load();
+        let bounds = stepping.contact_bounds();
         let columns = bounds.shape()[1];
-        // x = α P / (4π) is measured in D/Δx, with α = Δx/(ηv) and D = F_N/(4ηv).
-        let unit = PI * self.load.normal_force() / dx / dx;
-        let mut pressure = vec![0.0; columns * bounds.shape()[0]];
-        for ([row, column], value) in self.contact_box.loaded_elements() {
-            pressure[(row - bounds.lower[0]) * columns + column - bounds.lower[1]] = value * unit;
+        let mut pressure = vec![0.0; bounds.n_elements()];
+        for ([row, column], load) in stepping.loaded_elements() {
+            pressure[(row - bounds.lower[0]) * columns + column - bounds.lower[1]] = load * unit;
         }
-        let origin = [0, 1].map(|axis| {
-            (bounds.lower[axis] as f64 - self.apex[axis] as f64) * self.options.spacing[axis]
-        });
+        let spacing = stepping.resolution.spacing;
         Ok(PressureField {
-            grid: Grid::new(bounds.shape(), [dx, dy])?,
-            origin,
+            grid: Grid::new(bounds.shape(), spacing)?,
+            origin: [
+                stepping.along(bounds.lower[0], stepping.offset()) * spacing[0],
+                stepping.across(bounds.lower[1]),
+            ],
             pressure,
         })
+    }
+
+    /// Largest rise of the body over an element in contact, \[m].
+    pub(super) fn largest_rise(&self) -> f64 {
+        self.means.largest * self.stepping.resolution.spacing[0]
+    }
+
+    /// Friction coefficient if all slopes were uphill, which says what rounding is.
+    pub(super) fn steepness(&self) -> f64 {
+        self.means.steepness
+    }
+
+    pub(super) fn half_space(&self) -> &HalfSpace {
+        &self.stepping.material
+    }
+
+    fn row(&self, instant: &Instant) -> MotionRow {
+        let Instant { leg, bounds, .. } = instant;
+        let [dx, dy] = self.stepping.resolution.spacing;
+        let half = 0.5;
+        let x = |row: usize| (self.stepping.along(row, leg.offset) - half) * dx;
+        let y = |column: usize| self.stepping.across(column) - half * dy;
+        MotionRow {
+            time: leg.time,
+            position: leg.position,
+            indentation_depth: instant.indentation_depth,
+            normal_force: instant.normal_force,
+            tangential_force: instant.normal_force * self.means.met,
+            tangential_force_end_of_step: instant.normal_force * self.means.end,
+            contact_area: instant.n_contact as f64 * dx * dy,
+            contact_x: bounds.map(|bounds| [bounds.lower[0], bounds.upper[0]].map(x)),
+            contact_y: bounds.map(|bounds| [bounds.lower[1], bounds.upper[1]].map(y)),
+            n_contact: instant.n_contact,
+            iterations: instant.iterations,
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! What a sliding simulation returns.
 
-use crate::Grid;
+use indenters::{SlidingLoad, Surface};
+
+use crate::slide::{MIN_CONTACT_ELEMENTS, March, MotionRow};
+use crate::{BemError, Grid};
 
 /// The state after one step of sliding.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,12 +13,13 @@ pub struct SlideRow {
     pub sliding_distance: f64,
     /// Time since first touch, \[s].
     pub time: f64,
-    /// Depth of the lowest point below the undeformed surface, \[m]. It grows like the logarithm of the distance: a
-    /// viscous half space has no stationary depth.
+    /// Depth of the lowest point below the undeformed surface, \[m]. On a half space that
+    /// flows it grows like the logarithm of the distance, without end.
     pub indentation_depth: f64,
-    /// Friction coefficient: the pressure of the step times the mean slope over the step.
+    /// Friction coefficient: the pressure of the step times the slope that it meets, on a dashpot the mean over the step.
     pub friction_coefficient: f64,
-    /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term.
+    /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term on a
+    /// dashpot.
     pub friction_coefficient_end_of_step: f64,
     /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
@@ -27,6 +31,27 @@ pub struct SlideRow {
     pub n_contact: usize,
     /// Iterations of the contact solver.
     pub iterations: usize,
+}
+
+impl SlideRow {
+    /// The row of a step, which has contact because it has a force.
+    pub(super) fn of(row: &MotionRow) -> Result<Self, BemError> {
+        let (Some(contact_x), Some(contact_y)) = (row.contact_x, row.contact_y) else {
+            return Err(too_coarse(0));
+        };
+        Ok(Self {
+            sliding_distance: row.position,
+            time: row.time,
+            indentation_depth: row.indentation_depth,
+            friction_coefficient: row.tangential_force / row.normal_force,
+            friction_coefficient_end_of_step: row.tangential_force_end_of_step / row.normal_force,
+            contact_area: row.contact_area,
+            contact_x,
+            contact_y,
+            n_contact: row.n_contact,
+            iterations: row.iterations,
+        })
+    }
 }
 
 /// Pressure over the contact at the end of a simulation.
@@ -74,4 +99,37 @@ pub struct Transient {
     pub pressure: PressureField,
     /// Number of elements of the half space whose displacement was followed.
     pub n_elements: usize,
+}
+
+impl Transient {
+    /// The rows of a march under a load, if its last contact is resolved.
+    pub(super) fn of<S: Surface + ?Sized>(
+        march: &March<'_, S>,
+        load: &SlidingLoad,
+        rows: Vec<SlideRow>,
+    ) -> Result<Self, BemError> {
+        let pressure = march.pressure()?;
+        let [length, width] = pressure.grid.shape();
+        if length.min(width) < MIN_CONTACT_ELEMENTS {
+            return Err(too_coarse(length.min(width)));
+        }
+        let contact_length = length as f64 * pressure.grid.spacing()[0];
+        let depth_scale = march.half_space().depth_scale(load, contact_length)?;
+        let rise = march.largest_rise();
+        if rise > depth_scale {
+            return Err(BemError::SlopeNotResolved { rise, depth_scale });
+        }
+        Ok(Self {
+            rows,
+            pressure,
+            n_elements: march.n_elements(),
+        })
+    }
+}
+
+fn too_coarse(elements: usize) -> BemError {
+    BemError::GridTooCoarse {
+        elements,
+        needed: MIN_CONTACT_ELEMENTS,
+    }
 }

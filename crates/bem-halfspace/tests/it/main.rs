@@ -1,7 +1,9 @@
 //! The claims of the crate, one file each.
 
 mod allocations;
+mod any_material_slides;
 mod apex_similarity;
+mod arbitrary_motions;
 mod axisymmetric_contact;
 mod bad_input;
 mod contact_identities;
@@ -9,7 +11,9 @@ mod contact_limits;
 mod convolution_is_the_sum;
 mod dense_reference;
 mod elastic_contact;
+mod indentation_follows_lee_radok_and_ting;
 mod influence_coefficients;
+mod interrupted_marches;
 mod nested_grids;
 mod normal_indentation;
 mod periodic_contact;

@@ -6,7 +6,7 @@ use bem_halfspace::{
     solve_contact,
 };
 use indenters::{PowerProfile, SlidingLoad, Surface};
-use rheology::Viscous;
+use rheology::{Compressible, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 /// Tight enough that the contact set and ten digits are those of the exact discrete solution.
 pub(crate) const TIGHT: ContactOptions = ContactOptions {
@@ -90,4 +90,58 @@ impl Scene {
         let options = self.options(elements, lengths);
         slide(&self.body, &self.material, &self.load, &options).expect("a transient")
     }
+}
+
+/// A material from its relaxation: lone spring \[Pa], lone dashpot \[Pa s], and (modulus, time) of the branches.
+pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
+    let branches = branches
+        .iter()
+        .map(|&(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        });
+    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect());
+    Prony::new(relaxation.expect("moduli")).expect("a material")
+}
+
+/// The materials that the casebook gives by their moduli, or by the name alone.
+pub(crate) fn material_of(case: &casebook::Case) -> Prony {
+    if !case.has_input("Ge") {
+        assert_eq!(
+            case.input_text("model"),
+            "P3",
+            "the one model without moduli"
+        );
+        return three_branches();
+    }
+    let [moduli, times] = ["G", "tau"].map(|name| case.input_list(name));
+    let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
+    let viscosity = if case.has_input("eta") {
+        case.input("eta")
+    } else {
+        0.0
+    };
+    prony([case.input("Ge"), viscosity], &branches)
+}
+
+/// Model P3 of the casebook: relaxation times over nine decades.
+pub(crate) fn three_branches() -> Prony {
+    prony([1e5, 0.0], &[(5e8, 1e-6), (2e7, 0.01), (3e5, 1e3)])
+}
+
+/// One material of each kind, with moduli and times of order one.
+pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)> {
+    let glassy = prony([0.4, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
+    vec![
+        ("elastic", Box::new(prony([1.5, 0.0], &[]))),
+        ("viscous", Box::new(prony([0.0, 2.0], &[]))),
+        ("Kelvin-Voigt", Box::new(prony([0.7, 1.1], &[]))),
+        ("Maxwell", Box::new(prony([0.0, 0.0], &[(2.0, 0.6)]))),
+        ("three elements", Box::new(prony([0.3, 0.0], &[(3.0, 0.4)]))),
+        (
+            "compressible",
+            Box::new(Compressible::new(&glassy, 0.3).expect("a Poisson ratio")),
+        ),
+        ("two branches", Box::new(glassy)),
+    ]
 }

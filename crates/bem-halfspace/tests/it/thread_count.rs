@@ -1,12 +1,15 @@
 //! Results do not depend on the number of threads, to the last bit.
 
+use bem_halfspace::Footprint;
+use bem_halfspace::slide::{SlideOptions, slide};
 use bem_halfspace::steady::{SteadyOptions, steady};
 use bem_halfspace::{
     ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
 };
+use indenters::{PowerProfile, SlidingLoad};
 use rayon::ThreadPoolBuilder;
 
-use crate::support::Scene;
+use crate::support::{Scene, prony};
 
 #[test]
 fn one_two_and_three_threads_agree_to_the_last_bit() {
@@ -50,6 +53,24 @@ fn stationary_sliding_is_the_same_on_one_and_three_threads() {
     let solve = || steady(&scene.body, &scene.material, &scene.load, &options).expect("a solution");
     let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
     assert_eq!(one, three, "the same pressure on one and three threads");
+}
+
+#[test]
+fn a_slide_is_the_same_on_one_and_three_threads() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    let material = prony([0.1, 0.0], &[(1.0, 1.0)]);
+    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
+    // More than the 2^13 elements for which a second thread is taken.
+    let options = SlideOptions {
+        spacing: [0.04; 2],
+        footprint: Footprint::square(1.8),
+        sliding_distance: 0.4,
+        contact: ContactOptions::default(),
+    };
+    let run = || slide(&body, &material, &load, &options).expect("a transient");
+    let [one, three] = [1, 3].map(|threads| on_threads(threads, run));
+    assert!(one.n_elements > 8192, "{} elements", one.n_elements);
+    assert_eq!(one, three, "the same slide on one and three threads");
 }
 
 fn on_threads<T: Send>(threads: usize, work: impl Fn() -> T + Send + Sync) -> T {

@@ -30,13 +30,6 @@ impl Viscous {
     pub const fn viscosity(&self) -> f64 {
         self.viscosity
     }
-
-    /// Compliance α = Δt/η of one step, \[1/Pa]: held at the load potential w over the step, the surface moves to
-    /// `u_new = α w + history`, and the history of a dashpot is its displacement before the step.
-    #[must_use]
-    pub fn step_compliance(&self, time_step: f64) -> f64 {
-        time_step / self.viscosity
-    }
 }
 
 impl Material for Viscous {

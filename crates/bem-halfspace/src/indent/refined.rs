@@ -1,0 +1,204 @@
+//! Steps in time that become shorter until they do not matter.
+//!
+//! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
+
+use indenters::Surface;
+use rheology::{CreepSpectrum, Material};
+
+use super::{IndentOptions, IndentRow, IndentStep, indent_history};
+use crate::error::{below_one, positive};
+use crate::{BemError, Control};
+
+/// How exactly time is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeOptions {
+    /// Error of force and depth by the steps in time, relative to the largest of each in the history.
+    pub relative_error: f64,
+    /// Steps between two rows after which the refinement is given up.
+    pub max_steps: usize,
+}
+
+impl Default for TimeOptions {
+    fn default() -> Self {
+        Self {
+            relative_error: 1e-3,
+            max_steps: 256,
+        }
+    }
+}
+
+/// A history whose steps in time were refined.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct IndentHistory {
+    /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
+    pub rows: Vec<IndentRow>,
+    /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the last
+    /// change by halving them, or what elements may do that yield within a step.
+    pub time_error: f64,
+    /// Steps made between two rows.
+    pub steps_per_row: usize,
+}
+
+/// A force or a depth that is straight between points of time.
+#[derive(Debug, Clone)]
+pub struct PiecewiseLinear {
+    /// (time, value), by increasing time.
+    points: Vec<(f64, f64)>,
+    control: fn(f64) -> Control,
+}
+
+impl PiecewiseLinear {
+    /// A force \[N] through `points` (time, force); constant before the first and after the last.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for no points, and for times that do not increase.
+    pub fn force(points: &[(f64, f64)]) -> Result<Self, BemError> {
+        Self::through(points, Control::NormalForce)
+    }
+
+    /// A depth \[m] through `points` (time, depth); constant before the first and after the last.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for no points, and for times that do not increase.
+    pub fn depth(points: &[(f64, f64)]) -> Result<Self, BemError> {
+        Self::through(points, Control::IndentationDepth)
+    }
+
+    fn through(points: &[(f64, f64)], control: fn(f64) -> Control) -> Result<Self, BemError> {
+        positive("number of points", points.len() as f64)?;
+        for pair in points.windows(2) {
+            positive("time between two points", pair[1].0 - pair[0].0)?;
+        }
+        Ok(Self {
+            points: points.to_vec(),
+            control,
+        })
+    }
+
+    /// What is given at a time \[s].
+    #[must_use]
+    pub fn at(&self, time: f64) -> Control {
+        let after = self.points.partition_point(|(then, _)| *then < time);
+        let last = self.points.len() - 1;
+        let [(t0, v0), (t1, v1)] =
+            [after.saturating_sub(1), after.min(last)].map(|k| self.points[k]);
+        let part = if t1 > t0 {
+            (time - t0) / (t1 - t0)
+        } else {
+            0.0
+        };
+        (self.control)(v0 + part.clamp(0.0, 1.0) * (v1 - v0))
+    }
+}
+
+/// Presses `surface` into an undeformed half space as the `control` over time says, and halves the steps between the
+/// `times` \[s] until the error asked for is met.
+///
+/// The times begin above zero and increase; the steps between two of them are equal. Jumps and kinks of the control belong
+/// among the times.
+///
+/// # Errors
+/// [`BemError::TimeNotResolved`] when the error asked for is not met with the steps allowed; otherwise like
+/// [`indent_history`].
+pub fn indent_history_refined(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    (control, times): (&dyn Fn(f64) -> Control, &[f64]),
+    (options, time_options): (&IndentOptions, &TimeOptions),
+) -> Result<IndentHistory, BemError> {
+    below_one("relative_error", time_options.relative_error)?;
+    let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
+        let steps = subdivided(control, times, n);
+        let rows = indent_history(surface, material, &steps, options)?;
+        Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
+    };
+    let creep = material.creep();
+    let mut coarse = run(1)?;
+    let mut before: Option<Vec<IndentRow>> = None;
+    let (mut n, mut error) = (1, 1.0);
+    while 2 * n <= time_options.max_steps {
+        n *= 2;
+        let fine = run(n)?;
+        let rows = extrapolated(&coarse, &fine);
+        error = before.map_or(1.0, |before| difference(&before, &rows));
+        error = error.max(unresolved(&creep, times, n)?);
+        if error <= time_options.relative_error {
+            return Ok(IndentHistory {
+                rows,
+                time_error: error,
+                steps_per_row: n,
+            });
+        }
+        (coarse, before) = (fine, Some(rows));
+    }
+    Err(BemError::TimeNotResolved {
+        steps: n,
+        error,
+        relative_error: time_options.relative_error,
+    })
+}
+
+/// `n` equal steps to each of the times.
+fn subdivided(control: &dyn Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<IndentStep> {
+    let starts = std::iter::once(0.0).chain(times.iter().copied());
+    let intervals = starts.zip(times);
+    let steps = intervals.flat_map(|(start, &end)| {
+        (1..=n).map(move |k| {
+            if k == n {
+                end
+            } else {
+                start + (end - start) * (k as f64 / n as f64)
+            }
+        })
+    });
+    steps
+        .map(|time| IndentStep {
+            time,
+            control: control(time),
+        })
+        .collect()
+}
+
+/// The contact is that of the finer rows, because elements touch or do not, and no force becomes a pull, because the
+/// contact is lost at a moment between steps.
+fn extrapolated(coarse: &[IndentRow], fine: &[IndentRow]) -> Vec<IndentRow> {
+    let row = |(coarse, fine): (&IndentRow, &IndentRow)| IndentRow {
+        indentation_depth: 2.0 * fine.indentation_depth - coarse.indentation_depth,
+        normal_force: (2.0 * fine.normal_force - coarse.normal_force).max(0.0),
+        ..*fine
+    };
+    coarse.iter().zip(fine).map(row).collect()
+}
+
+/// What elements may do that yield faster than a step: their time relative to that between two rows, by their part of
+/// the compliance. No comparison of steps that are all longer would show it.
+fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
+    let starts = std::iter::once(0.0).chain(times.iter().copied());
+    let mut largest = 0.0_f64;
+    for (start, end) in starts.zip(times) {
+        let interval = end - start;
+        let compliance = creep.creep_compliance(interval)?;
+        for element in creep.elements() {
+            if element.retardation_time * (n as f64) < interval {
+                let part = element.compliance / compliance;
+                largest = largest.max(part * (element.retardation_time / interval));
+            }
+        }
+    }
+    Ok(largest)
+}
+
+/// Largest difference of force and depth relative to the largest of each.
+fn difference(before: &[IndentRow], rows: &[IndentRow]) -> f64 {
+    let of = |value: fn(&IndentRow) -> f64| {
+        let pairs = before.iter().zip(rows);
+        let change = pairs
+            .map(|(a, b)| (value(a) - value(b)).abs())
+            .fold(0.0, f64::max);
+        let largest = rows.iter().map(|row| value(row).abs()).fold(0.0, f64::max);
+        if change > 0.0 { change / largest } else { 0.0 }
+    };
+    of(|row| row.normal_force).max(of(|row| row.indentation_depth))
+}

@@ -1,0 +1,42 @@
+//! A scene of motions, and what a march says about each.
+
+use crate::Control;
+
+/// One step of an indenter; its control holds from the step before, so that a change of it is a jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Time at the end of the step, since the first touch, \[s].
+    pub time: f64,
+    /// Position of the lowest point along x there, \[m]; it may change by any amount, stay, or go back.
+    pub position: f64,
+    /// Force or depth that is given there.
+    pub control: Control,
+}
+
+/// The state at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MotionRow {
+    /// Time at the end of the step, \[s].
+    pub time: f64,
+    /// Position of the lowest point along x, \[m].
+    pub position: f64,
+    /// Depth of the lowest point below the undeformed surface, \[m]; where nothing is pressed, that of the first touch.
+    pub indentation_depth: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Force F_h along −x on the indenter, \[N]: the pressure of the step times the slope that it meets.
+    pub tangential_force: f64,
+    /// The same with the slope at the end of the step, \[N].
+    pub tangential_force_end_of_step: f64,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: f64,
+    /// Rear and front of the contact relative to the lowest point, \[m]; none without contact.
+    pub contact_x: Option<[f64; 2]>,
+    /// Sides of the contact relative to the lowest point, \[m]; none without contact.
+    pub contact_y: Option<[f64; 2]>,
+    /// Number of elements in contact.
+    pub n_contact: usize,
+    /// Iterations of the contact solver.
+    pub iterations: usize,
+}

@@ -1,0 +1,186 @@
+//! The slope that the pressure of a step meets.
+//!
+//! ```text
+//! F_h = Σ P ∂h/∂x ΔA,      ∂h/∂x at x + θ v Δt,      θ = ½ (1 − E G'(ω)),      ω = 2πv/L
+//! E = J₀ + Σ J_k ℒ(Δt/2λ_k)/(1 + ω²λ_k²),      ℒ(y) = coth y − 1/y
+//! ```
+//! The pressure that moves a dashpot belongs to the motion during the step, that of a spring to its end, and so does
+//! that of an element that yields within the step. Between them the moduli at the frequency decide with which a contact
+//! of length L passes; `docs/theory/transient-half-space.md` has the derivation. A chord over an element, or over the
+//! way of a longer step, stands for the slope, so that a cusp has one too.
+
+use std::f64::consts::PI;
+
+use indenters::Surface;
+
+use crate::BemError;
+use crate::stepping::{Instant, Leg, Stepping};
+
+/// Slopes of the loaded elements, weighted with their pressure; zero without contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct MeanSlopes {
+    /// Mean of the slope that the pressure of the step meets: F_h / F_N.
+    pub(super) met: f64,
+    /// Mean of ∂h/∂x at the end of the step.
+    pub(super) end: f64,
+    /// Mean of the modulus of the slope.
+    pub(super) steepness: f64,
+    /// Largest slope.
+    pub(super) largest: f64,
+}
+
+/// Slopes over the footprint, found when they are first needed.
+#[derive(Debug, Default)]
+pub(super) struct Slopes {
+    chord: Chord,
+    /// The slope that is met and that at the end of the step, per element.
+    known: Vec<Option<[f64; 2]>>,
+}
+
+impl Slopes {
+    /// Means over the step that has been made.
+    pub(super) fn over<S: Surface + ?Sized>(
+        &mut self,
+        surface: &S,
+        stepping: &Stepping<'_, S>,
+        instant: &Instant,
+    ) -> Result<MeanSlopes, BemError> {
+        self.turn_to(
+            Chord::new(elastic_share(stepping, instant)?, &instant.leg),
+            stepping.layout.shape,
+        );
+        let mut sum = MeanSlopes::default();
+        let mut normal = 0.0;
+        for (element, load) in stepping.loaded_elements() {
+            let [met, end] = self.at(surface, stepping, element)?;
+            sum.met += load * met;
+            sum.end += load * end;
+            sum.steepness += load * met.abs();
+            sum.largest = sum.largest.max(met);
+            normal += load;
+        }
+        if normal == 0.0 {
+            return Ok(sum);
+        }
+        Ok(MeanSlopes {
+            met: sum.met / normal,
+            end: sum.end / normal,
+            steepness: sum.steepness / normal,
+            ..sum
+        })
+    }
+
+    /// Forgets the slopes of another chord.
+    fn turn_to(&mut self, chord: Chord, [rows, columns]: [usize; 2]) {
+        if self.known.is_empty() || self.chord != chord {
+            self.chord = chord;
+            self.known.clear();
+            self.known.resize(rows * columns, None);
+        }
+    }
+
+    fn at<S: Surface + ?Sized>(
+        &mut self,
+        surface: &S,
+        stepping: &Stepping<'_, S>,
+        [row, column]: [usize; 2],
+    ) -> Result<[f64; 2], BemError> {
+        let index = row * stepping.layout.shape[1] + column;
+        if let Some(known) = self.known[index] {
+            return Ok(known);
+        }
+        let spacing = stepping.resolution.spacing[0];
+        let [here, y] = [
+            stepping.along(row, stepping.offset()),
+            stepping.across(column),
+        ];
+        let height = |place: f64| surface.height([place * spacing, y]);
+        let met = self.chord.rise(here, height) / spacing;
+        let x = here * spacing;
+        if !met.is_finite() {
+            return Err(BemError::VerticalWall { x, y });
+        }
+        let slopes = [met, checked_gradient(surface, [x, y])?];
+        self.known[index] = Some(slopes);
+        Ok(slopes)
+    }
+}
+
+fn checked_gradient(
+    surface: &(impl Surface + ?Sized),
+    position: [f64; 2],
+) -> Result<f64, BemError> {
+    let slope = surface.gradient(position)[0];
+    if slope.is_nan() {
+        return Err(BemError::InvalidParameter {
+            parameter: "slope of the surface",
+            value: slope,
+            allowed: "a number",
+        });
+    }
+    Ok(slope)
+}
+
+/// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
+fn elastic_share<S: Surface + ?Sized>(
+    stepping: &Stepping<'_, S>,
+    instant: &Instant,
+) -> Result<f64, BemError> {
+    let creep = &stepping.material.creep;
+    let Leg {
+        advance, time_step, ..
+    } = instant.leg;
+    let mut elastic = creep.instantaneous_compliance();
+    let n_rows = instant.bounds.map_or(1, |bounds| bounds.shape()[0]);
+    let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
+    for element in creep.elements() {
+        let within = langevin(0.5 * time_step / element.retardation_time);
+        let lag = frequency * element.retardation_time;
+        elastic += element.compliance * within / (1.0 + lag * lag);
+    }
+    if elastic == 0.0 {
+        return Ok(0.0);
+    }
+    let compliance = creep.complex_compliance(frequency)?;
+    // Relative to E, because squares of compliances may underflow.
+    let [storage, loss] = [compliance.storage, compliance.loss].map(|part| part / elastic);
+    Ok(storage / (storage * storage + loss * loss))
+}
+
+/// ℒ(y) = coth y − 1/y for y > 0.
+fn langevin(y: f64) -> f64 {
+    if y < 0.02 {
+        // The next term is below rounding.
+        let square = y * y;
+        return y / 3.0 * (1.0 - square / 15.0 * (1.0 - 2.0 * square / 21.0));
+    }
+    y.tanh().recip() - y.recip()
+}
+
+/// A piece of the body around the place that an element meets, in elements.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Chord {
+    /// Where the elements stand under the body.
+    offset: f64,
+    centre: f64,
+    length: f64,
+}
+
+impl Chord {
+    fn new(elastic_share: f64, leg: &Leg) -> Self {
+        let part = 0.5 * (1.0 - elastic_share);
+        Self {
+            offset: leg.offset,
+            centre: part * leg.advance,
+            // The mean over the way of a dashpot; the element alone for a spring.
+            length: (2.0 * part * leg.advance.abs()).max(1.0),
+        }
+    }
+
+    /// Rise of the body per element.
+    fn rise(&self, here: f64, height: impl Fn(f64) -> f64) -> f64 {
+        let centre = here + self.centre;
+        let half = 0.5 * self.length;
+        (height(centre + half) - height(centre - half)) / self.length
+    }
+}

@@ -1,0 +1,117 @@
+//! A long run in pieces.
+
+use std::ops::Range;
+
+use indenters::Surface;
+use rheology::ExponentialStep;
+
+use super::Stepping;
+use crate::BemError;
+use crate::bounds::Bounds;
+use crate::contact::ContactBox;
+
+/// What a march needs to go on from where it is, beside its scene.
+///
+/// A march that is resumed makes the same steps to the last bit.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MarchState {
+    steps_done: usize,
+    /// Lower and upper ends of the box around the contact, in elements of the footprint.
+    contact_box: [[usize; 2]; 2],
+    /// Loads in the box.
+    load: Vec<f64>,
+    /// What the rows that are still needed remember.
+    memory: Vec<f64>,
+}
+
+impl MarchState {
+    /// Number of steps made.
+    #[must_use]
+    pub const fn steps_done(&self) -> usize {
+        self.steps_done
+    }
+}
+
+impl<S: Surface + ?Sized> Stepping<'_, S> {
+    pub(crate) fn state(&self) -> MarchState {
+        let Bounds { lower, upper } = self.contact_box.bounds;
+        MarchState {
+            steps_done: self.steps_done,
+            contact_box: [lower, upper],
+            load: self.contact_box.state.pressure().to_vec(),
+            memory: self.window.memory(self.rows_needed()).to_vec(),
+        }
+    }
+
+    pub(crate) fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
+        let (mut contact_box, memory) = self.check(state)?;
+        contact_box
+            .state
+            .pressure_mut()
+            .copy_from_slice(&state.load);
+        self.contact_box = contact_box;
+        self.steps_done = state.steps_done;
+        self.window
+            .memory_mut(memory)
+            .copy_from_slice(&state.memory);
+        let Some(last) = self.steps_done.checked_sub(1) else {
+            return Ok(());
+        };
+        let last = self.route.legs[last];
+        self.time_step = last.time_step;
+        self.step = ExponentialStep::creep(&self.material.creep, self.time_step)?;
+        self.sample(last.offset)
+    }
+
+    /// The empty box of a state, and the rows that it remembers.
+    fn check(&self, state: &MarchState) -> Result<(ContactBox, Range<usize>), BemError> {
+        let [lower, upper] = state.contact_box;
+        let n_steps = self.route.legs.len();
+        at_most("steps done", state.steps_done, n_steps)?;
+        for axis in 0..2 {
+            at_most(
+                "end of the contact box",
+                upper[axis],
+                self.layout.shape[axis],
+            )?;
+            at_most("start of the contact box", lower[axis] + 1, upper[axis])?;
+        }
+        let bounds = Bounds { lower, upper };
+        let rows = self.route.rows_from(state.steps_done, self.layout.shape[0]);
+        let n_values = self.window.memory(rows.clone()).len();
+        for (field, values, elements) in [
+            ("load", &state.load, bounds.n_elements()),
+            ("memory", &state.memory, n_values),
+        ] {
+            if values.len() != elements {
+                let length = values.len();
+                return Err(BemError::LengthMismatch {
+                    field,
+                    length,
+                    elements,
+                });
+            }
+            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+                return Err(BemError::InvalidParameter {
+                    parameter: field,
+                    value,
+                    allowed: "finite",
+                });
+            }
+        }
+        Ok((ContactBox::new(bounds, self.aspect())?, rows))
+    }
+}
+
+/// Checks an index of a state against its scene.
+fn at_most(parameter: &'static str, value: usize, limit: usize) -> Result<(), BemError> {
+    if value <= limit {
+        return Ok(());
+    }
+    Err(BemError::InvalidParameter {
+        parameter,
+        value: value as f64,
+        allowed: "inside the scene that is resumed",
+    })
+}

@@ -1,0 +1,425 @@
+//! One step of contact after the other, on any linear viscoelastic half space.
+//!
+//! ```text
+//! u_new = 2 (1 − ν) α w + history,        w = K P / (4π) held over the step
+//! gap = h + u_new − d ≥ 0,   P ≥ 0,   P · gap = 0
+//! ```
+//! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + history. The elements stay
+//! where they are in the half space; the footprint goes with the indenter by whole elements, and the indenter stands
+//! anywhere over the element in its middle. Inside, heights are measured in a scale of the scene and lengths in Δx, so
+//! that only ratios enter.
+
+mod checkpoint;
+mod route;
+mod window;
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use indenters::{SlidingLoad, Surface};
+use rheology::{CreepSpectrum, ExponentialStep, Material};
+
+use crate::bounds::Bounds;
+use crate::contact::{ContactBox, Outcome};
+use crate::error::positive;
+use crate::resolution::Layout;
+use crate::{BemError, Control, Resolution};
+pub use checkpoint::MarchState;
+pub(crate) use route::{Leg, Route};
+use window::Window;
+
+/// A box of which less is needed than this part gives way to a smaller one.
+const NEEDED_PART: f64 = 0.75;
+
+/// An indenter on its way over a half space.
+pub(crate) struct Stepping<'scene, S: ?Sized> {
+    surface: &'scene S,
+    pub(crate) resolution: Resolution,
+    pub(crate) layout: Layout,
+    pub(crate) material: HalfSpace,
+    route: Route,
+    steps_done: usize,
+    step: ExponentialStep,
+    time_step: f64,
+    /// Heights of the indenter over the footprint, and the offset for which they were sampled.
+    heights: Vec<f64>,
+    sampled_offset: f64,
+    /// Heights plus displacement without load.
+    separation: Vec<f64>,
+    window: Window,
+    contact_box: ContactBox,
+    /// Unit of heights, \[m].
+    scale: f64,
+}
+
+/// The creep of the surface of a half space.
+#[derive(Debug, Clone)]
+pub(crate) struct HalfSpace {
+    pub(crate) creep: CreepSpectrum,
+    /// 2 (1 − ν).
+    factor: f64,
+}
+
+impl HalfSpace {
+    /// F_N J(L/v) / (4 L), the depth that a load makes while it passes a contact of length L: F_N/(4ηv) on a dashpot,
+    /// \[m].
+    pub(crate) fn depth_scale(&self, load: &SlidingLoad, length: f64) -> Result<f64, BemError> {
+        let compliance = self.creep.creep_compliance(length / load.velocity())?;
+        Ok(0.25 * load.normal_force() * (self.factor * compliance) / length)
+    }
+}
+
+/// The contact at the end of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Instant {
+    pub(crate) leg: Leg,
+    pub(crate) indentation_depth: f64,
+    pub(crate) normal_force: f64,
+    /// The loaded elements of the footprint.
+    pub(crate) bounds: Option<Bounds>,
+    pub(crate) n_contact: usize,
+    pub(crate) iterations: usize,
+}
+
+impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
+    pub(crate) fn new(
+        surface: &'scene S,
+        material: &(impl Material + ?Sized),
+        route: Route,
+        resolution: &Resolution,
+    ) -> Result<Self, BemError> {
+        let layout = resolution.layout()?;
+        let [dx, dy] = resolution.spacing;
+        let material = HalfSpace {
+            creep: material.creep(),
+            factor: material.half_space_factor(),
+        };
+        let time_step = route.legs[0].time_step;
+        let step = ExponentialStep::creep(&material.creep, time_step)?;
+        let route = match step.n_fields() {
+            0 => route.without_memory(),
+            _ => route,
+        };
+        let n_rows = route.rows_from(0, layout.shape[0]).end;
+        let window = Window::new(n_rows, &layout, dy / dx, step.n_fields())?;
+        let mut stepping = Self {
+            surface,
+            resolution: *resolution,
+            layout,
+            scale: height_scale(&material, &route, dx)?,
+            material,
+            route,
+            steps_done: 0,
+            step,
+            time_step,
+            heights: Vec::new(),
+            sampled_offset: f64::NAN,
+            separation: vec![0.0; layout.shape[0] * layout.shape[1]],
+            window,
+            contact_box: ContactBox::new(Bounds::around(layout.apex), [1.0, dy / dx])?,
+        };
+        stepping.sample(stepping.route.legs[0].offset)?;
+        stepping.contact_box = stepping.box_at_lowest(&stepping.heights)?;
+        Ok(stepping)
+    }
+
+    /// Number of stored values per element.
+    pub(crate) fn n_fields(&self) -> usize {
+        self.window.n_fields()
+    }
+
+    pub(crate) fn n_elements(&self) -> usize {
+        self.window.n_elements()
+    }
+
+    /// Elements with load in the last step, and their loads, of which only the ratios matter.
+    pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
+        self.contact_box.loaded_elements()
+    }
+
+    /// The box around the loaded elements; the element under the lowest point without any.
+    pub(crate) fn contact_bounds(&self) -> Bounds {
+        let elements = self.loaded_elements().map(|(element, _)| element);
+        Bounds::of(elements).unwrap_or(Bounds::around(self.layout.apex))
+    }
+
+    /// Distance of the lowest point from the centre of its element in the last step, in elements.
+    pub(crate) fn offset(&self) -> f64 {
+        self.sampled_offset
+    }
+
+    /// Pressure of an element per unit of its load, \[Pa].
+    pub(crate) fn pressure_per_load(&self) -> f64 {
+        4.0 * PI * self.scale / self.resolution.spacing[0] / self.compliance()
+    }
+
+    /// The compliance of the last step, \[1/Pa].
+    fn compliance(&self) -> f64 {
+        self.material.factor * self.step.response()
+    }
+
+    /// The contact at the end of the next step; nothing at the end of the way.
+    pub(crate) fn advance(&mut self) -> Result<Option<Instant>, BemError> {
+        let Some(leg) = self.route.legs.get(self.steps_done).copied() else {
+            return Ok(None);
+        };
+        self.set_time_step(leg.time_step)?;
+        self.sample(leg.offset)?;
+        self.set_separation(leg.row);
+        let instant = match self.depth_without_contact(leg.control) {
+            Some(depth) => self.free(leg, depth)?,
+            None => self.press(leg)?,
+        };
+        let wanted = self.rows_needed();
+        self.window.remember(&self.step, wanted);
+        self.steps_done += 1;
+        Ok(Some(instant))
+    }
+
+    /// Rows that the step under way or a later one needs.
+    fn rows_needed(&self) -> Range<usize> {
+        self.route.rows_from(self.steps_done, self.layout.shape[0])
+    }
+
+    fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
+        if time_step.total_cmp(&self.time_step).is_eq() {
+            return Ok(());
+        }
+        let before = self.step.response();
+        self.step = ExponentialStep::creep(&self.material.creep, time_step)?;
+        self.time_step = time_step;
+        // The same pressure is another load now.
+        let ratio = self.step.response() / before;
+        for load in self.contact_box.state.pressure_mut() {
+            *load *= ratio;
+        }
+        Ok(())
+    }
+
+    /// Position in the frame of the indenter, in elements.
+    pub(crate) fn along(&self, row: usize, offset: f64) -> f64 {
+        row as f64 - self.layout.apex[0] as f64 - offset
+    }
+
+    /// Position across, \[m].
+    pub(crate) fn across(&self, column: usize) -> f64 {
+        (column as f64 - self.layout.apex[1] as f64) * self.resolution.spacing[1]
+    }
+
+    /// Samples the heights with the lowest point `offset` elements before the centre of its element.
+    fn sample(&mut self, offset: f64) -> Result<(), BemError> {
+        if offset.total_cmp(&self.sampled_offset).is_eq() {
+            return Ok(());
+        }
+        let [rows, columns] = self.layout.shape;
+        let mut heights = Vec::with_capacity(rows * columns);
+        for row in 0..rows {
+            let x = self.along(row, offset) * self.resolution.spacing[0];
+            for column in 0..columns {
+                let value = self.surface.height([x, self.across(column)]);
+                if value.is_nan() || value == f64::NEG_INFINITY {
+                    return Err(BemError::InvalidHeight { row, column, value });
+                }
+                heights.push(value / self.scale);
+            }
+        }
+        if heights.iter().all(|height| !height.is_finite()) {
+            return Err(BemError::InvalidParameter {
+                parameter: "height of the surface",
+                value: f64::INFINITY,
+                allowed: "below infinity in at least one element of the footprint",
+            });
+        }
+        self.heights = heights;
+        self.sampled_offset = offset;
+        Ok(())
+    }
+
+    /// A box around the lowest of the heights.
+    fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
+        let columns = self.layout.shape[1];
+        let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
+        let element = lowest.map_or(self.layout.apex, |index| [index / columns, index % columns]);
+        let bounds = Bounds::around(element).with_margin(self.layout.shape);
+        ContactBox::new(bounds, self.aspect())
+    }
+
+    fn aspect(&self) -> [f64; 2] {
+        let [dx, dy] = self.resolution.spacing;
+        [1.0, dy / dx]
+    }
+
+    fn set_separation(&mut self, first_row: usize) {
+        self.window
+            .history(&self.step, first_row, &mut self.separation);
+        for (separation, height) in self.separation.iter_mut().zip(&self.heights) {
+            *separation += height;
+        }
+    }
+
+    /// The depth of an indenter that is not pressed, or held above the surface; nothing when there is contact.
+    fn depth_without_contact(&self, control: Control) -> Option<f64> {
+        let lowest = self
+            .separation
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+        match control {
+            Control::NormalForce(force) => (force == 0.0).then_some(lowest * self.scale),
+            Control::IndentationDepth(depth) => (depth / self.scale <= lowest).then_some(depth),
+        }
+    }
+
+    fn free(&mut self, leg: Leg, indentation_depth: f64) -> Result<Instant, BemError> {
+        if self.contact_box.loaded_elements().next().is_some() {
+            self.contact_box = self.box_at_lowest(&self.separation)?;
+        }
+        self.window.release(self.rows_needed());
+        Ok(Instant {
+            leg,
+            indentation_depth,
+            normal_force: 0.0,
+            bounds: None,
+            n_contact: 0,
+            iterations: 0,
+        })
+    }
+
+    fn press(&mut self, leg: Leg) -> Result<Instant, BemError> {
+        let mut enlarged = false;
+        loop {
+            self.fill_box();
+            let control = self.scaled(leg.control);
+            let outcome = self.contact_box.solve(control, &self.resolution.contact)?;
+            self.find_increment(leg.row);
+            let contact = Bounds::of(self.loaded_elements().map(|(element, _)| element));
+            if let Some(outside) = self.penetration(leg.row, outcome.indentation_depth) {
+                let mut bounds = contact.map_or(outside, |contact| contact.with(&outside));
+                bounds = bounds.with_margin(self.layout.shape);
+                if enlarged {
+                    bounds = bounds.with(&self.contact_box.bounds);
+                }
+                self.contact_box = self.contact_box.moved_to(bounds)?;
+                enlarged = true;
+                continue;
+            }
+            if let Some(bounds) = contact {
+                self.check_footprint(&bounds, leg.position)?;
+                self.tighten(&bounds)?;
+            }
+            return Ok(self.instant(leg, outcome, contact));
+        }
+    }
+
+    fn instant(&self, leg: Leg, outcome: Outcome, bounds: Option<Bounds>) -> Instant {
+        let normal_force = match leg.control {
+            Control::NormalForce(force) => force,
+            Control::IndentationDepth(_) => outcome.total_load / self.load_per_force(),
+        };
+        Instant {
+            leg,
+            indentation_depth: outcome.indentation_depth * self.scale,
+            normal_force,
+            bounds,
+            n_contact: self.loaded_elements().count(),
+            iterations: outcome.iterations,
+        }
+    }
+
+    /// Sum of the loads that a normal force of 1 N makes.
+    ///
+    /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
+    fn load_per_force(&self) -> f64 {
+        let compliance = self.compliance() / self.scale;
+        compliance / (4.0 * PI * self.resolution.spacing[1])
+    }
+
+    fn scaled(&self, control: Control) -> Control {
+        match control {
+            Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
+            Control::IndentationDepth(depth) => Control::IndentationDepth(depth / self.scale),
+        }
+    }
+
+    fn fill_box(&mut self) {
+        let ranges = self.contact_box.bounds.row_ranges(self.layout.shape[1]);
+        self.contact_box.separation.clear();
+        for range in ranges {
+            let row = &self.separation[range];
+            self.contact_box.separation.extend_from_slice(row);
+        }
+    }
+
+    fn find_increment(&mut self, first_row: usize) {
+        let wanted = self.rows_needed();
+        if self.contact_box.loaded_elements().next().is_none() {
+            self.window.release(wanted);
+            return;
+        }
+        let rows = self.contact_box.bounds.rows();
+        let loaded = self.contact_box.loaded_elements();
+        self.window.press(loaded, (first_row, rows), wanted);
+    }
+
+    /// Elements outside the box that the indenter penetrates.
+    fn penetration(&self, first_row: usize, depth: f64) -> Option<Bounds> {
+        let increment = self
+            .window
+            .increment(first_row..first_row + self.layout.shape[0]);
+        let deflection = increment.iter().copied().fold(0.0, f64::max);
+        // The box and the window round differently, so the box's own tolerance would be too sharp here.
+        let allowed = -2.0 * self.resolution.contact.tolerance * deflection;
+        let columns = self.layout.shape[1];
+        let gaps = self.separation.iter().zip(increment).enumerate();
+        let outside = gaps
+            .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
+            .map(|(index, _)| [index / columns, index % columns])
+            .filter(|element| !self.contact_box.bounds.contains(*element));
+        Bounds::of(outside)
+    }
+
+    fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {
+        let shape = self.layout.shape;
+        let inside = (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < shape[axis]);
+        if inside {
+            return Ok(());
+        }
+        Err(self.resolution.footprint.boundary_reached(position))
+    }
+
+    /// Goes on with a smaller box when the contact has left most of it.
+    ///
+    /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
+    fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
+        let shape = self.contact_box.bounds.shape();
+        let needed = contact.with_margin(self.layout.shape);
+        let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
+        if ((rows * columns) as f64) < NEEDED_PART * (shape[0] * shape[1]) as f64 {
+            self.contact_box = self.contact_box.moved_to(needed)?;
+        }
+        Ok(())
+    }
+}
+
+/// A height that the scene has: F α / (4 Δx), which is F_N/(4ηv) on a dashpot, or a depth that is given.
+fn height_scale(material: &HalfSpace, route: &Route, spacing: f64) -> Result<f64, BemError> {
+    let mut scale = 0.0_f64;
+    let mut last = (f64::NAN, 0.0);
+    for leg in &route.legs {
+        let height = match leg.control {
+            Control::IndentationDepth(depth) => depth.abs(),
+            Control::NormalForce(force) => {
+                if leg.time_step.total_cmp(&last.0).is_ne() {
+                    let step = ExponentialStep::creep(&material.creep, leg.time_step)?;
+                    last = (leg.time_step, step.response());
+                }
+                0.25 * force * material.factor * last.1 / spacing
+            }
+        };
+        scale = scale.max(height);
+    }
+    if scale == 0.0 {
+        return Ok(spacing);
+    }
+    positive("height scale F α / (4 Δx)", scale)
+}
