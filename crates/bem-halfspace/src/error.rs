@@ -1,6 +1,7 @@
 //! What can be wrong with a question to the half space, and what was reached when it could not be answered.
 
 use indenters::IndenterError;
+use rheology::RheologyError;
 use thiserror::Error;
 
 /// Why the half space gives no answer.
@@ -87,13 +88,13 @@ pub enum BemError {
     },
     /// The body rises too much over one element in contact for its mean slope to mean anything.
     #[error(
-        "the body rises by {rise} m over one element in contact, more than F_N / (4 η v) = {depth_scale} m; \
+        "the body rises by {rise} m over one element in contact, more than the depth scale {depth_scale} m; \
          take a smaller spacing"
     )]
     SlopeNotResolved {
         /// Rise over the element, \[m].
         rise: f64,
-        /// Depth scale F_N / (4 η v), \[m].
+        /// Depth scale, F_N / (4 η v) on a dashpot, \[m].
         depth_scale: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
@@ -140,6 +141,9 @@ pub enum BemError {
     /// The rigid body refuses the question.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
+    /// The material refuses the question.
+    #[error(transparent)]
+    Rheology(#[from] RheologyError),
 }
 
 /// Checks that `value` is finite and greater than zero.
