@@ -1,4 +1,4 @@
-//! Boundary elements for rigid indenters on a viscous half space.
+//! Boundary elements for rigid indenters on a viscous or, in stationary sliding, any linear viscoelastic half space.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
 //! coefficients by fast convolution; the contact conditions are solved to a stated tolerance at every step. Four
@@ -7,7 +7,7 @@
 //! * [`contact`]: one instant, elastic or a step of a viscous history, at given force or depth;
 //! * [`indent`]: normal indentation under a constant force;
 //! * [`slide`]: sliding from first touch, through the transition, towards the stationary state;
-//! * [`steady`]: stationary sliding, solved directly, with an error bar.
+//! * [`steady`]: stationary sliding, solved directly, with an error bar, on any linear viscoelastic material.
 //!
 //! ```
 //! use bem_halfspace::slide::{SlideOptions, slide};

@@ -136,17 +136,16 @@ impl RetardedPotential {
 
     /// Goes back to the row at `x`, one element behind the last.
     pub(super) fn step(&mut self, x: f64) {
-        let delays = self.delays.clone();
         for column in 0..self.n_columns {
             let here = self.potential(x, column);
             let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
             let distance = distance_from_edges([x, x + 1.0], clearance);
             if let Some(rule) = rule_for(distance) {
-                self.whole(&delays, (x, column), rule, here);
+                self.whole((x, column), rule, here);
             } else {
-                self.graded(&delays, (x, column), clearance);
+                self.graded((x, column), clearance);
             }
-            for (index, delay) in delays.iter().enumerate() {
+            for (index, delay) in self.delays.iter().enumerate() {
                 let place = index * self.n_columns + column;
                 self.values[place] = delay.decay() * self.values[place] + self.increments[place];
             }
@@ -156,7 +155,7 @@ impl RetardedPotential {
     }
 
     /// The integral over an element in one panel.
-    fn whole(&mut self, delays: &[Delay], (x, column): (f64, usize), rule: usize, here: f64) {
+    fn whole(&mut self, (x, column): (f64, usize), rule: usize, here: f64) {
         let n_points = POINTS[rule].1;
         let mut potentials = [0.0; MAX_POINTS];
         potentials[0] = here;
@@ -169,20 +168,20 @@ impl RetardedPotential {
         {
             *potential = influence([x + node, column as f64 * self.aspect], [1.0, self.aspect]);
         }
-        for (index, delay) in delays.iter().enumerate() {
+        for (index, delay) in self.delays.iter().enumerate() {
             self.increments[index * self.n_columns + column] =
                 delay.compliance() * dot(&self.weights[index][rule], &potentials);
         }
     }
 
     /// The integral over an element near the edges of the loaded one.
-    fn graded(&mut self, delays: &[Delay], (x, column): (f64, usize), clearance: f64) {
-        for index in 0..delays.len() {
-            self.increments[index * self.n_columns + column] = 0.0;
+    fn graded(&mut self, (x, column): (f64, usize), clearance: f64) {
+        for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
+            *increment = 0.0;
         }
         for panel in panels(x, clearance).iter().rev() {
             let potentials = self.at_nodes(panel, column);
-            for (index, delay) in delays.iter().enumerate() {
+            for (index, delay) in self.delays.iter().enumerate() {
                 let (decay, weights) = self.over_panel(*delay, panel);
                 let increment = &mut self.increments[index * self.n_columns + column];
                 *increment = decay * *increment + dot(&weights, &potentials);
@@ -256,4 +255,72 @@ fn dot(weights: &[f64; MAX_POINTS], potentials: &[f64; MAX_POINTS]) -> f64 {
         .zip(potentials)
         .map(|(weight, potential)| weight * potential)
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::quadrature::integrate;
+
+    use super::*;
+
+    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
+    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2]) -> f64 {
+        let end = 60.0 / rate;
+        let decays = (-3..=5).map(|power| 2.0_f64.powi(power) / rate);
+        let distances = (-3..60).map(|power| 0.5 + 2.0_f64.powi(power) - x);
+        let singular = [0.0, -0.5 - x, 0.5 - x, end];
+        let mut ends: Vec<f64> = decays.chain(distances).chain(singular).collect();
+        ends.retain(|distance| (0.0..=end).contains(distance));
+        ends.sort_by(f64::total_cmp);
+        let integrand = |s: f64| rate * (-rate * s).exp() * influence([x + s, y], edges);
+        let parts = ends.windows(2).filter(|pair| pair[0] < pair[1]);
+        parts
+            .map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value)
+            .sum()
+    }
+
+    #[test]
+    fn the_recursion_agrees_with_quadrature_for_any_rate() {
+        for (shift, aspect) in [
+            (-0.5, 0.5),
+            (-0.37, 0.5),
+            (0.0, 1.0),
+            (-0.1, 1e-3),
+            (-0.2, 1e4),
+        ] {
+            for decade in (-12..=12).step_by(3) {
+                check(10.0_f64.powi(decade), shift, aspect);
+            }
+        }
+    }
+
+    fn check(rate: f64, shift: f64, aspect: f64) {
+        let delay = Delay {
+            rate,
+            share: -(-rate).exp_m1(),
+        };
+        let creep = ElementCreep {
+            shift,
+            delays: vec![delay],
+            ..ElementCreep::default()
+        };
+        let first = 30.0 + shift;
+        let mut retarded = RetardedPotential::new(&creep, [first, aspect], 4);
+        for row in 0..=60 {
+            let x = first - f64::from(row);
+            retarded.step(x);
+            if ![20, 29, 30, 31, 60].contains(&row) {
+                continue;
+            }
+            for column in [0, 1, 3] {
+                let y = f64::from(column) * aspect;
+                let expected = reference(rate, [x, y], [1.0, aspect]);
+                let actual = retarded.value(column as usize);
+                assert!(
+                    (actual / expected - 1.0).abs() < 1e-10,
+                    "rate {rate:e}, shift {shift}, aspect {aspect}, at ({x}, {y}): {actual:e} instead of {expected:e}"
+                );
+            }
+        }
+    }
 }

@@ -17,6 +17,7 @@ mod stationary_state;
 mod steady_bad_input;
 mod steady_estimate;
 mod steady_invariance;
+mod steady_materials;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;
