@@ -55,57 +55,83 @@ impl WakeTable {
     }
 
     fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2]) -> Self {
-        let [n_rows, n_columns] = [2 * reach[0] + 1, reach[1] + 1];
+        let n_values = (2 * reach[0] + 1) * (reach[1] + 1);
         let mut table = Self {
             creep: creep.clone(),
             aspect,
             reach,
-            values: vec![0.0; n_rows * n_columns],
-            potentials: vec![0.0; n_rows * n_columns],
+            values: vec![0.0; n_values],
+            potentials: vec![0.0; n_values],
         };
-        let offset = |row: usize| row as f64 - reach[0] as f64 + creep.shift;
-        let mut retarded = (!creep.delays.is_empty())
-            .then(|| RetardedPotential::new(creep, [offset(n_rows - 1), aspect], n_columns));
-        let sunken = |row: usize| -> Vec<f64> {
-            let value = |column: usize| {
-                -wake_influence([offset(row), column as f64 * aspect], [1.0, aspect])
-            };
-            (0..n_columns).map(value).collect()
-        };
-        let mut ahead = if creep.flow > 0.0 {
-            sunken(n_rows)
-        } else {
-            Vec::new()
-        };
-        for row in (0..n_rows).rev() {
-            if let Some(retarded) = &mut retarded {
-                retarded.step(offset(row));
-            }
-            let line = row * n_columns..(row + 1) * n_columns;
-            let values = &mut table.values[line.clone()];
-            let potentials = &mut table.potentials[line];
-            if creep.flow > 0.0 {
-                let here = sunken(row);
-                for column in 0..n_columns {
-                    values[column] += creep.flow * here[column];
-                    potentials[column] += creep.flow * (here[column] - ahead[column]);
-                }
-                ahead = here;
-            }
-            for column in 0..n_columns {
-                if creep.instant > 0.0 {
-                    let y = column as f64 * aspect;
-                    let instant = creep.instant * influence([offset(row), y], [1.0, aspect]);
-                    values[column] += instant;
-                    potentials[column] += instant;
-                }
-                if let Some(retarded) = &retarded {
-                    values[column] += retarded.value(column);
-                    potentials[column] += retarded.increment(column);
-                }
-            }
+        if creep.flow > 0.0 {
+            table.add_flow();
+        }
+        if creep.instant > 0.0 {
+            table.add_instant();
+        }
+        if !creep.delays.is_empty() {
+            table.add_retarded();
         }
         table
+    }
+
+    const fn n_columns(&self) -> usize {
+        self.reach[1] + 1
+    }
+
+    /// Offset of a row of the table from the loaded element.
+    fn offset(&self, row: usize) -> f64 {
+        row as f64 - self.reach[0] as f64 + self.creep.shift
+    }
+
+    /// Values of a kernel along a row.
+    fn along(&self, row: usize, kernel: fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
+        let x = self.offset(row);
+        let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);
+        (0..self.n_columns()).map(value).collect()
+    }
+
+    /// Adds a row, and what of it has crept within the element.
+    fn add(&mut self, row: usize, parts: impl Fn(usize) -> [f64; 2]) {
+        let first = row * self.n_columns();
+        for column in 0..self.n_columns() {
+            let [value, potential] = parts(column);
+            self.values[first + column] += value;
+            self.potentials[first + column] += potential;
+        }
+    }
+
+    fn add_flow(&mut self) {
+        let flow = self.creep.flow;
+        let n_rows = 2 * self.reach[0] + 1;
+        let mut ahead = self.along(n_rows, wake_influence);
+        for row in (0..n_rows).rev() {
+            let here = self.along(row, wake_influence);
+            self.add(row, |column| {
+                [-flow * here[column], flow * (ahead[column] - here[column])]
+            });
+            ahead = here;
+        }
+    }
+
+    fn add_instant(&mut self) {
+        let instant = self.creep.instant;
+        for row in 0..=2 * self.reach[0] {
+            let here = self.along(row, influence);
+            self.add(row, |column| [instant * here[column]; 2]);
+        }
+    }
+
+    fn add_retarded(&mut self) {
+        let last = 2 * self.reach[0];
+        let first = [self.offset(last), self.aspect];
+        let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
+        for row in (0..=last).rev() {
+            retarded.step(self.offset(row));
+            self.add(row, |column| {
+                [retarded.value(column), retarded.increment(column)]
+            });
+        }
     }
 
     /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it, both

@@ -15,6 +15,7 @@ mod sliding_invariance;
 mod square_punch;
 mod stationary_state;
 mod steady_bad_input;
+mod steady_cylinder;
 mod steady_estimate;
 mod steady_invariance;
 mod steady_materials;

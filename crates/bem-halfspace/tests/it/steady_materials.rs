@@ -83,6 +83,7 @@ fn force_of(case: &Case, modulus: f64) -> f64 {
 /// middle, where friction is still in proportion to them up to 1e-4, and 1e-5 of the slope: that much is not rounding.
 #[test]
 fn both_ends_of_the_speed_are_exact() {
+    const RELATIVE_ERROR: f64 = 5e-3;
     for case in group("FRI-05").iter().filter(|case| case.has_input("G1")) {
         let (soft, stiff) = (case.input("G1"), case.input("G1") + case.input("G2"));
         let p = case.input("p");
@@ -95,7 +96,8 @@ fn both_ends_of_the_speed_are_exact() {
         ];
         for (name, modulus, tabulated, velocity) in ends {
             let loads = [force_of(case, modulus), velocity];
-            let estimate = friction(&body, &material, loads, 5e-3).expect("a friction coefficient");
+            let estimate =
+                friction(&body, &material, loads, RELATIVE_ERROR).expect("a friction coefficient");
             let ratio = if name == "mu_fast" {
                 tabulated / velocity
             } else {
@@ -104,7 +106,7 @@ fn both_ends_of_the_speed_are_exact() {
             let expected = case.expected(name).expect("a value") * ratio;
             let deviation = (estimate.friction_coefficient - expected).abs();
             assert!(
-                deviation < estimate.error + 3e-4 * expected,
+                deviation < RELATIVE_ERROR * expected,
                 "{} {name}: {} ± {} instead of {expected}",
                 case.id(),
                 estimate.friction_coefficient,
