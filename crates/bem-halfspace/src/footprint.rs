@@ -87,7 +87,7 @@ pub(crate) fn depth_scale(material: &Viscous, load: &SlidingLoad) -> f64 {
     0.25 * load.normal_force() / material.viscosity() / load.velocity()
 }
 
-fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
+pub(crate) fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
     let above = |radius: f64| body.height(radius) >= height;
     let mut radius = if body.max_radius().is_finite() {
         body.max_radius()

@@ -5,10 +5,11 @@
 //! questions can be asked, in modules named like those of the one-dimensional solver:
 //!
 //! * [`contact`]: one instant, elastic or a step of a history, at given force or depth;
-//! * [`indent`]: normal indentation, any history of force or depth, on any linear viscoelastic material;
-//! * [`slide`]: sliding from first touch, through the transition, towards the stationary state, and any other motion,
-//!   on any linear viscoelastic material;
-//! * [`steady`]: stationary sliding on a viscous half space, solved directly, with an error bar.
+//! * [`indent`]: normal indentation, any history of force or depth;
+//! * [`slide`]: sliding from first touch, through the transition, towards the stationary state, and any other motion;
+//! * [`steady`]: stationary sliding, solved directly, with an error bar.
+//!
+//! The last three take any linear viscoelastic material.
 //!
 //! ```
 //! use bem_halfspace::slide::{SlideOptions, slide};

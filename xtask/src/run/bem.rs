@@ -1,4 +1,4 @@
-//! Sliding on the viscous half space.
+//! Sliding on the half space: stationary on any material, from first touch on a viscous one.
 
 use anyhow::Result;
 use bem_halfspace::slide::{SlideOptions, SlideRow, Transient, slide};
@@ -8,13 +8,15 @@ use bem_halfspace::steady::{
 use bem_halfspace::{ContactOptions, Footprint};
 use friction_analytic::stationary_depth;
 use indenters::{SlidingLoad, contact_radius};
-use rheology::Viscous;
+use rheology::{Material, Viscous};
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::body::Revolution;
 use super::resolution::{Resolved, resolve};
 use crate::scene_file::{Accuracy, Method, Model};
 
+/// Elements of the coarsest grids of a ladder along the contact length of the one-dimensional model.
+const COARSEST_ELEMENTS: f64 = 5.0;
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const LARGEST_GRID: usize = 32;
 /// Contact lengths of the one-dimensional model until the state counts as stationary.
@@ -26,7 +28,7 @@ const MAX_ITERATIONS: usize = 500;
 /// The stationary state, to an error or on a grid.
 pub(super) fn stationary(
     body: &Revolution,
-    (material, load): (&Viscous, &SlidingLoad),
+    (material, load): (&dyn Material, &SlidingLoad),
     accuracy: Accuracy,
     distance: Option<f64>,
 ) -> Result<Answer> {
@@ -43,7 +45,8 @@ pub(super) fn stationary(
             (estimate.friction_coefficient, estimate.error, state)
         }
         Accuracy::Elements(_) => {
-            let length = line_length(body, material, load)?;
+            let ladder = Ladder::of_body(body, material, load)?;
+            let length = COARSEST_ELEMENTS * ladder.coarsest_spacing;
             let solve = |elements: usize| on_grid(body, (material, load), length / elements as f64);
             let Resolved { value, error, .. } = resolve(accuracy, usize::MAX, solve, |state| {
                 state.friction_coefficient
@@ -51,10 +54,10 @@ pub(super) fn stationary(
             (value.friction_coefficient, error, value)
         }
     };
-    let depth = distance.map(|distance| depth_after(&state.depth, distance));
+    let depth = depth_after(&state.depth, distance).transpose();
     let answer = Answer::new(Method::BemSteady, Model::HalfSpace, load.normal_force())
         .with_friction(friction, error);
-    Ok(with_state(answer, state, depth.transpose()?))
+    Ok(with_state(answer, state, depth?))
 }
 
 fn with_state(answer: Answer, state: SteadySliding, depth: Option<f64>) -> Answer {
@@ -71,8 +74,12 @@ fn with_state(answer: Answer, state: SteadySliding, depth: Option<f64>) -> Answe
     answer
 }
 
-fn depth_after(depth: &SinkingDepth, distance: f64) -> Result<f64> {
-    Ok(depth.after(distance)?)
+/// A solid has a depth of its own; one that flows has a depth after a distance only.
+fn depth_after(depth: &SinkingDepth, distance: Option<f64>) -> Option<Result<f64>> {
+    if depth.depth_per_e_fold == 0.0 {
+        return Some(Ok(depth.reference_depth));
+    }
+    distance.map(|distance| Ok(depth.after(distance)?))
 }
 
 fn line_length(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Result<f64> {
@@ -82,7 +89,7 @@ fn line_length(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Res
 /// Elements half as wide as long.
 fn on_grid(
     body: &Revolution,
-    (material, load): (&Viscous, &SlidingLoad),
+    (material, load): (&dyn Material, &SlidingLoad),
     spacing: f64,
 ) -> Result<SteadySliding> {
     let Footprint { x, y } = Ladder::of_body(body, material, load)?.footprint;

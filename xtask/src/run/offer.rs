@@ -118,15 +118,13 @@ fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Opti
         (Method::MdrTransient | Method::BemTransient, Motion::Pressing { .. }) => {
             at_depth(question).then_some("it presses with a force; analytic holds a depth")
         }
-        (Method::MdrTransient, Motion::Sliding { .. }) => {
-            at_depth(question).then_some("it slides under a force, not at a depth")
-        }
-        (Method::BemSteady | Method::BemTransient, Motion::Sliding { .. }) => {
-            on_half_space(question, simple)
-        }
+        (Method::MdrTransient, Motion::Sliding { .. }) => at_depth(question).then_some(UNDER_FORCE),
+        (Method::BemSteady, Motion::Sliding { .. }) => at_depth(question).then_some(UNDER_FORCE),
+        (Method::BemTransient, Motion::Sliding { .. }) => on_half_space(question, simple),
     }
 }
 
+const UNDER_FORCE: &str = "it slides under a force, not at a depth";
 const STATIONARY: &str = "it answers the stationary state, without duration and sliding_distance";
 
 fn at_depth(question: &Question) -> bool {
@@ -135,9 +133,9 @@ fn at_depth(question: &Question) -> bool {
 
 fn on_half_space(question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
     if !matches!(simple, Some(Simple::Viscous(_))) {
-        return Some("boundary elements slide on a viscous half space only, so far");
+        return Some("boundary elements march in time on a viscous half space only, so far");
     }
-    at_depth(question).then_some("it slides under a force, not at a depth")
+    at_depth(question).then_some(UNDER_FORCE)
 }
 
 fn closed_line(

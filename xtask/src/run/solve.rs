@@ -65,7 +65,7 @@ fn slid(
         }
         Method::BemSteady => {
             let load = load(motion)?;
-            bem::stationary(body, (&viscous(question)?, &load), accuracy, distance)
+            bem::stationary(body, (material, &load), accuracy, distance)
         }
         Method::BemTransient => {
             let load = load(motion)?;

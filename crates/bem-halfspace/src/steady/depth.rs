@@ -1,23 +1,22 @@
 //! How deep a body lies that slides for ever.
 
-use std::f64::consts::PI;
-
 use crate::BemError;
 use crate::error::positive;
 use crate::steady::loading::sunken;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
 
-/// Depth of the lowest point below the undeformed surface, which never stops to grow.
+/// Depth of the lowest point below the undeformed surface, which never stops to grow where the material flows.
 ///
-/// After the sliding distance s from first touch, the kernel of the march in time is
+/// On a solid, whose creep ends, `depth_per_e_fold` is 0, and `reference_depth` is the depth once the sliding has
+/// lasted much longer than the retardation times. On a dashpot, after the sliding distance s from first touch, the kernel of the march in time is
 /// `asinh((ξ + s)/|y|) − asinh(ξ/|y|) → ln(2s) − ln(ξ + r)`, so that
 ///
 /// ```text
 /// d(s) = d_ref + F_N/(4πηv) ln(s / s_ref)
 /// ```
 ///
-/// up to terms of the order of (contact length)/s. The reference distance is the length of the contact, which carries no
+/// up to terms of the order of (contact length)/s; other materials with the free flow η differ in `d_ref`. The reference distance is the length of the contact, which carries no
 /// meaning beyond fixing `d_ref`: at s = s_ref the contact is not stationary yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -26,7 +25,7 @@ pub struct SinkingDepth {
     pub reference_depth: f64,
     /// s_ref, the length of the contact along x, \[m].
     pub reference_distance: f64,
-    /// F_N/(4πηv), by which the depth grows when the distance grows e-fold, \[m].
+    /// 2 (1 − ν) F_N/(4πηv), by which the depth grows when the distance grows e-fold, \[m]; 0 on a solid.
     pub depth_per_e_fold: f64,
 }
 
@@ -35,8 +34,8 @@ impl SinkingDepth {
         let spacing = mesh.options.spacing;
         let scale = mesh.loading.depth_scale;
         // F_N/(4πηv) in units of D.
-        let rate = mesh.loading.force_of(mesh.total_load(solution), spacing)
-            / (PI * mesh.loading.force_scale);
+        let aspect = spacing[1] / spacing[0];
+        let rate = mesh.loading.creep.flow * aspect * mesh.total_load(solution);
         Self {
             reference_depth: scale * (solution.depth + rate * sunken(contact_length, spacing[0])),
             reference_distance: contact_length,

@@ -3,15 +3,19 @@
 //! The outline of the contact follows the elements. On one grid that scatters the friction around its trend, so each
 //! refinement averages over four grids that are shifted by half an element along x and y. The averages converge with
 //! the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p is slower, and are extrapolated.
+//! On materials that recover the outline is closed behind, and what is left of the scatter decides: it widens the error
+//! bar.
 
 use indenters::{Axisymmetric, SlidingLoad, Surface, contact_radius};
-use rheology::Viscous;
+use rheology::Material;
 
 use crate::error::{below_one, positive};
-use crate::footprint::depth_scale;
+use crate::footprint::radius_at_height;
+use crate::steady::contact_scale::depth_scale;
 use crate::steady::extrapolation::{Limit, extrapolate};
 use crate::steady::loading::Loading;
-use crate::steady::{Reuse, SinkingDepth, SteadyOptions, solve};
+use crate::steady::sliding_creep::SlidingCreep;
+use crate::steady::{Reuse, SinkingDepth, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids; every refinement has √2 times
@@ -25,8 +29,13 @@ const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 const FRONT_ORDER: f64 = 1.5;
 /// Contact sets tried on one grid.
 const MAX_ITERATIONS: usize = 500;
-/// Gaps left on one grid, relative to the relative error asked for.
+/// Gaps left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
 const GAP_SHARE: f64 = 1e-4;
+const SMALLEST_GAP: f64 = 1e-12;
+/// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
+const FIRST_PART: f64 = 1e-3;
+/// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// What is asked of the friction coefficient, and how much work may be spent on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,13 +116,16 @@ impl Ladder {
     /// [`BemError::InvalidParameter`] and [`BemError::Indenter`] when the body has no radius that could be found for
     /// this load.
     pub fn of_body(
-        body: &impl Axisymmetric,
-        material: &Viscous,
+        body: &(impl Axisymmetric + ?Sized),
+        material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let contact_length = contact_radius(body, depth_scale(material, load))?;
+        let creep = SlidingCreep::new(material, load.velocity())?;
+        let height = |radius: f64| body.height(radius);
+        let depth = depth_scale(&creep, load.normal_force(), height, body.max_radius())?;
+        let contact_length = contact_radius(body, depth)?;
         Ok(Self {
-            footprint: Footprint::of_body(body, material, load)?,
+            footprint: footprint(body, depth)?,
             coarsest_spacing: contact_length / COARSEST,
             apex_exponent: body.apex_exponent(),
         })
@@ -147,13 +159,30 @@ impl Ladder {
     }
 }
 
+/// The square that holds the contact of a body that is pressed in by about `depth`.
+fn footprint(body: &(impl Axisymmetric + ?Sized), depth: f64) -> Result<Footprint, BemError> {
+    let height = if body.apex_exponent() < 0.75 {
+        2.0
+    } else {
+        1.5
+    };
+    let radius = radius_at_height(body, height * depth).filter(|radius| *radius > 0.0);
+    radius
+        .map(Footprint::square)
+        .ok_or(BemError::InvalidParameter {
+            parameter: "depth scale",
+            value: depth,
+            allowed: "a height that the body reaches at a finite radius greater than 0",
+        })
+}
+
 /// Computes the stationary friction coefficient of a body of revolution to a relative error.
 ///
 /// # Errors
 /// Those of [`Ladder::of_body`] and [`steady_friction_of_surface`].
 pub fn steady_friction(
     body: &impl Axisymmetric,
-    material: &Viscous,
+    material: &(impl Material + ?Sized),
     load: &SlidingLoad,
     options: &FrictionOptions,
 ) -> Result<FrictionEstimate, BemError> {
@@ -170,14 +199,14 @@ pub fn steady_friction(
 /// friction is infinite; and the errors of [`steady`](crate::steady::steady()).
 pub fn steady_friction_of_surface(
     surface: &impl Surface,
-    (material, load): (&Viscous, &SlidingLoad),
+    (material, load): (&(impl Material + ?Sized), &SlidingLoad),
     ladder: &Ladder,
     options: &FrictionOptions,
 ) -> Result<FrictionEstimate, BemError> {
     let relative_error = below_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
     let order = ladder.order()?;
-    let loading = Loading::force(material, load)?;
+    let loading = Loading::force(surface, (material, load), &ladder.footprint)?;
     let mut refinements: Vec<Refinement> = Vec::new();
     let mut reuse = Reuse::default();
     let mut reached = Limit::NONE;
@@ -193,13 +222,19 @@ pub fn steady_friction_of_surface(
             refinement => refinements.push(refinement?),
         }
         reached = extrapolate(&FrictionEstimate::sequence(&refinements), order);
-        if let (true, Some(last)) = (reached.holds(relative_error), &reuse.solution) {
-            return Ok(FrictionEstimate {
-                friction_coefficient: reached.value,
-                error: reached.error,
-                depth: last.depth,
-                refinements,
-            });
+        if let (false, Some(last)) = (loading.creep.only_flows(), refinements.last()) {
+            reached.error += last.scatter;
+        }
+        if let Some(last) = &reuse.solution {
+            let rounding = ROUNDING * last.mean_slope;
+            if reached.holds(relative_error) || reached.error <= rounding {
+                return Ok(FrictionEstimate {
+                    friction_coefficient: reached.value,
+                    error: reached.error + error_of_gaps(last),
+                    depth: last.depth,
+                    refinements,
+                });
+            }
         }
         // The next refinement has twice as many unknowns.
         if refinements
@@ -231,7 +266,7 @@ fn refine(
             spacing: [spacing, options.aspect * spacing],
             phase,
             footprint: ladder.footprint(spacing),
-            tolerance: GAP_SHARE * options.relative_error,
+            tolerance: tolerance(options.relative_error, loading, reuse.solution.as_ref()),
             max_iterations: MAX_ITERATIONS,
         };
         let solution = solve(surface, loading, &options, reuse)?;
@@ -246,6 +281,25 @@ fn refine(
         scatter,
         unknowns,
     })
+}
+
+/// Gaps that disturb the friction less than is asked: where it is a small difference of large slopes, they are smaller.
+fn tolerance(relative_error: f64, loading: &Loading, last: Option<&SteadySliding>) -> f64 {
+    let part = match last {
+        Some(last) => last.friction_coefficient.abs() / last.mean_slope,
+        None if loading.creep.only_flows() => 1.0,
+        None => FIRST_PART,
+    };
+    (GAP_SHARE * relative_error * part).max(SMALLEST_GAP)
+}
+
+/// What the gaps that are left may change.
+fn error_of_gaps(last: &SteadySliding) -> f64 {
+    if last.friction_coefficient < last.mean_slope {
+        last.residual * last.mean_slope
+    } else {
+        0.0
+    }
 }
 
 fn mean_and_deviation(values: &[f64]) -> [f64; 2] {

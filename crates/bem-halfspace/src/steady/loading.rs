@@ -1,18 +1,19 @@
 //! What presses the body into the half space: a force, or a depth after a sliding distance.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_4, PI};
 
-use indenters::SlidingLoad;
-use rheology::Viscous;
+use indenters::{SlidingLoad, Surface};
+use rheology::Material;
 
-use crate::BemError;
 use crate::error::positive;
-use crate::footprint::depth_scale;
+use crate::steady::contact_scale::depth_scale;
+use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
+use crate::{BemError, Footprint};
 
 /// A depth to be reached instead of a force to be carried.
 ///
-/// The surface ahead of a sliding load sinks like ln t, for ever; a depth therefore belongs to a sliding distance, see
-/// [`SinkingDepth`](crate::steady::SinkingDepth).
+/// The surface of a material that flows sinks ahead of a sliding load like ln t, for ever; a depth therefore belongs to
+/// a sliding distance, see [`SinkingDepth`](crate::steady::SinkingDepth). On a solid the distance has no effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DepthControl {
@@ -32,30 +33,55 @@ pub(super) struct Equation {
     pub(super) right: f64,
 }
 
-/// Scales and control of a stationary problem.
+/// What presses.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Loading {
-    /// Unit of heights D, \[m].
-    pub(super) depth_scale: f64,
-    /// 4ηvD, \[N].
-    pub(super) force_scale: f64,
-    /// Sliding distance of a controlled depth, \[m].
-    sliding_distance: Option<f64>,
+enum Control {
+    /// Normal force, \[N].
+    Force(f64),
+    /// Depth scale, after a sliding distance, \[m].
+    Depth(f64),
 }
 
+/// Scale and control of a stationary problem on any grid.
+#[derive(Debug, Clone)]
+pub(super) struct Loading {
+    pub(super) creep: SlidingCreep,
+    /// Unit of heights D, \[m].
+    pub(super) depth_scale: f64,
+    control: Control,
+}
+
+/// Directions in which the height of a surface is averaged.
+const DIRECTIONS: u8 = 8;
+
 impl Loading {
-    /// Under a force, D = F_N/(4ηv).
-    pub(super) fn force(material: &Viscous, load: &SlidingLoad) -> Result<Self, BemError> {
+    /// Under a force, D is the depth at which it is about carried.
+    pub(super) fn force(
+        surface: &impl Surface,
+        (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+        footprint: &Footprint,
+    ) -> Result<Self, BemError> {
+        let creep = SlidingCreep::new(material, load.velocity())?;
+        let height = |distance: f64| {
+            let along = |direction: u8| {
+                let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
+                surface.height([distance * cosine, distance * sine])
+            };
+            (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
+        };
+        let ends = footprint.x.into_iter().chain(footprint.y);
+        let largest = ends.map(f64::abs).fold(0.0, f64::max);
+        let largest = positive("half width of the footprint", largest)?;
         Ok(Self {
-            depth_scale: positive("F_N / (4 η v)", depth_scale(material, load))?,
-            force_scale: load.normal_force(),
-            sliding_distance: None,
+            depth_scale: depth_scale(&creep, load.normal_force(), height, largest)?,
+            creep,
+            control: Control::Force(load.normal_force()),
         })
     }
 
     /// At a depth, D is that depth.
     pub(super) fn depth(
-        material: &Viscous,
+        material: &(impl Material + ?Sized),
         control: &DepthControl,
         footprint_length: f64,
     ) -> Result<Self, BemError> {
@@ -65,7 +91,6 @@ impl Loading {
             velocity,
         } = *control;
         positive("depth", depth)?;
-        positive("velocity", velocity)?;
         positive("sliding_distance", sliding_distance)?;
         if sliding_distance < footprint_length {
             return Err(BemError::InvalidParameter {
@@ -74,39 +99,64 @@ impl Loading {
                 allowed: "longer than the footprint, because the depth is known only after the contact has become stationary",
             });
         }
-        let force_scale = 4.0 * material.viscosity() * velocity * depth;
         Ok(Self {
+            creep: SlidingCreep::new(material, velocity)?,
             depth_scale: depth,
-            force_scale: positive("4 η v depth", force_scale)?,
-            sliding_distance: Some(sliding_distance),
+            control: Control::Depth(sliding_distance),
         })
     }
 
-    /// The equation of the control on a grid.
-    pub(super) fn equation(&self, spacing: [f64; 2]) -> Equation {
+    /// The problem on a grid.
+    pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
+        let creep = self.creep.over(spacing[0])?;
+        let compliance = self.creep.compliance(spacing[0])?;
+        let force_scale = 4.0 * self.depth_scale / compliance * spacing[0];
+        let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
         let aspect = spacing[1] / spacing[0];
-        match self.sliding_distance {
-            None => Equation {
+        let control = match self.control {
+            Control::Force(force) => Equation {
                 depth: 0.0,
                 load: 1.0,
-                right: 1.0 / (PI * aspect),
+                right: force / force_scale / (PI * aspect),
             },
-            Some(distance) => Equation {
+            Control::Depth(distance) => Equation {
                 depth: 1.0,
-                load: aspect * sunken(distance, spacing[0]),
+                load: creep.flow * aspect * sunken(distance, spacing[0]),
                 right: 1.0,
             },
-        }
+        };
+        Ok(GridLoading {
+            creep,
+            control,
+            depth_scale: self.depth_scale,
+            force_scale,
+            spacing,
+        })
+    }
+}
+
+/// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
+#[derive(Debug, Clone)]
+pub(super) struct GridLoading {
+    pub(super) creep: ElementCreep,
+    /// Force or depth that is asked for.
+    pub(super) control: Equation,
+    /// Unit of heights D, \[m].
+    pub(super) depth_scale: f64,
+    /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
+    force_scale: f64,
+    spacing: [f64; 2],
+}
+
+impl GridLoading {
+    /// Normal force of the loads, \[N].
+    pub(super) fn force_of(&self, total_load: f64) -> f64 {
+        PI * self.force_scale * (self.spacing[1] / self.spacing[0]) * total_load
     }
 
-    /// Normal force of the loads of a grid, \[N].
-    pub(super) fn force_of(&self, total_load: f64, spacing: [f64; 2]) -> f64 {
-        PI * self.force_scale * (spacing[1] / spacing[0]) * total_load
-    }
-
-    /// Pressure of the unit load on a grid, \[Pa].
-    pub(super) fn pressure_unit(&self, spacing: [f64; 2]) -> f64 {
-        PI * self.force_scale / spacing[0] / spacing[0]
+    /// Pressure of the unit load, \[Pa].
+    pub(super) fn pressure_unit(&self) -> f64 {
+        PI * self.force_scale / self.spacing[0] / self.spacing[0]
     }
 }
 

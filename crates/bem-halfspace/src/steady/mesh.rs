@@ -1,8 +1,8 @@
 //! The stationary problem on a grid: the elements that may touch, their heights, kernel, symmetry.
 //!
-//! Between the rear edges of two neighbouring elements the gap changes by ∫w/(ηv) − (rise of the body). Where the body
-//! does not rise, the gap at the rear is therefore larger than at the front, and no element there can touch: only
-//! rising elements are kept.
+//! On a dashpot the gap changes by ∫w/(ηv) − (rise of the body) between the rear edges of two neighbouring elements.
+//! Where the body does not rise, the gap at the rear is therefore larger than at the front, and no element there can
+//! touch: only rising elements are kept. On any other material all elements that the body covers are.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use indenters::Surface;
 
 use crate::error::positive;
 use crate::steady::SteadyOptions;
-use crate::steady::loading::{Equation, Loading};
+use crate::steady::loading::{Equation, GridLoading, Loading};
 use crate::steady::pivoting::Solution;
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
@@ -33,17 +33,20 @@ enum Mirror {
 struct Element {
     row: usize,
     column: usize,
-    /// Height at the rear edge, in units of the depth scale.
+    /// Height where the gap is evaluated, in units of the depth scale.
     height: f64,
     /// Mean of ∂h/∂x.
     slope: f64,
 }
 
-/// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load P Δx²/(4πηvD) of an element.
+/// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
+/// 2 (1 − ν) J(Δx/v) P Δx/(4πD) of an element, which is P Δx²/(4πηvD) for the dashpot.
 #[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
-    pub(super) loading: Loading,
+    pub(super) loading: GridLoading,
+    /// Whether only elements over which the body rises may touch.
+    only_rising: bool,
     /// Number of rows and columns of the footprint.
     shape: [usize; 2],
     /// Position of the row and the column 0 in elements from the lowest point.
@@ -78,7 +81,8 @@ impl Mesh {
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
-            loading: *loading,
+            loading: loading.on_grid(options.spacing)?,
+            only_rising: loading.creep.only_flows(),
             shape: [behind + ahead + 1, right + left + 1],
             origin: [
                 options.phase[0] - behind as f64,
@@ -93,14 +97,14 @@ impl Mesh {
         // Refuses what is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
         mesh.sample(surface)?;
-        // Without an element that rises nothing can carry load.
+        // Without such an element nothing can carry load.
         positive(
-            "number of elements of the footprint over which the body rises",
+            "number of elements of the footprint that may touch",
             mesh.elements.len() as f64,
         )?;
         mesh.find_mirror(surface);
         let all = Region::around(&mesh, 0..mesh.n_elements());
-        mesh.table = plans.cover(mesh.aspect(), all.shape);
+        mesh.table = plans.cover((&mesh.loading.creep, mesh.aspect()), all.shape);
         Ok(mesh)
     }
 
@@ -124,14 +128,18 @@ impl Mesh {
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {
                 let [x, y] = [self.centre(0, row), self.centre(1, column)];
-                let [rear, front] = [x - 0.5 * dx, x + 0.5 * dx].map(|x| surface.height([x, y]));
+                let positions = [-0.5, self.loading.creep.shift, 0.5];
+                let heights = positions.map(|shift| surface.height([x + shift * dx, y]));
+                let [rear, height, front] = heights;
                 let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
-                if let Some(value) = [rear, front].into_iter().find(invalid) {
+                if let Some(value) = heights.into_iter().find(invalid) {
                     return Err(BemError::InvalidHeight { row, column, value });
                 }
-                self.walls.push(front.is_infinite());
-                if front > rear && front.is_finite() {
-                    let [height, slope] = [rear / self.loading.depth_scale, (front - rear) / dx];
+                self.walls
+                    .push(front.is_infinite() || !self.only_rising && rear.is_infinite());
+                let covered = heights.iter().all(|height| height.is_finite());
+                if covered && (front > rear || !self.only_rising) {
+                    let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
                     self.elements.push(Element {
                         row,
                         column,
@@ -202,7 +210,7 @@ impl Mesh {
         self.mirror == Mirror::Centre && self.image(element.column) == element.column
     }
 
-    /// Displacement at the rear edge of one element by the unit load of another and of its mirror image.
+    /// Displacement of one element by the unit load of another and of its mirror image.
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
@@ -213,8 +221,7 @@ impl Mesh {
         direct + self.kernel(rows, to.column - self.image(from.column))
     }
 
-    /// Displacement at the rear edge of an element by the unit load of another that lies `rows` behind it and `columns`
-    /// beside it.
+    /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it.
     pub(super) fn kernel(&self, rows: isize, columns: usize) -> f64 {
         self.table.at(rows, columns)
     }
@@ -240,14 +247,14 @@ impl Mesh {
         if alone { 1.0 } else { 2.0 }
     }
 
-    /// Height at the rear edge of an element.
+    /// Height of an element where its gap is evaluated.
     pub(super) fn height(&self, element: usize) -> f64 {
         self.elements[element].height
     }
 
     /// Force or depth that is asked for.
-    pub(super) fn control(&self) -> Equation {
-        self.loading.equation(self.options.spacing)
+    pub(super) const fn control(&self) -> Equation {
+        self.loading.control
     }
 
     /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
@@ -279,6 +286,16 @@ impl Mesh {
         tangential / normal
     }
 
+    /// Mean of |∂h/∂x| weighted with the load.
+    pub(super) fn mean_slope(&self, solution: &Solution) -> f64 {
+        let (mut slopes, mut normal) = (0.0, 0.0);
+        for &(element, load) in &solution.loads {
+            slopes += self.weight(element) * load * self.elements[element].slope.abs();
+            normal += self.weight(element) * load;
+        }
+        slopes / normal
+    }
+
     /// Row, column and load of every loaded element of the whole.
     pub(super) fn loaded(&self, solution: &Solution) -> Vec<([usize; 2], f64)> {
         let mut loaded = Vec::new();
@@ -300,18 +317,20 @@ impl Mesh {
             .all(|(bound, limit)| bound[0] > limit[0] && bound[1] < limit[1])
     }
 
-    /// Whether the element ahead of a loaded one ends in a vertical wall.
+    /// Whether the element ahead of a loaded one ends in a vertical wall, or the one behind it where that may touch.
     pub(super) fn faces_wall(&self, [row, column]: [usize; 2]) -> bool {
-        self.walls
-            .get((row + 1) * self.shape[1] + column)
-            .is_some_and(|wall| *wall)
+        let is_wall = |row: usize| {
+            let wall = self.walls.get(row * self.shape[1] + column);
+            wall.is_some_and(|wall| *wall)
+        };
+        is_wall(row + 1) || !self.only_rising && row.checked_sub(1).is_some_and(is_wall)
     }
 
     /// Largest rise of the body over a loaded element, in units of the depth scale.
     pub(super) fn largest_rise(&self, solution: &Solution) -> f64 {
         let dx = self.options.spacing[0];
         let rise = |&(element, _): &(usize, f64)| {
-            self.elements[element].slope * dx / self.loading.depth_scale
+            (self.elements[element].slope * dx / self.loading.depth_scale).abs()
         };
         solution.loads.iter().map(rise).fold(0.0, f64::max)
     }

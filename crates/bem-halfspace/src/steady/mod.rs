@@ -3,19 +3,23 @@
 //! In the frame of the indenter the stationary state is one complementarity problem
 //!
 //! ```text
-//! gap = h + u − d ≥ 0,  P ≥ 0,  P · gap = 0,  Σ P ΔA = F_N,      u = −(1/4πηv) Σ P K
+//! gap = h + u − d ≥ 0,  P ≥ 0,  P · gap = 0,  Σ P ΔA = F_N,      u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
 //!
-//! with the translation-invariant, non-symmetric kernel K of [`wake_influence`]. The constant of the kernel (the
-//! surface sinks like ln t, for ever) is absorbed in d, which therefore has no meaning of its own; friction and contact
-//! do not depend on it.
+//! with the load potential w = (1/4π) ∬ P/r dA, whose kernel is translation-invariant and not symmetric. For a dashpot
+//! it is [`wake_influence`]; each retardation element adds an exponential sweep of the potential from ahead. Where the
+//! material flows, the surface sinks like ln t, for ever; this constant is absorbed in d, which then has no meaning of
+//! its own; friction and contact do not depend on it.
 //!
-//! The gap is evaluated at the rear edge of each element and friction with the element's mean slope. This is what a
-//! march in time does when the pressure of a step belongs to the motion during the step.
+//! Friction is summed with the mean slope of each element. The gap is evaluated between the rear edge, where a dashpot
+//! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
+//! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
+mod contact_scale;
 mod contact_system;
 mod depth;
 mod estimate;
+mod exponential_rule;
 mod extrapolation;
 mod filter;
 mod kernel;
@@ -26,12 +30,14 @@ mod pivoting;
 mod plans;
 mod product;
 mod region;
+mod retarded_potential;
+mod sliding_creep;
 mod solution;
 mod wake_table;
 mod wiener_hopf;
 
 use indenters::{SlidingLoad, Surface};
-use rheology::Viscous;
+use rheology::Material;
 
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
@@ -63,29 +69,32 @@ pub struct SteadyOptions {
     pub phase: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
-    /// Largest |gap| allowed in the contact, and largest penetration outside, relative to F_N/(4ηv).
+    /// Largest |gap| allowed in the contact, and largest penetration outside, relative to the depth scale D. That is
+    /// F_N/(4ηv) on a dashpot, and the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
+    /// height h(a) at the distance a from the lowest point.
     pub tolerance: f64,
     /// Changes of the contact set after which the solver gives up.
     pub max_iterations: usize,
 }
 
-/// Solves the stationary sliding of `surface` under a force on one grid.
+/// Solves the stationary sliding of `surface` on a linear viscoelastic material under a force on one grid.
 ///
 /// The contact set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
 /// end what would cycle. Small contacts are factorised; large ones are solved by minimal residuals with transforms, with
 /// the Wiener–Hopf factors of the kernel as preconditioner, and start from the contact of a coarser grid.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] for options out of range, or a body that rises nowhere in the footprint;
+/// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
 /// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`];
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`].
+/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
+/// [`BemError::Material`].
 pub fn steady(
     surface: &impl Surface,
-    material: &Viscous,
+    material: &(impl Material + ?Sized),
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let loading = Loading::force(material, load)?;
+    let loading = Loading::force(surface, (material, load), &options.footprint)?;
     solve(surface, &loading, options, &mut Reuse::default())
 }
 
@@ -95,7 +104,7 @@ pub fn steady(
 /// As for [`steady`], and [`BemError::InvalidParameter`] for a depth, a speed or a sliding distance out of range.
 pub fn steady_at_depth(
     surface: &impl Surface,
-    material: &Viscous,
+    material: &(impl Material + ?Sized),
     control: &DepthControl,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
@@ -123,8 +132,15 @@ fn solve(
     let mesh = Mesh::new(surface, (loading, &mut reuse.plans), options)?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED {
         let coarse = coarser(options);
+        // Only the kernel of a dashpot is the same on both grids.
+        let mut other = Reuse::default();
+        let coarse_reuse = if loading.creep.only_flows() {
+            &mut *reuse
+        } else {
+            &mut other
+        };
         // Without a solution on the coarse grid the fine one starts from its own guess.
-        reuse.solution = solve(surface, loading, &coarse, reuse).ok();
+        reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
     let guess = match &reuse.solution {
         Some(other) => loads_of(other, &mesh),
@@ -149,7 +165,7 @@ fn coarser(options: &SteadyOptions) -> SteadyOptions {
 
 /// The loaded elements of another solution, seen on this mesh.
 fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
-    let unit = mesh.loading.pressure_unit(mesh.options.spacing);
+    let unit = mesh.loading.pressure_unit();
     (0..mesh.n_elements())
         .map(|element| (element, other.pressure.at(mesh.position(element)) / unit))
         .filter(|(_, load)| *load > 0.0)

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::fast_length::fast_length;
 use crate::plane_transform::PlaneTransform;
 use crate::steady::filter::Spectrum;
+use crate::steady::sliding_creep::ElementCreep;
 use crate::steady::wake_table::WakeTable;
 use crate::steady::wiener_hopf::InverseFactors;
 
@@ -19,7 +20,7 @@ pub(super) struct KernelSpectrum {
     pub(super) spectrum: Spectrum,
 }
 
-/// What depends on the aspect ratio of the elements and on the size of a box only.
+/// What depends on the creep over an element, on the aspect ratio of the elements and on the size of a box only.
 #[derive(Debug, Default)]
 pub(super) struct Plans {
     table: Arc<WakeTable>,
@@ -29,12 +30,17 @@ pub(super) struct Plans {
 
 impl Plans {
     /// Makes ready for boxes of up to `shape` elements and returns the table of the kernel.
-    pub(super) fn cover(&mut self, aspect: f64, shape: [usize; 2]) -> Arc<WakeTable> {
-        if !self.table.has_aspect(aspect) {
+    pub(super) fn cover(
+        &mut self,
+        (creep, aspect): (&ElementCreep, f64),
+        shape: [usize; 2],
+    ) -> Arc<WakeTable> {
+        if !self.table.is_for(creep, aspect) {
             *self = Self::default();
         }
-        let reach = shape.map(|n| free_period(n) / 2);
-        WakeTable::cover(&mut self.table, aspect, reach);
+        let filtered = InverseFactors::period(shape);
+        let reach = [0, 1].map(|axis| free_period(shape[axis]).max(filtered[axis]) / 2);
+        WakeTable::cover(&mut self.table, (creep, aspect), reach);
         Arc::clone(&self.table)
     }
 

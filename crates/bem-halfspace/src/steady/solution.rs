@@ -13,9 +13,11 @@ use crate::{BemError, Grid};
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
+    /// Mean of |∂h/∂x| under the load: what the friction coefficient is the difference of, and its upper bound.
+    pub mean_slope: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
-    /// Depth of the lowest point, which depends on the distance slid.
+    /// Depth of the lowest point, which depends on the distance slid where the material flows.
     pub depth: SinkingDepth,
     /// Area of the elements in contact, \[m²].
     pub contact_area: f64,
@@ -27,7 +29,8 @@ pub struct SteadySliding {
     pub unknowns: usize,
     /// Contact sets tried.
     pub iterations: usize,
-    /// Largest |gap| in the contact relative to F_N/(4ηv), or to the depth where that is controlled.
+    /// Largest |gap| in the contact relative to the depth scale, see [`SteadyOptions::tolerance`](crate::steady::SteadyOptions::tolerance), or to the depth where
+    /// that is controlled.
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
@@ -65,7 +68,8 @@ impl SteadySliding {
         let total_load = mesh.total_load(solution);
         Ok(Self {
             friction_coefficient: mesh.friction(solution),
-            normal_force: mesh.loading.force_of(total_load, spacing),
+            mean_slope: mesh.mean_slope(solution),
+            normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: loaded.len() as f64 * pressure.grid.element_area(),
             contact_x: edges[0],
@@ -86,7 +90,7 @@ fn pressure_field(
 ) -> Result<PressureField, BemError> {
     let shape = bounds.map(|[first, last]| last + 1 - first);
     let grid = Grid::new(shape, mesh.options.spacing)?;
-    let unit = mesh.loading.pressure_unit(mesh.options.spacing);
+    let unit = mesh.loading.pressure_unit();
     let mut pressure = vec![0.0; grid.n_elements()];
     for ([row, column], load) in loaded {
         pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] = load * unit;

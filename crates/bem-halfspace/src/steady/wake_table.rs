@@ -1,63 +1,157 @@
-//! Kernel values between the elements of a grid, computed once for all grids of the same aspect ratio.
+//! Kernel values between the elements of a grid, computed once for all grids with the same elements.
+//!
+//! Upstream of a load, the potential `V = ∬ dA'/r` of a uniformly loaded element is smooth; a retardation element turns
+//! it into
+//!
+//! ```text
+//! k(ξ) = q ∫_0^∞ e^(−q s) V(ξ + s) ds = e^(−q) k(ξ + 1) + q ∫_0^1 e^(−q s) V(ξ + s) ds,      q = Δx/(v λ)
+//! ```
+//!
+//! with lengths in Δx: one recursion along each column of the table, from ahead, for each retardation element.
 
 use std::sync::Arc;
 
+use crate::influence;
 use crate::steady::kernel::wake_influence;
+use crate::steady::retarded_potential::RetardedPotential;
+use crate::steady::sliding_creep::ElementCreep;
 
-/// Displacement at the rear edge of an element by a unit load on another, by their offset; lengths are in Δx, so that
-/// one table serves every spacing.
+/// Displacement at the point of an element where its gap is evaluated by a unit load on another, by their offset;
+/// lengths are in Δx, so that one table serves every spacing with the same creep over an element.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WakeTable {
+    creep: ElementCreep,
     /// Δy/Δx.
     aspect: f64,
     /// Largest offsets along x, either way, and along y.
     reach: [usize; 2],
     values: Vec<f64>,
+    /// What creeps within one element: the values without what came from ahead.
+    potentials: Vec<f64>,
 }
 
 impl WakeTable {
-    /// Whether the table is for elements of this aspect ratio.
-    pub(super) fn has_aspect(&self, aspect: f64) -> bool {
-        self.aspect.total_cmp(&aspect).is_eq()
+    /// Whether the table is for this creep and elements of this aspect ratio.
+    pub(super) fn is_for(&self, creep: &ElementCreep, aspect: f64) -> bool {
+        self.creep == *creep && self.aspect.total_cmp(&aspect).is_eq()
+    }
+
+    pub(super) const fn creep(&self) -> &ElementCreep {
+        &self.creep
     }
 
     /// Makes the table cover offsets up to `reach`; what is wider already is kept.
-    pub(super) fn cover(table: &mut Arc<Self>, aspect: f64, reach: [usize; 2]) {
+    pub(super) fn cover(
+        table: &mut Arc<Self>,
+        (creep, aspect): (&ElementCreep, f64),
+        reach: [usize; 2],
+    ) {
         let empty = table.values.is_empty();
         if !empty && table.reach[0] >= reach[0] && table.reach[1] >= reach[1] {
             return;
         }
         let reach = [0, 1].map(|axis| reach[axis].max(table.reach[axis]));
-        let mut values = Vec::with_capacity((2 * reach[0] + 1) * (reach[1] + 1));
-        for row in 0..=2 * reach[0] {
-            let rows = row as f64 - reach[0] as f64;
-            let line = (0..=reach[1]).map(|columns| displacement([rows, columns as f64], aspect));
-            values.extend(line);
-        }
-        *table = Arc::new(Self {
+        *table = Arc::new(Self::new(creep, aspect, reach));
+    }
+
+    fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2]) -> Self {
+        let n_values = (2 * reach[0] + 1) * (reach[1] + 1);
+        let mut table = Self {
+            creep: creep.clone(),
             aspect,
             reach,
-            values,
-        });
+            values: vec![0.0; n_values],
+            potentials: vec![0.0; n_values],
+        };
+        if creep.flow > 0.0 {
+            table.add_flow();
+        }
+        if creep.instant > 0.0 {
+            table.add_instant();
+        }
+        if !creep.delays.is_empty() {
+            table.add_retarded();
+        }
+        table
     }
 
-    /// Displacement at the rear edge of an element by the unit load of another that lies `rows` behind it and `columns`
-    /// beside it.
-    pub(super) fn at(&self, rows: isize, columns: usize) -> f64 {
-        match rows
-            .checked_add_unsigned(self.reach[0])
-            .map(usize::try_from)
-        {
-            Some(Ok(row)) if row <= 2 * self.reach[0] && columns <= self.reach[1] => {
-                self.values[row * (self.reach[1] + 1) + columns]
-            }
-            _ => displacement([rows as f64, columns as f64], self.aspect),
+    const fn n_columns(&self) -> usize {
+        self.reach[1] + 1
+    }
+
+    /// Offset of a row of the table from the loaded element.
+    fn offset(&self, row: usize) -> f64 {
+        row as f64 - self.reach[0] as f64 + self.creep.shift
+    }
+
+    /// Values of a kernel along a row.
+    fn along(&self, row: usize, kernel: fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
+        let x = self.offset(row);
+        let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);
+        (0..self.n_columns()).map(value).collect()
+    }
+
+    /// Adds a row, and what of it has crept within the element.
+    fn add(&mut self, row: usize, parts: impl Fn(usize) -> [f64; 2]) {
+        let first = row * self.n_columns();
+        for column in 0..self.n_columns() {
+            let [value, potential] = parts(column);
+            self.values[first + column] += value;
+            self.potentials[first + column] += potential;
         }
     }
-}
 
-/// Displacement at the rear edge of an element by a unit load `rows` behind it and `columns` beside it.
-fn displacement([rows, columns]: [f64; 2], aspect: f64) -> f64 {
-    // From the centre of the loaded element to the rear edge of the other one.
-    -wake_influence([rows - 0.5, columns * aspect], [1.0, aspect])
+    fn add_flow(&mut self) {
+        let flow = self.creep.flow;
+        let n_rows = 2 * self.reach[0] + 1;
+        let mut ahead = self.along(n_rows, wake_influence);
+        for row in (0..n_rows).rev() {
+            let here = self.along(row, wake_influence);
+            self.add(row, |column| {
+                [-flow * here[column], flow * (ahead[column] - here[column])]
+            });
+            ahead = here;
+        }
+    }
+
+    fn add_instant(&mut self) {
+        let instant = self.creep.instant;
+        for row in 0..=2 * self.reach[0] {
+            let here = self.along(row, influence);
+            self.add(row, |column| [instant * here[column]; 2]);
+        }
+    }
+
+    fn add_retarded(&mut self) {
+        let last = 2 * self.reach[0];
+        let first = [self.offset(last), self.aspect];
+        let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
+        for row in (0..=last).rev() {
+            retarded.step(self.offset(row));
+            self.add(row, |column| {
+                [retarded.value(column), retarded.increment(column)]
+            });
+        }
+    }
+
+    /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it, both
+    /// within the reach.
+    pub(super) fn at(&self, rows: isize, columns: usize) -> f64 {
+        self.values[self.index(rows, columns)]
+    }
+
+    /// The part of [`at`](Self::at) that has crept over the element itself.
+    pub(super) fn potential(&self, rows: isize, columns: usize) -> f64 {
+        self.potentials[self.index(rows, columns)]
+    }
+
+    fn index(&self, rows: isize, columns: usize) -> usize {
+        let row = rows + self.reach[0].cast_signed();
+        debug_assert!(
+            row >= 0 && row.unsigned_abs() <= 2 * self.reach[0] && columns <= self.reach[1],
+            "offset {rows}, {columns} is beyond the reach {:?}",
+            self.reach
+        );
+        row.unsigned_abs() * (self.reach[1] + 1) + columns
+    }
 }

@@ -1,9 +1,10 @@
 //! The preconditioner of the stationary problem: Wiener–Hopf factors of the kernel.
 //!
-//! Along x the kernel is a running sum over the load potential, which is symmetric and positive. For every wave number
-//! along y the potential factors into a filter that looks ahead only and its mirror image that looks back only (by the
-//! cepstrum of its spectrum, Kolmogorov 1939), so that the kernel is the product of a forward factor, which contains
-//! the sum, and a backward factor. On a contact that extended without end behind a straight front, the inverses of the
+//! Along x the kernel is a creep filter over the load potential, which is symmetric and positive: a running sum for the
+//! dashpot, the identity for a spring, a sum of exponentials for the rest. For every wave number along y the potential
+//! factors into a filter that looks ahead only and its mirror image that looks back only (by the cepstrum of its
+//! spectrum, Kolmogorov 1939), so that the kernel is the product of a forward factor, which contains the creep filter,
+//! and a backward factor. On a contact that extended without end behind a straight front, the inverses of the
 //! factors, applied in the order backward, forward with the contact cut out in between, are the exact inverse
 //! (Wiener & Hopf 1931); without end ahead of a straight rear, in the other order. The preconditioner goes from the one
 //! to the other along x in proportion to the distance from the two ends.
@@ -17,6 +18,7 @@ use crate::plane_transform::{PlaneTransform, Workspace};
 use crate::steady::filter::Spectrum;
 use crate::steady::plans::{Plans, signed_offset};
 use crate::steady::region::Region;
+use crate::steady::sliding_creep::{Delay, ElementCreep};
 use crate::steady::wake_table::WakeTable;
 
 /// Elements beyond the box before the period of the filters repeats it. They need no more: the inverse factors decay
@@ -27,7 +29,7 @@ const MARGIN: usize = 4;
 #[derive(Debug)]
 pub(super) struct InverseFactors {
     pub(super) transform: PlaneTransform,
-    /// Inverse of the factor that contains the running sum.
+    /// Inverse of the factor that contains the creep filter.
     sweep: Spectrum,
     /// Inverse of the other factor.
     counter_sweep: Spectrum,
@@ -41,14 +43,11 @@ impl InverseFactors {
 
     pub(super) fn new(table: &WakeTable, padded: [usize; 2]) -> Self {
         let transform = PlaneTransform::new(padded);
-        // Between the rear edges of neighbours the displacement changes by the potential on the element.
-        let potential = |row: usize, column: usize| {
-            let offset = signed_offset(row, padded[0]);
-            table.at(offset, column) - table.at(offset + 1, column)
-        };
+        let potential =
+            |row: usize, column: usize| table.potential(signed_offset(row, padded[0]), column);
         let counter_sweep = transform.spectrum(potential, invert_causal_factor);
         Self {
-            sweep: with_difference(&counter_sweep, padded[0]),
+            sweep: with_inverse_creep(&counter_sweep, table.creep(), padded[0]),
             transform,
             counter_sweep,
         }
@@ -129,17 +128,34 @@ fn invert_causal_factor(transform: &PlaneTransform, column: &mut [Complex<f64>])
     }
 }
 
-/// The mirror image of each factor, together with the inverse of the running sum, which is a difference.
-fn with_difference(factors: &Spectrum, length: usize) -> Spectrum {
-    let difference = |index: usize| {
+/// The mirror image of each factor, together with the inverse of the creep filter
+/// `J₀ + 1/(η_f (1 − e^{iα})) + Σ J_k (1 − d_k)/(1 − d_k e^{iα})` over the elements ahead.
+fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -> Spectrum {
+    let inverse = |index: usize| {
         let angle = std::f64::consts::TAU * index as f64 / length as f64;
         // 1 − e^{iα} without cancellation.
         let half_sine = (0.5 * angle).sin();
-        Complex::new(2.0 * half_sine * half_sine, -angle.sin())
+        let difference = Complex::new(2.0 * half_sine * half_sine, -angle.sin());
+        let delayed = |delay: &Delay| {
+            let kept = delay.decay();
+            difference * kept + -(-delay.rate).exp_m1()
+        };
+        let recovered = creep
+            .delays
+            .iter()
+            .map(|delay| delayed(delay).inv() * delay.share)
+            .sum::<Complex<f64>>()
+            + creep.instant;
+        if creep.flow > 0.0 {
+            difference / (difference * recovered + creep.flow)
+        } else {
+            recovered.inv()
+        }
     };
+    let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
     factors
         .iter()
         .enumerate()
-        .map(|(index, factor)| difference(index % length) * factor.conj())
+        .map(|(index, factor)| inverses[index % length] * factor.conj())
         .collect()
 }

@@ -22,8 +22,10 @@ mod sliding_invariance;
 mod square_punch;
 mod stationary_state;
 mod steady_bad_input;
+mod steady_cylinder;
 mod steady_estimate;
 mod steady_invariance;
+mod steady_materials;
 mod support;
 #[cfg(feature = "rayon")]
 mod thread_count;

@@ -1,0 +1,61 @@
+//! The depth scale of sliding on any material.
+//!
+//! A body that dips to the depth D below the surface has a contact of about the length a at which it is D high; an
+//! element stays in it for the time a/v, and the one-dimensional model carries about the force 4 a D/J(a/v). So
+//!
+//! ```text
+//! D = h(a) = 2 (1 − ν) F_N J(a/v)/(4 a)
+//! ```
+//!
+//! which is F_N/(4ηv) for the dashpot, whatever the body, and has one solution for every body that rises, because
+//! J(t)/t never increases.
+
+use crate::BemError;
+use crate::error::positive;
+use crate::steady::sliding_creep::SlidingCreep;
+
+/// Halvings of the logarithm of the length: all the digits there are.
+const HALVINGS: usize = 60;
+/// Doublings of the length until there is no solution.
+const DOUBLINGS: usize = 900;
+
+/// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.
+pub(super) fn depth_scale(
+    creep: &SlidingCreep,
+    normal_force: f64,
+    height: impl Fn(f64) -> f64,
+    largest: f64,
+) -> Result<f64, BemError> {
+    if creep.only_flows() {
+        // Divided one by one, because η v may overflow where the quotient does not.
+        let depth = 0.25 * normal_force * creep.flow_per_length();
+        return positive("F_N / (4 η v)", depth);
+    }
+    let depth = |length: f64| -> Result<f64, BemError> {
+        Ok(0.25 * normal_force * (creep.compliance(length)? / length))
+    };
+    let too_long = |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
+    let mut upper = if largest.is_finite() { largest } else { 1.0 };
+    for _ in 0..DOUBLINGS {
+        if largest.is_finite() || too_long(upper)? {
+            break;
+        }
+        upper *= 2.0;
+    }
+    let mut lower = upper;
+    for _ in 0..DOUBLINGS {
+        if !too_long(lower)? {
+            break;
+        }
+        (lower, upper) = (0.5 * lower, lower);
+    }
+    for _ in 0..HALVINGS {
+        let middle = (lower * upper).sqrt();
+        if too_long(middle)? {
+            upper = middle;
+        } else {
+            lower = middle;
+        }
+    }
+    positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(upper)?)
+}

@@ -1,0 +1,326 @@
+//! The load potential of an element as retardation elements see it, row by row from ahead.
+//!
+//! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the
+//! loaded element, where it is singular; the exponentials are integrated exactly. The panels of a polynomial of n points
+//! leave an error of the order ρ⁻ⁿ of the potential, ρ the sum of the half axes of the ellipse around the panel that
+//! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away.
+
+use crate::influence;
+use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
+use crate::steady::sliding_creep::{Delay, ElementCreep};
+
+/// Distance, in panel lengths, from which on so many points are enough for eleven digits.
+const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
+/// Panels next to a singularity on the line itself are not made shorter than this.
+const SHORTEST: f64 = 1.0 / (1_u64 << 26) as f64;
+/// The recursion starts at least that far ahead; from there on panels grow in proportion to the distance.
+const FIRST_ROW: f64 = 16.0;
+const GROWTH: f64 = 1.5;
+/// Exponents of what no longer counts.
+const FORGOTTEN: f64 = 40.0;
+
+/// A part of the line ahead of a point.
+#[derive(Debug, Clone, Copy)]
+struct Panel {
+    start: f64,
+    length: f64,
+    /// Which of the rules.
+    rule: usize,
+}
+
+/// The values of all retardation elements along a row of the table.
+#[derive(Debug)]
+pub(super) struct RetardedPotential {
+    delays: Vec<Delay>,
+    rules: [ExponentialRule; POINTS.len()],
+    /// Weights of each rule over a whole element, by delay.
+    weights: Vec<[[f64; MAX_POINTS]; POINTS.len()]>,
+    aspect: f64,
+    n_columns: usize,
+    /// Row that was reached.
+    position: f64,
+    /// By delay and column, in parts of the compliance.
+    values: Vec<f64>,
+    increments: Vec<f64>,
+    /// V at the row that was reached, by column.
+    ahead: Vec<f64>,
+}
+
+impl RetardedPotential {
+    /// Starts one element ahead of the row at `first`.
+    pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
+        let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
+        let weights = creep
+            .delays
+            .iter()
+            .map(|delay| [0, 1, 2, 3].map(|rule| rules[rule].weights(delay.rate)));
+        let position = first + 1.0 + (FIRST_ROW - first).max(0.0).ceil();
+        let mut start = Self {
+            weights: weights.collect(),
+            delays: creep.delays.clone(),
+            rules,
+            aspect,
+            n_columns,
+            position,
+            values: vec![0.0; creep.delays.len() * n_columns],
+            increments: vec![0.0; creep.delays.len() * n_columns],
+            ahead: Vec::new(),
+        };
+        start.come_from_infinity();
+        start.ahead = (0..n_columns)
+            .map(|column| start.potential(position, column))
+            .collect();
+        while start.position > first + 1.5 {
+            start.step(start.position - 1.0);
+        }
+        start
+    }
+
+    /// V.
+    fn potential(&self, x: f64, column: usize) -> f64 {
+        influence([x, column as f64 * self.aspect], [1.0, self.aspect])
+    }
+
+    /// The values at the first row.
+    fn come_from_infinity(&mut self) {
+        let slowest = self
+            .delays
+            .iter()
+            .map(|delay| delay.rate)
+            .fold(f64::MAX, f64::min);
+        let mut ends = vec![self.position];
+        let mut end = self.position;
+        while slowest * (end - self.position) < FORGOTTEN && end < 1e150 {
+            end *= GROWTH;
+            ends.push(end);
+        }
+        let rule = POINTS.len() - 1;
+        for pair in ends.windows(2).rev() {
+            let panel = Panel {
+                start: pair[0],
+                length: pair[1] - pair[0],
+                rule,
+            };
+            let steps: Vec<_> = self
+                .delays
+                .iter()
+                .map(|delay| self.over_panel(*delay, &panel))
+                .collect();
+            for column in 0..self.n_columns {
+                let potentials = self.at_nodes(&panel, column);
+                for (index, (decay, weights)) in steps.iter().enumerate() {
+                    let value = &mut self.values[index * self.n_columns + column];
+                    *value = decay * *value + dot(weights, &potentials);
+                }
+            }
+        }
+    }
+
+    /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
+    fn over_panel(&self, delay: Delay, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
+        let rate = delay.rate * panel.length;
+        let compliance = delay.compliance();
+        let weights = self.rules[panel.rule]
+            .weights(rate)
+            .map(|weight| compliance * weight);
+        ((-rate).exp(), weights)
+    }
+
+    fn at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {
+        let mut potentials = [0.0; MAX_POINTS];
+        for (potential, node) in potentials.iter_mut().zip(&self.rules[panel.rule].nodes) {
+            *potential = self.potential(panel.start + panel.length * node, column);
+        }
+        potentials
+    }
+
+    /// Goes back to the row at `x`, one element behind the last.
+    pub(super) fn step(&mut self, x: f64) {
+        for column in 0..self.n_columns {
+            let here = self.potential(x, column);
+            let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
+            let distance = distance_from_edges([x, x + 1.0], clearance);
+            if let Some(rule) = rule_for(distance) {
+                self.whole((x, column), rule, here);
+            } else {
+                self.graded((x, column), clearance);
+            }
+            for (index, delay) in self.delays.iter().enumerate() {
+                let place = index * self.n_columns + column;
+                self.values[place] = delay.decay() * self.values[place] + self.increments[place];
+            }
+            self.ahead[column] = here;
+        }
+        self.position = x;
+    }
+
+    /// The integral over an element in one panel.
+    fn whole(&mut self, (x, column): (f64, usize), rule: usize, here: f64) {
+        let n_points = POINTS[rule].1;
+        let mut potentials = [0.0; MAX_POINTS];
+        potentials[0] = here;
+        potentials[n_points - 1] = self.ahead[column];
+        for (potential, node) in potentials[..n_points]
+            .iter_mut()
+            .zip(&self.rules[rule].nodes)
+            .skip(1)
+            .take(n_points - 2)
+        {
+            *potential = influence([x + node, column as f64 * self.aspect], [1.0, self.aspect]);
+        }
+        for (index, delay) in self.delays.iter().enumerate() {
+            self.increments[index * self.n_columns + column] =
+                delay.compliance() * dot(&self.weights[index][rule], &potentials);
+        }
+    }
+
+    /// The integral over an element near the edges of the loaded one.
+    fn graded(&mut self, (x, column): (f64, usize), clearance: f64) {
+        for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
+            *increment = 0.0;
+        }
+        for panel in panels(x, clearance).iter().rev() {
+            let potentials = self.at_nodes(panel, column);
+            for (index, delay) in self.delays.iter().enumerate() {
+                let (decay, weights) = self.over_panel(*delay, panel);
+                let increment = &mut self.increments[index * self.n_columns + column];
+                *increment = decay * *increment + dot(&weights, &potentials);
+            }
+        }
+    }
+
+    /// Displacement by all retardation elements at the row that was reached.
+    pub(super) fn value(&self, column: usize) -> f64 {
+        self.values[column..].iter().step_by(self.n_columns).sum()
+    }
+
+    /// The part of it that has crept since the row before.
+    pub(super) fn increment(&self, column: usize) -> f64 {
+        self.increments[column..]
+            .iter()
+            .step_by(self.n_columns)
+            .sum()
+    }
+}
+
+/// Distance of an interval from the points ±1/2, where the loaded element ends; `clearance` is that across.
+fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
+    [-0.5, 0.5]
+        .map(|edge: f64| (start - edge).max(edge - end).max(0.0).hypot(clearance))
+        .into_iter()
+        .fold(f64::MAX, f64::min)
+}
+
+/// The shortest rule for a panel at this distance in its own length; none that is too near.
+fn rule_for(distance: f64) -> Option<usize> {
+    POINTS.iter().position(|(far, _)| distance >= *far)
+}
+
+/// Panels of the element ahead of `x`, divided where the potential is singular and then by halves.
+fn panels(x: f64, clearance: f64) -> Vec<Panel> {
+    let mut ends = vec![x];
+    ends.extend(
+        [-0.5, 0.5]
+            .into_iter()
+            .filter(|edge| x < *edge && *edge < x + 1.0),
+    );
+    ends.push(x + 1.0);
+    let mut panels = Vec::new();
+    for pair in ends.windows(2) {
+        divide([pair[0], pair[1]], clearance, &mut panels);
+    }
+    panels
+}
+
+fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
+    let length = end - start;
+    let distance = distance_from_edges([start, end], clearance);
+    let rule = rule_for(distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
+    if let Some(rule) = rule {
+        panels.push(Panel {
+            start,
+            length,
+            rule,
+        });
+        return;
+    }
+    let middle = 0.5 * (start + end);
+    divide([start, middle], clearance, panels);
+    divide([middle, end], clearance, panels);
+}
+
+fn dot(weights: &[f64; MAX_POINTS], potentials: &[f64; MAX_POINTS]) -> f64 {
+    weights
+        .iter()
+        .zip(potentials)
+        .map(|(weight, potential)| weight * potential)
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::quadrature::integrate;
+
+    use super::*;
+
+    /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
+    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2]) -> f64 {
+        let end = 60.0 / rate;
+        let decays = (-3..=5).map(|power| 2.0_f64.powi(power) / rate);
+        let distances = (-3..60).map(|power| 0.5 + 2.0_f64.powi(power) - x);
+        let singular = [0.0, -0.5 - x, 0.5 - x, end];
+        let mut ends: Vec<f64> = decays.chain(distances).chain(singular).collect();
+        ends.retain(|distance| (0.0..=end).contains(distance));
+        ends.sort_by(f64::total_cmp);
+        let integrand = |s: f64| rate * (-rate * s).exp() * influence([x + s, y], edges);
+        let parts = ends.windows(2).filter(|pair| pair[0] < pair[1]);
+        parts
+            .map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value)
+            .sum()
+    }
+
+    #[test]
+    fn the_recursion_agrees_with_quadrature_for_any_rate() {
+        for (shift, aspect) in [
+            (-0.5, 0.5),
+            (-0.37, 0.5),
+            (0.0, 1.0),
+            (-0.1, 1e-3),
+            (-0.2, 1e4),
+        ] {
+            for decade in (-12..=12).step_by(3) {
+                check(10.0_f64.powi(decade), shift, aspect);
+            }
+        }
+    }
+
+    fn check(rate: f64, shift: f64, aspect: f64) {
+        let delay = Delay {
+            rate,
+            share: -(-rate).exp_m1(),
+        };
+        let creep = ElementCreep {
+            shift,
+            delays: vec![delay],
+            ..ElementCreep::default()
+        };
+        let first = 30.0 + shift;
+        let mut retarded = RetardedPotential::new(&creep, [first, aspect], 4);
+        for row in 0..=60 {
+            let x = first - f64::from(row);
+            retarded.step(x);
+            if ![20, 29, 30, 31, 60].contains(&row) {
+                continue;
+            }
+            for column in [0, 1, 3] {
+                let y = f64::from(column) * aspect;
+                let expected = reference(rate, [x, y], [1.0, aspect]);
+                let actual = retarded.value(column as usize);
+                assert!(
+                    (actual / expected - 1.0).abs() < 1e-10,
+                    "rate {rate:e}, shift {shift}, aspect {aspect}, at ({x}, {y}): {actual:e} instead of {expected:e}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! How the surface under a load that slides for ever creeps, from one element to the next.
+//!
+//! In the frame of the indenter an element passes in the time Δx/v, and the creep compliance
+//! `J(t) = J₀ + t/η_f + Σ J_k (1 − e^(−t/λ_k))` becomes a filter along x that looks ahead:
+//!
+//! ```text
+//! u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
+//! ```
+
+use std::f64::consts::PI;
+
+use rheology::{CreepSpectrum, Material};
+
+use crate::BemError;
+use crate::error::positive;
+
+/// A material at a sliding speed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SlidingCreep {
+    spectrum: CreepSpectrum,
+    /// 2 (1 − ν).
+    half_space_factor: f64,
+    velocity: f64,
+}
+
+/// The creep compliance over one element, as parts of J(Δx/v): what the tables of the kernel depend on.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct ElementCreep {
+    /// Where the gap of an element is evaluated, in elements from its centre: −1/2 is the rear edge.
+    pub(super) shift: f64,
+    /// Part of J₀.
+    pub(super) instant: f64,
+    /// Part of the free flow.
+    pub(super) flow: f64,
+    pub(super) delays: Vec<Delay>,
+}
+
+/// A retardation element over the length of one element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Delay {
+    /// Δx/(v λ).
+    pub(super) rate: f64,
+    /// Part of J (1 − e^(−Δx/(vλ))).
+    pub(super) share: f64,
+}
+
+impl Delay {
+    /// e^(−Δx/(vλ)).
+    pub(super) fn decay(&self) -> f64 {
+        (-self.rate).exp()
+    }
+
+    /// Part of the whole compliance J.
+    pub(super) fn compliance(&self) -> f64 {
+        -self.share / (-self.rate).exp_m1()
+    }
+}
+
+impl SlidingCreep {
+    pub(super) fn new(
+        material: &(impl Material + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, BemError> {
+        Ok(Self {
+            spectrum: material.creep(),
+            half_space_factor: positive("half-space factor", material.half_space_factor())?,
+            velocity: positive("velocity", velocity)?,
+        })
+    }
+
+    /// Whether there is nothing but a dashpot, under which only rising elements touch.
+    pub(super) fn only_flows(&self) -> bool {
+        self.spectrum.instantaneous_compliance() == 0.0 && self.spectrum.elements().is_empty()
+    }
+
+    /// Compliance 2 (1 − ν)/(η_f v) of the free flow, by which the surface sinks per length, [1/(Pa m)].
+    pub(super) fn flow_per_length(&self) -> f64 {
+        self.half_space_factor * self.spectrum.fluidity() / self.velocity
+    }
+
+    /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
+    pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
+        let parts = self.parts(length)?;
+        positive(
+            "compliance over a length",
+            self.half_space_factor * total(&parts),
+        )
+    }
+
+    /// The creep over elements of the length Δx.
+    pub(super) fn over(&self, spacing: f64) -> Result<ElementCreep, BemError> {
+        let mut parts = self.parts(spacing)?;
+        let total = positive("compliance over an element", total(&parts))?;
+        parts.instant /= total;
+        parts.flow /= total;
+        for delay in &mut parts.delays {
+            delay.share /= total;
+            positive("compliance of a retardation element", delay.compliance())?;
+        }
+        parts.shift = self.shift(spacing)?;
+        Ok(parts)
+    }
+
+    fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
+        let time = positive("length / velocity", length / self.velocity)?;
+        let delays = self.spectrum.elements().iter().map(|element| {
+            let rate = positive(
+                "length / (velocity × retardation time)",
+                time / element.retardation_time,
+            )?;
+            let share = -element.compliance * (-rate).exp_m1();
+            Ok(Delay { rate, share })
+        });
+        Ok(ElementCreep {
+            shift: 0.0,
+            instant: self.spectrum.instantaneous_compliance(),
+            flow: self.spectrum.fluidity() * time,
+            delays: delays.collect::<Result<_, BemError>>()?,
+        })
+    }
+
+    /// −δ/π with the loss angle δ at the wave number π/Δx, the shortest of the grid: moving the point by that part of an
+    /// element turns the phase of this wave back by δ, so that displacement and load are in phase for it and less than a
+    /// quarter period apart for all others.
+    fn shift(&self, spacing: f64) -> Result<f64, BemError> {
+        let angular_frequency = positive("π × velocity / spacing", PI * (self.velocity / spacing))?;
+        let compliance = self.spectrum.complex_compliance(angular_frequency)?;
+        Ok(-compliance.loss.atan2(compliance.storage) / PI)
+    }
+}
+
+fn total(parts: &ElementCreep) -> f64 {
+    let delayed: f64 = parts.delays.iter().map(|delay| delay.share).sum();
+    parts.instant + parts.flow + delayed
+}
