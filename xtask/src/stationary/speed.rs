@@ -6,7 +6,10 @@
 //! extrapolation to an infinite one is exact enough.
 
 use anyhow::{Context, Result};
-use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use bem_halfspace::Footprint;
+use bem_halfspace::steady::{
+    FrictionEstimate, FrictionOptions, SteadyOptions, steady, steady_friction,
+};
 use serde::Serialize;
 
 use crate::progress;
@@ -22,6 +25,8 @@ const STATIONARY: [(f64, f64); 5] = [
     (2.0, 1e-4),
     (1.5, 1e-5),
 ];
+const STATIONARY_WITH_BAR: &str = "stationary";
+const SINGLE_GRID: &str = "stationary, one grid";
 /// The race is run with the paraboloid.
 const RACE: f64 = 2.0;
 const RACE_ERROR: f64 = 1e-3;
@@ -33,6 +38,9 @@ const DISTANCE_SHARE: f64 = 0.25;
 const PILOT_ELEMENTS: f64 = 8.0;
 const SHORTEST: i32 = 2;
 const LONGEST: i32 = 8;
+/// Gaps left on a single grid relative to the error asked for, and contact sets tried.
+const GAP_SHARE: f64 = 1e-3;
+const MAX_ITERATIONS: usize = 500;
 /// Any change over the second half of the distance counts as stationary, because the error is what is looked at.
 const ANY_DRIFT: f64 = 1.0;
 
@@ -56,7 +64,7 @@ pub(super) struct Row {
     processor_seconds: f64,
 }
 
-/// Runs of the stationary solver, then the march in time for the paraboloid.
+/// Runs of the stationary solver, then it on a single grid and the march in time for the paraboloid.
 pub(super) fn compute(quick: bool) -> Result<Vec<Row>> {
     let (runs, race_error) = if quick {
         (
@@ -66,12 +74,14 @@ pub(super) fn compute(quick: bool) -> Result<Vec<Row>> {
     } else {
         (STATIONARY.to_vec(), RACE_ERROR)
     };
-    let bar = progress::bar("speed", runs.len() + 1);
+    let bar = progress::bar("speed", runs.len() + 2);
     let mut rows = Vec::new();
     for (exponent, relative_error) in runs {
         rows.push(stationary(exponent, relative_error)?);
         bar.inc(1);
     }
+    rows.push(single_grid(race_error)?);
+    bar.inc(1);
     rows.push(march(race_error)?);
     bar.finish_and_clear();
     compare(&mut rows);
@@ -85,6 +95,7 @@ fn compare(rows: &mut [Row]) {
         let best = all
             .iter()
             .filter(|other| other.exponent.total_cmp(&row.exponent).is_eq())
+            .filter(|other| other.solver == STATIONARY_WITH_BAR)
             .min_by(|one, other| {
                 one.relative_error_asked
                     .total_cmp(&other.relative_error_asked)
@@ -120,7 +131,7 @@ fn stationary(exponent: f64, relative_error: f64) -> Result<Row> {
     let estimate = estimate?;
     let last = estimate.refinements.last().context("no refinement")?;
     Ok(Row {
-        solver: "stationary",
+        solver: STATIONARY_WITH_BAR,
         exponent,
         relative_error_asked: relative_error,
         friction: estimate.friction_coefficient,
@@ -128,6 +139,45 @@ fn stationary(exponent: f64, relative_error: f64) -> Result<Row> {
         deviation: None,
         unknowns: last.unknowns,
         elements_along_contact: None,
+        sliding_distance: None,
+        seconds,
+        processor_seconds,
+    })
+}
+
+/// The stationary equations on one grid that is fine enough, chosen as that of the march is, and as that without a bar.
+fn single_grid(relative_error: f64) -> Result<Row> {
+    let scene = Scene::unit(RACE)?;
+    let spacing = spacing(&scene, relative_error)?;
+    let Scene {
+        body,
+        material,
+        load,
+    } = &scene;
+    let options = SteadyOptions {
+        spacing: [spacing.length; 2],
+        phase: [0.0, 0.0],
+        footprint: Footprint::of_body(body, material, load)?,
+        tolerance: GAP_SHARE * relative_error,
+        max_iterations: MAX_ITERATIONS,
+    };
+    let (
+        solution,
+        Cost {
+            seconds,
+            processor_seconds,
+        },
+    ) = measure_best(|| steady(body, material, load, &options));
+    let solution = solution?;
+    Ok(Row {
+        solver: SINGLE_GRID,
+        exponent: RACE,
+        relative_error_asked: relative_error,
+        friction: solution.friction_coefficient,
+        estimated_error: spacing.error,
+        deviation: None,
+        unknowns: solution.unknowns,
+        elements_along_contact: Some(scene.theory()?.contact_length() / spacing.length),
         sliding_distance: None,
         seconds,
         processor_seconds,
@@ -256,12 +306,15 @@ fn race(rows: &[Row]) -> String {
                 .total_cmp(&march.relative_error_asked)
                 .is_eq()
     };
-    others.iter().find(same).map_or_else(String::new, |row| {
+    let ratio = |row: &Row| {
         format!(
-            "p = {}, relative error {:e}: the stationary solver takes 1/{:.0} of the processor time of the march in time",
+            "p = {}, relative error {:e}: {} takes 1/{:.0} of the processor time of the march in time",
             row.exponent,
             row.relative_error_asked,
+            row.solver,
             march.processor_seconds / row.processor_seconds
         )
-    })
+    };
+    let ratios: Vec<String> = others.iter().filter(same).map(ratio).collect();
+    ratios.join("\n")
 }
