@@ -42,7 +42,8 @@ impl Transient {
     /// The stationary friction coefficient, with the slope averaged over each step.
     ///
     /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
-    /// value over the second half of the sliding distance.
+    /// value over the second half of the sliding distance. The extrapolation is that of a material that flows; on a
+    /// solid its error covers what it makes of a friction that has arrived already.
     ///
     /// # Errors
     /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
