@@ -2,9 +2,8 @@
 //! or depth.
 //!
 //! While the contact grows, w at every moment is a sum of elastic contacts at the depths so far (Lee & Radok 1960), on
-//! any grid. On a dashpot only the impulse counts, and on an elastic half space only the moment, so that steps in time
-//! cause no error; on any other material the error is of first order in their lengths, because the load of an element
-//! is held over a step.
+//! any grid and in any steps. Hence under a constant force steps in time cause no error, on any material; with another
+//! history the error is of first order in their lengths, because force and load are held over a step.
 
 mod refined;
 

@@ -115,23 +115,33 @@ pub fn indent_history_refined(
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
     let creep = material.creep();
-    let mut coarse = run(1)?;
-    let mut before: Option<Vec<IndentRow>> = None;
+    let (mut coarse, mut before): (Option<Vec<IndentRow>>, Option<Vec<IndentRow>>) = (None, None);
     let (mut n, mut error) = (1, 1.0);
-    while 2 * n <= time_options.max_steps {
-        n *= 2;
-        let fine = run(n)?;
-        let rows = extrapolated(&coarse, &fine);
-        error = before.map_or(1.0, |before| difference(&before, &rows));
-        error = error.max(unresolved(&creep, times, n)?);
-        if error <= time_options.relative_error {
-            return Ok(IndentHistory {
-                rows,
-                time_error: error,
-                steps_per_row: n,
-            });
+    loop {
+        let last = 2 * n > time_options.max_steps;
+        match run(n) {
+            Ok(fine) => {
+                let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
+                if let Some((before, rows)) = before.zip(rows.as_ref()) {
+                    error = difference(&before, rows).max(unresolved(&creep, times, n)?);
+                }
+                (before, coarse) = (rows, Some(fine));
+            }
+            // A force that is held over long steps presses too deep.
+            Err(BemError::ContactReachesBoundary { .. }) if !last => {}
+            Err(refused) => return Err(refused),
         }
-        (coarse, before) = (fine, Some(rows));
+        match before.take_if(|_| error <= time_options.relative_error) {
+            Some(rows) => {
+                return Ok(IndentHistory {
+                    rows,
+                    time_error: error,
+                    steps_per_row: n,
+                });
+            }
+            None if last => break,
+            None => n *= 2,
+        }
     }
     Err(BemError::TimeNotResolved {
         steps: n,

@@ -15,6 +15,7 @@ mod motion;
 mod slopes;
 mod stationary;
 mod transient;
+mod until_stationary;
 
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
@@ -23,8 +24,9 @@ pub use crate::stepping::MarchState;
 use crate::{BemError, ContactOptions, Footprint, Resolution};
 pub use march::March;
 pub use motion::{Motion, MotionRow};
-pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
+pub use stationary::StationaryFriction;
 pub use transient::{PressureField, SlideRow, Transient};
+pub use until_stationary::{StationaryOptions, StationarySlide, slide_to_stationary};
 
 /// Resolution of a sliding simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]

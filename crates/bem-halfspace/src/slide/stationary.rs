@@ -6,14 +6,9 @@
 //! ```text
 //! μ(S) = μ_∞ + m₁/S + m₂/S² + …
 //! ```
-//! On a solid it approaches its limit exponentially, once the distance is longer than v λ for every retardation time λ.
-
-use indenters::{SlidingLoad, Surface};
-use rheology::Material;
 
 use crate::BemError;
-use crate::error::{below_one, positive};
-use crate::slide::{March, SlideOptions, SlideRow, Transient};
+use crate::slide::{SlideRow, Transient};
 
 /// The limit of the friction coefficient for an infinite sliding distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +37,8 @@ impl Transient {
     /// The stationary friction coefficient, with the slope averaged over each step.
     ///
     /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
-    /// value over the second half of the sliding distance.
+    /// value over the second half of the sliding distance. The extrapolation is that of a material that flows; on a
+    /// solid its error covers what it makes of a friction that has arrived already.
     ///
     /// # Errors
     /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
@@ -75,7 +71,7 @@ impl Transient {
 }
 
 /// The last row and those at a half and a quarter of its distance, as (reciprocal distance, friction coefficient).
-fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
+pub(super) fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
     let n = rows.len();
     [n, n / 2, n / 4].map(|count| {
         let step = &rows[count - 1];
@@ -83,120 +79,8 @@ fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
     })
 }
 
-/// When a state counts as stationary.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StationaryOptions {
-    /// Largest change of the friction coefficient, extrapolated where the material flows, relative to its value.
-    pub tolerance: f64,
-    /// Distance over which it changes by no more, \[m]: several contact lengths, and several v λ of the slowest
-    /// retardation time λ that matters.
-    pub over_distance: f64,
-}
-
-/// A transient that has come to its end.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct StationarySlide {
-    /// The way from first touch.
-    pub transient: Transient,
-    /// Friction coefficient, extrapolated to an infinite distance where the material flows.
-    pub friction_coefficient: f64,
-    /// Largest change of it over the distance that was asked for, relative to its value.
-    pub change: f64,
-}
-
-/// Like [`slide`](crate::slide::slide), but stops as soon as the friction coefficient is stationary; the sliding
-/// distance of the options is the longest allowed.
-///
-/// On an elastic half space, where there is no friction, changes of the order of the contact tolerance count as none.
-///
-/// # Errors
-/// [`BemError::NotStationary`] with the change reached; otherwise like [`slide`](crate::slide::slide).
-pub fn slide_to_stationary(
-    surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
-    (load, options): (&SlidingLoad, &SlideOptions),
-    stationary: &StationaryOptions,
-) -> Result<StationarySlide, BemError> {
-    below_one("stationary tolerance", stationary.tolerance)?;
-    positive("over_distance", stationary.over_distance)?;
-    let mut march = March::sliding(surface, material, load, options)?;
-    let flows = march.half_space().creep.fluidity() > 0.0;
-    let mut rows = Vec::new();
-    let mut limits = Limits::default();
-    let mut change = 1.0;
-    while let Some(row) = march.step()? {
-        rows.push(SlideRow::of(&row)?);
-        let noise = NOISE * options.contact.tolerance * march.steepness();
-        limits.push(&rows, flows);
-        change = limits.change(stationary.over_distance, noise);
-        if change <= stationary.tolerance {
-            let friction_coefficient = limits.last();
-            let transient = Transient::of(&march, load, rows)?;
-            return Ok(StationarySlide {
-                transient,
-                friction_coefficient,
-                change,
-            });
-        }
-    }
-    Err(BemError::NotStationary {
-        sliding_distance: rows.last().map_or(0.0, |row| row.sliding_distance),
-        drift: change,
-        friction_coefficient: limits.last(),
-        tolerance: stationary.tolerance,
-    })
-}
-
-/// The pressure is accurate to about this many contact tolerances.
-const NOISE: f64 = 1e3;
-
-/// The friction coefficients for an infinite distance that the steps so far have foretold, with their distances.
-#[derive(Debug, Default)]
-struct Limits(Vec<[f64; 2]>);
-
-impl Limits {
-    fn push(&mut self, rows: &[SlideRow], flows: bool) {
-        let Some(last) = rows.last() else {
-            return;
-        };
-        let limit = if !flows || rows.len() < 4 {
-            last.friction_coefficient
-        } else {
-            value_at_zero(&halvings(rows))
-        };
-        self.0.push([last.sliding_distance, limit]);
-    }
-
-    fn last(&self) -> f64 {
-        self.0.last().map_or(0.0, |[_, limit]| *limit)
-    }
-
-    /// Largest change relative to the last value over the last part of the way, beyond the noise; 1, as from nothing,
-    /// when the way was not as long.
-    fn change(&self, over_distance: f64, noise: f64) -> f64 {
-        let Some(&[distance, limit]) = self.0.last() else {
-            return 1.0;
-        };
-        let start = distance - over_distance;
-        // As from half the distance on: what is extrapolated looks back that far.
-        if start <= 0.0 || self.0.len() < 8 {
-            return 1.0;
-        }
-        let recent = self.0.iter().rev().take_while(|[then, _]| *then >= start);
-        let largest = recent
-            .map(|[_, then]| (then - limit).abs())
-            .fold(0.0, f64::max);
-        if largest <= noise {
-            return 0.0;
-        }
-        largest / limit.abs()
-    }
-}
-
 /// Value at zero of the polynomial through the points (Lagrange).
-fn value_at_zero(points: &[(f64, f64)]) -> f64 {
+pub(super) fn value_at_zero(points: &[(f64, f64)]) -> f64 {
     let term = |&(position, value): &(f64, f64)| {
         let others = points
             .iter()

@@ -10,6 +10,7 @@
 //! that only ratios enter.
 
 mod checkpoint;
+mod press;
 mod route;
 mod window;
 
@@ -20,16 +21,13 @@ use indenters::{SlidingLoad, Surface};
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use crate::bounds::Bounds;
-use crate::contact::{ContactBox, Outcome};
+use crate::contact::ContactBox;
 use crate::error::positive;
 use crate::resolution::Layout;
 use crate::{BemError, Control, Resolution};
 pub use checkpoint::MarchState;
 pub(crate) use route::{Leg, Route};
 use window::Window;
-
-/// A box of which less is needed than this part gives way to a smaller one.
-const NEEDED_PART: f64 = 0.75;
 
 /// An indenter on its way over a half space.
 pub(crate) struct Stepping<'scene, S: ?Sized> {
@@ -206,7 +204,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         (column as f64 - self.layout.apex[1] as f64) * self.resolution.spacing[1]
     }
 
-    /// Samples the heights with the lowest point `offset` elements before the centre of its element.
+    /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element.
     fn sample(&mut self, offset: f64) -> Result<(), BemError> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
@@ -283,121 +281,6 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
             n_contact: 0,
             iterations: 0,
         })
-    }
-
-    fn press(&mut self, leg: Leg) -> Result<Instant, BemError> {
-        let mut enlarged = false;
-        loop {
-            self.fill_box();
-            let control = self.scaled(leg.control);
-            let outcome = self.contact_box.solve(control, &self.resolution.contact)?;
-            self.find_increment(leg.row);
-            let contact = Bounds::of(self.loaded_elements().map(|(element, _)| element));
-            if let Some(outside) = self.penetration(leg.row, outcome.indentation_depth) {
-                let mut bounds = contact.map_or(outside, |contact| contact.with(&outside));
-                bounds = bounds.with_margin(self.layout.shape);
-                if enlarged {
-                    bounds = bounds.with(&self.contact_box.bounds);
-                }
-                self.contact_box = self.contact_box.moved_to(bounds)?;
-                enlarged = true;
-                continue;
-            }
-            if let Some(bounds) = contact {
-                self.check_footprint(&bounds, leg.position)?;
-                self.tighten(&bounds)?;
-            }
-            return Ok(self.instant(leg, outcome, contact));
-        }
-    }
-
-    fn instant(&self, leg: Leg, outcome: Outcome, bounds: Option<Bounds>) -> Instant {
-        let normal_force = match leg.control {
-            Control::NormalForce(force) => force,
-            Control::IndentationDepth(_) => outcome.total_load / self.load_per_force(),
-        };
-        Instant {
-            leg,
-            indentation_depth: outcome.indentation_depth * self.scale,
-            normal_force,
-            bounds,
-            n_contact: self.loaded_elements().count(),
-            iterations: outcome.iterations,
-        }
-    }
-
-    /// Sum of the loads that a normal force of 1 N makes.
-    ///
-    /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
-    fn load_per_force(&self) -> f64 {
-        let compliance = self.compliance() / self.scale;
-        compliance / (4.0 * PI * self.resolution.spacing[1])
-    }
-
-    fn scaled(&self, control: Control) -> Control {
-        match control {
-            Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
-            Control::IndentationDepth(depth) => Control::IndentationDepth(depth / self.scale),
-        }
-    }
-
-    fn fill_box(&mut self) {
-        let ranges = self.contact_box.bounds.row_ranges(self.layout.shape[1]);
-        self.contact_box.separation.clear();
-        for range in ranges {
-            let row = &self.separation[range];
-            self.contact_box.separation.extend_from_slice(row);
-        }
-    }
-
-    fn find_increment(&mut self, first_row: usize) {
-        let wanted = self.rows_needed();
-        if self.contact_box.loaded_elements().next().is_none() {
-            self.window.release(wanted);
-            return;
-        }
-        let rows = self.contact_box.bounds.rows();
-        let loaded = self.contact_box.loaded_elements();
-        self.window.press(loaded, (first_row, rows), wanted);
-    }
-
-    /// Elements outside the box that the indenter penetrates.
-    fn penetration(&self, first_row: usize, depth: f64) -> Option<Bounds> {
-        let increment = self
-            .window
-            .increment(first_row..first_row + self.layout.shape[0]);
-        let deflection = increment.iter().copied().fold(0.0, f64::max);
-        // The box and the window round differently, so the box's own tolerance would be too sharp here.
-        let allowed = -2.0 * self.resolution.contact.tolerance * deflection;
-        let columns = self.layout.shape[1];
-        let gaps = self.separation.iter().zip(increment).enumerate();
-        let outside = gaps
-            .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
-            .map(|(index, _)| [index / columns, index % columns])
-            .filter(|element| !self.contact_box.bounds.contains(*element));
-        Bounds::of(outside)
-    }
-
-    fn check_footprint(&self, bounds: &Bounds, position: f64) -> Result<(), BemError> {
-        let shape = self.layout.shape;
-        let inside = (0..2).all(|axis| bounds.lower[axis] > 0 && bounds.upper[axis] < shape[axis]);
-        if inside {
-            return Ok(());
-        }
-        Err(self.resolution.footprint.boundary_reached(position))
-    }
-
-    /// Goes on with a smaller box when the contact has left most of it.
-    ///
-    /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
-    fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
-        let shape = self.contact_box.bounds.shape();
-        let needed = contact.with_margin(self.layout.shape);
-        let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
-        if ((rows * columns) as f64) < NEEDED_PART * (shape[0] * shape[1]) as f64 {
-            self.contact_box = self.contact_box.moved_to(needed)?;
-        }
-        Ok(())
     }
 }
 

@@ -274,6 +274,33 @@ fn the_estimated_error_of_the_steps_holds() {
     }
 }
 
+/// One step that holds the last force presses a fluid far beyond the footprint; many steps do not.
+#[test]
+fn steps_that_are_too_long_for_the_footprint_are_halved() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    let fluid = prony([0.0, 1.0], &[]);
+    // Half of the impulse that a single step would have: a³ = 3 R/16 ∫ F dt.
+    let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 3.0)]).expect("a force");
+    let radius = (3.0_f64 / 16.0 * 1.5).cbrt();
+    let options = IndentOptions {
+        footprint: Footprint::square(1.15 * radius),
+        ..options(radius, 10.0, ContactOptions::default())
+    };
+    let history = indent_history_refined(
+        &body,
+        &fluid,
+        (&|time| control.at(time), &[1.0]),
+        (&options, &TimeOptions::default()),
+    );
+    let row = history.expect("a history").rows[0];
+    let expected = radius * radius;
+    assert!(
+        (row.indentation_depth / expected - 1.0).abs() < 5e-3,
+        "depth {} instead of {expected}",
+        row.indentation_depth
+    );
+}
+
 #[test]
 fn steps_that_cannot_be_short_enough_are_an_error() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");

@@ -6,11 +6,12 @@ use indenters::PowerProfile;
 
 use crate::support::prony;
 
-/// Pressed, slid by fractions of an element, lifted, and pressed elsewhere.
+/// Pressed, released to a much smaller contact, slid by fractions of an element, lifted, and pressed elsewhere.
 fn motions() -> Vec<Motion> {
     let motion = |k: usize| {
         let time = 0.1 * k as f64;
         let control = match k {
+            1..4 => Control::NormalForce(6.0),
             18..22 => Control::IndentationDepth(-0.5),
             _ => Control::NormalForce(0.4 + 0.3 * (0.3 * k as f64).sin()),
         };
@@ -46,7 +47,7 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
     let material = prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
     let new = || March::new(&body, &material, &motions(), &resolution()).expect("a march");
     let expected = rest(&mut new());
-    for interruption in [0, 1, 9, 19, 25, 32] {
+    for interruption in [0, 1, 4, 9, 12, 19, 25, 32] {
         let mut first = new();
         let mut rows: Vec<MotionRow> = (0..interruption)
             .map(|_| first.step().expect("a step").expect("a row"))
