@@ -4,6 +4,8 @@
 //! Where the body does not rise, the gap at the rear is therefore larger than at the front, and no element there can
 //! touch: only rising elements are kept. On any other material all elements that the body covers are.
 
+use std::collections::BTreeSet;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use indenters::Surface;
@@ -235,6 +237,30 @@ impl Mesh {
             column
         };
         [[row, column], [row, image]]
+    }
+
+    /// The elements at most `reach` rows and columns away from one of `centres`, unless they are more than `most`.
+    pub(super) fn near(&self, centres: &[usize], reach: usize, most: usize) -> Option<Vec<usize>> {
+        let mut near = BTreeSet::new();
+        for &centre in centres {
+            let Element { row, column, .. } = self.elements[centre];
+            for row in row.saturating_sub(reach)..=row + reach {
+                near.extend(self.in_row(row, column.saturating_sub(reach)..=column + reach));
+            }
+            if near.len() > most {
+                return None;
+            }
+        }
+        Some(near.into_iter().collect())
+    }
+
+    /// The elements of a row within a range of columns; they are numbered row by row.
+    fn in_row(&self, row: usize, columns: RangeInclusive<usize>) -> Range<usize> {
+        let [first, last] = [*columns.start(), columns.end() + 1].map(|column| {
+            self.elements
+                .partition_point(|element| (element.row, element.column) < (row, column))
+        });
+        first..last
     }
 
     fn aspect(&self) -> f64 {

@@ -26,6 +26,7 @@ mod kernel;
 mod krylov;
 mod loading;
 mod mesh;
+mod neighbourhood;
 mod pivoting;
 mod plans;
 mod product;

@@ -1,13 +1,14 @@
 //! Block principal pivoting: guess the contact, close its gaps, exchange what pulls for what penetrates.
 //!
-//! While the number of violations falls, all are exchanged at once. A few exchanges without progress are allowed; then
-//! the larger violations or every other one, so that neighbours at the front do not flip to and fro together; in the
-//! end single exchanges of the last violation (Murty 1974), until there is progress again. Early contacts are closed
-//! roughly, the last one to the tolerance.
+//! While the number of violations falls, all are exchanged at once, or their neighbourhood is settled by itself where
+//! they are few. A few exchanges without progress are allowed; then the larger violations or every other one, so that
+//! neighbours at the front do not flip to and fro together; in the end single exchanges of the last violation (Murty
+//! 1974), until there is progress again. Early contacts are closed roughly, the last one to the tolerance.
 
 use crate::BemError;
 use crate::steady::contact_system::{Closure, close_gaps};
 use crate::steady::mesh::Mesh;
+use crate::steady::neighbourhood::settle;
 use crate::steady::plans::Plans;
 use crate::steady::product::Product;
 use crate::steady::region::Region;
@@ -63,7 +64,10 @@ pub(super) fn solve(
             search.tolerance *= TOLERANCE_RATIO.max(0.5 * target / residual);
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
-            search.exchange(progress.choose(&state.violations));
+            let chosen = progress.choose(&state.violations);
+            if !progress.allows_settling() || !search.settle(&state) {
+                search.exchange(chosen);
+            }
         }
     }
     Err(BemError::ContactNotConverged {
@@ -99,6 +103,11 @@ impl Default for Progress {
 }
 
 impl Progress {
+    /// Whether small problems may be solved by themselves; that too may repeat itself.
+    const fn allows_settling(&self) -> bool {
+        self.vain <= BLOCKS
+    }
+
     /// The violations to exchange: all, then the larger ones, then every other one, then the last.
     fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
         if violations.len() < self.fewest {
@@ -151,6 +160,9 @@ struct Search<'mesh> {
 
 /// How a contact with closed gaps stands to the conditions.
 struct State {
+    gaps: Vec<f64>,
+    /// Smaller penetrations are not told from the gaps that are left.
+    allowed: f64,
     /// Elements of the contact that pull and others that penetrate, in the order of their numbers.
     violations: Vec<Violation>,
     residual: f64,
@@ -222,7 +234,6 @@ impl<'mesh> Search<'mesh> {
         let gaps: Vec<f64> = moved.into_iter().enumerate().map(gap).collect();
         let closed = gaps.iter().zip(&self.inside).filter(|(_, inside)| **inside);
         let residual = closed.fold(0.0, |largest: f64, (gap, _)| largest.max(gap.abs()));
-        // Smaller penetrations are not told from the gaps that are left.
         let allowed = residual.max(self.mesh.options.tolerance);
         let violation = |(element, gap): (usize, f64)| {
             let pulls = self.inside[element];
@@ -234,9 +245,34 @@ impl<'mesh> Search<'mesh> {
             })
         };
         State {
-            violations: gaps.into_iter().enumerate().filter_map(violation).collect(),
+            violations: (0..gaps.len())
+                .map(|element| (element, gaps[element]))
+                .filter_map(violation)
+                .collect(),
+            gaps,
+            allowed,
             residual,
         }
+    }
+
+    /// Settles the neighbourhood of the violations by itself, if it is small.
+    fn settle(&mut self, state: &State) -> bool {
+        let violations: Vec<usize> = state
+            .violations
+            .iter()
+            .map(|violation| violation.element)
+            .collect();
+        let settled = settle(
+            self.mesh,
+            (&state.gaps, &self.loads),
+            &violations,
+            state.allowed,
+        );
+        let loads = settled.iter().flat_map(|settled| &settled.loads);
+        for &(element, load) in loads {
+            (self.inside[element], self.loads[element]) = (load > 0.0, load);
+        }
+        settled.is_some()
     }
 
     fn exchange(&mut self, elements: Vec<usize>) {

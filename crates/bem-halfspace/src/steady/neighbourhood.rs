@@ -1,0 +1,129 @@
+//! The surroundings of a few violations, settled by themselves.
+//!
+//! A tooth of the outline wears off by one element per change of the whole contact, and the end of a column may change
+//! sides for ever. Both are questions of few elements: those near the violations are brought into order while the other
+//! loads and the depth stay.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+use crate::steady::mesh::Mesh;
+
+/// Elements on every side of a violation that take part.
+const REACH: usize = 4;
+/// More elements are not a small problem.
+const LARGEST: usize = 250;
+/// Exchanges of all violations, and pivots at all.
+const BLOCKS: usize = 10;
+const PIVOTS: usize = 100;
+
+/// Loads of the elements near the violations.
+#[derive(Debug)]
+pub(super) struct Settled {
+    /// Elements with their load; 0 outside the contact.
+    pub(super) loads: Vec<(usize, f64)>,
+}
+
+/// Settles the neighbourhood of `violations`, where every element has a gap and a load now; `None` when it is too large
+/// or does not settle. Smaller penetrations than `allowed` are none.
+pub(super) fn settle(
+    mesh: &Mesh,
+    (gaps, loads): (&[f64], &[f64]),
+    violations: &[usize],
+    allowed: f64,
+) -> Option<Settled> {
+    let elements = mesh.near(violations, REACH, LARGEST)?;
+    let problem = Neighbourhood::new(mesh, (gaps, loads), elements);
+    let start = problem.elements.iter();
+    let inside = start.map(|&element| (loads[element] > 0.0) != violations.contains(&element));
+    problem.pivot(inside.collect(), allowed)
+}
+
+/// x ≥ 0, g + K x ≥ 0, x (g + K x) = 0.
+struct Neighbourhood {
+    elements: Vec<usize>,
+    influence: Mat<f64>,
+    /// Gaps without the loads of these elements.
+    gaps: Vec<f64>,
+}
+
+impl Neighbourhood {
+    fn new(mesh: &Mesh, (gaps, loads): (&[f64], &[f64]), elements: Vec<usize>) -> Self {
+        let n = elements.len();
+        let influence = Mat::from_fn(n, n, |to, from| {
+            mesh.influence(elements[to], elements[from])
+        });
+        let without = |to: usize| {
+            let moved = (0..n).map(|from| influence[(to, from)] * loads[elements[from]]);
+            gaps[elements[to]] - moved.sum::<f64>()
+        };
+        Self {
+            gaps: (0..n).map(without).collect(),
+            elements,
+            influence,
+        }
+    }
+
+    /// Murty's pivots (1974), all violations at once at first.
+    fn pivot(&self, mut inside: Vec<bool>, allowed: f64) -> Option<Settled> {
+        for pivot in 0..PIVOTS {
+            let loads = self.close(&inside);
+            let violations = self.violations(&inside, &loads, allowed)?;
+            let Some(last) = violations.last() else {
+                return Some(Settled {
+                    loads: self.elements.iter().copied().zip(loads).collect(),
+                });
+            };
+            let chosen = if pivot < BLOCKS {
+                &violations[..]
+            } else {
+                std::slice::from_ref(last)
+            };
+            for &element in chosen {
+                inside[element] = !inside[element];
+            }
+        }
+        None
+    }
+
+    /// Elements that pull or penetrate; `None` when the loads are not numbers.
+    fn violations(&self, inside: &[bool], loads: &[f64], allowed: f64) -> Option<Vec<usize>> {
+        let violates = |&element: &usize| {
+            if inside[element] {
+                loads[element] < 0.0
+            } else {
+                self.gap(element, loads) < -allowed
+            }
+        };
+        let finite = loads.iter().all(|load| load.is_finite());
+        finite.then(|| (0..inside.len()).filter(violates).collect())
+    }
+
+    /// Loads that close the gaps inside; 0 outside.
+    fn close(&self, inside: &[bool]) -> Vec<f64> {
+        let contact: Vec<usize> = (0..inside.len())
+            .filter(|&element| inside[element])
+            .collect();
+        let n = contact.len();
+        let mut loads = vec![0.0; inside.len()];
+        if n > 0 {
+            let matrix = Mat::from_fn(n, n, |to, from| {
+                self.influence[(contact[to], contact[from])]
+            });
+            let right = Mat::from_fn(n, 1, |to, _| -self.gaps[contact[to]]);
+            let solution = matrix.partial_piv_lu().solve(&right);
+            for (row, element) in contact.into_iter().enumerate() {
+                loads[element] = solution[(row, 0)];
+            }
+        }
+        loads
+    }
+
+    fn gap(&self, element: usize, loads: &[f64]) -> f64 {
+        let moved = loads.iter().enumerate();
+        self.gaps[element]
+            + moved
+                .map(|(from, load)| self.influence[(element, from)] * load)
+                .sum::<f64>()
+    }
+}
