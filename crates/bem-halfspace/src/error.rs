@@ -94,7 +94,7 @@ pub enum BemError {
     SlopeNotResolved {
         /// Rise over the element, \[m].
         rise: f64,
-        /// Depth scale, F_N / (4 η v) on a dashpot, \[m].
+        /// Depth scale F_N J(L/v) / (4 L) of a contact of length L, F_N / (4 η v) on a dashpot, \[m].
         depth_scale: f64,
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
@@ -143,7 +143,7 @@ pub enum BemError {
     Indenter(#[from] IndenterError),
     /// The material refuses the question.
     #[error(transparent)]
-    Rheology(#[from] RheologyError),
+    Material(#[from] RheologyError),
 }
 
 /// Checks that `value` is finite and greater than zero.

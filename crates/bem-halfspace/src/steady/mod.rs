@@ -41,6 +41,7 @@ use rheology::Material;
 
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
+pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
 pub use estimate::{
     FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,
@@ -87,7 +88,7 @@ pub struct SteadyOptions {
 /// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
 /// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`];
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
-/// [`BemError::Rheology`].
+/// [`BemError::Material`].
 pub fn steady(
     surface: &impl Surface,
     material: &(impl Material + ?Sized),
