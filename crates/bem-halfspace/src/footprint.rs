@@ -1,10 +1,11 @@
 //! Where contact may occur, seen from the indenter.
 
 use indenters::{Axisymmetric, SlidingLoad, bracketed_root};
-use rheology::Viscous;
+use rheology::{Material, Viscous};
 
 use crate::BemError;
 use crate::grid::elements_along;
+use crate::steady::depth_scale_of_body;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,18 +27,18 @@ impl Footprint {
         }
     }
 
-    /// The square that holds the contact of a body of revolution from first touch on: up to the height
-    /// 1.5 F_N / (4 η v), or 2 of it for a cusp sharper than r^(3/4). The front of the contact reaches 1.6 of that
-    /// scale for h ∼ r^0.51, 1.1 for the cone and 0.8 for the paraboloid.
+    /// The square that holds the contact of a body of revolution: up to 1.5 of the height D = F_N / (4 η v), or 2 of it
+    /// for a cusp sharper than r^(3/4). The front of the contact reaches 1.6 of that scale for h ∼ r^0.51, 1.1 for the
+    /// cone and 0.8 for the paraboloid. On other materials than the dashpot D = h(a) = 2 (1 − ν) F_N J(a/v) / (4 a).
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] when the body has no radius that could be found for this load.
     pub fn of_body(
         body: &(impl Axisymmetric + ?Sized),
-        material: &Viscous,
+        material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let depth = depth_scale(material, load);
+        let depth = depth_scale_of_body(body, material, load)?;
         let height = if body.apex_exponent() < 0.75 {
             2.0
         } else {
@@ -45,7 +46,7 @@ impl Footprint {
         };
         let radius = radius_at_height(body, height * depth).filter(|radius| *radius > 0.0);
         radius.map(Self::square).ok_or(BemError::InvalidParameter {
-            parameter: "F_N / (4 η v)",
+            parameter: "depth scale",
             value: depth,
             allowed: "a height that the body reaches at a finite radius greater than 0",
         })
@@ -87,7 +88,7 @@ pub(crate) fn depth_scale(material: &Viscous, load: &SlidingLoad) -> f64 {
     0.25 * load.normal_force() / material.viscosity() / load.velocity()
 }
 
-pub(crate) fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
+fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
     let above = |radius: f64| body.height(radius) >= height;
     let mut radius = if body.max_radius().is_finite() {
         body.max_radius()

@@ -10,6 +10,9 @@
 //! which is F_N/(4ηv) for the dashpot, whatever the body, and has one solution for every body that rises, because
 //! J(t)/t never increases.
 
+use indenters::{Axisymmetric, SlidingLoad};
+use rheology::Material;
+
 use crate::BemError;
 use crate::error::positive;
 use crate::steady::sliding_creep::SlidingCreep;
@@ -19,6 +22,17 @@ const HALVINGS: usize = 60;
 /// Doublings of the length until there is no solution.
 const DOUBLINGS: usize = 900;
 
+/// D of a body of revolution.
+pub(crate) fn depth_scale_of_body(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+) -> Result<f64, BemError> {
+    let creep = SlidingCreep::new(material, load.velocity())?;
+    let height = |radius: f64| body.height(radius);
+    depth_scale(&creep, load.normal_force(), height, body.max_radius())
+}
+
 /// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.
 pub(super) fn depth_scale(
     creep: &SlidingCreep,
@@ -27,7 +41,6 @@ pub(super) fn depth_scale(
     largest: f64,
 ) -> Result<f64, BemError> {
     if creep.only_flows() {
-        // Divided one by one, because η v may overflow where the quotient does not.
         let depth = 0.25 * normal_force * creep.flow_per_length();
         return positive("F_N / (4 η v)", depth);
     }
@@ -50,7 +63,7 @@ pub(super) fn depth_scale(
         (lower, upper) = (0.5 * lower, lower);
     }
     for _ in 0..HALVINGS {
-        let middle = (lower * upper).sqrt();
+        let middle = lower.sqrt() * upper.sqrt();
         if too_long(middle)? {
             upper = middle;
         } else {

@@ -10,11 +10,9 @@ use indenters::{Axisymmetric, SlidingLoad, Surface, contact_radius};
 use rheology::Material;
 
 use crate::error::{below_one, positive};
-use crate::footprint::radius_at_height;
-use crate::steady::contact_scale::depth_scale;
+use crate::steady::contact_scale::depth_scale_of_body;
 use crate::steady::extrapolation::{Limit, extrapolate};
 use crate::steady::loading::Loading;
-use crate::steady::sliding_creep::SlidingCreep;
 use crate::steady::{Reuse, SinkingDepth, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
 
@@ -120,12 +118,9 @@ impl Ladder {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(material, load.velocity())?;
-        let height = |radius: f64| body.height(radius);
-        let depth = depth_scale(&creep, load.normal_force(), height, body.max_radius())?;
-        let contact_length = contact_radius(body, depth)?;
+        let contact_length = contact_radius(body, depth_scale_of_body(body, material, load)?)?;
         Ok(Self {
-            footprint: footprint(body, depth)?,
+            footprint: Footprint::of_body(body, material, load)?,
             coarsest_spacing: contact_length / COARSEST,
             apex_exponent: body.apex_exponent(),
         })
@@ -157,23 +152,6 @@ impl Ladder {
             y: widened(self.footprint.y),
         }
     }
-}
-
-/// The square that holds the contact of a body that is pressed in by about `depth`.
-fn footprint(body: &(impl Axisymmetric + ?Sized), depth: f64) -> Result<Footprint, BemError> {
-    let height = if body.apex_exponent() < 0.75 {
-        2.0
-    } else {
-        1.5
-    };
-    let radius = radius_at_height(body, height * depth).filter(|radius| *radius > 0.0);
-    radius
-        .map(Footprint::square)
-        .ok_or(BemError::InvalidParameter {
-            parameter: "depth scale",
-            value: depth,
-            allowed: "a height that the body reaches at a finite radius greater than 0",
-        })
 }
 
 /// Computes the stationary friction coefficient of a body of revolution to a relative error.

@@ -42,6 +42,7 @@ use rheology::Material;
 
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
+pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
 pub use estimate::{
     FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,

@@ -7,7 +7,7 @@
 
 use crate::influence;
 use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
-use crate::steady::sliding_creep::{Delay, ElementCreep};
+use crate::steady::sliding_creep::ElementCreep;
 
 /// Distance, in panel lengths, from which on so many points are enough for eleven digits.
 const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
@@ -28,13 +28,21 @@ struct Panel {
     rule: usize,
 }
 
+/// A retardation element over the length of one element of the grid.
+#[derive(Debug)]
+struct Retardation {
+    rate: f64,
+    compliance: f64,
+    decay: f64,
+    /// Weights of each rule, in parts of the compliance.
+    weights: [[f64; MAX_POINTS]; POINTS.len()],
+}
+
 /// The values of all retardation elements along a row of the table.
 #[derive(Debug)]
 pub(super) struct RetardedPotential {
-    delays: Vec<Delay>,
+    delays: Vec<Retardation>,
     rules: [ExponentialRule; POINTS.len()],
-    /// Weights of each rule over a whole element, by delay.
-    weights: Vec<[[f64; MAX_POINTS]; POINTS.len()]>,
     aspect: f64,
     n_columns: usize,
     /// Row that was reached.
@@ -50,14 +58,18 @@ impl RetardedPotential {
     /// Starts one element ahead of the row at `first`.
     pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
         let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
-        let weights = creep
-            .delays
-            .iter()
-            .map(|delay| [0, 1, 2, 3].map(|rule| rules[rule].weights(delay.rate)));
+        let delays = creep.delays.iter().map(|delay| Retardation {
+            rate: delay.rate,
+            compliance: delay.compliance(),
+            decay: delay.decay(),
+            weights: rules.each_ref().map(|rule| {
+                rule.weights(delay.rate)
+                    .map(|weight| delay.compliance() * weight)
+            }),
+        });
         let position = first + 1.0 + (FIRST_ROW - first).max(0.0).ceil();
         let mut start = Self {
-            weights: weights.collect(),
-            delays: creep.delays.clone(),
+            delays: delays.collect(),
             rules,
             aspect,
             n_columns,
@@ -104,7 +116,7 @@ impl RetardedPotential {
             let steps: Vec<_> = self
                 .delays
                 .iter()
-                .map(|delay| self.over_panel(*delay, &panel))
+                .map(|delay| self.over_panel(delay, &panel))
                 .collect();
             for column in 0..self.n_columns {
                 let potentials = self.at_nodes(&panel, column);
@@ -117,12 +129,11 @@ impl RetardedPotential {
     }
 
     /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
-    fn over_panel(&self, delay: Delay, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
+    fn over_panel(&self, delay: &Retardation, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
         let rate = delay.rate * panel.length;
-        let compliance = delay.compliance();
         let weights = self.rules[panel.rule]
             .weights(rate)
-            .map(|weight| compliance * weight);
+            .map(|weight| delay.compliance * weight);
         ((-rate).exp(), weights)
     }
 
@@ -147,7 +158,7 @@ impl RetardedPotential {
             }
             for (index, delay) in self.delays.iter().enumerate() {
                 let place = index * self.n_columns + column;
-                self.values[place] = delay.decay() * self.values[place] + self.increments[place];
+                self.values[place] = delay.decay * self.values[place] + self.increments[place];
             }
             self.ahead[column] = here;
         }
@@ -170,7 +181,7 @@ impl RetardedPotential {
         }
         for (index, delay) in self.delays.iter().enumerate() {
             self.increments[index * self.n_columns + column] =
-                delay.compliance() * dot(&self.weights[index][rule], &potentials);
+                dot(&delay.weights[rule][..n_points], &potentials[..n_points]);
         }
     }
 
@@ -182,7 +193,7 @@ impl RetardedPotential {
         for panel in panels(x, clearance).iter().rev() {
             let potentials = self.at_nodes(panel, column);
             for (index, delay) in self.delays.iter().enumerate() {
-                let (decay, weights) = self.over_panel(*delay, panel);
+                let (decay, weights) = self.over_panel(delay, panel);
                 let increment = &mut self.increments[index * self.n_columns + column];
                 *increment = decay * *increment + dot(&weights, &potentials);
             }
@@ -249,7 +260,7 @@ fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     divide([middle, end], clearance, panels);
 }
 
-fn dot(weights: &[f64; MAX_POINTS], potentials: &[f64; MAX_POINTS]) -> f64 {
+fn dot(weights: &[f64], potentials: &[f64]) -> f64 {
     weights
         .iter()
         .zip(potentials)
@@ -262,6 +273,7 @@ mod tests {
     use indenters::quadrature::integrate;
 
     use super::*;
+    use crate::steady::sliding_creep::Delay;
 
     /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
     fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2]) -> f64 {
