@@ -1,10 +1,11 @@
-//! Hertz contact of a paraboloid at a given force, from no pressure at all and from that of a smaller force.
+//! Hertz contact of a paraboloid at a given force, from no pressure at all and from that of a smaller force, and contact
+//! of a periodic rough surface.
 
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
 };
-use benches::report_error;
+use benches::{report_error, self_affine};
 use criterion::{BatchSize, Criterion};
 
 /// Half the edge of the grid over the contact radius.
@@ -14,6 +15,9 @@ fn main() -> Result<(), BemError> {
     let mut criterion = Criterion::default().configure_from_args();
     for edge in [128, 256, 512, 1024, 2048] {
         hertz(&mut criterion, edge)?;
+    }
+    for edge in [512, 1024] {
+        rough(&mut criterion, edge)?;
     }
     criterion.final_summary();
     Ok(())
@@ -46,6 +50,31 @@ fn hertz(criterion: &mut Criterion, edge: usize) -> Result<(), BemError> {
             bencher.iter_batched(|| state.clone(), run, BatchSize::LargeInput);
         });
     }
+    group.finish();
+    Ok(())
+}
+
+/// The rough surface on a half space of shear modulus 1/4, E* = 1, with a tenth of the area in contact.
+fn rough(criterion: &mut Criterion, edge: usize) -> Result<(), BemError> {
+    let convolution = Convolution::periodic(&Grid::new([edge; 2], [1.0 / edge as f64; 2])?);
+    let heights: Vec<f64> = self_affine(edge).iter().map(|summit| -summit).collect();
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation: &heights,
+        compliance: 4.0,
+        control: Control::NormalForce(0.05),
+    };
+    let unloaded = ContactState::new(&convolution);
+    let contact = solve(&problem, &mut unloaded.clone())?;
+    let name = format!("rough/{edge}x{edge}");
+    let residual = [1.0 + contact.residual, 1.0];
+    report_error(&name, "gap to the displacement", residual);
+    let mut group = criterion.benchmark_group(name);
+    group.sample_size(10);
+    group.bench_function("cold", |bencher| {
+        let run = |mut state| solve(&problem, &mut state);
+        bencher.iter_batched(|| unloaded.clone(), run, BatchSize::LargeInput);
+    });
     group.finish();
     Ok(())
 }

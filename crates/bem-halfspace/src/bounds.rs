@@ -100,10 +100,10 @@ impl Bounds {
         self.shape()[0] * self.shape()[1]
     }
 
-    /// Position in a field with `columns` columns of the rows of the box.
-    pub(crate) fn row_ranges(&self, columns: usize) -> impl Iterator<Item = Range<usize>> + use<> {
-        let Self { lower, upper } = *self;
-        (lower[0]..upper[0]).map(move |row| row * columns + lower[1]..row * columns + upper[1])
+    /// Position in a field with `columns` columns of a row of the box.
+    pub(crate) const fn row_range(&self, row: usize, columns: usize) -> Range<usize> {
+        let start = (self.lower[0] + row) * columns;
+        start + self.lower[1]..start + self.upper[1]
     }
 
     /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast.

@@ -1,5 +1,6 @@
 //! A part of a grid on which the contact is solved.
 
+use crate::bands::Bands;
 use crate::bounds::Bounds;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
 use crate::{BemError, ContactOptions, Convolution, Grid};
@@ -42,20 +43,23 @@ impl ContactBox {
 
     /// Copies what lies inside the bounds from a field with `columns` columns, the load as a first guess.
     pub(super) fn take_from(&mut self, (separation, load): (&[f64], &[f64]), columns: usize) {
-        let width = self.bounds.shape()[1];
-        let pieces = self.separation.chunks_exact_mut(width);
-        let pieces = pieces.zip(self.state.load.chunks_exact_mut(width));
-        for (range, (box_separation, box_load)) in self.bounds.row_ranges(columns).zip(pieces) {
-            box_separation.copy_from_slice(&separation[range.clone()]);
-            box_load.copy_from_slice(&load[range]);
-        }
+        let (bounds, width) = (self.bounds, self.bounds.shape()[1]);
+        let bands = Bands::new(bounds.shape());
+        let copies = [&mut self.separation[..], &mut self.state.load];
+        bands.for_each(copies, |band, copies| {
+            for (copy, field) in copies.into_iter().zip([separation, load]) {
+                for (row, copy) in bands.rows(band).zip(copy.chunks_exact_mut(width)) {
+                    copy.copy_from_slice(&field[bounds.row_range(row, columns)]);
+                }
+            }
+        });
     }
 
     /// Copies the load back.
     pub(super) fn give_to(&self, load: &mut [f64], columns: usize) {
         let pieces = self.state.load.chunks_exact(self.bounds.shape()[1]);
-        for (range, box_load) in self.bounds.row_ranges(columns).zip(pieces) {
-            load[range].copy_from_slice(box_load);
+        for (row, box_load) in pieces.enumerate() {
+            load[self.bounds.row_range(row, columns)].copy_from_slice(box_load);
         }
     }
 

@@ -108,15 +108,16 @@ pub fn solve_contact(
     options.validate()?;
     // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
     let load_per_pressure = problem.compliance / (4.0 * PI);
-    let area = problem.convolution.grid().element_area();
+    let grid = problem.convolution.grid();
+    let area = grid.element_area();
     let control = match problem.control {
         Control::NormalForce(force) => Control::NormalForce(force * load_per_pressure / area),
         depth @ Control::IndentationDepth(_) => depth,
     };
-    state.scale_load(load_per_pressure);
+    state.scale_load(grid, load_per_pressure);
     let question = (problem.convolution, problem.separation, control);
     let outcome = solve_normalised(question, state, &options.into());
-    state.scale_load(1.0 / load_per_pressure);
+    state.scale_load(grid, 1.0 / load_per_pressure);
     state.list_contact();
     let outcome = outcome?;
     Ok(Contact {

@@ -1,8 +1,9 @@
 //! What a contact solve overwrites.
 
+use crate::bands::Bands;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::iteration::Fields;
-use crate::{Convolution, ConvolutionWorkspace};
+use crate::{Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next.
 #[derive(Debug, Clone)]
@@ -57,10 +58,12 @@ impl ContactState {
         &self.displacement
     }
 
-    pub(super) fn scale_load(&mut self, factor: f64) {
-        for load in &mut self.load {
-            *load *= factor;
-        }
+    pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
+        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
+            for load in load {
+                *load *= factor;
+            }
+        });
     }
 
     pub(super) fn list_contact(&mut self) {

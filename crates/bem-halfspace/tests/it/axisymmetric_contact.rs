@@ -42,12 +42,15 @@ fn contact_with(
     let margin = (1.1 / spacing).ceil();
     let before = margin + (offset / spacing).ceil();
     let behind = (margin - (offset / spacing).floor()).max(0.0);
+    let columns = 2.0 * margin + 1.0;
+    let counts = [before + behind + 1.0, columns, before * columns + margin];
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "small counts"
     )]
-    let shape = [before + behind + 1.0, 2.0 * margin + 1.0].map(|n| n as usize);
+    let [rows, columns, element] = counts.map(|count| count as usize);
+    let shape = [rows, columns];
     let height = |index: usize| {
         let x = ((index / shape[1]) as f64 - before) * spacing + offset;
         let y = ((index % shape[1]) as f64 - margin) * spacing;
@@ -56,7 +59,6 @@ fn contact_with(
     let heights: Vec<f64> = (0..shape[0] * shape[1]).map(height).collect();
     let control = Control::IndentationDepth(depth / spacing);
     let (contact, state) = elastic_contact(&heights, shape, control);
-    let element = shape[0] * shape[1] - 1 - (behind * shape[1] as f64 + margin) as usize;
     (contact, state, element)
 }
 
@@ -180,10 +182,8 @@ fn forces_of_power_profiles_converge_with_second_order() {
 
 #[test]
 fn the_flat_punch_has_the_stiffness_of_its_radius() {
-    let cases = group("IND-05").into_iter();
-    let case = cases
-        .filter(|case| case.id().ends_with("flat punch"))
-        .last();
+    let mut cases = group("IND-05").into_iter();
+    let case = cases.find(|case| case.id().ends_with("flat punch"));
     let case = case.expect("a punch");
     let [radius, depth] = ["a", "d"].map(|name| case.input(name));
     let force = case.expected("F").expect("a force") / radius / radius;
