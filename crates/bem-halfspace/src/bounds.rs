@@ -67,13 +67,6 @@ impl Bounds {
         }
     }
 
-    /// The smallest box that holds both.
-    pub(crate) fn with(mut self, other: &Self) -> Self {
-        self.include(other.lower);
-        self.include(other.upper.map(|end| end - 1));
-        self
-    }
-
     pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
         self.rows().contains(&row) && self.columns().contains(&column)
     }

@@ -1,7 +1,7 @@
 //! Where contact may occur, seen from the indenter.
 
 use indenters::{Axisymmetric, SlidingLoad, bracketed_root};
-use rheology::{Material, Viscous};
+use rheology::Material;
 
 use crate::BemError;
 use crate::grid::elements_along;
@@ -80,12 +80,6 @@ impl Footprint {
         }
         Ok(counts)
     }
-}
-
-/// D = F_N / (4 η v), the depth scale of viscous sliding, \[m].
-pub(crate) fn depth_scale(material: &Viscous, load: &SlidingLoad) -> f64 {
-    // Divided one by one, because η v may overflow where the quotient does not.
-    0.25 * load.normal_force() / material.viscosity() / load.velocity()
 }
 
 fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {

@@ -24,10 +24,10 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
             self.find_increment(leg.row);
             let contact = Bounds::of(self.loaded_elements().map(|(element, _)| element));
             if let Some(outside) = self.penetration(leg.row, outcome.indentation_depth) {
-                let mut bounds = contact.map_or(outside, |contact| contact.with(&outside));
+                let mut bounds = contact.map_or(outside, |contact| contact.union(&outside));
                 bounds = bounds.with_margin(self.layout.shape);
                 if enlarged {
-                    bounds = bounds.with(&self.contact_box.bounds);
+                    bounds = bounds.union(&self.contact_box.bounds);
                 }
                 self.contact_box = self.contact_box.moved_to(bounds)?;
                 enlarged = true;
@@ -72,10 +72,10 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     }
 
     fn fill_box(&mut self) {
-        let ranges = self.contact_box.bounds.row_ranges(self.layout.shape[1]);
+        let bounds = self.contact_box.bounds;
         self.contact_box.separation.clear();
-        for range in ranges {
-            let row = &self.separation[range];
+        for row in 0..bounds.shape()[0] {
+            let row = &self.separation[bounds.row_range(row, self.layout.shape[1])];
             self.contact_box.separation.extend_from_slice(row);
         }
     }
