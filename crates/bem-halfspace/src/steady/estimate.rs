@@ -26,7 +26,9 @@ const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
 /// Contact sets tried on one grid.
-const MAX_ITERATIONS: usize = 500;
+const MAX_ITERATIONS: usize = 100;
+/// At the edge of a contact elements may change sides for ever. Grids that are so much finer are as good, and help.
+const OTHER_GRIDS: [f64; 2] = [0.99, 0.98];
 /// Gaps left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
 const GAP_SHARE: f64 = 1e-4;
 const SMALLEST_GAP: f64 = 1e-12;
@@ -247,7 +249,7 @@ fn refine(
             tolerance: tolerance(options.relative_error, loading, reuse.solution.as_ref()),
             max_iterations: MAX_ITERATIONS,
         };
-        let solution = solve(surface, loading, &options, reuse)?;
+        let solution = solve_near(surface, loading, &options, reuse)?;
         *friction = solution.friction_coefficient;
         unknowns = unknowns.max(solution.unknowns);
         reuse.solution = Some(solution);
@@ -259,6 +261,27 @@ fn refine(
         scatter,
         unknowns,
     })
+}
+
+/// The solution on a grid, or on one that hardly differs where no contact set is found.
+fn solve_near(
+    surface: &impl Surface,
+    loading: &Loading,
+    options: &SteadyOptions,
+    reuse: &mut Reuse,
+) -> Result<SteadySliding, BemError> {
+    let mut solution = solve(surface, loading, options, reuse);
+    for finer in OTHER_GRIDS {
+        if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
+            break;
+        }
+        let other = SteadyOptions {
+            spacing: options.spacing.map(|edge| finer * edge),
+            ..*options
+        };
+        solution = solve(surface, loading, &other, reuse);
+    }
+    solution
 }
 
 /// Gaps that disturb the friction less than is asked: where it is a small difference of large slopes, they are smaller.
