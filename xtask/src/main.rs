@@ -17,6 +17,7 @@ mod run;
 mod scaling;
 mod scene;
 mod scene_file;
+mod speed_range;
 mod stationary;
 mod sweep;
 
@@ -47,6 +48,9 @@ enum Command {
     FitMaterial(material::FitMaterial),
     /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed. CSV.
     MeasureStationary(stationary::MeasureStationary),
+    /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds: CSV,
+    /// SVG and PNG.
+    SpeedRange(speed_range::SpeedRange),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -98,6 +102,7 @@ fn main() -> ExitCode {
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::FitMaterial(options) => material::fit(&options),
         Command::MeasureStationary(options) => stationary::measure(&options),
+        Command::SpeedRange(options) => speed_range::speed_range(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

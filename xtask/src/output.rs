@@ -1,10 +1,11 @@
-//! Files that are whole or not there, and the error that means wrong input.
+//! Files that are whole or not there, printed tables, and the error that means wrong input.
 
 use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use comfy_table::Table;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -28,6 +29,18 @@ pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// A table in Markdown, to be printed.
+pub(crate) fn markdown_table<const N: usize>(
+    header: [&str; N],
+    rows: impl Iterator<Item = [String; N]>,
+) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(header);
+    table.add_rows(rows);
+    table
 }
 
 /// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.

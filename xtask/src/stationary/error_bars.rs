@@ -5,10 +5,10 @@ use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions};
 use serde::Serialize;
 
+use crate::output::markdown_table;
 use crate::progress;
 use crate::stationary::bodies::{self, Case};
 use crate::stationary::meter::measure;
-use crate::stationary::printed;
 
 /// Shapes of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
@@ -134,7 +134,7 @@ pub(super) fn summary(rows: &[Row]) -> String {
     let mut worst: Vec<&Row> = rows.iter().collect();
     worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
     let shown = WORST.max(rows.len() - held);
-    let table = printed(
+    let table = markdown_table(
         [
             "case",
             "Δy/Δx",

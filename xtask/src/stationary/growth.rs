@@ -7,10 +7,10 @@ use bem_halfspace::steady::{
 };
 use serde::Serialize;
 
+use crate::output::markdown_table;
 use crate::progress;
 use crate::scene::Scene;
 use crate::stationary::meter::{measure, peak_memory};
-use crate::stationary::printed;
 
 /// Elements in contact on the smallest grid.
 const SMALLEST: f64 = 1e3;
@@ -99,7 +99,7 @@ fn solve(scene: &Scene, spacing: f64) -> Result<SteadySliding> {
 
 /// The table, and the exponent of growth.
 pub(super) fn summary(rows: &[Row]) -> String {
-    let table = printed(
+    let table = markdown_table(
         [
             "elements",
             "unknowns",

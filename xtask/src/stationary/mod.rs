@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use comfy_table::Table as Printed;
 use serde::Serialize;
 
 use crate::output::{WrongInput, to_csv, write_atomically};
@@ -81,13 +80,4 @@ fn write<R: Serialize>(path: &Path, rows: &[R]) -> Result<()> {
     write_atomically(path, to_csv(rows)?.as_bytes())?;
     println!("{}", path.display());
     Ok(())
-}
-
-/// A table as it is printed, in Markdown.
-fn printed<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> Printed {
-    let mut table = Printed::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(header);
-    table.add_rows(rows);
-    table
 }

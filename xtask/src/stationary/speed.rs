@@ -12,10 +12,10 @@ use bem_halfspace::steady::{
 };
 use serde::Serialize;
 
+use crate::output::markdown_table;
 use crate::progress;
 use crate::scene::Scene;
 use crate::stationary::meter::{Cost, measure, measure_best};
-use crate::stationary::printed;
 
 /// Exponents and the relative errors asked for.
 const STATIONARY: [(f64, f64); 5] = [
@@ -263,7 +263,7 @@ pub(super) fn summary(rows: &[Row]) -> String {
     let number = |value: Option<f64>, digits: usize| {
         value.map_or_else(String::new, |value| format!("{value:.digits$}"))
     };
-    let table = printed(
+    let table = markdown_table(
         [
             "solver",
             "p",

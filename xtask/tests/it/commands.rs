@@ -116,6 +116,7 @@ fn every_command_explains_itself() {
         "scaling-factors",
         "fit-material",
         "measure-stationary",
+        "speed-range",
         "run",
         "sweep",
         "ci",

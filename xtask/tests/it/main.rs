@@ -6,5 +6,6 @@ mod fit_material;
 mod malformed_scenes;
 mod measure_stationary;
 mod scenes;
+mod speed_range;
 mod support;
 mod sweeps;

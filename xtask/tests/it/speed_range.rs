@@ -1,0 +1,178 @@
+//! What the three-element solid does over the range of speeds, on the quick cases.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use friction_analytic::{ElasticContact, high_speed_friction, low_speed_friction, scaling_factor};
+use indenters::{PowerProfile, stretch};
+use rheology::{StandardSolid, StandardSolidParameters};
+
+use crate::support::{argument, folder, text, xtask};
+
+type Row = HashMap<String, String>;
+
+/// The folder of one quick run, and what it printed.
+fn computed() -> &'static (PathBuf, String) {
+    static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let folder = folder("speed-range");
+        let output = xtask(&["speed-range", "--quick", "--out", argument(&folder)]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{message}");
+        (folder, text(&output.stdout))
+    })
+}
+
+fn table(name: &str) -> Vec<Row> {
+    let path: &Path = &computed().0.join(name);
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let rows = reader.deserialize().collect::<Result<_, _>>();
+    rows.expect("rows of the table")
+}
+
+fn number(row: &Row, column: &str) -> f64 {
+    let cell = &row[column];
+    cell.parse()
+        .unwrap_or_else(|error| panic!("{column} = {cell:?}: {error}"))
+}
+
+/// The rows of one profile, by rising speed.
+fn curve(exponent: f64) -> Vec<Row> {
+    let rows = table("friction_over_speed.csv").into_iter();
+    let rows: Vec<Row> = rows
+        .filter(|row| number(row, "exponent").total_cmp(&exponent).is_eq())
+        .collect();
+    assert_eq!(rows.len(), 11, "one stiffness ratio, ten decades of speed");
+    let rising = |one: &Row, other: &Row| number(one, "speed") < number(other, "speed");
+    assert!(rows.is_sorted_by(rising), "speeds rise");
+    rows
+}
+
+fn assert_within([actual, expected]: [f64; 2], allowed: f64, what: &str) {
+    assert!(
+        (actual - expected).abs() <= allowed,
+        "{what}: {actual}, expected {expected} within {allowed:e}"
+    );
+}
+
+/// Exact ends (FRI-05) and the plateau. A decade and a half beyond each end of the plateau, its neighbours still move
+/// the ratio by some per cent of its change; three decades beyond, by some thousandths.
+#[test]
+fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one() {
+    for exponent in [1.0, 2.0] {
+        let rows = curve(exponent);
+        let plateau = scaling_factor(exponent).expect("a factor").value;
+        for (row, expected, allowed) in [
+            (&rows[0], 0.5, 2e-3),
+            (&rows[5], plateau, 3e-2),
+            (&rows[10], 1.0, 2e-3),
+        ] {
+            let bar = number(row, "ratio_error");
+            let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
+            assert!(
+                bar <= 2.01e-2 * number(row, "ratio"),
+                "{what}: error bar {bar}"
+            );
+            assert_within([number(row, "ratio"), expected], bar + allowed, &what);
+        }
+    }
+}
+
+/// The friction itself at both ends, where its next order is a part v τ/(γ a) or a/(v τ) of it.
+#[test]
+fn friction_vanishes_at_both_ends_as_the_elastic_limits_say() {
+    for exponent in [1.0, 2.0] {
+        let body = PowerProfile::new(1.0 / stretch(exponent).expect("κ"), exponent);
+        let body = body.expect("a body");
+        let solid = StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: 1e-4,
+            maxwell_modulus: 1.0,
+            viscosity: 1.0,
+        });
+        let solid = solid.expect("a solid");
+        let rows = curve(exponent);
+        for (row, slow) in [(&rows[0], true), (&rows[10], false)] {
+            let contact = ElasticContact {
+                contact_radius: 1.0,
+                velocity: number(row, "speed"),
+            };
+            let limit = if slow {
+                low_speed_friction(&body, &solid, contact)
+            } else {
+                high_speed_friction(&body, &solid, contact)
+            };
+            let limit = limit.expect("an elastic limit");
+            let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
+            for (column, expected, bar) in [
+                ("line", limit.line, 0.0),
+                (
+                    "half_space",
+                    limit.half_space,
+                    number(row, "half_space_error"),
+                ),
+                ("normal_force", limit.normal_force, 0.0),
+            ] {
+                let allowed = bar + 4e-3 * expected;
+                let pair = [number(row, column), expected];
+                assert_within(pair, allowed, &format!("{column}, {what}"));
+            }
+        }
+    }
+}
+
+/// Up to its only maximum friction rises with the speed, beyond it falls, in both models.
+#[test]
+fn friction_has_one_maximum_over_the_speed() {
+    for exponent in [1.0, 2.0] {
+        let rows = curve(exponent);
+        for (column, bar) in [("line", "line_error"), ("half_space", "half_space_error")] {
+            let values: Vec<f64> = rows.iter().map(|row| number(row, column)).collect();
+            let bars: Vec<f64> = rows.iter().map(|row| number(row, bar)).collect();
+            let top =
+                (0..values.len()).max_by(|one, other| values[*one].total_cmp(&values[*other]));
+            let top = top.expect("a largest value");
+            for step in 1..values.len() {
+                let rise = values[step] - values[step - 1];
+                let rise = if step <= top { rise } else { -rise };
+                let allowed = bars[step] + bars[step - 1];
+                assert!(
+                    rise >= -allowed,
+                    "p = {exponent}, {column}, step {step}: {values:?}"
+                );
+            }
+        }
+    }
+}
+
+/// The law predicts too much friction on the line, at every speed, and is right within ten per cent between the borders.
+#[test]
+fn the_viscous_law_holds_between_its_borders() {
+    let map = table("validity.csv");
+    let borders = table("validity_border.csv");
+    assert_eq!([map.len(), borders.len()], [36, 12], "sizes of the tables");
+    for row in &map {
+        let [friction, predicted] = ["line", "predicted_line"].map(|column| number(row, column));
+        assert!(predicted >= friction * (1.0 - 1e-6), "{row:?}");
+        let border = borders.iter().find(|border| {
+            border["model"] == "line"
+                && ["exponent", "stiffness_ratio"].map(|column| &border[column])
+                    == ["exponent", "stiffness_ratio"].map(|column| &row[column])
+        });
+        let border = border.expect("a border for each stiffness ratio");
+        let right = predicted <= 1.1 * friction;
+        let between = !border["lowest_speed"].is_empty()
+            && (number(border, "lowest_speed")..=number(border, "highest_speed"))
+                .contains(&number(row, "speed"));
+        assert_eq!(right, between, "{row:?} and {border:?}");
+    }
+    for file in ["friction_over_speed", "ratio_over_speed", "validity"] {
+        for ending in ["svg", "png"] {
+            let size = fs::metadata(computed().0.join(file).with_extension(ending));
+            assert!(size.is_ok_and(|size| size.len() > 1000), "{file}.{ending}");
+        }
+    }
+    let printed = &computed().1;
+    assert!(printed.contains("lowest vτ/a"), "{printed}");
+}
