@@ -11,11 +11,11 @@ use crate::output::{read_csv, to_csv, write_atomically};
 use crate::progress;
 use crate::scaling::{ScalingFactor, scaling_factor};
 
-/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 47.2 down to 0.501: dense where s bends, next to
+/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
-const LAST_ORDER: f64 = 93.409_99;
+const LAST_ORDER: f64 = 127.0;
 const STEP: f64 = 0.153_594_4;
-const N_NODES: usize = 71;
+const N_NODES: usize = 73;
 /// Exponents that differ by less belong to the same node.
 const SAME: f64 = 1e-6;
 /// Relative errors asked for: of cusps, whose apex dominates the friction, and of the others.

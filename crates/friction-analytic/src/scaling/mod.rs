@@ -33,7 +33,7 @@ pub struct ScalingFactor {
 /// weighted as they enter: at most about 1e-3 of the value for cusps with p < 0.65, and about 1e-4 for the others.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 47.2. At p = 1/2 both frictions
+/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
 /// diverge; their ratio does not.
 pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
     let [first, last] = [NODES[0][0], NODES[NODES.len() - 1][0]];
@@ -41,7 +41,7 @@ pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
         return Err(FrictionError::InvalidParameter {
             parameter: "exponent",
             value: exponent,
-            allowed: "between 0.501 and 47.2, where s(p) was computed",
+            allowed: "between 0.501 and 64, where s(p) was computed",
         });
     }
     let above = NODES.partition_point(|[node, ..]| *node < exponent);
