@@ -13,7 +13,7 @@ use crate::scaling::scaling_factor as solve;
 pub(super) const FILE: &str = "scaling_function.csv";
 /// Values of the table, evenly spaced in ln(2p − 1).
 const ROWS: u32 = 181;
-const ORDERS: [f64; 2] = [0.003, 80.0];
+const ORDERS: [f64; 2] = [0.003, 127.0];
 /// Exponents that the check solves anew, with the relative error asked for.
 pub(super) const SOLVED_ANEW: [(f64, f64); 5] = [
     (0.7, 2e-3),

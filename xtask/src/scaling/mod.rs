@@ -6,6 +6,7 @@ mod table;
 use anyhow::Result;
 use clap::ValueEnum;
 use comfy_table::Table;
+use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::output::{WrongInput, to_csv};
@@ -44,7 +45,8 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         bar.inc(1);
         row
     };
-    let rows: Vec<Row> = exponents.iter().map(solve).collect::<Result<_>>()?;
+    let rows: Vec<Result<Row>> = exponents.par_iter().map(solve).collect();
+    let rows: Vec<Row> = rows.into_iter().collect::<Result<_>>()?;
     bar.finish_and_clear();
     match format {
         Format::Table => println!("{}", table(&rows)),

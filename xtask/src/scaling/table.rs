@@ -11,19 +11,16 @@ use crate::output::{read_csv, to_csv, write_atomically};
 use crate::progress;
 use crate::scaling::{ScalingFactor, scaling_factor};
 
-/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 40.56 down to 0.501: dense where s bends, next to
+/// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
-const LAST_ORDER: f64 = 80.110_256;
+const LAST_ORDER: f64 = 127.0;
 const STEP: f64 = 0.153_594_4;
-const N_NODES: usize = 70;
+const N_NODES: usize = 73;
 /// Exponents that differ by less belong to the same node.
 const SAME: f64 = 1e-6;
-/// Relative errors asked for: of cusps, whose apex dominates the friction; of steep profiles, whose contact is a thin
-/// crescent in a large box; and of the others.
+/// Relative errors asked for: of cusps, whose apex dominates the friction, and of the others.
 const CUSP: f64 = 0.65;
 const CUSP_ERROR: f64 = 9e-4;
-const STEEP: f64 = 10.0;
-const STEEP_ERROR: f64 = 4e-4;
 const ERROR: f64 = 8e-5;
 /// What is finished, so that an interrupted run goes on where it was.
 const FINISHED: &str = "scaling_table.csv";
@@ -73,13 +70,7 @@ fn exponent(index: usize) -> f64 {
 }
 
 fn node(exponent: f64) -> Result<Node> {
-    let relative_error = if exponent < CUSP {
-        CUSP_ERROR
-    } else if exponent < STEEP {
-        ERROR
-    } else {
-        STEEP_ERROR
-    };
+    let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
     let ScalingFactor { value, error, .. } = scaling_factor(exponent, relative_error)?;
     Ok(Node {
         exponent,

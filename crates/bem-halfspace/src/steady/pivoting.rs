@@ -25,6 +25,8 @@ const TOLERANCE_RATIO: f64 = 0.1;
 const HIDDEN: f64 = 1e-2;
 /// Part of the tolerance asked for to which the last contacts are closed, for the gaps far above their root mean square.
 const LAST: f64 = 0.2;
+/// Smaller contacts are closed as fast as a neighbourhood is settled.
+const SETTLED_FROM: usize = 500;
 /// A tolerance that fails this far below the target fails because of rounding.
 const HOPELESS: f64 = 1e-3;
 /// The largest gap of a contact is that many times its root mean square, at most, as a rule.
@@ -255,8 +257,11 @@ impl<'mesh> Search<'mesh> {
         }
     }
 
-    /// Settles the neighbourhood of the violations by itself, if it is small.
+    /// Settles the neighbourhood of the violations by itself, if it is small and the contact is not.
     fn settle(&mut self, state: &State) -> bool {
+        if self.inside.iter().filter(|inside| **inside).count() < SETTLED_FROM {
+            return false;
+        }
         let violations: Vec<usize> = state
             .violations
             .iter()

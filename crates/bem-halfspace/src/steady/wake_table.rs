@@ -51,10 +51,11 @@ impl WakeTable {
             return;
         }
         let reach = [0, 1].map(|axis| reach[axis].max(table.reach[axis]));
-        *table = Arc::new(Self::new(creep, aspect, reach));
+        *table = Arc::new(Self::new((creep, aspect), reach, table));
     }
 
-    fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2]) -> Self {
+    /// The table up to `reach`; what a `smaller` one of the same kind has is not computed again where that is simple.
+    fn new((creep, aspect): (&ElementCreep, f64), reach: [usize; 2], smaller: &Self) -> Self {
         let n_values = (2 * reach[0] + 1) * (reach[1] + 1);
         let mut table = Self {
             creep: creep.clone(),
@@ -64,7 +65,7 @@ impl WakeTable {
             potentials: vec![0.0; n_values],
         };
         if creep.flow > 0.0 {
-            table.add_flow();
+            table.add_flow(smaller);
         }
         if creep.instant > 0.0 {
             table.add_instant();
@@ -101,17 +102,31 @@ impl WakeTable {
         }
     }
 
-    fn add_flow(&mut self) {
+    fn add_flow(&mut self, smaller: &Self) {
         let flow = self.creep.flow;
         let n_rows = 2 * self.reach[0] + 1;
         let mut ahead = self.along(n_rows, wake_influence);
         for row in (0..n_rows).rev() {
-            let here = self.along(row, wake_influence);
+            let here = self.wake_along(row, smaller);
             self.add(row, |column| {
                 [-flow * here[column], flow * (ahead[column] - here[column])]
             });
             ahead = here;
         }
+    }
+
+    /// Values of the wake along a row; those of a dashpot are the values of the table, with the other sign.
+    fn wake_along(&self, row: usize, smaller: &Self) -> Vec<f64> {
+        let only_flows = smaller.creep.instant == 0.0 && smaller.creep.delays.is_empty();
+        let known = (row + smaller.reach[0])
+            .checked_sub(self.reach[0])
+            .filter(|row| only_flows && *row <= 2 * smaller.reach[0])
+            .and_then(|row| smaller.values.chunks_exact(smaller.n_columns()).nth(row))
+            .unwrap_or_default();
+        let x = self.offset(row);
+        let beyond = (known.len()..self.n_columns())
+            .map(|column| wake_influence([x, column as f64 * self.aspect], [1.0, self.aspect]));
+        known.iter().map(|value| -value).chain(beyond).collect()
     }
 
     fn add_instant(&mut self) {

@@ -30,11 +30,10 @@ pub struct ScalingFactor {
 /// The scaling factor s(p) of the profile c r^p between half space and one-dimensional model.
 ///
 /// A polynomial of the fifth degree in ln(2p − 1) through the nearest nodes of a table. Its error is that of the nodes,
-/// weighted as they enter: at most about 1e-3 of the value for cusps with p < 0.65 and for steep profiles with p > 10,
-/// and about 1e-4 between.
+/// weighted as they enter: at most about 1e-3 of the value for cusps with p < 0.65, and about 1e-4 for the others.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 40.5. At p = 1/2 both frictions
+/// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
 /// diverge; their ratio does not.
 pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
     let [first, last] = [NODES[0][0], NODES[NODES.len() - 1][0]];
@@ -42,7 +41,7 @@ pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
         return Err(FrictionError::InvalidParameter {
             parameter: "exponent",
             value: exponent,
-            allowed: "between 0.501 and 40.5, where s(p) was computed",
+            allowed: "between 0.501 and 64, where s(p) was computed",
         });
     }
     let above = NODES.partition_point(|[node, ..]| *node < exponent);
