@@ -39,7 +39,11 @@ pub(super) struct Row {
 /// The ranges of all rows of the map.
 pub(super) fn find(map: &[validity::Row]) -> Result<Vec<Row>> {
     let same = |one: &validity::Row, other: &validity::Row| {
-        [one.exponent, one.stiffness_ratio] == [other.exponent, other.stiffness_ratio]
+        one.exponent.total_cmp(&other.exponent).is_eq()
+            && one
+                .stiffness_ratio
+                .total_cmp(&other.stiffness_ratio)
+                .is_eq()
     };
     let mut rows = Vec::new();
     for model in [Model::Line, Model::HalfSpace] {

@@ -57,7 +57,9 @@ fn range(decades: Decades) -> [f64; 2] {
 
 /// The rows of one profile and stiffness ratio.
 fn rows_of(rows: &[curves::Row], exponent: f64, ratio: f64) -> Vec<&curves::Row> {
-    let same = |row: &&curves::Row| [row.exponent, row.stiffness_ratio] == [exponent, ratio];
+    let same = |row: &&curves::Row| {
+        row.exponent.total_cmp(&exponent).is_eq() && row.stiffness_ratio.total_cmp(&ratio).is_eq()
+    };
     rows.iter().filter(same).collect()
 }
 
