@@ -74,7 +74,14 @@ impl Grid {
 /// [`BemError::GridTooLarge`] when the number is beyond any grid.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
     // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
-    let elements = (length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil();
+    whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
+}
+
+/// A whole number of elements as an integer, 0 for negative ones.
+///
+/// # Errors
+/// [`BemError::GridTooLarge`] when the number is beyond any grid, or none.
+pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {
             elements,

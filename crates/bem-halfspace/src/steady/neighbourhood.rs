@@ -17,12 +17,8 @@ const LARGEST: usize = 250;
 const BLOCKS: usize = 10;
 const PIVOTS: usize = 100;
 
-/// Loads of the elements near the violations.
-#[derive(Debug)]
-pub(super) struct Settled {
-    /// Elements with their load; 0 outside the contact.
-    pub(super) loads: Vec<(usize, f64)>,
-}
+/// Elements with their load; 0 outside the contact.
+type Loads = Vec<(usize, f64)>;
 
 /// Settles the neighbourhood of `violations`, where every element has a gap and a load now; `None` when it is too large
 /// or does not settle. Smaller penetrations than `allowed` are none.
@@ -31,7 +27,7 @@ pub(super) fn settle(
     (gaps, loads): (&[f64], &[f64]),
     violations: &[usize],
     allowed: f64,
-) -> Option<Settled> {
+) -> Option<Loads> {
     let elements = mesh.near(violations, REACH, LARGEST)?;
     let problem = Neighbourhood::new(mesh, (gaps, loads), elements);
     let start = problem.elements.iter();
@@ -65,14 +61,12 @@ impl Neighbourhood {
     }
 
     /// Murty's pivots (1974), all violations at once at first.
-    fn pivot(&self, mut inside: Vec<bool>, allowed: f64) -> Option<Settled> {
+    fn pivot(&self, mut inside: Vec<bool>, allowed: f64) -> Option<Loads> {
         for pivot in 0..PIVOTS {
             let loads = self.close(&inside);
             let violations = self.violations(&inside, &loads, allowed)?;
             let Some(last) = violations.last() else {
-                return Some(Settled {
-                    loads: self.elements.iter().copied().zip(loads).collect(),
-                });
+                return Some(self.elements.iter().copied().zip(loads).collect());
             };
             let chosen = if pivot < BLOCKS {
                 &violations[..]

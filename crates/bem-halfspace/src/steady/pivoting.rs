@@ -273,8 +273,7 @@ impl<'mesh> Search<'mesh> {
             &violations,
             state.allowed,
         );
-        let loads = settled.iter().flat_map(|settled| &settled.loads);
-        for &(element, load) in loads {
+        for &(element, load) in settled.iter().flatten() {
             (self.inside[element], self.loads[element]) = (load > 0.0, load);
         }
         settled.is_some()

@@ -3,10 +3,8 @@
 use std::ops::Range;
 
 use crate::error::positive;
+use crate::grid::whole;
 use crate::{BemError, Control};
-
-/// Places further apart than this many elements do not fit on a grid.
-const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
 
 /// One step on the way, as the elements see it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,21 +142,6 @@ fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
             offset
         },
     ])
-}
-
-fn whole(elements: f64) -> Result<usize, BemError> {
-    if elements > MAX_ELEMENTS || elements.is_nan() {
-        return Err(BemError::GridTooLarge {
-            elements,
-            limit: MAX_ELEMENTS,
-        });
-    }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 <= elements <= 2^28, and whole"
-    )]
-    Ok(elements as usize)
 }
 
 fn check(control: Control) -> Result<(), BemError> {
