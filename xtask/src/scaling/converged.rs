@@ -18,15 +18,27 @@ pub(crate) struct ScalingFactor {
     pub(crate) unknowns: usize,
 }
 
+/// Unknown pressures for which an answer is worth waiting.
+const MAX_UNKNOWNS: usize = 100_000;
+
 /// Computes s_p to the relative error asked for.
 pub(crate) fn scaling_factor(exponent: f64, relative_error: f64) -> Result<ScalingFactor> {
+    scaling_factor_within(exponent, relative_error, MAX_UNKNOWNS)
+}
+
+/// Computes s_p to the relative error asked for with at most about `max_unknowns`.
+pub(crate) fn scaling_factor_within(
+    exponent: f64,
+    relative_error: f64,
+    max_unknowns: usize,
+) -> Result<ScalingFactor> {
     let scene = Scene::unit(exponent)?;
     let line = scene.theory()?.friction_coefficient;
     let options = FrictionOptions {
         relative_error,
         // The contact of a steep profile is a thin crescent, as long across the sliding direction as along it.
         aspect: if exponent < STEEP { 0.5 } else { 1.0 },
-        max_unknowns: 100_000,
+        max_unknowns,
     };
     let half_space = match steady_friction(&scene.body, &scene.material, &scene.load, &options) {
         Ok(half_space) => half_space,

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::output::{WrongInput, to_csv};
 use crate::progress;
-pub(crate) use converged::{ScalingFactor, scaling_factor};
+pub(crate) use converged::{ScalingFactor, scaling_factor, scaling_factor_within};
 pub(crate) use table::generate as generate_table;
 
 /// How the factors are printed.

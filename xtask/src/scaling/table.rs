@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::output::{read_csv, to_csv, write_atomically};
 use crate::progress;
-use crate::scaling::{ScalingFactor, scaling_factor};
+use crate::scaling::{ScalingFactor, scaling_factor_within};
 
 /// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
@@ -22,6 +22,8 @@ const SAME: f64 = 1e-6;
 const CUSP: f64 = 0.65;
 const CUSP_ERROR: f64 = 9e-4;
 const ERROR: f64 = 8e-5;
+/// The boxes of the steepest contacts are nearly empty, and take so many.
+const MAX_UNKNOWNS: usize = 500_000;
 /// What is finished, so that an interrupted run goes on where it was.
 const FINISHED: &str = "scaling_table.csv";
 /// The generated source.
@@ -71,7 +73,8 @@ fn exponent(index: usize) -> f64 {
 
 fn node(exponent: f64) -> Result<Node> {
     let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
-    let ScalingFactor { value, error, .. } = scaling_factor(exponent, relative_error)?;
+    let ScalingFactor { value, error, .. } =
+        scaling_factor_within(exponent, relative_error, MAX_UNKNOWNS)?;
     Ok(Node {
         exponent,
         scaling_factor: value,

@@ -16,8 +16,12 @@ use crate::steady::product::Product;
 use crate::steady::region::Region;
 use crate::steady::wiener_hopf::WienerHopf;
 
-/// Contacts of at most this many elements are factorised, which is faster there and exact to rounding.
-const FACTORISED: usize = 120;
+/// A contact is factorised where the cube of its number of elements is at most so many times the number of elements of
+/// its box, on which transforms would work: a compact contact up to about 120 elements, a thin crescent far beyond. It is
+/// faster there, and exact to rounding.
+const FACTORISED: f64 = 5e3;
+/// Larger matrices take too much memory.
+const LARGEST_MATRIX: usize = 4000;
 
 /// Loads of the elements of a contact and the depth, in the units of the mesh.
 #[derive(Debug)]
@@ -34,10 +38,12 @@ pub(super) fn close_gaps(
     start: Vec<f64>,
     tolerance: f64,
 ) -> Closure {
-    if contact.len() <= FACTORISED {
+    let region = Region::around(mesh, contact.iter().copied());
+    let work = (contact.len() as f64).powi(3);
+    if contact.len() <= LARGEST_MATRIX && work <= FACTORISED * region.n_places() as f64 {
         factorise(mesh, contact)
     } else {
-        ContactSystem::new((mesh, plans), contact).iterate(start, tolerance)
+        ContactSystem::new((mesh, plans), (contact, region)).iterate(start, tolerance)
     }
 }
 
@@ -76,8 +82,10 @@ struct ContactSystem<'mesh> {
 }
 
 impl<'mesh> ContactSystem<'mesh> {
-    fn new((mesh, plans): (&'mesh Mesh, &mut Plans), contact: &'mesh [usize]) -> Self {
-        let region = Region::around(mesh, contact.iter().copied());
+    fn new(
+        (mesh, plans): (&'mesh Mesh, &mut Plans),
+        (contact, region): (&'mesh [usize], Region),
+    ) -> Self {
         let mut preconditioner = WienerHopf::new(plans, &region);
         Self {
             lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),

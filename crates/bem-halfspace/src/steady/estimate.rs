@@ -11,7 +11,7 @@ use rheology::Material;
 
 use crate::error::{below_one, positive};
 use crate::steady::contact_scale::depth_scale_of_body;
-use crate::steady::extrapolation::{Limit, extrapolate};
+use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
 use crate::steady::{Reuse, SinkingDepth, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
@@ -19,12 +19,20 @@ use crate::{BemError, Footprint};
 /// Elements along the contact length of the one-dimensional model on the coarsest grids; every refinement has √2 times
 /// as many.
 const COARSEST: f64 = 5.0;
+/// Height that is left of a steep flank one element further in, at least, on the coarsest grids.
+const RESOLVED: f64 = 0.3;
 /// Refinements at most; the limit of unknowns ends most ladders before.
 const MAX_REFINEMENTS: i32 = 24;
 /// Shifts of the grid along x and y that keep the mirror symmetry in y.
 const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
+/// Refinements of which an error bar can come, at least.
+const FEWEST: i32 = 5;
+/// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
+const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
+/// Elements that hardly cost anything.
+const ALWAYS_ALLOWED: f64 = 1e5;
 /// Contact sets tried on one grid.
 const MAX_ITERATIONS: usize = 100;
 /// At the edge of a contact elements may change sides for ever. Grids that are so much finer are as good, and help.
@@ -44,7 +52,8 @@ pub struct FrictionOptions {
     pub relative_error: f64,
     /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
     pub aspect: f64,
-    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it.
+    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
+    /// whose footprint has more than 50 times as many elements, and more than 1e5.
     pub max_unknowns: usize,
 }
 
@@ -121,11 +130,21 @@ impl Ladder {
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let contact_length = contact_radius(body, depth_scale_of_body(body, material, load)?)?;
-        Ok(Self {
+        let mut ladder = Self {
             footprint: Footprint::of_body(body, material, load)?,
             coarsest_spacing: contact_length / COARSEST,
             apex_exponent: body.apex_exponent(),
-        })
+        };
+        // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
+        let [_, radius] = ladder.footprint.x;
+        let flank_is_resolved = |refinement: &i32| {
+            let inside = (radius - ladder.spacing(*refinement)).max(0.0);
+            body.height(inside) >= RESOLVED * body.height(radius)
+        };
+        if let Some(first) = (0..MAX_REFINEMENTS).find(flank_is_resolved) {
+            ladder.coarsest_spacing = ladder.spacing(first);
+        }
+        Ok(ladder)
     }
 
     /// Order of the error of the averages.
@@ -175,6 +194,7 @@ pub fn steady_friction(
 ///
 /// # Errors
 /// [`BemError::FrictionNotReached`] with what was reached on the finest grid allowed;
+/// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1 or an apex as sharp as √r, whose
 /// friction is infinite; and the errors of [`steady`](crate::steady::steady()).
 pub fn steady_friction_of_surface(
@@ -186,23 +206,18 @@ pub fn steady_friction_of_surface(
     let relative_error = below_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
     let order = ladder.order()?;
-    let loading = Loading::force(surface, (material, load), &ladder.footprint)?;
-    let mut refinements: Vec<Refinement> = Vec::new();
+    let question = Question {
+        surface,
+        loading: Loading::force(surface, (material, load), &ladder.footprint)?,
+        ladder,
+        options,
+    };
     let mut reuse = Reuse::default();
-    let mut reached = Limit::NONE;
-    for index in 0..MAX_REFINEMENTS {
-        let spacing = ladder.spacing(index);
-        match refine(surface, &loading, (ladder, spacing), options, &mut reuse) {
-            // A steep body needs a finer grid to begin with.
-            Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. })
-                if refinements.is_empty() =>
-            {
-                continue;
-            }
-            refinement => refinements.push(refinement?),
-        }
-        reached = extrapolate(&FrictionEstimate::sequence(&refinements), order);
-        if let (false, Some(last)) = (loading.creep.only_flows(), refinements.last()) {
+    let (mut index, first) = question.coarsest(&mut reuse)?;
+    let mut refinements = vec![first];
+    loop {
+        let mut reached = extrapolate(&FrictionEstimate::sequence(&refinements), order);
+        if let (false, Some(last)) = (question.loading.creep.only_flows(), refinements.last()) {
             reached.error += last.scatter;
         }
         if let Some(last) = &reuse.solution {
@@ -216,82 +231,125 @@ pub fn steady_friction_of_surface(
                 });
             }
         }
-        // The next refinement has twice as many unknowns.
+        index += 1;
         if refinements
             .last()
-            .is_some_and(|refinement| 2 * refinement.unknowns > options.max_unknowns)
+            .is_some_and(|last| !question.allows(index, last))
         {
-            break;
+            return Err(BemError::FrictionNotReached {
+                friction_coefficient: reached.value,
+                error: reached.error,
+                relative_error,
+            });
+        }
+        refinements.push(question.refine(index, &mut reuse)?);
+    }
+}
+
+/// What is asked of the ladder.
+struct Question<'a, S> {
+    surface: &'a S,
+    loading: Loading,
+    ladder: &'a Ladder,
+    options: &'a FrictionOptions,
+}
+
+impl<S: Surface> Question<'_, S> {
+    /// The coarsest refinement on which the body is resolved, if enough of those that follow are within the limits.
+    fn coarsest(&self, reuse: &mut Reuse) -> Result<(i32, Refinement), BemError> {
+        let mut index = 0;
+        loop {
+            let elements = self.n_elements(index + FEWEST - 1);
+            if elements > self.most_elements() {
+                return Err(BemError::GridTooLarge {
+                    elements,
+                    limit: self.most_elements(),
+                });
+            }
+            match self.refine(index, reuse) {
+                Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. }) => {
+                    index += 1;
+                }
+                refinement => return Ok((index, refinement?)),
+            }
         }
     }
-    Err(BemError::FrictionNotReached {
-        friction_coefficient: reached.value,
-        error: reached.error,
-        relative_error,
-    })
-}
 
-/// The average over the shifts, each started from the contact of the one before.
-fn refine(
-    surface: &impl Surface,
-    loading: &Loading,
-    (ladder, spacing): (&Ladder, f64),
-    options: &FrictionOptions,
-    reuse: &mut Reuse,
-) -> Result<Refinement, BemError> {
-    let mut friction = [0.0; PHASES.len()];
-    let mut unknowns = 0;
-    for (friction, phase) in friction.iter_mut().zip(PHASES) {
-        let options = SteadyOptions {
-            spacing: [spacing, options.aspect * spacing],
-            phase,
-            footprint: ladder.footprint(spacing),
-            tolerance: tolerance(options.relative_error, loading, reuse.solution.as_ref()),
-            max_iterations: MAX_ITERATIONS,
-        };
-        let solution = solve_near(surface, loading, &options, reuse)?;
-        *friction = solution.friction_coefficient;
-        unknowns = unknowns.max(solution.unknowns);
-        reuse.solution = Some(solution);
+    /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
+    fn allows(&self, refinement: i32, before: &Refinement) -> bool {
+        refinement < MAX_REFINEMENTS
+            && self.n_elements(refinement) <= self.most_elements()
+            && 2 * before.unknowns <= self.options.max_unknowns
     }
-    let [friction_coefficient, scatter] = mean_and_deviation(&friction);
-    Ok(Refinement {
-        spacing,
-        friction_coefficient,
-        scatter,
-        unknowns,
-    })
-}
 
-/// The solution on a grid, or on one that hardly differs where no contact set is found.
-fn solve_near(
-    surface: &impl Surface,
-    loading: &Loading,
-    options: &SteadyOptions,
-    reuse: &mut Reuse,
-) -> Result<SteadySliding, BemError> {
-    let mut solution = solve(surface, loading, options, reuse);
-    for finer in OTHER_GRIDS {
-        if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
-            break;
+    /// Elements of the footprint.
+    fn n_elements(&self, refinement: i32) -> f64 {
+        let Footprint { x, y } = self.ladder.footprint;
+        let dx = self.ladder.spacing(refinement);
+        (x[1] - x[0]) / dx * ((y[1] - y[0]) / (self.options.aspect * dx))
+    }
+
+    fn most_elements(&self) -> f64 {
+        (ELEMENTS_PER_UNKNOWN * self.options.max_unknowns as f64).max(ALWAYS_ALLOWED)
+    }
+
+    /// The average over the shifts, each started from the contact of the one before.
+    fn refine(&self, index: i32, reuse: &mut Reuse) -> Result<Refinement, BemError> {
+        let spacing = self.ladder.spacing(index);
+        let mut friction = [0.0; PHASES.len()];
+        let mut unknowns = 0;
+        for (friction, phase) in friction.iter_mut().zip(PHASES) {
+            let options = SteadyOptions {
+                spacing: [spacing, self.options.aspect * spacing],
+                phase,
+                footprint: self.ladder.footprint(spacing),
+                tolerance: self.tolerance(reuse.solution.as_ref()),
+                max_iterations: MAX_ITERATIONS,
+            };
+            let solution = self.solve_near(&options, reuse)?;
+            *friction = solution.friction_coefficient;
+            unknowns = unknowns.max(solution.unknowns);
+            reuse.solution = Some(solution);
         }
-        let other = SteadyOptions {
-            spacing: options.spacing.map(|edge| finer * edge),
-            ..*options
-        };
-        solution = solve(surface, loading, &other, reuse);
+        let [friction_coefficient, scatter] = mean_and_deviation(&friction);
+        Ok(Refinement {
+            spacing,
+            friction_coefficient,
+            scatter,
+            unknowns,
+        })
     }
-    solution
-}
 
-/// Gaps that disturb the friction less than is asked: where it is a small difference of large slopes, they are smaller.
-fn tolerance(relative_error: f64, loading: &Loading, last: Option<&SteadySliding>) -> f64 {
-    let part = match last {
-        Some(last) => last.friction_coefficient.abs() / last.mean_slope,
-        None if loading.creep.only_flows() => 1.0,
-        None => FIRST_PART,
-    };
-    (GAP_SHARE * relative_error * part).max(SMALLEST_GAP)
+    /// The solution on a grid, or on one that hardly differs where no contact set is found.
+    fn solve_near(
+        &self,
+        options: &SteadyOptions,
+        reuse: &mut Reuse,
+    ) -> Result<SteadySliding, BemError> {
+        let mut solution = solve(self.surface, &self.loading, options, reuse);
+        for finer in OTHER_GRIDS {
+            if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
+                break;
+            }
+            let other = SteadyOptions {
+                spacing: options.spacing.map(|edge| finer * edge),
+                ..*options
+            };
+            solution = solve(self.surface, &self.loading, &other, reuse);
+        }
+        solution
+    }
+
+    /// Gaps that disturb the friction less than is asked: where it is a small difference of large slopes, they are
+    /// smaller.
+    fn tolerance(&self, last: Option<&SteadySliding>) -> f64 {
+        let part = match last {
+            Some(last) => last.friction_coefficient.abs() / last.mean_slope,
+            None if self.loading.creep.only_flows() => 1.0,
+            None => FIRST_PART,
+        };
+        (GAP_SHARE * self.options.relative_error * part).max(SMALLEST_GAP)
+    }
 }
 
 /// What the gaps that are left may change.

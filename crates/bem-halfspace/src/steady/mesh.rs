@@ -4,7 +4,7 @@
 //! Where the body does not rise, the gap at the rear is therefore larger than at the front, and no element there can
 //! touch: only rising elements are kept. On any other material all elements that the body covers are.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
@@ -18,6 +18,9 @@ use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
+
+/// Height below which the flanks of a steep body count as flat, in units of the depth scale.
+const FLAT: f64 = 0.1;
 
 /// How grid and body mirror in y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -276,6 +279,33 @@ impl Mesh {
     /// Height of an element where its gap is evaluated.
     pub(super) fn height(&self, element: usize) -> f64 {
         self.elements[element].height
+    }
+
+    /// Whether elements `coarser` times as long still resolve the flanks of the body up to the depth scale.
+    pub(super) fn resolves_body(&self, coarser: f64) -> bool {
+        let dx = coarser * self.options.spacing[0];
+        let passes = |element: &Element| {
+            let rise = element.slope * dx / self.loading.depth_scale;
+            element.height < FLAT && element.height + rise > 1.0
+        };
+        !self.elements.iter().any(passes)
+    }
+
+    /// The elements up to the height that the sides of the contact of a paraboloid reach. Where the material only flows,
+    /// what lies behind the front is down already: low elements are left to those that find them.
+    pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
+        let below = |height: f64| {
+            (0..self.n_elements()).filter(move |&element| self.height(element) < height)
+        };
+        let mut guess: BTreeSet<usize> = below(0.5).collect();
+        if self.only_rising {
+            guess.retain(|&element| self.height(element) > FLAT);
+            let fronts: BTreeMap<usize, usize> = below(0.5)
+                .map(|element| (self.elements[element].column, element))
+                .collect();
+            guess.extend(fronts.values());
+        }
+        guess.into_iter().map(|element| (element, 0.0)).collect()
     }
 
     /// Force or depth that is asked for.

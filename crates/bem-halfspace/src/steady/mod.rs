@@ -57,6 +57,8 @@ pub use solution::SteadySliding;
 
 /// Meshes of more elements than this start from the solution on a coarser one.
 const NESTED: usize = 500;
+/// Spacing of the grid to start from.
+const COARSER: f64 = 2.0;
 /// Tolerance of a solution that is only a start.
 const COARSE_TOLERANCE: f64 = 1e-6;
 
@@ -132,7 +134,7 @@ fn solve(
     positive("max_iterations", options.max_iterations as f64)?;
     below_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, (loading, &mut reuse.plans), options)?;
-    if reuse.solution.is_none() && mesh.n_elements() > NESTED {
+    if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
         let coarse = coarser(options);
         // Only the kernel of a dashpot is the same on both grids.
         let mut other = Reuse::default();
@@ -146,11 +148,7 @@ fn solve(
     }
     let guess = match &reuse.solution {
         Some(other) => loads_of(other, &mesh),
-        // The sides of the contact of a paraboloid reach about this height.
-        None => (0..mesh.n_elements())
-            .filter(|&element| mesh.height(element) < 0.5)
-            .map(|element| (element, 0.0))
-            .collect(),
+        None => mesh.first_guess(),
     };
     let solution = pivoting::solve(&mesh, &mut reuse.plans, guess)?;
     SteadySliding::new(&mesh, &solution)
@@ -159,7 +157,7 @@ fn solve(
 /// A grid of twice the spacing, for a solution that is only a start.
 fn coarser(options: &SteadyOptions) -> SteadyOptions {
     SteadyOptions {
-        spacing: options.spacing.map(|edge| 2.0 * edge),
+        spacing: options.spacing.map(|edge| COARSER * edge),
         tolerance: options.tolerance.max(COARSE_TOLERANCE),
         ..*options
     }

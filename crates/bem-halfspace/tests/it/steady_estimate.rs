@@ -2,6 +2,7 @@
 
 use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use friction_analytic::half_space_power_friction;
 
 use crate::support::Scene;
 
@@ -80,4 +81,49 @@ fn an_error_out_of_reach_says_what_was_reached() {
         }
         other => panic!("{other:?} of a cusp next to p = 1/2"),
     }
+}
+
+#[test]
+fn a_body_too_steep_for_the_grids_allowed_is_refused_at_once() {
+    let Scene {
+        body,
+        material,
+        load,
+    } = Scene::unit(1000.0);
+    match steady_friction(&body, &material, &load, &FrictionOptions::default()) {
+        Err(BemError::GridTooLarge { elements, limit }) => {
+            assert!(elements > limit, "{elements} of {limit}");
+        }
+        other => panic!("{other:?} of a profile like a wall"),
+    }
+}
+
+#[test]
+fn a_steep_body_starts_on_a_grid_that_resolves_its_flank() {
+    let scene = Scene::unit(32.0);
+    let Err(BemError::FrictionNotReached {
+        friction_coefficient,
+        error,
+        ..
+    }) = steady_friction(
+        &scene.body,
+        &scene.material,
+        &scene.load,
+        &FrictionOptions {
+            relative_error: 1e-6,
+            aspect: 1.0,
+            max_unknowns: 400,
+        },
+    )
+    else {
+        panic!("so few unknowns cannot reach 1e-6");
+    };
+    // The table was computed on grids more than ten times as fine.
+    let expected = half_space_power_friction(&scene.body, &scene.material, &scene.load)
+        .expect("an exponent of the table")
+        .value;
+    assert!(
+        (friction_coefficient - expected).abs() <= error && error < 0.05 * expected,
+        "{friction_coefficient} ± {error}, expected {expected}"
+    );
 }
