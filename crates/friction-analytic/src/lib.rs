@@ -10,7 +10,8 @@
 //!   foundation, a [wavy line](wavy_sliding) in full contact on any; for any solid the friction at
 //!   [low](low_speed_friction) and [high](high_speed_friction) speed.
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
-//!   the [friction](half_space_power_friction) that follows from it.
+//!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
+//!   on any material.
 //!
 //! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the answer is
 //! [`FrictionError::FrictionDiverges`] with its cause.
@@ -49,6 +50,7 @@ mod superposition;
 mod transient;
 mod viscoelastic;
 mod wavy;
+mod wavy_surface;
 
 pub use axisymmetric::axisymmetric_sliding;
 pub use elastic_limit::{
@@ -72,3 +74,4 @@ pub use viscoelastic::{
     SlidingContact, ViscoelasticSliding, kelvin_voigt_sliding, maxwell_sliding,
 };
 pub use wavy::{FullContact, WavyLine, wavy_sliding};
+pub use wavy_surface::{SurfaceWave, WavySliding, wavy_surface_sliding};

@@ -24,6 +24,7 @@ mod stationary_state;
 mod steady_bad_input;
 mod steady_cylinder;
 mod steady_estimate;
+mod steady_full_contact;
 mod steady_invariance;
 mod steady_materials;
 mod support;

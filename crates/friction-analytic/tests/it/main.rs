@@ -10,3 +10,4 @@ mod quadrature_agrees_with_closed_forms;
 mod support;
 mod transient_reaches_the_stationary_state;
 mod viscoelastic_foundations_have_closed_forms;
+mod wavy_surfaces_obey_the_complex_modulus;
