@@ -92,7 +92,9 @@ struct ScalingTable {
     out: PathBuf,
 }
 
-fn main() -> ExitCode {
+/// Does what the command line asks for.
+#[must_use]
+pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures(options) if options.check => figures::check(),
         Command::ReproduceFigures(options) => figures::reproduce(&options.out),
