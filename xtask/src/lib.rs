@@ -9,6 +9,7 @@
 
 mod ci;
 mod figures;
+mod input;
 mod material;
 mod output;
 mod plot;
@@ -25,6 +26,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+
+pub use input::{InputKind, check_input};
+pub use output::WrongInput;
 
 use scaling::Format;
 
@@ -114,7 +118,7 @@ pub fn execute() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            let wrong_input = error.downcast_ref::<output::WrongInput>().is_some();
+            let wrong_input = error.downcast_ref::<WrongInput>().is_some();
             ExitCode::from(if wrong_input { 2 } else { 1 })
         }
     }

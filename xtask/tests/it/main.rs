@@ -3,7 +3,10 @@
 mod commands;
 mod documented_commands;
 mod fit_material;
+mod fuzzed_inputs;
+mod malformed_numbers;
 mod malformed_scenes;
+mod malformed_tables;
 mod measure_stationary;
 mod scenes;
 mod speed_range;
