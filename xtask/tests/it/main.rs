@@ -1,5 +1,6 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
+mod any_scene_is_answered;
 mod commands;
 mod documented_commands;
 mod fit_material;
