@@ -61,6 +61,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Print the JSON Schema of scene files.
     SceneSchema,
+    /// Count what each library crate pulls in when it is built alone, and measure what building it takes. Markdown.
+    Dependencies(ci::Dependencies),
     /// Run everything that CI checks.
     Ci,
 }
@@ -112,6 +114,7 @@ pub fn execute() -> ExitCode {
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),
+        Command::Dependencies(options) => ci::measure(&options),
         Command::Ci => ci::run(),
     };
     match outcome {
