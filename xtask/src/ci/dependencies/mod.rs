@@ -77,7 +77,7 @@ pub(super) fn check() -> Result<()> {
         ensure!(
             missing.is_none(),
             "{COMMITTED} has no row {}; `cargo xtask dependencies --out {COMMITTED}` makes it current",
-            missing.unwrap_or_default()
+            missing.unwrap_or_default().trim_end()
         );
     }
     println!("{COMMITTED} is current");
