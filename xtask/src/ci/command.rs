@@ -30,6 +30,19 @@ pub(super) fn cargo(arguments: &[&str], variables: &[(&str, &str)]) -> Result<()
     Ok(())
 }
 
+/// Runs cargo and returns what it prints.
+pub(super) fn cargo_output(arguments: &[&str]) -> Result<String> {
+    let output = command(arguments).stderr(Stdio::inherit()).output();
+    let output = output.with_context(|| say(arguments))?;
+    ensure!(
+        output.status.success(),
+        "{}: {}",
+        say(arguments),
+        output.status
+    );
+    String::from_utf8(output.stdout).with_context(|| say(arguments))
+}
+
 /// Runs all tests of a scope, and passes each line of their output to the terminal and to `read`.
 pub(super) fn cargo_test(scope: &[&str], mut read: impl FnMut(&str)) -> Result<()> {
     let arguments = [

@@ -4,6 +4,7 @@
 //! whole workspace share those; tests of single crates compile the few that they use with fewer features.
 
 mod command;
+mod dependencies;
 mod invariants;
 mod test_counts;
 
@@ -13,6 +14,7 @@ use anyhow::{Context, Result};
 
 use crate::figures;
 use command::{cargo, cargo_test};
+pub(crate) use dependencies::{Dependencies, measure};
 use test_counts::TestCounts;
 
 /// What can be published.
@@ -41,6 +43,7 @@ fn steps(counts: &mut TestCounts) -> Result<()> {
     step("tests without default features", || lean_tests(counts))?;
     step("documentation", documentation)?;
     step("architecture invariants", invariants::check)?;
+    step("dependencies", dependencies::check)?;
     step("packages", package)?;
     step("figures", figures::check)
 }

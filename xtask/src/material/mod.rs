@@ -15,7 +15,7 @@ use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MeasuredCurve, RelaxationPoint, identify,
 };
 
-use crate::output::WrongInput;
+use crate::output::{WrongInput, read_input};
 use shifting::Shifted;
 use table::{Measurements, Table};
 
@@ -72,7 +72,12 @@ pub(crate) struct FitMaterial {
 /// Reads the table, fits it, and writes the material and its picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let started = std::time::Instant::now();
-    let table = Table::read(&options.data, shear_per_tension(options.poisson_ratio)?)?;
+    let shear_per_tension = shear_per_tension(options.poisson_ratio)?;
+    let table = Table::read(
+        &options.data,
+        &read_input(&options.data)?,
+        shear_per_tension,
+    )?;
     let shifted = shifting::shifted(&table, options)?;
     let curve = curve(&table, &shifted, &options.data)?;
     let found = identify(&curve, &options.identification()).map_err(wrong_option)?;
@@ -89,6 +94,11 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
         started.elapsed().as_secs_f64()
     );
     Ok(())
+}
+
+/// Checks what would be a table of incompressible material.
+pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
+    Table::read(file, contents, shear_per_tension(0.5)?).map(|_| ())
 }
 
 /// What the command found.

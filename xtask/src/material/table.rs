@@ -6,7 +6,7 @@ use csv::StringRecord;
 use rheology::fit::{ModulusPoint, RelaxationPoint};
 
 use super::columns::{Deformation, NAMES, Quantity, quantity};
-use crate::output::WrongInput;
+use crate::output::{WrongInput, line_of_record};
 
 /// A whole table, in SI and in shear.
 #[derive(Debug)]
@@ -36,23 +36,30 @@ pub(super) struct Row<P> {
 const DRIFT: f64 = 1.0;
 
 impl Table {
-    /// Reads a file; moduli in tension are multiplied by `shear_per_tension`.
-    pub(super) fn read(file: &Path, shear_per_tension: f64) -> Result<Self, WrongInput> {
-        let wrong = |error: csv::Error| WrongInput(format!("{}: {error}", file.display()));
+    /// Reads the contents of a file; moduli in tension are multiplied by `shear_per_tension`.
+    pub(super) fn read(
+        file: &Path,
+        contents: &[u8],
+        shear_per_tension: f64,
+    ) -> Result<Self, WrongInput> {
+        let wrong = |error: csv::Error| {
+            let line = line_of_record(contents, error.position());
+            WrongInput(format!("{}, line {line}: {error}", file.display()))
+        };
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .trim(csv::Trim::All)
-            .from_path(file)
-            .map_err(wrong)?;
+            .from_reader(contents);
         let records: Vec<StringRecord> =
             reader.records().collect::<Result<_, _>>().map_err(wrong)?;
-        let head = Head::read(file, &records, shear_per_tension)?;
+        let head = Head::read((file, contents), &records, shear_per_tension)?;
         let rows = records.get(2..).unwrap_or_default();
         if rows.len() < 2 {
             return Err(WrongInput(format!(
-                "{}: at least 2 measurements are needed after the lines of names and units, but there are {}",
+                "{}, line {}: at least 2 measurements are needed after the lines of names and units, but there are {}",
                 file.display(),
+                records.last().map_or(1, |last| head.line(last)),
                 rows.len()
             )));
         }
@@ -63,6 +70,7 @@ impl Table {
 /// Where the quantities stand, and their factors to SI.
 struct Head<'a> {
     file: &'a Path,
+    contents: &'a [u8],
     names: &'a StringRecord,
     columns: Vec<Column>,
     celsius: bool,
@@ -77,18 +85,19 @@ struct Column {
 
 impl<'a> Head<'a> {
     fn read(
-        file: &'a Path,
+        (file, contents): (&'a Path, &'a [u8]),
         records: &'a [StringRecord],
         shear_per_tension: f64,
     ) -> Result<Self, WrongInput> {
         let (Some(names), Some(units)) = (records.first(), records.get(1)) else {
             return Err(WrongInput(format!(
-                "{}: a line of names and a line of units are needed",
+                "{}, line 1: a line of names and a line of units are needed",
                 file.display()
             )));
         };
         let mut head = Self {
             file,
+            contents,
             names,
             columns: Vec::new(),
             celsius: false,
@@ -243,15 +252,16 @@ impl<'a> Head<'a> {
 
     fn positive(&self, record: &StringRecord, column: Column) -> Result<f64, WrongInput> {
         let number = self.number(record, column)?;
-        if number > 0.0 {
-            return Ok(number * column.factor);
+        let in_si = number * column.factor;
+        if in_si > 0.0 && in_si.is_finite() {
+            return Ok(in_si);
         }
-        Err(self.wrong(
-            record,
-            column.place,
-            "a number greater than 0",
-            &record[column.place],
-        ))
+        let expected = if number > 0.0 {
+            "a number that is finite and greater than 0 in SI too"
+        } else {
+            "a number greater than 0"
+        };
+        Err(self.wrong(record, column.place, expected, &record[column.place]))
     }
 
     fn optional(
@@ -287,13 +297,29 @@ impl<'a> Head<'a> {
     }
 
     fn wrong(&self, record: &StringRecord, place: usize, expected: &str, got: &str) -> WrongInput {
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = self.line(record);
         let name = self.names.get(place).unwrap_or_default();
         WrongInput(format!(
-            "{}, line {line}, column {} ({name}): expected {expected}, but found '{got}'",
+            "{}, line {line}, column {} ({name}): expected {expected}, but found '{}'",
             self.file.display(),
-            place + 1
+            place + 1,
+            shown(got)
         ))
+    }
+
+    fn line(&self, record: &StringRecord) -> usize {
+        line_of_record(self.contents, record.position())
+    }
+}
+
+/// A cell as a part of one line; a quote that is never closed makes the rest of the file one cell.
+fn shown(cell: &str) -> String {
+    match cell
+        .char_indices()
+        .find(|(at, character)| *at >= 40 || character.is_control())
+    {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_owned(),
     }
 }
 

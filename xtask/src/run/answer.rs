@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use anyhow::{Result, bail};
 use bem_halfspace::slide::PressureField;
 use comfy_table::Table;
 use serde::Serialize;
@@ -117,6 +118,38 @@ impl Answer {
         Self {
             seconds: time.as_secs_f64(),
             ..self
+        }
+    }
+
+    /// The quantities by their names in JSON and CSV.
+    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 12] {
+        let edges = self.contact_box;
+        [
+            ("friction_coefficient", self.friction_coefficient),
+            (
+                "friction_coefficient_error",
+                self.friction_coefficient_error,
+            ),
+            ("normal_force", Some(self.normal_force)),
+            ("tangential_force", self.tangential_force),
+            ("indentation_depth", self.indentation_depth),
+            ("indentation_depth_error", self.indentation_depth_error),
+            ("contact_area", self.contact_area),
+            ("peak_pressure", self.peak_pressure),
+            ("x_min", edges.map(|edges| edges.x_min)),
+            ("x_max", edges.map(|edges| edges.x_max)),
+            ("y_min", edges.and_then(|edges| edges.y_min)),
+            ("y_max", edges.and_then(|edges| edges.y_max)),
+        ]
+    }
+
+    /// Refuses a quantity that overflows although what it follows from does not, such as an area from a length.
+    pub(super) fn finite(self) -> Result<Self> {
+        let numbers = self.numbers().into_iter();
+        let mut known = numbers.filter_map(|(name, value)| Some((name, value?)));
+        match known.find(|(_, value)| !value.is_finite()) {
+            None => Ok(self),
+            Some((name, value)) => bail!("{name} is {value} in units of SI: no number is as large"),
         }
     }
 

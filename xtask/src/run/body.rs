@@ -7,7 +7,8 @@ use indenters::{
     RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
-use crate::scene_file::{Indenter, SceneError, Term, in_range, positive, read_profile};
+use crate::output::{WrongInput, read_input};
+use crate::scene_file::{Indenter, SceneError, Term, in_range, positive, profile};
 
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]
@@ -101,7 +102,7 @@ pub(super) fn body(indenter: &Indenter, folder: &Path) -> Result<Body, SceneErro
         Indenter::TruncatedParaboloid(table) => {
             other(key, TruncatedParaboloid::new(table.radius, table.curvature))
         }
-        Indenter::Table(table) => other(key, Ok(read_profile(&folder.join(&table.file))?)),
+        Indenter::Table(table) => table_profile(&folder.join(&table.file)),
         Indenter::Cylinder(table) => {
             positive("indenter.cylinder.radius", table.radius).map(|_| Body::Cylinder)
         }
@@ -141,6 +142,13 @@ fn sum(terms: &[Term]) -> Result<Body, SceneError> {
     let profile =
         Superposition::new(terms).map_err(|error| SceneError::together(key, error.to_string()))?;
     Ok(Body::Revolution(Revolution::Sum(profile)))
+}
+
+fn table_profile(file: &Path) -> Result<Body, SceneError> {
+    let wrong = |problem| SceneError::together("indenter.table.file", problem);
+    let contents = read_input(file).map_err(|WrongInput(problem)| wrong(problem))?;
+    let profile = profile(file, &contents).map_err(wrong)?;
+    Ok(Body::Revolution(Revolution::Other(Box::new(profile))))
 }
 
 /// The number that the library refuses, with its key.

@@ -58,11 +58,7 @@ enum Format {
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = Source::read(&options.scene)?;
-    let located = |error: SceneError| source.locate(&error);
-    let mut scene = scene_file(source.table()?).map_err(located)?;
-    scene.solve.method = options.method.or(scene.solve.method);
-    let question = Question::new(&scene, folder(&source)).map_err(located)?;
-    let method = choose(&question).map_err(|error| not_offered(&source, &error))?;
+    let (question, method) = plan(&source, options.method)?;
     let bar = progress::spinner(format!("{} by {}", source.path().display(), method.name()));
     let answer = solve(&question);
     bar.finish_and_clear();
@@ -78,6 +74,22 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// What a scene asks, and the method that answers it: the one given, that of the scene, or the cheapest.
+///
+/// # Errors
+/// [`WrongInput`] with the place where the scene is wrong.
+pub(crate) fn plan(
+    source: &Source,
+    method: Option<Method>,
+) -> Result<(Question, Method), WrongInput> {
+    let located = |error: SceneError| source.locate(&error);
+    let mut scene = scene_file(source.table()?).map_err(located)?;
+    scene.solve.method = method.or(scene.solve.method);
+    let question = Question::new(&scene, folder(source)).map_err(located)?;
+    let method = choose(&question).map_err(|error| not_offered(source, &error))?;
+    Ok((question, method))
 }
 
 /// Where the files are that a scene names.

@@ -25,7 +25,7 @@ pub(crate) fn solve(question: &Question) -> Result<Answer> {
             slid(question, body, method, (velocity, distance))?
         }
     };
-    Ok(answer.after(started.elapsed()))
+    answer.after(started.elapsed()).finite()
 }
 
 fn pressed(

@@ -19,7 +19,7 @@ pub(crate) use load::{Control, Load};
 pub(crate) use material::{Branch, MaterialTable};
 pub(crate) use solve::{Accuracy, Method, Model, Solve};
 pub(crate) use source::{Source, scene_file, split_index};
-pub(crate) use table_file::read_profile;
+pub(crate) use table_file::profile;
 
 /// A rigid body on a half space, and what is asked about it.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
 
 use super::{SceneError, SceneFile};
-use crate::output::WrongInput;
+use crate::output::{WrongInput, line_of, read_input};
 
 /// A scene file as it was read.
 #[derive(Debug, Clone)]
@@ -18,8 +18,15 @@ pub(crate) struct Source {
 impl Source {
     /// Reads a file.
     pub(crate) fn read(path: &Path) -> Result<Self, WrongInput> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| WrongInput(format!("{}: {error}", path.display())))?;
+        Self::new(path, read_input(path)?)
+    }
+
+    /// A file of the given contents.
+    pub(crate) fn new(path: &Path, contents: Vec<u8>) -> Result<Self, WrongInput> {
+        let text = String::from_utf8(contents).map_err(|error| {
+            let line = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
+            WrongInput(format!("{}:{line}: the text is no UTF-8", path.display()))
+        })?;
         Ok(Self {
             path: path.to_owned(),
             text,
@@ -36,7 +43,7 @@ impl Source {
         self.text.parse::<Table>().map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
             self.locate(&SceneError::Syntax {
-                line: line_of(&self.text, start),
+                line: line_of(self.text.as_bytes(), start),
                 problem: error.message().to_owned(),
             })
         })
@@ -76,7 +83,7 @@ impl Source {
                 _ => None,
             };
         }
-        offset.map(|offset| line_of(&self.text, offset))
+        offset.map(|offset| line_of(self.text.as_bytes(), offset))
     }
 }
 
@@ -110,16 +117,21 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
         );
         return Err(SceneError::together(key, problem));
     };
+    let is_kind = ["indenter", "material"].contains(&key);
     for (name, value) in table {
         let inner = format!("{key}.{name}");
         match value {
             Value::Table(_) => check_tables(&inner, value)?,
             Value::Array(elements) => {
+                // Serde says itself what it needs in the place of a list of numbers.
+                let is_suspect = |element: &Value| is_kind || !is_plain(element);
                 for (index, element) in elements.iter().enumerate() {
-                    check_tables(&format!("{inner}[{index}]"), element)?;
+                    if is_suspect(element) {
+                        check_tables(&format!("{inner}[{index}]"), element)?;
+                    }
                 }
             }
-            other if ["indenter", "material"].contains(&key) && table.len() == 1 => {
+            other if is_kind && table.len() == 1 => {
                 let problem = format!(
                     "a table is needed, and not a value of type {}",
                     other.type_str()
@@ -130,6 +142,10 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+const fn is_plain(value: &Value) -> bool {
+    !matches!(value, Value::Array(_) | Value::Table(_))
 }
 
 /// Indenter and material are one table each, whose name is the kind.
@@ -169,10 +185,4 @@ pub(crate) fn split_index(segment: &str) -> (&str, Option<usize>) {
         Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),
         None => (segment, None),
     }
-}
-
-/// The line of an offset, counted from 1.
-fn line_of(text: &str, offset: usize) -> usize {
-    let before = text.as_bytes().iter().take(offset);
-    1 + before.filter(|byte| **byte == b'\n').count()
 }

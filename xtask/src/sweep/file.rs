@@ -1,7 +1,7 @@
 //! The file of a sweep, which grows row by row.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 use super::plan::Plan;
 use super::row::{Row, header, identity};
 use super::wrong_row;
-use crate::output::{WrongInput, write_atomically};
+use crate::output::{WrongInput, read_input, remove_parts, write_atomically};
 
 /// An open file and what it has.
 #[derive(Debug)]
@@ -32,6 +32,7 @@ impl SweepFile {
             check(path, plan, &table)?;
             rows = table.rows;
         }
+        remove_parts(path)?;
         let header = header(plan);
         let begun = lines(&header, rows.iter().map(|row| &row.fields))?;
         write_atomically(path, begun.as_bytes())?;
@@ -83,8 +84,11 @@ pub(super) struct RowTable {
 
 /// Reads a file up to its last whole line.
 pub(super) fn read(path: &Path) -> Result<RowTable, WrongInput> {
-    let bytes =
-        fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))?;
+    row_table(path, &read_input(path)?)
+}
+
+/// The rows of a file of the given contents.
+pub(super) fn row_table(path: &Path, bytes: &[u8]) -> Result<RowTable, WrongInput> {
     let end = bytes.iter().rposition(|byte| *byte == b'\n');
     let whole = &bytes[..end.map_or(0, |end| end + 1)];
     let mut reader = csv::Reader::from_reader(whole);

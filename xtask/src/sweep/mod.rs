@@ -9,7 +9,7 @@ mod plan;
 mod row;
 mod vary;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Result, bail};
 use clap::Args;
@@ -117,7 +117,12 @@ fn default_out(plan: &Plan, shard: Option<Shard>) -> PathBuf {
     PathBuf::from("target/sweep").join(name)
 }
 
+/// Checks what would be a file of rows.
+pub(crate) fn check_rows(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
+    file::row_table(file, contents).map(|_| ())
+}
+
 /// Wrong input in a file of rows.
-fn wrong_row(path: &std::path::Path, line: usize, problem: &str) -> WrongInput {
+fn wrong_row(path: &Path, line: usize, problem: &str) -> WrongInput {
     WrongInput(format!("{}:{line}: {problem}", path.display()))
 }

@@ -76,23 +76,8 @@ pub(super) fn identity(plan: &Plan, point: usize) -> Vec<String> {
 
 fn results(answer: &Answer) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
-    let edges = answer.contact_box;
-    let numbers = [
-        answer.friction_coefficient,
-        answer.friction_coefficient_error,
-        Some(answer.normal_force),
-        answer.tangential_force,
-        answer.indentation_depth,
-        answer.indentation_depth_error,
-        answer.contact_area,
-        answer.peak_pressure,
-        edges.map(|edges| edges.x_min),
-        edges.map(|edges| edges.x_max),
-        edges.and_then(|edges| edges.y_min),
-        edges.and_then(|edges| edges.y_max),
-    ];
     let mut fields = vec![answer.method.name(), answer.model.name().to_owned()];
-    fields.extend(numbers.map(number));
+    fields.extend(answer.numbers().map(|(_, value)| number(value)));
     fields.push(answer.unknowns.to_string());
     fields.push(String::new());
     fields

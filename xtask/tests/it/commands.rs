@@ -119,6 +119,7 @@ fn every_command_explains_itself() {
         "speed-range",
         "run",
         "sweep",
+        "dependencies",
         "ci",
     ] {
         let output = xtask(&[command, "--help"]);

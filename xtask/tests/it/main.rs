@@ -1,9 +1,13 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
+mod any_scene_is_answered;
 mod commands;
 mod documented_commands;
 mod fit_material;
+mod fuzzed_inputs;
+mod malformed_numbers;
 mod malformed_scenes;
+mod malformed_tables;
 mod measure_stationary;
 mod scenes;
 mod speed_range;

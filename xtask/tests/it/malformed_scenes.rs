@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{argument, folder, text, xtask};
+use crate::support::{argument, complaint, folder, text, xtask};
 
 /// A scene that is right; the numbers on the left are the lines.
 const SCENE: [&str; 13] = [
@@ -433,17 +433,9 @@ fn every_malformed_scene_ends_with_status_2_and_names_file_line_and_key() {
     let mut wrong = Vec::new();
     for (scene, line, needed) in corpus {
         fs::write(&path, &scene).expect("a scene");
-        let output = xtask(&["run", argument(&path)]);
-        let message = text(&output.stderr);
-        let place = format!("error: {}:{line}: ", path.display());
-        let helpful = message.starts_with(&place) && message.contains(needed);
-        let brief = message.trim_end().lines().count() == 1 && output.stdout.is_empty();
-        if output.status.code() != Some(2) || !helpful || !brief {
-            wrong.push(format!(
-                "{scene}\n--- needs line {line} and {needed:?}, but {:?} says: {message}",
-                output.status
-            ));
-        }
+        let place = format!("{}:{line}", path.display());
+        let complaint = complaint(&["run", argument(&path)], &place, needed);
+        wrong.extend(complaint.map(|complaint| format!("{scene}\n--- {complaint}")));
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }

@@ -244,3 +244,39 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
     );
     assert!(message.contains("the value is 0."), "{message}");
 }
+
+/// Infinity is no number of a result, and no JSON.
+#[test]
+fn a_quantity_that_overflows_ends_with_status_1_and_its_name() {
+    let file = folder("overflow").join("scene.toml");
+    for (body, [material, force], needed) in [
+        (
+            "paraboloid]\ncurvature = 50",
+            ["viscous]\nviscosity = 1e4", "1e308"],
+            "tangential_force is inf",
+        ),
+        (
+            "paraboloid]\ncurvature = 1e-290",
+            ["elastic]\nshear_modulus = 1e-10", "1e200"],
+            "contact_area is inf",
+        ),
+    ] {
+        let sliding = material.starts_with("viscous");
+        let load = if sliding {
+            "velocity = 0.01"
+        } else {
+            "velocity = 0\n[solve]\nduration = 1"
+        };
+        let scene = format!(
+            "[indenter.{body}\n[material.{material}\n[load]\nnormal_force = {force}\n{load}\n"
+        );
+        fs::write(&file, &scene).expect("a scene");
+        let output = xtask(&["run", "--format", "json", argument(&file)]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{scene}{message}");
+        assert!(
+            message.contains(needed) && output.stdout.is_empty(),
+            "{scene}{message}"
+        );
+    }
+}

@@ -24,6 +24,20 @@ pub(crate) fn xtask(arguments: &[&str]) -> Output {
     command(arguments).output().expect("the command runs")
 }
 
+/// What is wrong with a refusal that should end with status 2 and one line that begins with `error: ` and the place,
+/// and says what is needed; nothing if it does.
+pub(crate) fn complaint(arguments: &[&str], place: &str, needed: &str) -> Option<String> {
+    let output = xtask(arguments);
+    let message = text(&output.stderr);
+    let helpful = message.starts_with(&format!("error: {place}: ")) && message.contains(needed);
+    let brief = message.trim_end().lines().count() == 1 && output.stdout.is_empty();
+    let right = output.status.code() == Some(2) && helpful && brief;
+    (!right).then(|| {
+        let status = output.status;
+        format!("needs status 2, {place:?} and {needed:?}, but {status} says: {message}")
+    })
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }

@@ -54,7 +54,7 @@ pub struct ContactProblem<'a> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactOptions {
     /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement that the
-    /// pressure causes; greater than 0 and at most 1e-2.
+    /// pressure causes, all of it or that of one element at the element itself; greater than 0 and at most 1e-2.
     pub tolerance: f64,
     /// Iterations, of one convolution each, after which the solver gives up.
     pub max_iterations: usize,

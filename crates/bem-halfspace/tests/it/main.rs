@@ -2,6 +2,7 @@
 
 mod allocations;
 mod any_material_slides;
+mod any_scene_keeps_the_invariants;
 mod apex_similarity;
 mod arbitrary_motions;
 mod axisymmetric_contact;

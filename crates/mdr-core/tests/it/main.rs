@@ -1,5 +1,6 @@
 //! What the chain claims, one file per claim.
 
+mod any_scene_keeps_the_invariants;
 mod bad_input_is_refused;
 mod contact_balances_the_force;
 mod depth_is_exact_at_every_spacing;

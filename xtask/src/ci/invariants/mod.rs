@@ -3,6 +3,7 @@
 mod code;
 mod manifests;
 mod sources;
+mod usage;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,19 +18,45 @@ pub(super) fn check() -> Result<()> {
     let mut broken = manifests::check_workspace(&read(&root, Path::new("Cargo.toml"))?)?;
     let crates = list(&root, Path::new("crates"))?;
     for folder in &crates {
-        let manifest = folder.join("Cargo.toml");
-        broken.extend(manifests::check_crate(
-            &manifest.display().to_string(),
-            &read(&root, &manifest)?,
-        )?);
+        let (file, text) = manifest(&root, folder)?;
+        broken.extend(manifests::check_crate(&file, &text)?);
         for source in rust_files(&root, &folder.join("src"))? {
             let text = read(&root, &source)?;
             broken.extend(sources::check(&source.display().to_string(), &text));
         }
     }
+    let xtask = PathBuf::from("xtask");
+    for folder in crates.iter().chain([&xtask]) {
+        broken.extend(unused(&root, folder)?);
+    }
     ensure!(broken.is_empty(), "{}", broken.join("\n"));
     println!("{} crates keep the invariants", crates.len());
     Ok(())
+}
+
+/// Dependencies that a crate declares for nothing.
+fn unused(root: &Path, folder: &Path) -> Result<Vec<String>> {
+    let (file, text) = manifest(root, folder)?;
+    let sources = |name: &str| {
+        let files = rust_files(root, &folder.join(name))?;
+        files
+            .iter()
+            .map(|source| read(root, source))
+            .collect::<Result<Vec<_>>>()
+    };
+    let mut all = sources("src")?;
+    let mut broken = usage::check(&file, &text, "dependencies", &all)?;
+    if root.join(folder).join("tests").is_dir() {
+        all.extend(sources("tests")?);
+    }
+    broken.extend(usage::check(&file, &text, "dev-dependencies", &all)?);
+    Ok(broken)
+}
+
+/// Name and text of the manifest of a crate.
+fn manifest(root: &Path, folder: &Path) -> Result<(String, String)> {
+    let file = folder.join("Cargo.toml");
+    Ok((file.display().to_string(), read(root, &file)?))
 }
 
 fn read(root: &Path, file: &Path) -> Result<String> {

@@ -9,6 +9,7 @@
 
 mod ci;
 mod figures;
+mod input;
 mod material;
 mod output;
 mod plot;
@@ -25,6 +26,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+
+pub use input::{InputKind, check_input};
+pub use output::WrongInput;
 
 use scaling::Format;
 
@@ -57,6 +61,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Print the JSON Schema of scene files.
     SceneSchema,
+    /// Count what each library crate pulls in when it is built alone, and measure what building it takes. Markdown.
+    Dependencies(ci::Dependencies),
     /// Run everything that CI checks.
     Ci,
 }
@@ -92,7 +98,9 @@ struct ScalingTable {
     out: PathBuf,
 }
 
-fn main() -> ExitCode {
+/// Does what the command line asks for.
+#[must_use]
+pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures(options) if options.check => figures::check(),
         Command::ReproduceFigures(options) => figures::reproduce(&options.out),
@@ -106,13 +114,14 @@ fn main() -> ExitCode {
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),
+        Command::Dependencies(options) => ci::measure(&options),
         Command::Ci => ci::run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            let wrong_input = error.downcast_ref::<output::WrongInput>().is_some();
+            let wrong_input = error.downcast_ref::<WrongInput>().is_some();
             ExitCode::from(if wrong_input { 2 } else { 1 })
         }
     }

@@ -1,0 +1,8 @@
+//! Tables of measured moduli.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use xtask::InputKind;
+
+fuzz_target!(|contents: &[u8]| fuzz::check(InputKind::Moduli, "moduli.csv", contents));

@@ -1,0 +1,37 @@
+//! What the commands read, checked without computing anything.
+
+use std::path::Path;
+
+use crate::material::check_table;
+use crate::output::WrongInput;
+use crate::run::plan;
+use crate::scene_file::{Source, profile};
+use crate::sweep::check_rows;
+
+/// A kind of file that the commands read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputKind {
+    /// A scene, of `run` and `sweep`.
+    Scene,
+    /// Radii and heights that a scene names.
+    Profile,
+    /// Measured moduli, of `fit-material`.
+    Moduli,
+    /// Rows of a sweep, of `sweep --resume` and `sweep --merge`.
+    SweepRows,
+}
+
+/// Checks the contents of a `file` like the command that reads it, up to the point where it would begin to compute.
+///
+/// The file need not be there; what a scene names is beside it.
+///
+/// # Errors
+/// [`WrongInput`] with file and line.
+pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
+    match kind {
+        InputKind::Scene => plan(&Source::new(file, contents.to_vec())?, None).map(|_| ()),
+        InputKind::Profile => profile(file, contents).map(|_| ()).map_err(WrongInput),
+        InputKind::Moduli => check_table(file, contents),
+        InputKind::SweepRows => check_rows(file, contents),
+    }
+}

@@ -1,0 +1,144 @@
+//! Every malformed table that a scene or a sweep reads ends with status 2 and one line that names file and line.
+
+use std::fs;
+
+use crate::support::{argument, complaint, folder};
+
+const SCENE: &str = "[indenter.table]\nfile = \"profile.csv\"\n[material.viscous]\nviscosity = 1e4\n\
+                     [load]\nnormal_force = 1\nvelocity = 1\n";
+
+/// Profiles, the line that is named, and what is said.
+const PROFILES: [(&[u8], usize, &str); 20] = [
+    (b"", 1, "radii must have at least 2 entries, but has 0"),
+    (
+        b"radius_m,height_m\n",
+        1,
+        "radii must have at least 2 entries, but has 0",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n",
+        2,
+        "radii must have at least 2 entries, but has 1",
+    ),
+    (b"0,0\n1,1\n2,2\n", 2, "unknown field `0`"),
+    (b"radius,height\n0,0\n1,1\n", 2, "unknown field `radius`"),
+    (b"radius_m\n0\n1\n", 2, "missing field `height_m`"),
+    (
+        b"radius_m,height_m,width_m\n0,0,0\n1,1,1\n",
+        2,
+        "unknown field `width_m`",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1\n",
+        3,
+        "2 values are needed, but there are 1",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,1,1\n",
+        3,
+        "2 values are needed, but there are 3",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,one\n",
+        3,
+        "height_m: invalid float literal",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n,1\n",
+        3,
+        "radius_m: cannot parse float from empty string",
+    ),
+    (
+        b"radius_m;height_m\n0;0\n1;1\n",
+        2,
+        "unknown field `radius_m;height_m`",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,nan\n",
+        3,
+        "heights must be finite, but is NaN",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,1\ninf,2\n",
+        4,
+        "radii must be finite, but is inf",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n2,1\n1,2\n",
+        4,
+        "entry 2 is 1 after 2",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,1\n1,2\n",
+        4,
+        "entry 2 is 1 after 1",
+    ),
+    (
+        b"radius_m,height_m\n0.5,0\n1,1\n",
+        2,
+        "first radius must be 0, but is 0.5",
+    ),
+    (
+        b"radius_m,height_m\n0,0.25\n1,1\n",
+        2,
+        "first height must be 0, but is 0.25",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,1\n\n2,-1\n",
+        5,
+        "heights must be at least 0",
+    ),
+    (
+        b"radius_m,height_m\n0,0\n1,\xff\n",
+        3,
+        "the text is no UTF-8",
+    ),
+];
+
+const HEADER: &str = "sweep,point,points,load.velocity,failure\n";
+
+/// Rows of a sweep, the line that is named, and what is said.
+const ROWS: [(&str, usize, &str); 6] = [
+    ("a,1\n", 2, "no row of a sweep"),
+    ("a,one,2,0.5,\n", 2, "the number of its point is missing"),
+    ("a,0,2,0.5,\n", 2, "the number of its point is missing"),
+    ("a,-1,2,0.5,\n", 2, "the number of its point is missing"),
+    ("a,1,2,0.5,\na,1,2,0.7,\n", 3, "the row is of another sweep"),
+    ("a,1,2,0.5,\nb,2,2,0.7,\n", 3, "the row is of another sweep"),
+];
+
+#[test]
+fn every_malformed_profile_names_scene_and_line_and_the_line_of_the_table() {
+    let folder = folder("malformed-profiles");
+    let [scene, table] = ["scene.toml", "profile.csv"].map(|name| folder.join(name));
+    fs::write(&scene, SCENE).expect("a scene");
+    let mut wrong = Vec::new();
+    for (profile, line, needed) in PROFILES {
+        fs::write(&table, profile).expect("a table");
+        let place = format!(
+            "{}:2: indenter.table.file: {}:{line}",
+            scene.display(),
+            table.display()
+        );
+        let complaint = complaint(&["run", argument(&scene)], &place, needed);
+        let profile = String::from_utf8_lossy(profile);
+        wrong.extend(complaint.map(|complaint| format!("{profile}--- {complaint}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn every_malformed_file_of_rows_names_its_line() {
+    let folder = folder("malformed-rows");
+    let [rows, out] = ["rows.csv", "out.csv"].map(|name| folder.join(name));
+    let mut wrong = Vec::new();
+    for (lines, line, needed) in ROWS {
+        fs::write(&rows, format!("{HEADER}{lines}")).expect("a file");
+        let place = format!("{}:{line}", rows.display());
+        let arguments = ["sweep", "--out", argument(&out), "--merge", argument(&rows)];
+        let complaint = complaint(&arguments, &place, needed);
+        wrong.extend(complaint.map(|complaint| format!("{lines}--- {complaint}")));
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(!out.exists(), "a file was written from wrong ones");
+}
