@@ -10,6 +10,7 @@
 mod ci;
 mod figures;
 mod material;
+mod meter;
 mod output;
 mod plot;
 mod progress;
