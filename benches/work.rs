@@ -11,14 +11,9 @@ use std::fs;
 use std::process::Command;
 use std::time::Instant;
 
-use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
-    solve_contact,
-};
-use benches::{Failure, on_threads, self_affine};
+use bem_halfspace::{Contact, ContactState, Convolution, Grid};
+use benches::{ContactScene, Failure, deviation, on_threads, self_affine};
 
-/// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
-const COMPLIANCE: f64 = 4.0;
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
 /// Numbers of threads of which the time on the wall is measured.
@@ -30,12 +25,10 @@ const THREADS: &[usize] = if cfg!(feature = "rayon") {
 
 struct Scene {
     name: &'static str,
-    convolution: Convolution,
-    heights: Vec<f64>,
+    contact: ContactScene,
     /// Reaches an error of the pressure of 1e-8.
     tolerance: f64,
-    force: f64,
-    /// Time to make the convolution, \[s].
+    /// Time to make heights and convolution, \[s].
     setup: f64,
     /// Edge of the grid that the transforms of a plain solver have.
     padded: usize,
@@ -76,38 +69,25 @@ fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
     }
 }
 
-/// Hertz contact with the radius 0.3 on the unit square, apex between the four middle elements.
 fn hertz(n: usize) -> Result<Scene, Failure> {
-    let edge = 1.0 / n as f64;
-    let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
-    let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
-    let grid = Grid::new([n; 2], [edge; 2])?;
     let start = processor_time()?;
-    let convolution = Convolution::new(&grid);
     Ok(Scene {
         name: "hertz",
+        contact: ContactScene::hertz(n)?,
         setup: processor_time()? - start,
-        convolution,
-        heights: (0..n * n).map(height).collect(),
         tolerance: 5e-10,
-        force: 4.0 / 3.0 * 0.3_f64.powi(3),
         padded: 2 * n,
     })
 }
 
-/// A periodic surface, pressed with the mean pressure 0.05 on its summits.
 fn rough(summits: Vec<f64>) -> Result<Scene, Failure> {
     let n = summits.len().isqrt();
-    let grid = Grid::new([n; 2], [1.0 / n as f64; 2])?;
     let start = processor_time()?;
-    let convolution = Convolution::periodic(&grid);
     Ok(Scene {
         name: "rough",
+        contact: ContactScene::rough(summits)?,
         setup: processor_time()? - start,
-        convolution,
-        heights: summits.into_iter().map(|summit| -summit).collect(),
         tolerance: 5e-9,
-        force: 0.05,
         padded: n,
     })
 }
@@ -122,24 +102,13 @@ fn heights_in(file: &str) -> Result<Vec<f64>, Failure> {
 }
 
 fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), Failure> {
-    let problem = ContactProblem {
-        convolution: &scene.convolution,
-        separation: &scene.heights,
-        compliance: COMPLIANCE,
-        control: Control::NormalForce(scene.force),
-    };
-    let options = ContactOptions {
-        tolerance,
-        max_iterations: 500,
-    };
     let start = processor_time()?;
-    let mut state = ContactState::new(&scene.convolution);
-    let contact = solve_contact(&problem, &mut state, &options)?;
+    let (contact, state) = scene.contact.solve(tolerance)?;
     Ok((contact, state, processor_time()? - start))
 }
 
 fn report(scene: &Scene) -> Result<(), Failure> {
-    let grid = scene.convolution.grid();
+    let grid = scene.contact.convolution.grid();
     // Forgets the peak of making the scene.
     fs::write("/proc/self/clear_refs", "5")?;
     let before = memory("VmRSS:")?;
@@ -199,13 +168,6 @@ fn processor_time() -> Result<f64, Failure> {
     let text = fs::read_to_string("/proc/thread-self/schedstat")?;
     let nanoseconds = text.split_whitespace().next().ok_or("no time")?;
     Ok(nanoseconds.parse::<f64>()? * 1e-9)
-}
-
-/// Relative difference in the mean square.
-fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
-    let pairs = actual.iter().zip(expected);
-    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
 }
 
 /// A line of the memory that this process has, in bytes (Linux).

@@ -11,6 +11,7 @@ mod ci;
 mod figures;
 mod input;
 mod material;
+mod meter;
 mod output;
 mod plot;
 mod progress;
@@ -21,6 +22,7 @@ mod scene_file;
 mod speed_range;
 mod stationary;
 mod sweep;
+mod work_precision;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -55,6 +57,8 @@ enum Command {
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds: CSV,
     /// SVG and PNG.
     SpeedRange(speed_range::SpeedRange),
+    /// Measure error against run time of every method on every benchmark scene: CSV, fitted orders, SVG and PNG.
+    WorkPrecision(work_precision::WorkPrecision),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -111,6 +115,7 @@ pub fn execute() -> ExitCode {
         Command::FitMaterial(options) => material::fit(&options),
         Command::MeasureStationary(options) => stationary::measure(&options),
         Command::SpeedRange(options) => speed_range::speed_range(&options),
+        Command::WorkPrecision(options) => work_precision::measure(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

@@ -26,7 +26,8 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
         "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\">\
          <title>Friction on a viscous half space</title><style>{STYLE}</style></head><body>\
          <h1>Friction between a rigid body and a viscous half space</h1>\
-         <p>Every number on this page was computed by <code>cargo xtask reproduce-figures</code>, version {}. \
+         <p>Every number on this page, up to the last section, was computed by <code>cargo xtask reproduce-figures</code>, \
+         version {}. \
          The statements beside the figures are those of S. Kürschner, <i>Friction between a rigid body and a model \
          elastomer having a linear viscous rheology</i>, Z. Angew. Math. Mech. (2014).</p>",
         env!("CARGO_PKG_VERSION")
@@ -42,6 +43,7 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     );
     write_picture(&mut page, pictures, "stationary_contact")?;
     page.push_str(NOT_STATED);
+    page.push_str(WORK_PRECISION);
     page.push_str("</body></html>\n");
     Ok(page)
 }
@@ -226,3 +228,12 @@ const NOT_STATED: &str = "<h2>What the paper does not state</h2><p>Force, viscos
      friction (π/2) c₁ and in the scaling factors, and cannot agree in the position of single points.</p>\
      <p>The depth of the half space is not shown, because it has no stationary value: it grows with the logarithm of the \
      sliding distance. Friction and contact do become stationary.</p>";
+
+/// Times depend on the machine, so that the committed picture is shown and not a new one.
+const WORK_PRECISION: &str = concat!(
+    "<h2>What an accuracy costs</h2><p>Not in the paper, and not computed with this page: measured by <code>cargo xtask \
+     work-precision</code>, as docs/work-precision.md says.</p><figure>",
+    include_str!("../../../docs/figures/work_precision_sliding.svg"),
+    "<figcaption>Error of the friction coefficient over the processor time, each method against a reference of its \
+     model.</figcaption></figure>"
+);

@@ -86,29 +86,12 @@ fn error(points: Vec<[f64; 2]>) -> Series {
 }
 
 fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
-    let range = |axis: usize| decades(series.iter().flat_map(|s| &s.points).map(|p| p[axis]));
+    let values = |axis: usize| series.iter().flat_map(|s| &s.points).map(move |p| p[axis]);
     Chart {
         title: None,
-        x: Axis::log10(x, range(0)),
-        y: Axis::log10(y, range(1)),
+        x: Axis::decades(x, values(0)),
+        y: Axis::decades(y, values(1)),
         legend: LegendPlace::Free,
         series,
     }
-}
-
-/// Whole decades around positive values; one decade when there are none.
-fn decades(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    let [mut low, mut high] = [f64::INFINITY, 0.0_f64];
-    for value in values {
-        low = low.min(value);
-        high = high.max(value);
-    }
-    if high <= 0.0 {
-        return [0.1, 1.0];
-    }
-    let [low, high] = [
-        low.log10().floor(),
-        (high.log10() * (1.0 + f64::EPSILON)).ceil(),
-    ];
-    [10_f64.powf(low), 10_f64.powf(high.max(low + 1.0))]
 }

@@ -46,6 +46,24 @@ impl Axis {
         }
     }
 
+    /// Logarithmic axis over the whole decades around positive values; one decade when there are none.
+    #[must_use]
+    pub(crate) fn decades(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+        let [mut low, mut high] = [f64::INFINITY, 0.0_f64];
+        for value in values {
+            low = low.min(value);
+            high = high.max(value);
+        }
+        if high <= 0.0 {
+            return Self::log10(label, [0.1, 1.0]);
+        }
+        let [low, high] = [
+            low.log10().floor(),
+            (high.log10() * (1.0 + f64::EPSILON)).ceil(),
+        ];
+        Self::log10(label, [10_f64.powf(low), 10_f64.powf(high.max(low + 1.0))])
+    }
+
     /// Refuses a range that cannot be drawn.
     pub(super) fn validate(&self) -> Result<(), PlotError> {
         let [from, to] = self.range;

@@ -5,10 +5,10 @@ use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions};
 use serde::Serialize;
 
+use crate::meter::{measure, median};
 use crate::output::markdown_table;
 use crate::progress;
 use crate::stationary::bodies::{self, Case};
-use crate::stationary::meter::measure;
 
 /// Shapes of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
@@ -165,14 +165,4 @@ pub(super) fn summary(rows: &[Row]) -> String {
         verdict(fraction >= NEEDED_FRACTION),
         verdict(width <= WIDEST_MEDIAN),
     )
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 {
-        values[middle]
-    } else {
-        0.5 * (values[middle - 1] + values[middle])
-    }
 }

@@ -7,10 +7,10 @@ use bem_halfspace::steady::{
 };
 use serde::Serialize;
 
+use crate::meter::{measure, peak_memory};
 use crate::output::markdown_table;
 use crate::progress;
 use crate::scene::Scene;
-use crate::stationary::meter::{measure, peak_memory};
 
 /// Elements in contact on the smallest grid.
 const SMALLEST: f64 = 1e3;

@@ -3,16 +3,14 @@
 mod bodies;
 mod error_bars;
 mod growth;
-mod meter;
 mod speed;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 
-use crate::output::{WrongInput, to_csv, write_atomically};
+use crate::output::{WrongInput, write_table};
 
 /// What is measured, and how far.
 #[derive(Debug, Args)]
@@ -60,24 +58,18 @@ pub(crate) fn measure(options: &MeasureStationary) -> Result<()> {
             options.largest
         };
         let rows = growth::compute(largest)?;
-        write(&options.out.join("growth.csv"), &rows)?;
+        write_table(&options.out.join("growth.csv"), &rows)?;
         println!("{}", growth::summary(&rows));
     }
     if wanted(Table::Speed) {
         let rows = speed::compute(options.quick)?;
-        write(&options.out.join("speed.csv"), &rows)?;
+        write_table(&options.out.join("speed.csv"), &rows)?;
         println!("{}", speed::summary(&rows));
     }
     if wanted(Table::ErrorBars) {
         let rows = error_bars::compute(options.quick)?;
-        write(&options.out.join("error_bars.csv"), &rows)?;
+        write_table(&options.out.join("error_bars.csv"), &rows)?;
         println!("{}", error_bars::summary(&rows));
     }
-    Ok(())
-}
-
-fn write<R: Serialize>(path: &Path, rows: &[R]) -> Result<()> {
-    write_atomically(path, to_csv(rows)?.as_bytes())?;
-    println!("{}", path.display());
     Ok(())
 }

@@ -12,10 +12,10 @@ use bem_halfspace::steady::{
 };
 use serde::Serialize;
 
+use crate::meter::{Cost, measure, measure_best};
 use crate::output::markdown_table;
 use crate::progress;
 use crate::scene::Scene;
-use crate::stationary::meter::{Cost, measure, measure_best};
 
 /// Exponents and the relative errors asked for.
 const STATIONARY: [(f64, f64); 5] = [

@@ -117,6 +117,7 @@ fn every_command_explains_itself() {
         "fit-material",
         "measure-stationary",
         "speed-range",
+        "work-precision",
         "run",
         "sweep",
         "dependencies",

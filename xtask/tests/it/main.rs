@@ -13,3 +13,4 @@ mod scenes;
 mod speed_range;
 mod support;
 mod sweeps;
+mod work_precision;

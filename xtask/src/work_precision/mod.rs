@@ -1,0 +1,151 @@
+//! `work-precision`: error against run time of every method on every benchmark scene.
+
+mod asked;
+mod contacts;
+mod fit;
+mod measured;
+mod picture;
+mod scenes;
+mod series;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use clap::Args;
+
+use crate::output::{WrongInput, print_line, write_atomically, write_table};
+use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::progress;
+use fit::{Fit, fit};
+use measured::{Row, Timing};
+use scenes::{QUICK_SCENES, SCENES, Scene};
+use series::{Plan, Refusal, Series};
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+pub(crate) struct WorkPrecision {
+    /// Where tables and pictures are written.
+    #[arg(long, default_value = "target/work-precision")]
+    out: PathBuf,
+    /// A few scenes at coarse resolutions only, each timed once.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// How much is measured.
+#[derive(Debug)]
+struct Extent {
+    scenes: &'static [Scene],
+    /// Runs of each method, from the coarsest on.
+    runs: usize,
+    timing: Timing,
+    /// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
+    edges: &'static [usize],
+    rough_edge: usize,
+}
+
+const FULL: Extent = Extent {
+    scenes: &SCENES,
+    runs: usize::MAX,
+    timing: Timing::Median,
+    edges: &[128, 256, 512, 1024, 2048],
+    rough_edge: 512,
+};
+
+const QUICK: Extent = Extent {
+    scenes: &QUICK_SCENES,
+    runs: 3,
+    timing: Timing::Once,
+    edges: &[32, 64, 128],
+    rough_edge: 64,
+};
+
+/// All that was measured.
+#[derive(Debug, Default)]
+struct Measured {
+    series: Vec<(Vec<Row>, Fit)>,
+    refusals: Vec<Refusal>,
+}
+
+/// Measures on one thread, writes tables and pictures, and prints what they say.
+pub(crate) fn measure(options: &WorkPrecision) -> Result<()> {
+    let out = &options.out;
+    std::fs::create_dir_all(out)
+        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
+    let extent = if options.quick { QUICK } else { FULL };
+    let plan = plan(&extent)?;
+    // On one thread processor time is the time on an idle machine.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let measured = pool.install(|| carry_out(plan, extent.timing));
+    write(&measured, out)?;
+    print_line(&table::table(&measured.series))?;
+    for refusal in &measured.refusals {
+        let Refusal {
+            scene,
+            what,
+            reason,
+        } = refusal;
+        print_line(&format!("refused: {scene}, {what}: {reason}"))?;
+    }
+    Ok(())
+}
+
+/// All series, with their references.
+fn plan(extent: &Extent) -> Result<Plan> {
+    let bar = progress::bar("references", extent.scenes.len() + 1);
+    let mut plan = Plan::default();
+    for scene in extent.scenes {
+        let Plan { series, refusals } = asked::plan(scene, extent.runs)?;
+        plan.series.extend(series);
+        plan.refusals.extend(refusals);
+        bar.inc(1);
+    }
+    plan.series.push(contacts::hertz(extent.edges));
+    plan.series.push(contacts::rough(extent.rough_edge)?);
+    bar.finish_and_clear();
+    Ok(plan)
+}
+
+fn carry_out(plan: Plan, timing: Timing) -> Measured {
+    let runs = plan.series.iter().map(|series| series.attempts.len());
+    let bar = progress::bar("work and precision", runs.sum());
+    let mut measured = Measured {
+        refusals: plan.refusals,
+        ..Measured::default()
+    };
+    for series in plan.series {
+        add(&mut measured, &series, timing, &|| bar.inc(1));
+    }
+    bar.finish_and_clear();
+    measured
+}
+
+fn add(measured: &mut Measured, series: &Series, timing: Timing, advance: &dyn Fn()) {
+    let (rows, refusals) = measured::rows(series, timing, advance);
+    measured.refusals.extend(refusals);
+    if let Some(fit) = fit(&rows) {
+        measured.series.push((rows, fit));
+    }
+}
+
+fn write(measured: &Measured, out: &Path) -> Result<()> {
+    let series = &measured.series;
+    let rows: Vec<&Row> = series.iter().flat_map(|(rows, _)| rows).collect();
+    let fits: Vec<&Fit> = series.iter().map(|(_, fit)| fit).collect();
+    write_table(&out.join("work_precision.csv"), &rows)?;
+    write_table(&out.join("work_precision_orders.csv"), &fits)?;
+    let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.into_iter().partition(|row| row.slides());
+    for (name, rows) in [
+        ("work_precision_sliding", sliding),
+        ("work_precision_at_rest", at_rest),
+    ] {
+        let svg = render_svg(&picture::figure(&rows))?;
+        let png = render_png(&svg, PNG_WIDTH)?;
+        let path = out.join(name);
+        write_atomically(&path.with_extension("svg"), svg.as_bytes())?;
+        write_atomically(&path.with_extension("png"), &png)?;
+        print_line(&path.with_extension("svg").display())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! Error over run time, one panel per scene.
+
+use super::measured::Row;
+use super::series::Solver;
+use crate::plot::{
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
+};
+use crate::scene_file::{Method, Model};
+
+/// Errors of references that are drawn; smaller ones do not matter.
+const VISIBLE: f64 = 1e-9;
+const COLUMNS: usize = 2;
+
+/// The scenes of one picture; all panels have the same axes.
+pub(super) fn figure(rows: &[&Row]) -> Figure {
+    let points: Vec<[f64; 2]> = rows.iter().map(|row| point(row)).collect();
+    let floors = rows.iter().filter_map(|row| visible_floor(row));
+    let errors = points.iter().map(|point| point[1]).chain(floors);
+    let axes = [
+        Axis::decades("processor time [s]", points.iter().map(|point| point[0])),
+        Axis::decades("relative error", errors),
+    ];
+    let scenes = rows.chunk_by(|one, other| one.scene == other.scene);
+    Figure {
+        panels: scenes.map(|rows| Panel::from(chart(rows, &axes))).collect(),
+        columns: COLUMNS,
+    }
+}
+
+fn point(row: &Row) -> [f64; 2] {
+    [row.processor_seconds, row.visible_error()]
+}
+
+fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
+    let title = rows
+        .first()
+        .map(|row| format!("{}: {}", row.scene, row.quantity));
+    let runs = rows.chunk_by(|one, other| label(one) == label(other));
+    let mut series: Vec<Series> = runs.filter_map(curve).collect();
+    let models = rows.chunk_by(|one, other| one.model == other.model);
+    series.extend(models.filter_map(|rows| floor(rows, x)));
+    Chart {
+        title,
+        x: x.clone(),
+        y: y.clone(),
+        legend: LegendPlace::Below,
+        series,
+    }
+}
+
+fn label(row: &Row) -> String {
+    match row.solver {
+        Solver::Of(Method::Analytic) if row.slides() => format!("{}, {}", row.method, row.model),
+        _ => row.method.clone(),
+    }
+}
+
+fn curve(rows: &[&Row]) -> Option<Series> {
+    let (colour, marker) = look(rows.first()?);
+    Some(Series {
+        label: rows.first().map(|row| label(row)),
+        points: rows.iter().map(|row| point(row)).collect(),
+        errors: None,
+        line: (rows.len() > 1).then_some(Line::thick(Dash::Solid)),
+        marker: Some(marker),
+        colour,
+    })
+}
+
+/// Line and stationary states are filled, elements are open.
+fn look(row: &Row) -> (Colour, Marker) {
+    let is_line = row.model == Model::Line.name();
+    let by_elements = row.resolution_kind == "elements";
+    match row.solver {
+        Solver::Of(Method::Analytic) if is_line => (Colour::Black, Marker::filled(Shape::Diamond)),
+        Solver::Of(Method::Analytic) => (Colour::Black, Marker::open(Shape::Diamond)),
+        Solver::Of(Method::MdrSteady) => (Colour::Blue, Marker::filled(Shape::Circle)),
+        Solver::Of(Method::MdrTransient) => (Colour::Blue, Marker::open(Shape::Square)),
+        Solver::Of(Method::BemSteady) if by_elements => (Colour::Red, Marker::open(Shape::Square)),
+        Solver::Of(Method::BemSteady) => (Colour::Red, Marker::filled(Shape::Circle)),
+        Solver::Of(Method::BemTransient) => (Colour::Green, Marker::open(Shape::Square)),
+        Solver::Contact => (Colour::Magenta, Marker::filled(Shape::Circle)),
+    }
+}
+
+/// The error of the reference, where it is large enough to be in the way.
+fn visible_floor(row: &Row) -> Option<f64> {
+    (row.reference_error > VISIBLE).then_some(row.reference_error)
+}
+
+/// The line of that error for one model.
+fn floor(rows: &[&Row], x: &Axis) -> Option<Series> {
+    let first = rows.first()?;
+    let error = visible_floor(first)?;
+    Some(Series {
+        label: Some(format!("reference, {}", first.model)),
+        ..Series::line(
+            x.range.map(|time| [time, error]).to_vec(),
+            Line::thin(Dash::Dotted),
+            Colour::Black,
+        )
+    })
+}

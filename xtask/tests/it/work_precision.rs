@@ -1,0 +1,140 @@
+//! What the quick measurement of error against run time writes and says.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use crate::support::{argument, folder, text, xtask};
+
+type Row = HashMap<String, String>;
+
+/// The folder of one quick run, and what it printed.
+fn measured() -> &'static (PathBuf, String) {
+    static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
+    RUN.get_or_init(|| {
+        let folder = folder("work-precision");
+        let output = xtask(&["work-precision", "--quick", "--out", argument(&folder)]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{message}");
+        (folder, text(&output.stdout))
+    })
+}
+
+fn table(name: &str) -> Vec<Row> {
+    let path: &Path = &measured().0.join(name);
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let rows = reader.deserialize().collect::<Result<_, _>>();
+    rows.expect("rows of the table")
+}
+
+/// A number that must be there and finite.
+fn number(row: &Row, column: &str) -> f64 {
+    let cell = &row[column];
+    let value: f64 = cell
+        .parse()
+        .unwrap_or_else(|error| panic!("{column} = {cell:?}: {error}"));
+    assert!(value.is_finite(), "{column} of {row:?}");
+    value
+}
+
+fn key(row: &Row) -> [&str; 3] {
+    ["scene", "model", "method"].map(|column| row[column].as_str())
+}
+
+/// Line, half space, both without sliding, and contacts of one instant.
+const SERIES: [[&str; 3]; 12] = [
+    ["paraboloid", "line", "analytic"],
+    ["paraboloid", "line", "mdr-steady"],
+    ["paraboloid", "line", "mdr-transient"],
+    ["paraboloid", "half-space", "analytic"],
+    ["paraboloid", "half-space", "bem-steady"],
+    ["paraboloid", "half-space", "bem-steady, elements"],
+    ["paraboloid", "half-space", "bem-transient"],
+    ["indentation", "half-space", "analytic"],
+    ["indentation", "half-space", "mdr-transient"],
+    ["indentation", "half-space", "bem-transient"],
+    ["Hertz", "half-space", "bem contact"],
+    ["rough surface", "half-space", "bem contact"],
+];
+
+#[test]
+fn every_method_answers_its_scenes_with_an_error_and_a_time() {
+    let rows = table("work_precision.csv");
+    let series = rows.chunk_by(|one, other| key(one) == key(other));
+    let found: Vec<[&str; 3]> = series.map(|rows| key(&rows[0])).collect();
+    assert_eq!(found, SERIES, "series of the quick measurement");
+    for row in &rows {
+        for column in ["error", "reference_error", "processor_seconds"] {
+            assert!(number(row, column) >= 0.0, "{column} of {row:?}");
+        }
+        assert!(number(row, "seconds") > 0.0, "no time passed: {row:?}");
+        assert!(number(row, "error") < 0.05, "a coarse answer: {row:?}");
+    }
+    assert!(
+        !measured().1.contains("refused"),
+        "none of the quick runs is refused: {}",
+        measured().1
+    );
+}
+
+/// Over elements and tolerances errors fall by a half at least; a relative error that is asked for is kept.
+#[test]
+fn errors_fall_with_the_resolution_or_are_those_asked_for() {
+    let rows = table("work_precision.csv");
+    for runs in rows.chunk_by(|one, other| key(one) == key(other)) {
+        let [first, last] = [&runs[0], &runs[runs.len() - 1]];
+        let allowed = match first["resolution_kind"].as_str() {
+            "elements" | "tolerance" => 0.5 * number(first, "error"),
+            "relative error" => number(last, "resolution"),
+            _ => number(last, "error_bar"),
+        };
+        let allowed = allowed + number(last, "reference_error");
+        assert!(
+            number(last, "error") <= allowed,
+            "the error must be at most {allowed:e}: {first:?}, {last:?}"
+        );
+    }
+}
+
+/// The chain of elements and the depth of a smooth contact are of second order; on the grids of the half space the
+/// outline of the contact makes orders scatter.
+#[test]
+fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
+    let fits = table("work_precision_orders.csv");
+    let orders: Vec<(&Row, f64)> = fits
+        .iter()
+        .filter(|fit| !fit["order"].is_empty())
+        .map(|fit| (fit, number(fit, "order")))
+        .collect();
+    assert!(orders.len() >= 5, "orders of {fits:?}");
+    for (fit, order) in orders {
+        let [low, high] = match key(fit) {
+            [_, _, "mdr-transient"] => [1.9, 2.1],
+            ["Hertz", ..] => [1.7, 2.4],
+            ["rough surface", ..] => [0.8, 1.2],
+            _ => [f64::MIN_POSITIVE, f64::MAX],
+        };
+        assert!(
+            (low..=high).contains(&order),
+            "order between {low} and {high}: {fit:?}"
+        );
+    }
+}
+
+#[test]
+fn pictures_are_drawn_and_the_table_is_printed() {
+    let (folder, printed) = measured();
+    for name in ["work_precision_sliding", "work_precision_at_rest"] {
+        for ending in ["svg", "png"] {
+            let size = fs::metadata(folder.join(name).with_extension(ending));
+            assert!(size.is_ok_and(|size| size.len() > 1000), "{name}.{ending}");
+        }
+    }
+    for [scene, _, method] in SERIES {
+        let line = printed
+            .lines()
+            .find(|line| line.contains(scene) && line.contains(method));
+        assert!(line.is_some(), "{scene}, {method} is missing in {printed}");
+    }
+}
