@@ -9,6 +9,7 @@ mod full_contact_obeys_the_complex_modulus;
 mod indentation_follows_lee_radok_and_ting;
 mod indentation_obeys_the_impulse_rule;
 mod march_ends_in_the_stationary_state;
+mod numbers_end_late;
 mod several_contact_intervals;
 mod stationary_means_converged;
 mod stationary_sliding_has_its_limits;
