@@ -19,6 +19,7 @@ mod legendre;
 mod profile;
 mod range;
 mod segment;
+mod steep_kinks;
 mod sweep;
 
 use indenters::{RigidLine, SlidingLoad};
@@ -29,6 +30,7 @@ use crate::error::{finite, fraction, positive};
 use foundation::Foundation;
 use profile::{Profile, Resolution};
 use range::Range;
+use steep_kinks::SteepKink;
 use sweep::{Sweep, sweep};
 
 /// Numerics of stationary sliding.
@@ -159,6 +161,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         depth: impl Fn(f64) -> Result<f64, MdrError>,
     ) -> Result<SteadySliding, MdrError> {
         let relative_error = fraction("relative_error", options.relative_error)?;
+        self.check_kinks(|| depth(ROUGH_TOLERANCE))?;
         let mut tolerance = FIRST_TOLERANCE * relative_error;
         loop {
             let depth = depth(tolerance)?;
@@ -178,6 +181,24 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
                 });
             }
             tolerance = LAST_TOLERANCE.max(tolerance * (0.1 * wanted / reached));
+        }
+    }
+
+    /// Refuses a contact with a kink at which friction has no limit; few polynomials tell.
+    fn check_kinks(&self, depth: impl Fn() -> Result<f64, MdrError>) -> Result<(), MdrError> {
+        if !self.foundation.has_dashpot() {
+            return Ok(());
+        }
+        let kinks = SteepKink::of(self.line);
+        if kinks.is_empty() {
+            return Ok(());
+        }
+        let contacts = self.solve(depth()?, ROUGH_TOLERANCE)?.sums.contacts;
+        match kinks.iter().find(|kink| kink.is_in(&contacts)) {
+            None => Ok(()),
+            Some(kink) => Err(MdrError::FrictionDiverges {
+                position: kink.position,
+            }),
         }
     }
 

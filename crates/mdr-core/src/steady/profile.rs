@@ -247,16 +247,22 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
     }
 }
 
-/// Size of the terms that are left out, from the decay of the last two pairs; an even line has no odd terms.
+/// Size of the terms that are left out, by a geometric series through the last two pairs; an even line has no odd terms.
+///
+/// Towards a cusp the terms decay like a power, and all of those that are left out matter.
 fn remainder(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
     if last < before {
-        last * (last / before)
+        let ratio = last / before;
+        last * ratio / (1.0 - ratio).max(LEAST_DECAY)
     } else {
         last
     }
 }
+
+/// Less decay from pair to pair than this is rounding, whose terms add up to nothing.
+const LEAST_DECAY: f64 = 0.25;
 
 impl Piece {
     /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.

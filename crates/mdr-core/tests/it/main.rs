@@ -2,6 +2,7 @@
 
 mod bad_input_is_refused;
 mod contact_balances_the_force;
+mod cusps_and_kinks;
 mod depth_is_exact_at_every_spacing;
 mod every_body_of_revolution_slides;
 mod friction_converges_to_the_theorem;
