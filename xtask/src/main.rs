@@ -18,6 +18,7 @@ mod scaling;
 mod scene;
 mod scene_file;
 mod speed_range;
+mod stability;
 mod stationary;
 mod sweep;
 
@@ -51,6 +52,8 @@ enum Command {
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds: CSV,
     /// SVG and PNG.
     SpeedRange(speed_range::SpeedRange),
+    /// Judge every method on stiff and extreme cases: CSV, SVG and PNG; fails when one is wrong.
+    Stability(stability::Stability),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -103,6 +106,7 @@ fn main() -> ExitCode {
         Command::FitMaterial(options) => material::fit(&options),
         Command::MeasureStationary(options) => stationary::measure(&options),
         Command::SpeedRange(options) => speed_range::speed_range(&options),
+        Command::Stability(options) => stability::stability(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

@@ -7,5 +7,6 @@ mod malformed_scenes;
 mod measure_stationary;
 mod scenes;
 mod speed_range;
+mod stability;
 mod support;
 mod sweeps;

@@ -44,7 +44,8 @@ pub struct FrictionOptions {
     pub relative_error: f64,
     /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
     pub aspect: f64,
-    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it.
+    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
+    /// by the contact length where a body is too steep for the grids so far.
     pub max_unknowns: usize,
 }
 
@@ -195,7 +196,8 @@ pub fn steady_friction_of_surface(
         match refine(surface, &loading, (ladder, spacing), options, &mut reuse) {
             // A steep body needs a finer grid to begin with.
             Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. })
-                if refinements.is_empty() =>
+                if refinements.is_empty()
+                    && about_unknowns(index + 1, options) <= options.max_unknowns as f64 =>
             {
                 continue;
             }
@@ -229,6 +231,13 @@ pub fn steady_friction_of_surface(
         error: reached.error,
         relative_error,
     })
+}
+
+/// About the number of unknown pressures of a refinement, before any has been solved.
+///
+/// Half of the contact is about as wide as the contact of the one-dimensional model is long.
+fn about_unknowns(refinement: i32, options: &FrictionOptions) -> f64 {
+    COARSEST * COARSEST * 2.0_f64.powi(refinement) / options.aspect
 }
 
 /// The average over the shifts, each started from the contact of the one before.
