@@ -31,10 +31,16 @@ pub(super) fn picture(families: &[&[Row]]) -> Figure {
 
 fn matrix_row(rows: &[Row]) -> MatrixRow {
     let [first, last] = [&rows[0], &rows[rows.len() - 1]];
+    let is_number = |row: &Row| row.value.parse::<f64>().is_ok();
+    let note = if is_number(first) && is_number(last) {
+        format!("{}: {} … {}", first.parameter, first.value, last.value)
+    } else {
+        first.parameter.to_owned()
+    };
     MatrixRow {
         name: first.family.to_owned(),
         cells: rows.iter().map(cell).collect(),
-        note: format!("{}: {} … {}", first.parameter, first.value, last.value),
+        note,
     }
 }
 

@@ -64,7 +64,7 @@ fn other_units(name: &'static str, method: fn(Units) -> Result<Numbers>) -> Fami
     }
     Family {
         name,
-        parameter: "unit",
+        parameter: "unit, 1e-12 … 1e12",
         cases,
         slow: false,
     }

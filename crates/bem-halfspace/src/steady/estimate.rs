@@ -197,7 +197,8 @@ pub fn steady_friction_of_surface(
             // A steep body needs a finer grid to begin with.
             Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. })
                 if refinements.is_empty()
-                    && about_unknowns(index + 1, options) <= options.max_unknowns as f64 =>
+                    && about_unknowns(ladder, index + 1, options.aspect)
+                        <= options.max_unknowns as f64 =>
             {
                 continue;
             }
@@ -235,9 +236,11 @@ pub fn steady_friction_of_surface(
 
 /// About the number of unknown pressures of a refinement, before any has been solved.
 ///
-/// Half of the contact is about as wide as the contact of the one-dimensional model is long.
-fn about_unknowns(refinement: i32, options: &FrictionOptions) -> f64 {
-    COARSEST * COARSEST * 2.0_f64.powi(refinement) / options.aspect
+/// Half of the contact of a body of revolution is about as wide as that of the one-dimensional model is long; other
+/// contacts are taken to be as slender as the footprint.
+fn about_unknowns(ladder: &Ladder, refinement: i32, aspect: f64) -> f64 {
+    let [length, width] = [ladder.footprint.x, ladder.footprint.y].map(|[a, b]| b - a);
+    COARSEST * COARSEST * 2.0_f64.powi(refinement) * (width / length / aspect)
 }
 
 /// The average over the shifts, each started from the contact of the one before.

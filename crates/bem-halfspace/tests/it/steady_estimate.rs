@@ -2,6 +2,8 @@
 
 use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use indenters::{PowerProfile, SlidingLoad};
+use rheology::Viscous;
 
 use crate::support::Scene;
 
@@ -80,4 +82,24 @@ fn an_error_out_of_reach_says_what_was_reached() {
         }
         other => panic!("{other:?} of a cusp next to p = 1/2"),
     }
+}
+
+/// At its rim r^1000 rises within a thousandth of its radius; grids that resolve it are far larger than allowed, and none
+/// of them is tried.
+#[test]
+fn a_body_too_steep_for_the_unknowns_allowed_is_refused() {
+    let body = PowerProfile::new(0.4, 1000.0).expect("a body");
+    let (material, load) = (
+        Viscous::new(50.0).expect("a material"),
+        SlidingLoad::new(2.0, 0.1).expect("a load"),
+    );
+    let options = FrictionOptions {
+        max_unknowns: 500,
+        ..FrictionOptions::default()
+    };
+    let got = steady_friction(&body, &material, &load, &options);
+    assert!(
+        matches!(got, Err(BemError::SlopeNotResolved { .. })),
+        "expected SlopeNotResolved, got {got:?}"
+    );
 }
