@@ -149,89 +149,61 @@ fn high_above(height: f64) -> Result<Outcome> {
     solved(&grid, &separation, Control::NormalForce(10.0), &options)
 }
 
+/// A small contact with one corner of another height.
+fn with_corner(corner: f64, control: Control) -> Result<Result<(), BemError>> {
+    let grid = Grid::new([5, 5], [1.0, 1.0])?;
+    let mut separation = heights(&grid, |x, y| x * x + y * y);
+    separation[0] = corner;
+    Ok(attempted(&grid, &separation, control))
+}
+
+fn attempted(grid: &Grid, separation: &[f64], control: Control) -> Result<(), BemError> {
+    let convolution = Convolution::new(grid);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation,
+        compliance: 1.0,
+        control,
+    };
+    let mut state = ContactState::new(&convolution);
+    solve_contact(&problem, &mut state, &ContactOptions::default()).map(|_| ())
+}
+
 fn unusual_heights() -> Vec<Case> {
-    let with = |corner: f64, control: Control| -> Result<Result<(), BemError>> {
-        let grid = Grid::new([5, 5], [1.0, 1.0])?;
-        let mut separation = heights(&grid, |x, y| x * x + y * y);
-        separation[0] = corner;
-        let convolution = Convolution::new(&grid);
-        let problem = ContactProblem {
-            convolution: &convolution,
-            separation: &separation,
-            compliance: 1.0,
-            control,
-        };
-        let mut state = ContactState::new(&convolution);
-        let solved = solve_contact(&problem, &mut state, &ContactOptions::default());
-        Ok(solved.map(|_| ()))
+    let corner = |height: f64| {
+        Case::new(format!("{height}"), move || {
+            let solved = with_corner(height, Control::NormalForce(1.0))?;
+            Ok(refused!(
+                solved,
+                BemError::InvalidHeight {
+                    row: 0,
+                    column: 0,
+                    ..
+                }
+            ))
+        })
+    };
+    let control = |name: &'static str, control: Control| {
+        Case::new(name, move || {
+            let solved = with_corner(1.0, control)?;
+            Ok(refused!(
+                solved,
+                BemError::InvalidParameter {
+                    parameter: "normal_force" | "indentation_depth",
+                    ..
+                }
+            ))
+        })
     };
     vec![
-        Case::new("NaN", move || {
-            let solved = with(f64::NAN, Control::NormalForce(1.0))?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidHeight {
-                    row: 0,
-                    column: 0,
-                    ..
-                }
-            ))
-        }),
-        Case::new("−∞", move || {
-            let solved = with(f64::NEG_INFINITY, Control::NormalForce(1.0))?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidHeight {
-                    row: 0,
-                    column: 0,
-                    ..
-                }
-            ))
-        }),
-        Case::new("pull", move || {
-            let solved = with(1.0, Control::NormalForce(-1.0))?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidParameter {
-                    parameter: "normal_force",
-                    ..
-                }
-            ))
-        }),
-        Case::new("depth ∞", move || {
-            let solved = with(1.0, Control::IndentationDepth(f64::INFINITY))?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidParameter {
-                    parameter: "indentation_depth",
-                    ..
-                }
-            ))
-        }),
-        Case::new("a hole", || {
-            let grid = Grid::new([9, 9], [1.0, 1.0])?;
-            let separation = heights(&grid, |x, y| {
-                if x == 0.0 {
-                    f64::INFINITY
-                } else {
-                    x * x + y * y
-                }
-            });
-            let options = ContactOptions::default();
-            solved(&grid, &separation, Control::NormalForce(40.0), &options)
-        }),
+        corner(f64::NAN),
+        corner(f64::NEG_INFINITY),
+        control("pull", Control::NormalForce(-1.0)),
+        control("depth ∞", Control::IndentationDepth(f64::INFINITY)),
+        Case::new("a hole", a_hole),
         Case::new("no body", || {
             let grid = Grid::new([9, 9], [1.0, 1.0])?;
-            let separation = vec![f64::INFINITY; 81];
-            let convolution = Convolution::new(&grid);
-            let problem = ContactProblem {
-                convolution: &convolution,
-                separation: &separation,
-                compliance: 1.0,
-                control: Control::NormalForce(1.0),
-            };
-            let mut state = ContactState::new(&convolution);
-            let solved = solve_contact(&problem, &mut state, &ContactOptions::default());
+            let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
             Ok(refused!(
                 solved,
                 BemError::InvalidParameter {
@@ -241,4 +213,22 @@ fn unusual_heights() -> Vec<Case> {
             ))
         }),
     ]
+}
+
+fn a_hole() -> Result<Outcome> {
+    let grid = Grid::new([9, 9], [1.0, 1.0])?;
+    let hole = |x: f64, y: f64| {
+        if x == 0.0 {
+            f64::INFINITY
+        } else {
+            x * x + y * y
+        }
+    };
+    let options = ContactOptions::default();
+    solved(
+        &grid,
+        &heights(&grid, hole),
+        Control::NormalForce(40.0),
+        &options,
+    )
 }

@@ -35,31 +35,40 @@ pub(super) fn families() -> Vec<Family> {
             nearly_flat(exponent)
         }));
     }
+    let mut families = vec![powers];
+    families.extend(solids());
+    let mut families: Vec<Family> = families.into_iter().map(Family::slow).collect();
+    families.extend(in_time());
+    families
+}
+
+fn solids() -> [Family; 5] {
     let gammas = || decades(-12, 3, 3);
-    let ratios = || decades(-12, 12, 1);
-    let limits = || decades(-12, -5, 1).chain(decades(5, 12, 1));
-    vec![
-        powers.slow(),
-        Family::over(("half space, three elements, slow", "γ"), gammas(), slow).slow(),
-        Family::over(("half space, three elements, fast", "γ"), gammas(), fast).slow(),
+    [
+        Family::over(("half space, three elements, slow", "γ"), gammas(), slow),
+        Family::over(("half space, three elements, fast", "γ"), gammas(), fast),
         Family::over(
             ("half space, three elements, plateau", "γ"),
             decades(-12, -8, 1),
             plateau,
-        )
-        .slow(),
+        ),
         Family::over(
             ("half space, 16 branches over 15 decades", "vτ/a"),
             decades(-12, 12, 2),
             branches,
-        )
-        .slow(),
+        ),
         Family::over(
             ("half space, slender paraboloid", "width/length"),
             [0.2, 0.5, 1.0, 2.0, 5.0, 10.0],
             slender,
-        )
-        .slow(),
+        ),
+    ]
+}
+
+fn in_time() -> Vec<Family> {
+    let ratios = || decades(-12, 12, 1);
+    let limits = || decades(-12, -5, 1).chain(decades(5, 12, 1));
+    vec![
         Family::over(
             ("half space, pressed, Kelvin–Voigt", "Δt/λ"),
             ratios(),

@@ -22,8 +22,6 @@ const ASKED: f64 = 1e-8;
 const RATIOS: [i32; 2] = [-12, 12];
 
 pub(super) fn families() -> Vec<Family> {
-    let [first, last] = RATIOS;
-    let ratios = || decades(first, last, 1);
     let exponents = [
         0.55, 0.6, 0.75, 0.9, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0, 300.0, 1000.0,
     ];
@@ -32,8 +30,20 @@ pub(super) fn families() -> Vec<Family> {
         let refused = Case::new(format!("{exponent}"), move || too_sharp(exponent));
         powers.cases.insert(0, refused);
     }
-    vec![
-        powers,
+    let mut families = vec![powers];
+    families.extend(closed_forms());
+    families.extend(cones());
+    families.extend(in_time());
+    families
+}
+
+fn ratios() -> impl Iterator<Item = f64> + Clone {
+    let [first, last] = RATIOS;
+    decades(first, last, 1)
+}
+
+fn closed_forms() -> [Family; 4] {
+    [
         Family::over(
             ("line, cone on Kelvin–Voigt", "vλ/x_r"),
             ratios(),
@@ -52,6 +62,11 @@ pub(super) fn families() -> Vec<Family> {
             ratios(),
             |ratio| maxwell(&PowerProfile::paraboloid(0.1)?, ratio),
         ),
+    ]
+}
+
+fn cones() -> [Family; 3] {
+    [
         Family::over(
             ("line, cone on 16 branches over 15 decades", "v/x_r"),
             ratios(),
@@ -67,6 +82,11 @@ pub(super) fn families() -> Vec<Family> {
             decades(-12, 3, 1),
             |gamma| cone(&solid(gamma)?, 1e-3 * gamma),
         ),
+    ]
+}
+
+fn in_time() -> Vec<Family> {
+    vec![
         Family::over(
             ("line, pressed, Kelvin–Voigt", "Δt/λ"),
             ratios(),
@@ -80,7 +100,7 @@ pub(super) fn families() -> Vec<Family> {
         }),
         Family::over(
             ("line, march, cone on Maxwell", "vτ/x_r"),
-            decades(first, last, 2),
+            ratios().step_by(2),
             march,
         ),
         Family::over(

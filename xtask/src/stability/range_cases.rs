@@ -29,8 +29,11 @@ const UNIT: Scene = Scene {
 /// Solves a scene and compares with the closed form.
 type Method = fn(Scene) -> Result<Outcome>;
 
+/// A parameter with the scene that belongs to its value.
+type Parameter = (&'static str, fn(f64) -> Scene);
+
 /// The parameters that are changed one at a time.
-const PARAMETERS: [(&str, fn(f64) -> Scene); 4] = [
+const PARAMETERS: [Parameter; 4] = [
     ("force / N", |force| Scene { force, ..UNIT }),
     ("speed / (m/s)", |velocity| Scene { velocity, ..UNIT }),
     ("viscosity / (Pa s)", |viscosity| Scene {

@@ -19,81 +19,88 @@ use crate::stability::rheology_cases::solid;
 const NOT_POSITIVE: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
 
 pub(super) fn families() -> Vec<Family> {
-    let no_number =
+    let mut coarse = badly_solved();
+    coarse.extend([1.0, 10.0, 1e6, 1e12].into_iter().flat_map(too_coarse));
+    coarse.extend([0.3, 0.5].into_iter().flat_map(too_small));
+    coarse.extend([1e-6, 1e-12].into_iter().flat_map(too_fine));
+    let scenes = |name, cases| Family {
+        name,
+        parameter: "scene",
+        cases,
+        slow: false,
+    };
+    let mut families: Vec<Family> = no_numbers().into();
+    families.push(scenes("refused: no stationary state", no_state()));
+    families.push(scenes("refused: too coarse, too small", coarse));
+    families
+}
+
+fn no_numbers() -> [Family; 6] {
+    let family =
         |name, run: fn(f64) -> Result<Outcome>| Family::over((name, "number"), NOT_POSITIVE, run);
-    vec![
-        no_number("refused: viscosity", |value| {
-            Ok(refused!(
-                Viscous::new(value),
-                RheologyError::InvalidParameter {
-                    parameter: "viscosity",
-                    ..
-                }
-            ))
-        }),
-        no_number("refused: force", |value| {
-            Ok(refused!(
-                SlidingLoad::new(value, 1.0),
-                IndenterError::InvalidParameter {
-                    parameter: "normal_force",
-                    ..
-                }
-            ))
-        }),
-        no_number("refused: speed", |value| {
-            Ok(refused!(
-                SlidingLoad::new(1.0, value),
-                IndenterError::InvalidParameter {
-                    parameter: "velocity",
-                    ..
-                }
-            ))
-        }),
-        no_number("refused: exponent", |value| {
-            Ok(refused!(
-                PowerProfile::new(1.0, value),
-                IndenterError::InvalidParameter {
-                    parameter: "exponent",
-                    ..
-                }
-            ))
-        }),
-        no_number("refused: step in time", |value| {
-            let creep = Viscous::new(1.0)?.creep();
-            Ok(refused!(
-                ExponentialStep::creep(&creep, value),
-                RheologyError::InvalidParameter {
-                    parameter: "time_step",
-                    ..
-                }
-            ))
-        }),
-        no_number("refused: relaxation time", |relaxation_time| {
-            let branch = RelaxationBranch {
-                modulus: 1.0,
-                relaxation_time,
-            };
-            Ok(refused!(
-                RelaxationSpectrum::new(1.0, 0.0, vec![branch]),
-                RheologyError::InvalidElement {
-                    parameter: "relaxation_time",
-                    ..
-                }
-            ))
-        }),
-        Family {
-            name: "refused: no stationary state",
-            parameter: "scene",
-            cases: no_state(),
-            slow: false,
-        },
-        Family {
-            name: "refused: too coarse, too small",
-            parameter: "scene",
-            cases: too_coarse(),
-            slow: false,
-        },
+    [
+        family("refused: viscosity", viscosity),
+        family("refused: force", |force| load(force, 1.0)),
+        family("refused: speed", |velocity| load(1.0, velocity)),
+        family("refused: exponent", exponent),
+        family("refused: step in time", time_step),
+        family("refused: relaxation time", relaxation_time),
     ]
+}
+
+fn viscosity(value: f64) -> Result<Outcome> {
+    Ok(refused!(
+        Viscous::new(value),
+        RheologyError::InvalidParameter {
+            parameter: "viscosity",
+            ..
+        }
+    ))
+}
+
+fn load(force: f64, velocity: f64) -> Result<Outcome> {
+    Ok(refused!(
+        SlidingLoad::new(force, velocity),
+        IndenterError::InvalidParameter {
+            parameter: "normal_force" | "velocity",
+            ..
+        }
+    ))
+}
+
+fn exponent(value: f64) -> Result<Outcome> {
+    Ok(refused!(
+        PowerProfile::new(1.0, value),
+        IndenterError::InvalidParameter {
+            parameter: "exponent",
+            ..
+        }
+    ))
+}
+
+fn time_step(value: f64) -> Result<Outcome> {
+    let creep = Viscous::new(1.0)?.creep();
+    Ok(refused!(
+        ExponentialStep::creep(&creep, value),
+        RheologyError::InvalidParameter {
+            parameter: "time_step",
+            ..
+        }
+    ))
+}
+
+fn relaxation_time(relaxation_time: f64) -> Result<Outcome> {
+    let branch = RelaxationBranch {
+        modulus: 1.0,
+        relaxation_time,
+    };
+    Ok(refused!(
+        RelaxationSpectrum::new(1.0, 0.0, vec![branch]),
+        RheologyError::InvalidElement {
+            parameter: "relaxation_time",
+            ..
+        }
+    ))
 }
 
 fn no_state() -> Vec<Case> {
@@ -174,8 +181,8 @@ fn march_options(spacing: f64, half_width: f64) -> MarchOptions {
     }
 }
 
-fn too_coarse() -> Vec<Case> {
-    let mut cases = vec![
+fn badly_solved() -> Vec<Case> {
+    vec![
         Case::new("few iterations", || {
             let (cone, material, load) = scene()?;
             let mut options = march_options(0.05, 2.0);
@@ -218,65 +225,54 @@ fn too_coarse() -> Vec<Case> {
             let rows = indent(&EquivalentLine(&cone), &material, 1.0, &[1.0], &options);
             Ok(refused!(rows, MdrError::TooManyElements { .. }))
         }),
-    ];
-    for spacing in [1.0, 10.0, 1e6, 1e12] {
-        cases.push(Case::new(
-            format!("stationary, spacing {spacing:e}"),
-            move || {
-                let (cone, material, load) = scene()?;
-                let options = steady_options(spacing, 10.0 * spacing);
-                let state = steady(&cone, &material, &load, &options);
-                Ok(refused!(state, BemError::GridTooCoarse { .. }))
-            },
-        ));
-        cases.push(Case::new(
-            format!("march, spacing {spacing:e}"),
-            move || {
-                let (cone, material, load) = scene()?;
-                let state = march(
-                    &cone,
-                    &material,
-                    &load,
-                    &march_options(spacing, 10.0 * spacing),
-                );
-                Ok(refused!(state, BemError::GridTooCoarse { .. }))
-            },
-        ));
-    }
-    for half_width in [0.3, 0.5] {
-        cases.push(Case::new(
-            format!("stationary, box {half_width}"),
-            move || {
-                let (cone, material, load) = scene()?;
-                let state = steady(&cone, &material, &load, &steady_options(0.05, half_width));
-                Ok(refused!(state, BemError::ContactReachesBoundary { .. }))
-            },
-        ));
-        cases.push(Case::new(format!("march, box {half_width}"), move || {
+    ]
+}
+
+fn too_coarse(spacing: f64) -> [Case; 2] {
+    [
+        Case::new(format!("stationary, spacing {spacing:e}"), move || {
+            let (cone, material, load) = scene()?;
+            let options = steady_options(spacing, 10.0 * spacing);
+            let state = steady(&cone, &material, &load, &options);
+            Ok(refused!(state, BemError::GridTooCoarse { .. }))
+        }),
+        Case::new(format!("march, spacing {spacing:e}"), move || {
+            let (cone, material, load) = scene()?;
+            let options = march_options(spacing, 10.0 * spacing);
+            let state = march(&cone, &material, &load, &options);
+            Ok(refused!(state, BemError::GridTooCoarse { .. }))
+        }),
+    ]
+}
+
+fn too_small(half_width: f64) -> [Case; 2] {
+    [
+        Case::new(format!("stationary, box {half_width}"), move || {
+            let (cone, material, load) = scene()?;
+            let state = steady(&cone, &material, &load, &steady_options(0.05, half_width));
+            Ok(refused!(state, BemError::ContactReachesBoundary { .. }))
+        }),
+        Case::new(format!("march, box {half_width}"), move || {
             let (cone, material, load) = scene()?;
             let mut options = march_options(0.05, half_width);
             options.sliding_distance = 3.0;
             let state = march(&cone, &material, &load, &options);
             Ok(refused!(state, BemError::ContactReachesBoundary { .. }))
-        }));
-    }
-    for spacing in [1e-6, 1e-12] {
-        cases.push(Case::new(
-            format!("stationary, spacing {spacing:e}"),
-            move || {
-                let (cone, material, load) = scene()?;
-                let state = steady(&cone, &material, &load, &steady_options(spacing, 2.0));
-                Ok(refused!(state, BemError::GridTooLarge { .. }))
-            },
-        ));
-        cases.push(Case::new(
-            format!("march, spacing {spacing:e}"),
-            move || {
-                let (cone, material, load) = scene()?;
-                let state = march(&cone, &material, &load, &march_options(spacing, 2.0));
-                Ok(refused!(state, BemError::GridTooLarge { .. }))
-            },
-        ));
-    }
-    cases
+        }),
+    ]
+}
+
+fn too_fine(spacing: f64) -> [Case; 2] {
+    [
+        Case::new(format!("stationary, spacing {spacing:e}"), move || {
+            let (cone, material, load) = scene()?;
+            let state = steady(&cone, &material, &load, &steady_options(spacing, 2.0));
+            Ok(refused!(state, BemError::GridTooLarge { .. }))
+        }),
+        Case::new(format!("march, spacing {spacing:e}"), move || {
+            let (cone, material, load) = scene()?;
+            let state = march(&cone, &material, &load, &march_options(spacing, 2.0));
+            Ok(refused!(state, BemError::GridTooLarge { .. }))
+        }),
+    ]
 }

@@ -16,7 +16,13 @@ use rheology::Viscous;
 use crate::stability::case::{Family, Outcome, decades, refused};
 
 pub(super) fn families() -> Vec<Family> {
-    let ratios = || decades(-12, 12, 1);
+    let mut families = theorems();
+    families.extend(bodies_on_line());
+    families.extend(on_half_space().map(Family::slow));
+    families
+}
+
+fn theorems() -> Vec<Family> {
     vec![
         Family::over(
             ("quadrature beside closed form", "p"),
@@ -30,6 +36,12 @@ pub(super) fn families() -> Vec<Family> {
             decades(-14, -1, 1),
             nearly_divergent,
         ),
+    ]
+}
+
+fn bodies_on_line() -> [Family; 6] {
+    let ratios = || decades(-12, 12, 1);
+    [
         Family::over(("line, cone with round tip", "tip / m"), ratios(), |tip| {
             both(&RoundTippedCone::new(tip, 1.0)?)
         }),
@@ -56,24 +68,26 @@ pub(super) fn families() -> Vec<Family> {
             decades(-12, 12, 1),
             |slope| both(&PowerProfile::cone(slope)?),
         ),
+    ]
+}
+
+fn on_half_space() -> [Family; 3] {
+    [
         Family::over(
             ("half space, cone, any slope", "slope"),
             decades(-12, 12, 3),
             any_slope,
-        )
-        .slow(),
+        ),
         Family::over(
             ("half space, cone with flat end", "end/contact"),
             decades(-12, -4, 1),
             flat_end,
-        )
-        .slow(),
+        ),
         Family::over(
             ("half space, cone with round tip", "tip / m"),
             decades(-12, -3, 1).chain(decades(3, 12, 1)),
             round_tip,
-        )
-        .slow(),
+        ),
     ]
 }
 
