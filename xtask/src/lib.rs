@@ -20,6 +20,7 @@ mod scaling;
 mod scene;
 mod scene_file;
 mod speed_range;
+mod stability;
 mod stationary;
 mod sweep;
 mod work_precision;
@@ -59,6 +60,8 @@ enum Command {
     SpeedRange(speed_range::SpeedRange),
     /// Measure error against run time of every method on every benchmark scene: CSV, fitted orders, SVG and PNG.
     WorkPrecision(work_precision::WorkPrecision),
+    /// Judge every method on stiff and extreme cases: CSV, SVG and PNG; fails when one is wrong.
+    Stability(stability::Stability),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -116,6 +119,7 @@ pub fn execute() -> ExitCode {
         Command::MeasureStationary(options) => stationary::measure(&options),
         Command::SpeedRange(options) => speed_range::speed_range(&options),
         Command::WorkPrecision(options) => work_precision::measure(&options),
+        Command::Stability(options) => stability::stability(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

@@ -41,7 +41,8 @@ impl Element {
     /// The compression \[m] of one element under a `force` \[N].
     #[must_use]
     pub fn compression(&self, force: f64) -> f64 {
-        force * self.compliance / (4.0 * self.spacing)
+        // In this order forces whose square is no number stay in range.
+        0.25 * force / self.spacing * self.compliance
     }
 }
 

@@ -15,8 +15,8 @@ use crate::{MdrError, SlideRow};
 pub(crate) struct March {
     line: ElementHeights,
     chain: Chain,
-    /// Rise of the line over an element during the step to which its force belongs, \[m].
-    rises: Vec<f64>,
+    /// Mean slope that an element meets during the step to which its force belongs.
+    mean_slopes: Vec<f64>,
     /// h̃'(x) at the end of a step.
     end_slopes: Vec<f64>,
     normal_force: f64,
@@ -61,12 +61,13 @@ impl March {
         let end_slopes = (0..n_elements)
             .map(|element| line.slope(sampled.position(element)))
             .collect();
-        let rises: Vec<f64> = sampled.heights.windows(2).map(|h| h[1] - h[0]).collect();
-        let mut rises = mean_rises(&rises, chain.elastic_share());
+        let pairs = sampled.heights.windows(2);
+        let slopes: Vec<f64> = pairs.map(|h| (h[1] - h[0]) / spacing).collect();
+        let mut mean_slopes = mean_slopes(&slopes, chain.elastic_share());
         // The last element never carries load: see `advance`.
-        rises.push(f64::INFINITY);
+        mean_slopes.push(f64::INFINITY);
         Ok(Self {
-            rises,
+            mean_slopes,
             end_slopes,
             chain,
             normal_force: load.normal_force(),
@@ -115,34 +116,31 @@ impl March {
         Ok(Advance::Stepped(Stepped {
             row,
             span: loaded.front + 1 - loaded.rear,
-            steepness: loaded.climb / self.work_unit(),
+            steepness: loaded.climb,
         }))
     }
 
     /// Moves every element to the end of the step, and sums what the loaded ones exert on the line.
     fn settle(&mut self, depth: f64) -> Loaded {
         let mut loaded = Loaded::new(self.line.heights.len());
-        let (rises, end_slopes) = (&self.rises, &self.end_slopes);
+        let (mean_slopes, end_slopes) = (&self.mean_slopes, &self.end_slopes);
+        let whole = self.chain.element().compression(self.normal_force);
         self.chain
             .load(&self.line.heights, depth, |here, compression| {
                 loaded.rear = loaded.rear.min(here);
                 loaded.front = here;
-                loaded.rise.add(compression * rises[here]);
-                loaded.climb += compression * rises[here].abs();
-                loaded.end_slope.add(compression * end_slopes[here]);
+                // The product of a compression and a slope may be too small for a number where its part of the force is not.
+                let part = compression / whole;
+                loaded.mean_slope.add(part * mean_slopes[here]);
+                loaded.climb += part * mean_slopes[here].abs();
+                loaded.end_slope.add(part * end_slopes[here]);
             });
         loaded
     }
 
-    /// The sum of compression times rise for a friction coefficient of one.
-    fn work_unit(&self) -> f64 {
-        self.chain.element().compression(self.normal_force) * self.spacing
-    }
-
     fn row(&self, contact: Contact, loaded: Loaded, time: f64) -> Result<SlideRow, MdrError> {
-        let compression = self.chain.element().compression(self.normal_force);
-        let friction = loaded.rise.value() / self.work_unit();
-        let end_of_step = loaded.end_slope.value() / compression;
+        let friction = loaded.mean_slope.value();
+        let end_of_step = loaded.end_slope.value();
         let depth = contact.indentation_depth;
         Ok(SlideRow {
             sliding_distance: self.n_steps as f64 * self.spacing,
@@ -158,14 +156,14 @@ impl March {
     }
 }
 
-/// Rises h̃(x + Δx) − h̃(x) during a step that ends at x, and for the elastic share those around its end.
+/// Slopes [h̃(x + Δx) − h̃(x)]/Δx during a step that ends at x, and for the elastic share those around its end.
 ///
 /// The force of a dashpot belongs to the motion during the step, that of a spring to where the step ends.
-fn mean_rises(rises: &[f64], elastic_share: f64) -> Vec<f64> {
-    let rear = rises.first().into_iter();
-    let before = rear.chain(rises);
-    let mean = |(rise, before): (&f64, &f64)| rise - 0.5 * elastic_share * (rise - before);
-    rises.iter().zip(before).map(mean).collect()
+fn mean_slopes(slopes: &[f64], elastic_share: f64) -> Vec<f64> {
+    let rear = slopes.first().into_iter();
+    let before = rear.chain(slopes);
+    let mean = |(slope, before): (&f64, &f64)| slope - 0.5 * elastic_share * (slope - before);
+    slopes.iter().zip(before).map(mean).collect()
 }
 
 /// What the loaded elements of a step sum up to.
@@ -173,11 +171,11 @@ fn mean_rises(rises: &[f64], elastic_share: f64) -> Vec<f64> {
 struct Loaded {
     rear: usize,
     front: usize,
-    /// Σ compression · rise of the line over the element during the step.
-    rise: CompensatedSum,
-    /// The same with the modulus of the rise.
+    /// Σ part of the force · mean slope that the element meets during the step.
+    mean_slope: CompensatedSum,
+    /// The same with the modulus of the slope.
     climb: f64,
-    /// Σ compression · slope of the line at the end of the step.
+    /// Σ part of the force · slope of the line at the end of the step.
     end_slope: CompensatedSum,
 }
 
@@ -186,7 +184,7 @@ impl Loaded {
         Self {
             rear: n_elements,
             front: 0,
-            rise: CompensatedSum::default(),
+            mean_slope: CompensatedSum::default(),
             climb: 0.0,
             end_slope: CompensatedSum::default(),
         }

@@ -19,6 +19,9 @@ table{border-collapse:collapse;font-size:.85rem;margin:1rem 0}th,td{border-botto
 th{border-bottom:1px solid #333;font-weight:normal;vertical-align:bottom}td:first-child,th:first-child{text-align:left}\
 .paper{border-left:3px solid #999;padding-left:1rem;color:#333}details{margin:1rem 0}.wide{overflow-x:auto}";
 
+/// Picture of `cargo xtask stability`, which the figures do not recompute.
+const STABILITY: &str = include_str!("../../../docs/figures/stability.svg");
+
 pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     let mut page = String::new();
     write!(
@@ -42,6 +45,11 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
         "<h2>The stationary contact</h2><p>Not in the paper; from the stationary problem, solved directly.</p>",
     );
     write_picture(&mut page, pictures, "stationary_contact")?;
+    write!(
+        page,
+        "<h2>Stiff and extreme cases</h2><p>Not in the paper; as committed, from <code>cargo xtask stability</code>: one \
+         row per family, one cell per case.</p><figure>{STABILITY}</figure>"
+    )?;
     page.push_str(NOT_STATED);
     page.push_str(WORK_PRECISION);
     page.push_str("</body></html>\n");

@@ -13,6 +13,8 @@ pub(crate) enum Colour {
     Magenta,
     /// #000000.
     Black,
+    /// #b0b0b0, for areas only.
+    Grey,
 }
 
 impl Colour {
@@ -24,6 +26,7 @@ impl Colour {
             Self::Green => "#009e73",
             Self::Magenta => "#aa3377",
             Self::Black => "#000000",
+            Self::Grey => "#b0b0b0",
         }
     }
 }

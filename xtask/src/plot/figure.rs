@@ -4,6 +4,7 @@ use super::canvas::Canvas;
 use super::chart::Chart;
 use super::error::PlotError;
 use super::map::Map;
+use super::matrix::{MATRIX_WIDTH, Matrix};
 
 /// One or more panels in one picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,9 +22,11 @@ pub(crate) enum Panel {
     Chart(Chart),
     /// Field on a grid.
     Map(Map),
+    /// Rows of cells.
+    Matrix(Matrix),
 }
 
-/// Width of every panel, \[px\].
+/// Width of every panel but a matrix, \[px\].
 pub(super) const PANEL_WIDTH: f64 = 480.0;
 
 impl From<Chart> for Panel {
@@ -38,6 +41,12 @@ impl From<Map> for Panel {
     }
 }
 
+impl From<Matrix> for Panel {
+    fn from(matrix: Matrix) -> Self {
+        Self::Matrix(matrix)
+    }
+}
+
 impl Figure {
     /// Figure of a single panel.
     #[must_use]
@@ -49,7 +58,7 @@ impl Figure {
     }
 }
 
-/// SVG text of a figure, 480 px wide per column.
+/// SVG text of a figure, 480 px wide per column, or 960 px with a matrix in it.
 ///
 /// # Errors
 /// Whatever could not be drawn faithfully: see [`PlotError`].
@@ -61,14 +70,14 @@ pub(crate) fn render_svg(figure: &Figure) -> Result<String, PlotError> {
         .iter()
         .map(|row| row_height(row, &margins))
         .collect::<Result<Vec<f64>, _>>()?;
-    let width: f64 = margins.iter().map(|_| PANEL_WIDTH).sum();
-    let mut canvas = Canvas::new(width, heights.iter().sum());
+    let widths = figure.widths();
+    let mut canvas = Canvas::new(widths.iter().sum(), heights.iter().sum());
     let mut top = 0.0;
     for (row, height) in rows.into_iter().zip(heights) {
         let mut left = 0.0;
-        for (panel, &margin) in row.iter().zip(&margins) {
+        for ((panel, &margin), width) in row.iter().zip(&margins).zip(&widths) {
             panel.draw(&mut canvas, [left, top], margin)?;
-            left += PANEL_WIDTH;
+            left += width;
         }
         top += height;
     }
@@ -95,7 +104,19 @@ impl Figure {
         self.panels.iter().try_for_each(|panel| match panel {
             Panel::Chart(chart) => chart.validate(),
             Panel::Map(map) => map.validate(),
+            Panel::Matrix(matrix) => matrix.validate(),
         })
+    }
+
+    /// Width of each column, \[px\].
+    fn widths(&self) -> Vec<f64> {
+        let mut widths = vec![PANEL_WIDTH; self.columns.min(self.panels.len())];
+        for (index, panel) in self.panels.iter().enumerate() {
+            if matches!(panel, Panel::Matrix(_)) {
+                widths[index % self.columns] = MATRIX_WIDTH;
+            }
+        }
+        widths
     }
 
     /// Left margin of each column, wide enough for all its panels so that their frames line up, \[px\].
@@ -114,6 +135,7 @@ impl Panel {
         match self {
             Self::Chart(chart) => chart.left_margin(),
             Self::Map(map) => map.left_margin(),
+            Self::Matrix(matrix) => matrix.left_margin(),
         }
     }
 
@@ -121,6 +143,7 @@ impl Panel {
         match self {
             Self::Chart(chart) => chart.height(left),
             Self::Map(map) => map.height(left),
+            Self::Matrix(matrix) => Ok(matrix.height(left)),
         }
     }
 
@@ -128,13 +151,16 @@ impl Panel {
         match self {
             Self::Chart(chart) => chart.draw(canvas, origin, left),
             Self::Map(map) => map.draw(canvas, origin, left),
+            Self::Matrix(matrix) => matrix.draw(canvas, origin, left),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Colour, ColourScale, Dash, LegendPlace, Line, Marker, Series, Shape};
+    use super::super::{
+        Axis, Cell, Colour, ColourScale, Dash, LegendPlace, Line, Marker, MatrixRow, Series, Shape,
+    };
     use super::*;
 
     fn chart() -> Chart {
@@ -394,6 +420,46 @@ mod tests {
         for case in cases {
             let got = render_svg(&Figure::single(case.clone()));
             assert!(got.is_err(), "expected {case:?} to be refused");
+        }
+    }
+
+    fn matrix(cells: Vec<Cell>) -> Matrix {
+        Matrix {
+            title: None,
+            rows: vec![MatrixRow {
+                name: "march".into(),
+                cells,
+                note: "Δt/τ from 1e-12 to 1e12".into(),
+            }],
+            colours: ColourScale {
+                label: "log₁₀".into(),
+                range: [-6.0, 0.0],
+            },
+            legend: vec![(Colour::Grey, "refused".into())],
+        }
+    }
+
+    #[test]
+    fn a_matrix_colours_every_cell_and_refuses_values_off_its_scale() {
+        let cells = vec![
+            Cell::Value(-6.0),
+            Cell::Plain(Colour::Grey),
+            Cell::Value(-6.0),
+        ];
+        let text = svg(matrix(cells));
+        assert!(
+            text.contains("M0 0h0.9v0.8h-0.9zM2 0h0.9v0.8h-0.9z"),
+            "two cells of one colour in {text}"
+        );
+        // One cell and one sample of the legend.
+        assert_eq!(text.matches(Colour::Grey.hex()).count(), 2, "{text}");
+        for cells in [
+            vec![Cell::Value(0.1)],
+            vec![Cell::Value(f64::NAN)],
+            Vec::new(),
+        ] {
+            let got = render_svg(&Figure::single(matrix(cells.clone())));
+            assert!(got.is_err(), "expected {cells:?} to be refused");
         }
     }
 

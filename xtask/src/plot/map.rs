@@ -161,22 +161,36 @@ impl Map {
             width: BAR_WIDTH,
             ..frame.area
         };
-        canvas.start_mosaic(bar, [bar.width, bar.height / f64::from(LEVELS)]);
-        for level in 0..LEVELS {
-            canvas.shape(
-                format!("M0 {level}h1v1h-1z"),
-                &level_colour(level),
-                &Pen::solid("none", 0.0),
-            );
-        }
-        canvas.end_group();
-        canvas.rectangle(bar, "none", &Pen::solid("#000000", 1.0));
-        draw_right_axis(canvas, bar, &self.colour_axis())
+        draw_colour_bar(canvas, bar, &self.colour_axis())
     }
 
     fn colour_axis(&self) -> Axis {
         Axis::linear(self.colours.label.clone(), self.colours.range)
     }
+}
+
+/// A bar that shows all colours, with its axis on the right.
+pub(super) fn draw_colour_bar(
+    canvas: &mut Canvas,
+    bar: Area,
+    axis: &Axis,
+) -> Result<(), PlotError> {
+    canvas.start_mosaic(bar, [bar.width, bar.height / f64::from(LEVELS)]);
+    for level in 0..LEVELS {
+        canvas.shape(
+            format!("M0 {level}h1v1h-1z"),
+            &level_colour(level),
+            &Pen::solid("none", 0.0),
+        );
+    }
+    canvas.end_group();
+    canvas.rectangle(bar, "none", &Pen::solid("#000000", 1.0));
+    draw_right_axis(canvas, bar, axis)
+}
+
+/// Colour of a share between 0 and 1 of the scale.
+pub(super) fn colour_of(share: f64) -> String {
+    level_colour(level(share))
 }
 
 /// Runs of equal levels as (start, length, level); cells without a level belong to none.

@@ -11,6 +11,7 @@ mod malformed_tables;
 mod measure_stationary;
 mod scenes;
 mod speed_range;
+mod stability;
 mod support;
 mod sweeps;
 mod work_precision;

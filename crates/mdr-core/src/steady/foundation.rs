@@ -4,7 +4,7 @@
 //! w = G_∞ u + η₀ v du/dξ + Σ e_i,   l_i de_i/dξ + e_i = l_i G_i du/dξ,   l_i = v τ_i        under the line
 //! w = 0,   u = u₀ + Σ β_k (1 − e^(−ξ/L_k)),   L_k = v λ_k                                   behind it
 //! ```
-//! ξ is the distance by which the line has moved on. The stresses e_i decompose into the modes of free recovery like
+//! Displacements are in units of the depth and moduli in one of the material, and with them w. ξ is the distance by which the line has moved on. The stresses e_i decompose into the modes of free recovery like
 //! into eigenvectors: with the relaxation times as poles, both directions are sums over 1/(L_k − l_i).
 
 use rheology::Material;
@@ -21,9 +21,12 @@ const SENSITIVITY: f64 = 8.0;
 /// The foundation at one speed; all times are distances.
 #[derive(Debug)]
 pub(super) struct Foundation {
-    /// G_∞, \[Pa].
+    /// Unit of all stresses, so that their squares stay numbers: the modulus at once, or η₀ v of a lone dashpot over 1 m,
+    /// \[Pa].
+    pub(super) unit: f64,
+    /// G_∞.
     spring: f64,
-    /// η₀ v, [Pa m].
+    /// η₀ v, \[m].
     dashpot: f64,
     branches: Vec<Branch>,
     modes: Vec<Mode>,
@@ -54,11 +57,11 @@ pub(super) struct Passage {
     smooth: [f64; MAX_TERMS],
     n_terms: usize,
     pub(super) layers: Vec<Layer>,
-    /// ∫ w dξ, [Pa m²].
+    /// ∫ w dξ, \[m].
     pub(super) load: f64,
-    /// Work that the dashpots take, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ, [Pa m²].
+    /// Work that the dashpots take, ∫ (η₀ v u'² + Σ e_i²/(G_i l_i)) dξ.
     pub(super) dissipation: f64,
-    /// How much that changes at most per change of the displacement, [Pa m].
+    /// How much that changes at most per change of the displacement.
     pub(super) dissipation_change: f64,
     /// Stresses of the branches at the end.
     pub(super) stresses: Vec<f64>,
@@ -67,9 +70,9 @@ pub(super) struct Passage {
 /// A part of the surface that nothing touches, since it was last left.
 #[derive(Debug)]
 pub(super) struct Recovery {
-    /// Displacement when it was left, \[m].
+    /// Displacement when it was left, in depths.
     pub(super) displacement: f64,
-    /// β_k, \[m].
+    /// β_k, in depths.
     amplitudes: Vec<f64>,
     /// Distance ξ since then, \[m].
     distance: f64,
@@ -85,17 +88,23 @@ impl Foundation {
     ) -> Result<Self, MdrError> {
         let (relaxation, creep) = (material.relaxation(), material.creep());
         let factor = material.half_space_factor();
+        let dashpot = relaxation.viscosity() * velocity / factor;
+        let moduli = relaxation.branches().iter().map(|branch| branch.modulus);
+        let spring = relaxation.equilibrium_modulus() / factor;
+        let at_once = spring + moduli.sum::<f64>() / factor;
+        let unit = if at_once > 0.0 { at_once } else { dashpot };
+        let unit = positive("stiffness of the foundation", unit)?;
         let mut branches = Vec::with_capacity(relaxation.branches().len());
         for branch in relaxation.branches() {
             branches.push(Branch {
-                modulus: branch.modulus / factor,
+                modulus: branch.modulus / factor / unit,
                 length: positive("distance of relaxation", velocity * branch.relaxation_time)?,
             });
         }
         let mut modes = Vec::with_capacity(creep.elements().len());
         for element in creep.elements() {
             modes.push(Mode {
-                compliance: element.compliance * factor,
+                compliance: element.compliance * factor * unit,
                 length: positive(
                     "distance of retardation",
                     velocity * element.retardation_time,
@@ -103,8 +112,9 @@ impl Foundation {
             });
         }
         Ok(Self {
-            spring: relaxation.equilibrium_modulus() / factor,
-            dashpot: relaxation.viscosity() * velocity / factor,
+            unit,
+            spring: spring / unit,
+            dashpot: dashpot / unit,
             branches,
             modes,
         })
@@ -132,14 +142,14 @@ impl Foundation {
         vec![0.0; self.branches.len()]
     }
 
-    /// How far a displacement δ on a segment of this length can change ∫ w dξ, relative to δ, [Pa m].
+    /// How far a displacement δ on a segment of this length can change ∫ w dξ, relative to δ, \[m].
     pub(super) fn stiffness(&self, length: f64) -> f64 {
         let branches = self.branches.iter();
         let relaxing: f64 = branches.map(|b| b.modulus * length.min(b.length)).sum();
         self.spring * length + self.dashpot + relaxing
     }
 
-    /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2, \[Pa m²].
+    /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
     pub(super) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses);
         let stored: f64 = branches.map(|(b, e)| e * (e / b.modulus)).sum();
@@ -196,7 +206,7 @@ impl Foundation {
         }
     }
 
-    /// Displacement of a free surface, a distance after where it is now, \[m].
+    /// Displacement of a free surface, a distance after where it is now, in depths.
     pub(super) fn free_displacement(&self, recovery: &Recovery, distance: f64) -> f64 {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
@@ -206,7 +216,7 @@ impl Foundation {
         recovery.displacement + recovered
     }
 
-    /// Stresses in the branches of a free surface, a distance after where it is now, \[Pa m].
+    /// Stresses in the branches of a free surface, a distance after where it is now.
     pub(super) fn free_stresses(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
@@ -238,7 +248,7 @@ impl Passage {
         }
     }
 
-    /// Load potential w, \[Pa m], at −1 ≤ t ≤ 1.
+    /// Load potential w at −1 ≤ t ≤ 1.
     pub(super) fn potential(&self, t: f64) -> f64 {
         let layers = self.layers.iter();
         let decaying: f64 = layers

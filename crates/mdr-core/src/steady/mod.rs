@@ -19,6 +19,7 @@ mod legendre;
 mod profile;
 mod range;
 mod segment;
+mod steep_kinks;
 mod sweep;
 
 use indenters::{RigidLine, SlidingLoad};
@@ -29,6 +30,7 @@ use crate::error::{finite, fraction, positive};
 use foundation::Foundation;
 use profile::{Profile, Resolution};
 use range::Range;
+use steep_kinks::SteepKink;
 use sweep::{Sweep, sweep};
 
 /// Numerics of stationary sliding.
@@ -159,10 +161,13 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         depth: impl Fn(f64) -> Result<f64, MdrError>,
     ) -> Result<SteadySliding, MdrError> {
         let relative_error = fraction("relative_error", options.relative_error)?;
+        self.check_kinks(|| depth(ROUGH_TOLERANCE))?;
         let mut tolerance = FIRST_TOLERANCE * relative_error;
         loop {
             let depth = depth(tolerance)?;
-            let state = self.solve(depth, tolerance)?.result(depth)?;
+            let state = self
+                .solve(depth, tolerance)?
+                .result([depth, self.foundation.unit])?;
             let reached = state.friction_coefficient_error;
             let wanted = relative_error * state.friction_coefficient.abs();
             if reached <= wanted {
@@ -179,10 +184,30 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         }
     }
 
+    /// Refuses a contact with a kink at which friction has no limit; few polynomials tell.
+    fn check_kinks(&self, depth: impl Fn() -> Result<f64, MdrError>) -> Result<(), MdrError> {
+        if !self.foundation.has_dashpot() {
+            return Ok(());
+        }
+        let kinks = SteepKink::of(self.line);
+        if kinks.is_empty() {
+            return Ok(());
+        }
+        let contacts = self.solve(depth()?, ROUGH_TOLERANCE)?.sums.contacts;
+        match kinks.iter().find(|kink| kink.is_in(&contacts)) {
+            None => Ok(()),
+            Some(kink) => Err(MdrError::FrictionDiverges {
+                position: kink.position,
+            }),
+        }
+    }
+
     /// The depth that carries the force.
     fn depth(&self, load: &SlidingLoad, tolerance: f64) -> Result<f64, MdrError> {
         let target = positive("normal_force", 0.25 * load.normal_force())?;
-        let carried = |depth, tolerance| Ok(self.solve(depth, tolerance)?.sums.load);
+        let unit = self.foundation.unit;
+        let carried =
+            |depth, tolerance| Ok(unit * (depth * self.solve(depth, tolerance)?.sums.load));
         // Most of the search needs few polynomials.
         let rough = tolerance.max(ROUGH_TOLERANCE);
         let start = depth::depth_of_load(|depth| carried(depth, rough), target)?;
@@ -197,7 +222,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             tolerance,
         };
         let profile = Profile::new(self.line, &range, resolution)?;
-        range.check_front(profile.lowest, depth)?;
+        range.check_front(depth * profile.lowest, depth)?;
         Ok(Solution {
             sums: sweep(&self.foundation, &profile, depth)?,
             n_pieces: profile.pieces.len(),
@@ -211,7 +236,8 @@ struct Solution {
 }
 
 impl Solution {
-    fn result(self, depth: f64) -> Result<SteadySliding, MdrError> {
+    /// The state in SI, from the depth \[m] and the unit of stress \[Pa].
+    fn result(self, [depth, unit]: [f64; 2]) -> Result<SteadySliding, MdrError> {
         let Sweep {
             load,
             work,
@@ -224,16 +250,16 @@ impl Solution {
             return Err(MdrError::FrictionDiverges { position });
         }
         contacts.reverse();
-        let load = finite("normal force", load, 0.0)?;
-        let friction = finite("friction coefficient", work / load, 0.0)?;
+        let force = finite("normal force", 4.0 * unit * (depth * load), 0.0)?;
+        let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
         // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
-        let error = (work_error + 2.0 * friction * load_error) / load;
+        let error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
         Ok(SteadySliding {
             friction_coefficient: friction,
             friction_coefficient_error: error.abs() + ROUNDING * friction.abs(),
             indentation_depth: depth,
-            normal_force: 4.0 * load,
-            normal_force_error: 4.0 * (load_error + ROUNDING * load),
+            normal_force: force,
+            normal_force_error: force * (load_error / load + ROUNDING),
             contacts,
             n_pieces: self.n_pieces,
         })

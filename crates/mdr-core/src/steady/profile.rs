@@ -1,7 +1,8 @@
 //! A line as a row of polynomials, as many as its shape needs.
 //!
 //! Pieces end at the kinks and at the turning points of the line. A piece is halved until the last terms of its
-//! polynomial are negligible; towards a cusp this grades the pieces geometrically.
+//! polynomial are negligible; towards a cusp this grades the pieces geometrically. Heights are in units of the depth, so
+//! that their squares stay numbers.
 
 use indenters::{RigidLine, bracketed_root};
 
@@ -30,7 +31,7 @@ pub(super) struct Resolution {
     pub(super) depth: f64,
     /// Shortest distance of relaxation, \[m].
     pub(super) shortest_length: f64,
-    /// Terms relative to the depth that are negligible.
+    /// Terms that are negligible, in depths.
     pub(super) tolerance: f64,
 }
 
@@ -38,7 +39,7 @@ pub(super) struct Resolution {
 #[derive(Debug)]
 pub(super) struct Profile {
     pub(super) pieces: Vec<Piece>,
-    /// Height of the lowest point relative to the anchor, \[m].
+    /// Height of the lowest point relative to the anchor, in depths.
     pub(super) lowest: f64,
     pub(super) interpolation: Interpolation,
 }
@@ -46,12 +47,12 @@ pub(super) struct Profile {
 /// A stretch over which the line only rises or only falls.
 #[derive(Debug)]
 pub(super) struct Piece {
-    /// Heights above the anchor.
+    /// Heights above the anchor, in depths.
     heights: Polynomial,
     degree: usize,
     /// Positions of the front and the rear end, \[m].
     ends: [f64; 2],
-    /// Size of the first terms that are left out, \[m].
+    /// Size of the first terms that are left out, in depths.
     pub(super) tail: f64,
     /// Whether it is as short as a piece can be and still not resolved.
     pub(super) singular: bool,
@@ -64,7 +65,7 @@ impl Profile {
         resolution: Resolution,
     ) -> Result<Self, MdrError> {
         let builder = Builder {
-            height: |x| Ok(checked_height(line, x)? - range.anchor_height),
+            height: |x| Ok((checked_height(line, x)? - range.anchor_height) / resolution.depth),
             interpolation: Interpolation::new(),
             length: range.ends[1] - range.ends[0],
             resolution,
@@ -89,10 +90,10 @@ impl Profile {
 }
 
 impl Piece {
-    /// The compression it imposes when the lowest point is `depth` deep.
-    pub(super) fn segment(&self, lowest: f64, depth: f64) -> Segment {
+    /// The compression it imposes when the lowest point is one depth deep.
+    pub(super) fn segment(&self, lowest: f64) -> Segment {
         let mut displacements = self.heights.map(|height| -height);
-        displacements[0] += lowest + depth;
+        displacements[0] += lowest + 1.0;
         Segment {
             displacements,
             degree: self.degree,
@@ -215,29 +216,28 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
 
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
         let Resolution {
-            depth,
             shortest_length,
             tolerance,
+            ..
         } = self.resolution;
         let rise: f64 = piece.heights[1..].iter().map(|c| c.abs()).sum();
         // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
         let steep = piece.length() > SHORT * shortest_length
             && piece.tail > tolerance * rise
-            && piece.tail * rise * self.length > tolerance * depth * depth * piece.length();
-        Ok(piece.tail <= tolerance * depth && !steep && self.agrees(piece)?)
+            && piece.tail * rise * (self.length / piece.length()) > tolerance;
+        Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
     }
 
     /// Whether the line is where the polynomial says it is, between the nodes as well.
     fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
         let share = STATIONS * piece.length() / self.length;
-        let allowed = self.resolution.tolerance * self.resolution.depth;
         // An irrational stride does not fall into step with a periodic line.
         const STRIDE: f64 = 0.618_033_988_749_894_9;
         let mut station = 1.0;
         while station <= share.ceil() {
             let t = 2.0 * (station * STRIDE).fract() - 1.0;
             let difference = (self.height)(piece.position(t))? - value(&piece.heights, t);
-            let close = difference.abs() <= 8.0 * allowed;
+            let close = difference.abs() <= 8.0 * self.resolution.tolerance;
             if !close {
                 return Ok(false);
             }
@@ -247,16 +247,22 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
     }
 }
 
-/// Size of the terms that are left out, from the decay of the last two pairs; an even line has no odd terms.
+/// Size of the terms that are left out, by a geometric series through the last two pairs; an even line has no odd terms.
+///
+/// Towards a cusp the terms decay like a power, and all of those that are left out matter.
 fn remainder(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
     if last < before {
-        last * (last / before)
+        let ratio = last / before;
+        last * ratio / (1.0 - ratio).max(LEAST_DECAY)
     } else {
         last
     }
 }
+
+/// Less decay from pair to pair than this is rounding, whose terms add up to nothing.
+const LEAST_DECAY: f64 = 0.25;
 
 impl Piece {
     /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.

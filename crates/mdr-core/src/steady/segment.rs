@@ -5,7 +5,7 @@ use super::legendre::{Interpolation, Polynomial, end_value, value};
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
 #[derive(Debug, Clone)]
 pub(super) struct Segment {
-    /// Legendre coefficients of u = d − h̃, \[m].
+    /// Legendre coefficients of u = d − h̃, in depths.
     pub(super) displacements: Polynomial,
     /// Coefficients above this one are zero.
     pub(super) degree: usize,
@@ -24,7 +24,7 @@ impl Segment {
         value(&self.displacements[..=self.degree], t)
     }
 
-    /// Displacement at the rear end, \[m].
+    /// Displacement at the rear end, in depths.
     pub(super) fn end(&self) -> f64 {
         end_value(&self.displacements)
     }

@@ -1,4 +1,6 @@
 //! One pass along the line at a given depth: touch, load, release, recovery, touch again.
+//!
+//! All displacements are in units of the depth, all stresses in that of the foundation.
 
 use indenters::bracketed_root;
 
@@ -19,9 +21,9 @@ const MAX_CONTACTS: usize = 1 << 12;
 /// What a pass sums up to.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sweep {
-    /// ∫ w dx, a quarter of the normal force, [Pa m²].
+    /// ∫ w dx, a quarter of the normal force over depth and unit of stress, \[m].
     pub(super) load: f64,
-    /// ∫ w h̃' dx, a quarter of the friction force, [Pa m²].
+    /// ∫ w h̃' dx, a quarter of the friction force over the square of the depth and the unit of stress.
     pub(super) work: f64,
     /// Errors of both from what the polynomials of the line leave out.
     pub(super) load_error: f64,
@@ -51,7 +53,7 @@ pub(super) fn sweep(
         surface: Surface::Free(Recovery::untouched()),
     };
     for piece in &profile.pieces {
-        let whole = piece.segment(profile.lowest, depth);
+        let whole = piece.segment(profile.lowest);
         let mut start = -1.0;
         while start < 1.0 {
             let segment = whole.part(&profile.interpolation, [start, 1.0]);
@@ -69,6 +71,7 @@ pub(super) fn sweep(
 struct March<'a> {
     foundation: &'a Foundation,
     profile: &'a Profile,
+    /// Indentation depth, \[m].
     depth: f64,
     sums: Sweep,
     surface: Surface,
@@ -137,10 +140,9 @@ impl March<'_> {
             let distance = 0.5 * (1.0 + t) * segment.length;
             self.foundation.free_displacement(recovery, distance) - segment.displacement(t)
         };
-        let closed = -ROUNDING * self.depth;
         let mut before = -1.0;
         for t in samples() {
-            if gap(t) < closed {
+            if gap(t) < -ROUNDING {
                 // On the very start the gap may be closed by rounding; but no element is let go and touched at once.
                 let nearest = if recovery.just_released() { t } else { before };
                 return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
@@ -190,7 +192,7 @@ impl March<'_> {
         if let Surface::Loaded { stresses, .. } = &self.surface {
             let last = self.profile.pieces.last();
             if let Some(piece) = last {
-                let segment = piece.segment(self.profile.lowest, self.depth);
+                let segment = piece.segment(self.profile.lowest);
                 let stresses = stresses.clone();
                 self.close(segment.end(), &stresses, segment.ends[1]);
             }

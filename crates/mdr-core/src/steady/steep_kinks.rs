@@ -1,0 +1,57 @@
+//! Kinks at which the friction of a lone dashpot has no limit.
+//!
+//! Behind an upward jump of its slope the equivalent line of a body is as steep as the inverse root of the distance
+//! δ from the kink; ∫ h̃'² dx (16) then diverges like ln δ. A sum over pieces would not see it where the jump is small.
+
+use indenters::RigidLine;
+
+/// First distance from a kink at which the slope is looked at, relative to the position of the kink.
+const REACH: f64 = 1.0 / (1 << 20) as f64;
+/// By which the distances of the second and third look are smaller each.
+const CLOSER: f64 = 0.25;
+/// What differences of an inverse root grow by from look to look, less what smaller powers leave.
+const GROWTH: f64 = 1.99;
+/// Differences of slopes below this part of them are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A side of a kink on which the slope has no limit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SteepKink {
+    pub(super) position: f64,
+    /// The part of the line that is steep, \[m].
+    side: [f64; 2],
+}
+
+impl SteepKink {
+    /// Those of a line, apart from x = 0, where a cusp is resolved as far as numbers reach.
+    pub(super) fn of(line: &(impl RigidLine + ?Sized)) -> Vec<Self> {
+        let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
+        kinks
+            .flat_map(|position| [-1.0, 1.0].map(|side| (position, side)))
+            .filter(|&(position, side)| is_steep(line, position, side))
+            .map(|(position, side)| {
+                let end = position + side * REACH * position.abs();
+                Self {
+                    position,
+                    side: [position.min(end), position.max(end)],
+                }
+            })
+            .collect()
+    }
+
+    /// Whether the steep side is in one of the contacts `[rear, front]`.
+    pub(super) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
+        let [first, last] = self.side;
+        let mut contacts = contacts.iter();
+        contacts.any(|[rear, front]| *rear < last && *front > first)
+    }
+}
+
+/// Whether the slope rises beyond all limits towards the kink, at least like the inverse root of the distance.
+fn is_steep(line: &(impl RigidLine + ?Sized), position: f64, side: f64) -> bool {
+    let looks = [1.0, CLOSER, CLOSER * CLOSER];
+    let [far, near, nearest] =
+        looks.map(|part| line.slope(position + side * part * REACH * position.abs()));
+    let (first, second) = (near - far, nearest - near);
+    first > ROUNDING * near.abs() && second >= GROWTH * first && second.is_finite()
+}

@@ -1,0 +1,81 @@
+//! Shapes at and near the border beyond which the friction on a lone dashpot has no limit (16).
+
+use friction_analytic::power_sliding;
+use indenters::{
+    Axisymmetric, EquivalentLine, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad,
+    TruncatedParaboloid,
+};
+use mdr_core::{MdrError, SteadyOptions, SteadySliding, steady};
+use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+
+fn slid(body: &dyn Axisymmetric) -> Result<SteadySliding, MdrError> {
+    let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+    let material = Viscous::new(1.0).expect("a material");
+    steady(
+        &EquivalentLine(body),
+        &material,
+        &load,
+        &SteadyOptions::default(),
+    )
+}
+
+#[test]
+fn a_flat_end_of_any_size_has_no_finite_friction_on_a_dashpot() {
+    for exponent in (-12..=3).step_by(3) {
+        let radius = 10_f64.powi(exponent);
+        let cone = FlatCone::new(radius, 1.0).expect("a body");
+        let worn = TruncatedParaboloid::new(radius, 1.0).expect("a body");
+        for body in [&cone as &dyn Axisymmetric, &worn] {
+            let got = slid(body);
+            assert!(
+                matches!(got, Err(MdrError::FrictionDiverges { position }) if (position / radius - 1.0).abs() < 1e-12),
+                "radius {radius}: expected FrictionDiverges at the kink, got {got:?}"
+            );
+        }
+    }
+}
+
+/// The kink of the curvature is none of the slope, and a solid has finite friction on a flat end as well.
+#[test]
+fn kinks_that_do_no_harm_are_not_refused() {
+    let tip = RoundTippedCone::new(0.1, 1.0).expect("a body");
+    let got = slid(&tip);
+    assert!(got.is_ok(), "expected friction, got {got:?}");
+    let solid = StandardSolid::new(StandardSolidParameters {
+        equilibrium_modulus: 1.0,
+        maxwell_modulus: 1.0,
+        viscosity: 1.0,
+    })
+    .expect("a solid");
+    let cone = FlatCone::new(0.1, 1.0).expect("a body");
+    let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+    let options = SteadyOptions {
+        relative_error: 1e-6,
+    };
+    let got = steady(&EquivalentLine(&cone), &solid, &load, &options);
+    assert!(got.is_ok(), "expected friction, got {got:?}");
+}
+
+/// Near p = 1/2 most of the friction comes from a cusp that no polynomial resolves.
+#[test]
+fn the_error_of_sharp_cusps_stays_within_its_bar() {
+    for exponent in [0.53, 0.54, 0.55, 0.57, 0.6, 0.65, 0.7, 0.8, 0.9] {
+        let profile = PowerProfile::new(0.4, exponent).expect("a profile");
+        let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+        let material = Viscous::new(1.0).expect("a material");
+        let expected = power_sliding(&profile, &material, &load).expect("a closed form");
+        match slid(&profile) {
+            Ok(got) => {
+                let deviation = got.friction_coefficient - expected.friction_coefficient;
+                assert!(
+                    deviation.abs() <= got.friction_coefficient_error,
+                    "p = {exponent}: off by {deviation:e}, bar {:e}",
+                    got.friction_coefficient_error
+                );
+            }
+            // Documented for cusps that are too slow to be summed.
+            Err(MdrError::FrictionDiverges { .. }) if exponent < 0.55 => {}
+            Err(error) => panic!("p = {exponent}: {error}"),
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Heat maps of cases: rows with names, and in each row one cell per case.
+
+use std::collections::BTreeMap;
+
+use super::axis::Axis;
+use super::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use super::colour::Colour;
+use super::error::PlotError;
+use super::font::{check_fit, text_width};
+use super::frame::{TICK_SIZE, TITLE_SIZE, side_margin, top_margin};
+use super::map::{ColourScale, colour_of, draw_colour_bar};
+
+/// Rows of cells; the panel is wider than others because texts stand on both sides of them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Matrix {
+    /// Text above the cells.
+    pub(crate) title: Option<String>,
+    /// From top to bottom.
+    pub(crate) rows: Vec<MatrixRow>,
+    /// Meaning of the colours of values.
+    pub(crate) colours: ColourScale,
+    /// Meaning of the plain colours, from left to right below the cells.
+    pub(crate) legend: Vec<(Colour, String)>,
+}
+
+/// One row.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MatrixRow {
+    /// Text on the left.
+    pub(crate) name: String,
+    /// From left to right.
+    pub(crate) cells: Vec<Cell>,
+    /// Text on the right.
+    pub(crate) note: String,
+}
+
+/// One cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Cell {
+    /// A number on the colour scale.
+    Value(f64),
+    /// Something without a number.
+    Plain(Colour),
+}
+
+/// Width of the panel, \[px\].
+pub(super) const MATRIX_WIDTH: f64 = 960.0;
+/// Distance from cell to cell along and across a row, \[px\].
+const STRIDE: [f64; 2] = [12.0, 16.0];
+/// Parts of these distances that are coloured.
+const FILLED: [f64; 2] = [0.9, 0.8];
+const GAP: f64 = 8.0;
+const BAR_WIDTH: f64 = 14.0;
+const BAR_HEIGHT: f64 = 300.0;
+const LEGEND_HEIGHT: f64 = 34.0;
+/// Drop of the baseline from the top of a row.
+const BASELINE: f64 = 12.0;
+
+impl Matrix {
+    /// Refuses rows and values that cannot be drawn faithfully.
+    pub(super) fn validate(&self) -> Result<(), PlotError> {
+        let scale = self.colour_axis();
+        scale.validate()?;
+        if self.columns() == 0 {
+            return Err(PlotError::Empty {
+                what: format!("the rows of '{}'", self.colours.label),
+            });
+        }
+        let cells = self.rows.iter().flat_map(|row| &row.cells);
+        for (index, cell) in cells.enumerate() {
+            if let Cell::Value(value) = cell {
+                scale.check(*value, &self.colours.label, index)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn columns(&self) -> usize {
+        let lengths = self.rows.iter().map(|row| row.cells.len());
+        lengths.max().unwrap_or(0)
+    }
+
+    /// Room that the names need, \[px\].
+    pub(super) fn left_margin(&self) -> Result<f64, PlotError> {
+        let names = self.rows.iter().map(|row| &row.name);
+        names
+            .map(|name| text_width(name, TICK_SIZE))
+            .try_fold(0.0, |widest: f64, width| Ok(widest.max(width? + 2.0 * GAP)))
+    }
+
+    /// Height of the whole panel, \[px\].
+    pub(super) fn height(&self, left: f64) -> f64 {
+        let area = self.area([0.0, 0.0], left);
+        (area.bottom() + LEGEND_HEIGHT).max(area.top + BAR_HEIGHT + GAP)
+    }
+
+    fn area(&self, [x, y]: Pixel, left: f64) -> Area {
+        Area {
+            left: x + left,
+            top: y + top_margin(self.title.as_deref()),
+            width: STRIDE[0] * to_f64(self.columns()),
+            height: STRIDE[1] * to_f64(self.rows.len()),
+        }
+    }
+
+    /// Draws the panel with its upper left corner at `origin`.
+    pub(super) fn draw(
+        &self,
+        canvas: &mut Canvas,
+        origin: Pixel,
+        left: f64,
+    ) -> Result<(), PlotError> {
+        let area = self.area(origin, left);
+        let bar = origin[0] + MATRIX_WIDTH - side_margin(&self.colour_axis())? - BAR_WIDTH;
+        if let Some(title) = &self.title {
+            check_fit(title, TITLE_SIZE, MATRIX_WIDTH - left)?;
+            let place = [area.left, area.top - GAP];
+            canvas.text(place, title, TITLE_SIZE, Anchor::Start);
+        }
+        for (index, row) in self.rows.iter().enumerate() {
+            let baseline = area.top + STRIDE[1] * to_f64(index) + BASELINE;
+            let before = [area.left - GAP, baseline];
+            canvas.text(before, &row.name, TICK_SIZE, Anchor::End);
+            check_fit(&row.note, TICK_SIZE, bar - area.right() - 2.0 * GAP)?;
+            let behind = [area.right() + GAP, baseline];
+            canvas.text(behind, &row.note, TICK_SIZE, Anchor::Start);
+        }
+        self.draw_cells(canvas, area);
+        self.draw_legend(canvas, area, bar)?;
+        let bar = Area {
+            left: bar,
+            top: area.top,
+            width: BAR_WIDTH,
+            height: BAR_HEIGHT,
+        };
+        draw_colour_bar(canvas, bar, &self.colour_axis())
+    }
+
+    /// One path per colour.
+    fn draw_cells(&self, canvas: &mut Canvas, area: Area) {
+        let scale = self.colour_axis();
+        let mut paths: BTreeMap<String, String> = BTreeMap::new();
+        for (row, cells) in self.rows.iter().rev().enumerate() {
+            for (column, cell) in cells.cells.iter().enumerate() {
+                let colour = match cell {
+                    Cell::Value(value) => colour_of(scale.fraction(*value)),
+                    Cell::Plain(colour) => colour.hex().to_owned(),
+                };
+                paths
+                    .entry(colour)
+                    .or_default()
+                    .push_str(&square(column, row));
+            }
+        }
+        canvas.start_mosaic(area, STRIDE);
+        for (colour, path) in paths {
+            canvas.shape(path, &colour, &Pen::solid("none", 0.0));
+        }
+        canvas.end_group();
+    }
+
+    fn draw_legend(&self, canvas: &mut Canvas, area: Area, end: f64) -> Result<(), PlotError> {
+        let mut x = area.left;
+        let baseline = area.bottom() + GAP + BASELINE;
+        for (colour, text) in &self.legend {
+            let sample = Area {
+                left: x,
+                top: baseline - BASELINE + 2.0,
+                width: FILLED[0] * STRIDE[0],
+                height: FILLED[1] * STRIDE[1],
+            };
+            canvas.rectangle(sample, colour.hex(), &Pen::solid("none", 0.0));
+            x = sample.right() + GAP;
+            check_fit(text, TICK_SIZE, end - x)?;
+            canvas.text([x, baseline], text, TICK_SIZE, Anchor::Start);
+            x += text_width(text, TICK_SIZE)? + 3.0 * GAP;
+        }
+        Ok(())
+    }
+
+    fn colour_axis(&self) -> Axis {
+        Axis::linear(self.colours.label.clone(), self.colours.range)
+    }
+}
+
+/// Path of a cell in units of cells, counted from the lower left corner.
+fn square(column: usize, row: usize) -> String {
+    let [width, height] = FILLED;
+    format!("M{column} {row}h{width}v{height}h-{width}z")
+}
+
+/// Exact for any number of cells that fits into a picture.
+#[allow(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
+fn to_f64(count: usize) -> f64 {
+    count as f64
+}

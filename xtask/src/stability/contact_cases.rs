@@ -1,0 +1,234 @@
+//! The contact of one instant, and the influence coefficients behind it.
+
+use anyhow::Result;
+use bem_halfspace::{
+    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, influence,
+    solve_contact,
+};
+
+use crate::stability::case::{Case, Family, Outcome, decades, refused};
+use crate::stability::direct_sum::conditions;
+
+pub(super) fn families() -> Vec<Family> {
+    let mut heights = Family::over(
+        ("contact, heights far above zero", "height/displacement"),
+        decades(0, 12, 1),
+        high_above,
+    );
+    heights.cases.extend(unusual_heights());
+    vec![
+        Family::over(
+            ("influence, far elements", "distance/edge"),
+            decades(0, 12, 1),
+            far,
+        ),
+        Family::over(
+            ("influence, slender elements", "Δy/Δx"),
+            decades(-12, 12, 1),
+            slender,
+        ),
+        Family::over(
+            ("contact, one element to a full box", "force"),
+            decades(-12, 12, 1),
+            any_force,
+        ),
+        Family::over(
+            ("contact, slender", "width/length"),
+            decades(-4, 4, 1),
+            slender_contact,
+        ),
+        Family::over(
+            ("contact, many patches", "patches"),
+            [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 2025.0, 4096.0],
+            patches,
+        ),
+        heights,
+    ]
+}
+
+/// Σ of 16 parts; far away also 1/r + h²/(24 r³) times the area, with an error of the order (h/r)⁴.
+fn far(distance: f64) -> Result<Outcome> {
+    let whole = influence([distance, 0.0], [1.0, 1.0]);
+    let part = |k: i32| {
+        let [x, y] = [k / 4, k % 4].map(|k| 0.25 * (f64::from(k) - 1.5));
+        influence([distance + x, y], [0.25, 0.25])
+    };
+    let parts: f64 = (0..16).map(part).sum();
+    let mut pairs = vec![("sum of parts", [whole, parts])];
+    if distance >= 1e4 {
+        let exact = (1.0 + 1.0 / (24.0 * distance * distance)) / distance;
+        pairs.push(("expansion", [whole, exact]));
+    }
+    Ok(Outcome::relative(&pairs, 64.0 * f64::EPSILON))
+}
+
+/// 2 b asinh(a/b) + 2 a asinh(b/a) in the middle of an element of edges a and b, a neighbour as the difference of
+/// longer elements.
+fn slender(aspect: f64) -> Result<Outcome> {
+    let own = |x: f64, y: f64| 2.0 * (y * (x / y).asinh() + x * (y / x).asinh());
+    let neighbour = 0.5 * (own(3.0, aspect) - own(1.0, aspect));
+    let pairs = [
+        (
+            "own",
+            [influence([0.0; 2], [1.0, aspect]), own(1.0, aspect)],
+        ),
+        (
+            "neighbour",
+            [influence([1.0, 0.0], [1.0, aspect]), neighbour],
+        ),
+    ];
+    // The difference loses a digit or two where the elements are long.
+    Ok(Outcome::relative(&pairs, 1e3 * f64::EPSILON))
+}
+
+fn solved(
+    grid: &Grid,
+    separation: &[f64],
+    control: Control,
+    options: &ContactOptions,
+) -> Result<Outcome> {
+    let convolution = Convolution::new(grid);
+    let mut state = ContactState::new(&convolution);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation,
+        compliance: 1.0,
+        control,
+    };
+    let contact = solve_contact(&problem, &mut state, options)?;
+    // What the option promises, and the rounding of two different sums.
+    let allowed = 1.01 * options.tolerance;
+    Ok(conditions(&problem, (&contact, state.pressure()), allowed))
+}
+
+/// Heights over the elements of a grid around the origin.
+fn heights(grid: &Grid, height: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let ([n_x, n_y], [dx, dy]) = (grid.shape(), grid.spacing());
+    let position = |k: usize, n: usize, spacing: f64| spacing * (k as f64 - 0.5 * (n - 1) as f64);
+    (0..n_x * n_y)
+        .map(|k| height(position(k / n_y, n_x, dx), position(k % n_y, n_y, dy)))
+        .collect()
+}
+
+/// A paraboloid with its tip over an element; small forces load that one, large ones the whole box.
+fn any_force(force: f64) -> Result<Outcome> {
+    let grid = Grid::new([33, 33], [1.0, 1.0])?;
+    let separation = heights(&grid, |x, y| x * x + y * y);
+    let control = Control::NormalForce(force);
+    solved(&grid, &separation, control, &ContactOptions::default())
+}
+
+fn slender_contact(aspect: f64) -> Result<Outcome> {
+    let grid = Grid::new([48, 48], [1.0, aspect])?;
+    let separation = heights(&grid, |x, y| x * x + (y / aspect).powi(2));
+    let control = Control::IndentationDepth(300.0);
+    solved(&grid, &separation, control, &ContactOptions::default())
+}
+
+/// A carton of eggs of different heights, each of which touches.
+fn patches(count: f64) -> Result<Outcome> {
+    let grid = Grid::new([128, 128], [1.0, 1.0])?;
+    let waves = std::f64::consts::PI * count.sqrt() / 128.0;
+    let separation = heights(&grid, |x, y| {
+        let [phase_x, phase_y] = [x, y].map(|along| waves * (along + 64.0));
+        let uneven = 0.1 * (1.0 + (7.3 * (phase_x / 3.1).floor() + 3.7 * phase_y).sin());
+        1.0 - (phase_x.sin() * phase_y.sin()).powi(2) + uneven
+    });
+    let control = Control::IndentationDepth(0.6);
+    solved(&grid, &separation, control, &ContactOptions::default())
+}
+
+/// Heights that are large beside what the pressure moves: rounding of the heights is all that can be seen of a gap.
+fn high_above(height: f64) -> Result<Outcome> {
+    let grid = Grid::new([17, 17], [1.0, 1.0])?;
+    let separation = heights(&grid, |x, y| height + 0.01 * (x * x + y * y));
+    let options = ContactOptions {
+        tolerance: (64.0 * f64::EPSILON * height).clamp(1e-9, 1e-2),
+        ..ContactOptions::default()
+    };
+    solved(&grid, &separation, Control::NormalForce(10.0), &options)
+}
+
+/// A small contact with one corner of another height.
+fn with_corner(corner: f64, control: Control) -> Result<Result<(), BemError>> {
+    let grid = Grid::new([5, 5], [1.0, 1.0])?;
+    let mut separation = heights(&grid, |x, y| x * x + y * y);
+    separation[0] = corner;
+    Ok(attempted(&grid, &separation, control))
+}
+
+fn attempted(grid: &Grid, separation: &[f64], control: Control) -> Result<(), BemError> {
+    let convolution = Convolution::new(grid);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation,
+        compliance: 1.0,
+        control,
+    };
+    let mut state = ContactState::new(&convolution);
+    solve_contact(&problem, &mut state, &ContactOptions::default()).map(|_| ())
+}
+
+fn unusual_heights() -> Vec<Case> {
+    let corner = |height: f64| {
+        Case::new(format!("{height}"), move || {
+            let solved = with_corner(height, Control::NormalForce(1.0))?;
+            Ok(refused!(
+                solved,
+                BemError::InvalidHeight {
+                    row: 0,
+                    column: 0,
+                    ..
+                }
+            ))
+        })
+    };
+    let control = |name: &'static str, control: Control| {
+        Case::new(name, move || {
+            let solved = with_corner(1.0, control)?;
+            Ok(refused!(
+                solved,
+                BemError::InvalidParameter {
+                    parameter: "normal_force" | "indentation_depth",
+                    ..
+                }
+            ))
+        })
+    };
+    vec![
+        corner(f64::NAN),
+        corner(f64::NEG_INFINITY),
+        control("pull", Control::NormalForce(-1.0)),
+        control("depth ∞", Control::IndentationDepth(f64::INFINITY)),
+        Case::new("a hole", a_hole),
+        Case::new("no body", || {
+            let grid = Grid::new([9, 9], [1.0, 1.0])?;
+            let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
+            Ok(refused!(
+                solved,
+                BemError::InvalidParameter {
+                    parameter: "separation",
+                    ..
+                }
+            ))
+        }),
+    ]
+}
+
+fn a_hole() -> Result<Outcome> {
+    let grid = Grid::new([9, 9], [1.0, 1.0])?;
+    let hole = |x: f64, y: f64| {
+        if x == 0.0 {
+            f64::INFINITY
+        } else {
+            x * x + y * y
+        }
+    };
+    let options = ContactOptions::default();
+    solved(
+        &grid,
+        &heights(&grid, hole),
+        Control::NormalForce(40.0),
+        &options,
+    )
+}
