@@ -52,6 +52,7 @@ pub use kernel::wake_influence;
 pub use loading::DepthControl;
 use loading::Loading;
 use mesh::Mesh;
+use pivoting::Start;
 use plans::Plans;
 pub use solution::SteadySliding;
 
@@ -146,11 +147,11 @@ fn solve(
         // Without a solution on the coarse grid the fine one starts from its own guess.
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
-    let guess = match &reuse.solution {
-        Some(other) => loads_of(other, &mesh),
-        None => mesh.first_guess(),
+    let start = match &reuse.solution {
+        Some(other) => Start::Known(loads_of(other, &mesh)),
+        None => Start::Guessed(mesh.first_guess()),
     };
-    let solution = pivoting::solve(&mesh, &mut reuse.plans, guess)?;
+    let solution = pivoting::solve(&mesh, &mut reuse.plans, start)?;
     SteadySliding::new(&mesh, &solution)
 }
 
