@@ -7,12 +7,14 @@ mod body;
 mod explain;
 mod files;
 mod half_space;
+mod march;
 mod mdr;
 mod offer;
 mod pictures;
 mod pressing;
 mod question;
 mod resolution;
+mod shape;
 mod solve;
 
 use std::path::{Path, PathBuf};

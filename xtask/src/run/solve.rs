@@ -2,30 +2,58 @@
 
 use anyhow::{Result, bail};
 use indenters::SlidingLoad;
-use rheology::Viscous;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::half_space::{Simple, simple};
 use super::offer::choose;
 use super::question::{Motion, Question};
-use super::{analytic, bem, mdr, pressing};
+use super::shape::{Drive, Shape};
+use super::{analytic, bem, march, mdr, pressing};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 pub(crate) fn solve(question: &Question) -> Result<Answer> {
     let started = std::time::Instant::now();
     let method = choose(question)?;
-    let Body::Revolution(body) = &question.body else {
-        bail!("only bodies of revolution are answered");
+    let answer = match (&question.body, method) {
+        (Body::Revolution(body), Method::BemSteady | Method::BemTransient) => {
+            by_elements(question, body, method)
+        }
+        (Body::Revolution(body), _) => of_revolution(question, body, method),
+        (Body::HeightMap(map), _) => by_elements(question, map, method),
+        (Body::Cylinder, _) => bail!("no method answers for a line contact"),
     };
-    let answer = match question.motion {
-        Motion::Pressing { duration } => pressed(question, body, method, duration)?,
-        Motion::Sliding { velocity, distance } => {
-            slid(question, body, method, (velocity, distance))?
+    answer?.after(started.elapsed()).finite()
+}
+
+fn by_elements(question: &Question, body: &impl Shape, method: Method) -> Result<Answer> {
+    let (material, accuracy) = (&*question.material, question.accuracy);
+    let control = question.control;
+    let (velocity, distance) = match question.motion {
+        Motion::Sliding { velocity, distance } => (velocity, distance),
+        Motion::Pressing { duration } => {
+            return pressing::boundary_elements(body, material, (control, duration), accuracy);
         }
     };
-    answer.after(started.elapsed()).finite()
+    let drive = Drive {
+        control,
+        velocity,
+        distance,
+    };
+    match method {
+        Method::BemSteady => bem::stationary(body, (material, &drive), accuracy),
+        _ => march::transient(body, (material, &drive), accuracy),
+    }
+}
+
+fn of_revolution(question: &Question, body: &Revolution, method: Method) -> Result<Answer> {
+    match question.motion {
+        Motion::Pressing { duration } => pressed(question, body, method, duration),
+        Motion::Sliding { velocity, distance } => {
+            slid(question, body, method, (velocity, distance))
+        }
+    }
 }
 
 fn pressed(
@@ -35,15 +63,14 @@ fn pressed(
     duration: f64,
 ) -> Result<Answer> {
     let material = &*question.material;
-    let simple = simple(material)?;
     match (method, question.control) {
         (Method::MdrTransient, Control::NormalForce(force)) => {
             pressing::chain(body, material, (force, duration), question.accuracy)
         }
-        (Method::BemTransient, Control::NormalForce(force)) => {
-            pressing::boundary_elements(body, material, (force, duration), question.accuracy)
+        (_, control) => {
+            let simple = simple(material)?;
+            pressing::analytic(body, material, (control, duration), simple.as_ref())
         }
-        (_, control) => pressing::analytic(body, material, (control, duration), simple.as_ref()),
     }
 }
 
@@ -57,20 +84,12 @@ fn slid(
     let accuracy = question.accuracy;
     let motion = (question.control, velocity);
     match method {
-        Method::Analytic => closed(question, body, (velocity, distance)),
         Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)?),
         Method::MdrTransient => {
             let load = load(motion)?;
             mdr::transient(body, material, (&load, distance), accuracy)
         }
-        Method::BemSteady => {
-            let load = load(motion)?;
-            bem::stationary(body, (material, &load), accuracy, distance)
-        }
-        Method::BemTransient => {
-            let load = load(motion)?;
-            bem::transient(body, (&viscous(question)?, &load), accuracy, distance)
-        }
+        _ => closed(question, body, (velocity, distance)),
     }
 }
 
@@ -102,13 +121,6 @@ fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
     match control {
         Control::NormalForce(force) => Ok(SlidingLoad::new(force, velocity)?),
         Control::IndentationDepth(_) => bail!("the method slides under a force, not at a depth"),
-    }
-}
-
-fn viscous(question: &Question) -> Result<Viscous> {
-    match simple(&*question.material)? {
-        Some(Simple::Viscous(material)) => Ok(material),
-        _ => bail!("the method slides on a viscous material only"),
     }
 }
 

@@ -5,6 +5,7 @@ mod commands;
 mod documented_commands;
 mod fit_material;
 mod fuzzed_inputs;
+mod half_space_scenes;
 mod malformed_numbers;
 mod malformed_scenes;
 mod malformed_tables;

@@ -46,7 +46,7 @@ pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
 pub use estimate::{
     FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,
-    steady_friction_of_surface,
+    steady_friction_at_depth, steady_friction_of_surface,
 };
 pub use kernel::wake_influence;
 pub use loading::DepthControl;
@@ -116,6 +116,19 @@ pub fn steady_at_depth(
     let [rear, front] = options.footprint.x;
     let loading = Loading::depth(material, control, front - rear)?;
     solve(surface, &loading, options, &mut Reuse::default())
+}
+
+/// The depth scale D of [`SteadyOptions::tolerance`] for a `surface` that ends at `extent`: how deep the load presses it,
+/// about, \[m].
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for an extent or a scale out of range; [`BemError::Material`].
+pub fn depth_scale(
+    surface: &impl Surface,
+    (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+    extent: &Footprint,
+) -> Result<f64, BemError> {
+    Ok(Loading::force(surface, (material, load), extent)?.depth_scale)
 }
 
 /// What one solution leaves for the next.
