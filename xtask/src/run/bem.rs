@@ -7,12 +7,12 @@ use bem_halfspace::steady::{
 };
 use bem_halfspace::{ContactOptions, Footprint};
 use friction_analytic::stationary_depth;
-use indenters::{SlidingLoad, contact_radius};
+use indenters::{Axisymmetric, SlidingLoad, contact_radius};
 use rheology::{Material, Viscous};
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::body::Revolution;
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use crate::scene_file::{Accuracy, Method, Model};
 
 /// Elements of the coarsest grids of a ladder along the contact length of the one-dimensional model.
@@ -48,9 +48,12 @@ pub(super) fn stationary(
             let ladder = Ladder::of_body(body, material, load)?;
             let length = COARSEST_ELEMENTS * ladder.coarsest_spacing;
             let solve = |elements: usize| on_grid(body, (material, load), length / elements as f64);
-            let Resolved { value, error, .. } = resolve(accuracy, usize::MAX, solve, |state| {
-                state.friction_coefficient
-            })?;
+            let goal = Goal {
+                accuracy,
+                largest: usize::MAX,
+                order: order_of_apex(body.apex_exponent()),
+            };
+            let Resolved { value, error, .. } = resolve(&goal, solve, friction_on_grid)?;
             (value.friction_coefficient, error, value)
         }
     };
@@ -58,6 +61,15 @@ pub(super) fn stationary(
     let answer = Answer::new(Method::BemSteady, Model::HalfSpace, load.normal_force())
         .with_friction(friction, error);
     Ok(with_state(answer, state, depth?))
+}
+
+/// The gaps that the solver leaves change it like rounding.
+fn friction_on_grid(state: &SteadySliding) -> Quantity {
+    Quantity {
+        value: state.friction_coefficient,
+        rounding: state.residual * state.mean_slope,
+        hidden: 0.0,
+    }
 }
 
 fn with_state(answer: Answer, state: SteadySliding, depth: Option<f64>) -> Answer {
@@ -126,25 +138,33 @@ pub(super) fn transient(
         let friction = friction(&transient, distance)?;
         Ok((friction, transient))
     };
-    let Resolved { value, error, .. } =
-        resolve(accuracy, LARGEST_GRID, solve, |([friction, _], _)| {
-            *friction
-        })?;
-    let ([friction, distance_error], transient) = value;
+    let goal = Goal {
+        accuracy,
+        largest: LARGEST_GRID,
+        order: order_of_apex(body.apex_exponent()),
+    };
+    let Resolved { value, error, .. } = resolve(&goal, solve, |(friction, _)| *friction)?;
+    let (friction, transient) = value;
     let answer = Answer::new(Method::BemTransient, Model::HalfSpace, load.normal_force())
-        .with_friction(friction, error + distance_error);
+        .with_friction(friction.value, error);
     // Without a distance the depth has no meaning: it never stops to grow.
     let depth = distance.map(|_| transient.last().indentation_depth);
     Ok(with_transient(answer, transient, depth))
 }
 
 /// The friction coefficient after a distance, or that of the stationary state and what the finite distance leaves open.
-fn friction(transient: &Transient, distance: Option<f64>) -> Result<[f64; 2]> {
-    if distance.is_some() {
-        return Ok([transient.last().friction_coefficient, 0.0]);
-    }
-    let state = transient.stationary(DRIFT)?;
-    Ok([state.friction_coefficient, state.distance_error])
+fn friction(transient: &Transient, distance: Option<f64>) -> Result<Quantity> {
+    let (value, hidden) = if distance.is_some() {
+        (transient.last().friction_coefficient, 0.0)
+    } else {
+        let state = transient.stationary(DRIFT)?;
+        (state.friction_coefficient, state.distance_error)
+    };
+    Ok(Quantity {
+        value,
+        rounding: 0.0,
+        hidden,
+    })
 }
 
 fn with_transient(answer: Answer, transient: Transient, depth: Option<f64>) -> Answer {

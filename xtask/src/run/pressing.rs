@@ -19,7 +19,7 @@ use rheology::{Material, Viscous};
 use super::answer::{Answer, ContactBox};
 use super::body::Revolution;
 use super::half_space::Simple;
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, resolve};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Relative error of the depth by quadrature.
@@ -130,7 +130,9 @@ pub(super) fn chain(
         value: row,
         error,
         elements,
-    } = resolve(accuracy, LARGEST_CHAIN, solve, |row| row.indentation_depth)?;
+    } = resolve(&goal(accuracy, LARGEST_CHAIN), solve, |row| {
+        depth(row.indentation_depth)
+    })?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -165,7 +167,9 @@ pub(super) fn boundary_elements(
     };
     let Resolved {
         value: row, error, ..
-    } = resolve(accuracy, LARGEST_GRID, solve, |row| row.indentation_depth)?;
+    } = resolve(&goal(accuracy, LARGEST_GRID), solve, |row| {
+        depth(row.indentation_depth)
+    })?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -175,6 +179,25 @@ pub(super) fn boundary_elements(
         left_out: vec!["time steps", "gradients", "friction"],
         ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
     })
+}
+
+/// The depth converges faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+
+fn goal(accuracy: Accuracy, largest: usize) -> Goal {
+    Goal {
+        accuracy,
+        largest,
+        order: ORDER,
+    }
+}
+
+fn depth(value: f64) -> Quantity {
+    Quantity {
+        value,
+        rounding: 0.0,
+        hidden: 0.0,
+    }
 }
 
 const LARGEST_CHAIN: usize = 16_384;

@@ -6,9 +6,9 @@ use crate::scene_file::Accuracy;
 
 /// The finest result, and how it differs from those with three quarters and half of its elements.
 ///
-/// An error of first order C/n differs by C/n from half the elements and by C/(3 n) from three quarters. The larger of
-/// both, doubled, because which elements touch jumps from resolution to resolution, and one difference alone may vanish
-/// by chance.
+/// An error C/n^q differs by (2^q − 1) C/n^q from half the elements and by ((4/3)^q − 1) C/n^q from three quarters. The
+/// larger error of both, doubled, because which elements touch jumps from resolution to resolution, and one difference
+/// alone may vanish by chance.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Resolved<T> {
     pub(super) value: T,
@@ -17,44 +17,121 @@ pub(super) struct Resolved<T> {
     pub(super) elements: usize,
 }
 
+/// What is asked, and how errors fall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Goal {
+    pub(super) accuracy: Accuracy,
+    /// Elements along the contact that are not exceeded to reach an error.
+    pub(super) largest: usize,
+    /// Power q of the elements with which the error falls, at least.
+    pub(super) order: f64,
+}
+
+/// The number that is resolved; its errors are absolute.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    /// Of rounding; no resolution is finer.
+    pub(super) rounding: f64,
+    /// What three resolutions do not show, because it is the same on all of them.
+    pub(super) hidden: f64,
+}
+
 const FIRST: usize = 16;
 const SAFETY: f64 = 2.0;
+/// Of the many sums behind a value.
+const ROUNDING: f64 = 1e-12;
+/// Orders of friction: smooth bodies are better than the first, which their outline on the elements makes safe to
+/// assume; below the smallest one nothing converges.
+const ORDERS: [f64; 2] = [0.1, 1.0];
+
+/// The order 2p − 1 of the friction under an apex h ∼ r^p, or the first where that is slower.
+pub(super) fn order_of_apex(exponent: f64) -> f64 {
+    (2.0 * exponent - 1.0).clamp(ORDERS[0], ORDERS[1])
+}
 
 /// Solves with the elements asked for, or with more and more until the relative error is reached.
 pub(super) fn resolve<T>(
-    accuracy: Accuracy,
-    largest: usize,
+    goal: &Goal,
     solve: impl Fn(usize) -> Result<T>,
-    quantity: impl Fn(&T) -> f64,
+    quantity: impl Fn(&T) -> Quantity,
 ) -> Result<Resolved<T>> {
-    let (mut elements, asked) = match accuracy {
+    let (mut elements, asked) = match goal.accuracy {
         Accuracy::Elements(elements) => (elements, f64::INFINITY),
         Accuracy::RelativeError(error) => (FIRST, error),
     };
-    let mut half = quantity(&solve(elements.div_ceil(2))?);
+    let mut half = quantity(&solve(elements.div_ceil(2))?).value;
     loop {
-        let three_quarters = quantity(&solve((3 * elements).div_ceil(4))?);
+        let three_quarters = quantity(&solve((3 * elements).div_ceil(4))?).value;
         let value = solve(elements)?;
         let fine = quantity(&value);
-        let difference = (fine - half).abs().max(3.0 * (fine - three_quarters).abs());
-        let error = SAFETY * difference + ROUNDING * fine.abs();
-        if error <= asked * fine.abs() || asked.is_infinite() {
+        let error = error([half, three_quarters], &fine, goal.order);
+        if error <= asked * fine.value.abs() || error <= 2.0 * fine.rounding || asked.is_infinite()
+        {
             return Ok(Resolved {
                 value,
                 error,
                 elements,
             });
         }
-        if elements >= largest {
+        if elements >= goal.largest {
             bail!(
                 "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is \
-                 {fine} with an error of {error:.1e}"
+                 {} with an error of {error:.1e}",
+                fine.value
             );
         }
         elements *= 2;
-        half = fine;
+        half = fine.value;
     }
 }
 
-/// Of the many sums behind a value.
-const ROUNDING: f64 = 1e-12;
+/// From the values with half and three quarters of the elements.
+fn error([half, three_quarters]: [f64; 2], fine: &Quantity, order: f64) -> f64 {
+    let of_coarser = |value: f64, ratio: f64| {
+        // ratio^q − 1, which is small for the sharpest cusps.
+        (fine.value - value).abs() / (order * ratio.ln()).exp_m1()
+    };
+    let difference = of_coarser(half, 2.0).max(of_coarser(three_quarters, 4.0 / 3.0));
+    SAFETY * difference + ROUNDING * fine.value.abs() + fine.rounding + fine.hidden
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Resolved<f64> {
+        let goal = Goal {
+            accuracy: Accuracy::Elements(64),
+            largest: 64,
+            order,
+        };
+        let quantity = |value: &f64| Quantity {
+            value: *value,
+            rounding: 0.0,
+            hidden: 0.0,
+        };
+        resolve(&goal, |elements| Ok(values(elements as f64)), quantity).expect("a value")
+    }
+
+    #[test]
+    fn the_bar_of_a_known_order_is_twice_the_error() {
+        for order in [0.1, 0.2, 0.5, 1.0] {
+            let got = resolved(order, |n| 3.0 + n.powf(-order));
+            let bar_over_error = got.error / (got.value - 3.0);
+            assert!(
+                (bar_over_error - SAFETY).abs() < 1e-9,
+                "order {order}: {bar_over_error} instead of {SAFETY}, {got:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn one_difference_that_vanishes_by_chance_does_not_make_the_bar_small() {
+        let got = resolved(1.0, |n| if n > 40.0 { 3.1 } else { 3.2 });
+        assert!(
+            (got.error - 2.0 * 0.1).abs() < 1e-9,
+            "half of the elements differ by 0.1: {got:?}"
+        );
+    }
+}
