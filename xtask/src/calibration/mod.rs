@@ -26,7 +26,7 @@ pub(crate) struct Calibrate {
     /// Where tables and the picture are written.
     #[arg(long, default_value = "target/calibration")]
     out: PathBuf,
-    /// Number of scenes, from 1 to 100000 [default: 300, quick 48].
+    /// Number of scenes, from 1 to 100000 [default: 300, quick 40].
     #[arg(long, value_name = "N")]
     scenes: Option<usize>,
     /// Which scenes; the same seed gives the same ones.
@@ -38,7 +38,7 @@ pub(crate) struct Calibrate {
 }
 
 const SCENES: usize = 300;
-const QUICK_SCENES: usize = 48;
+const QUICK_SCENES: usize = 40;
 const MOST_SCENES: usize = 100_000;
 
 /// Judges the bars of every method on random scenes, writes tables and the picture, and prints what they say.

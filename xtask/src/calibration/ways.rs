@@ -28,11 +28,11 @@ pub(super) struct Extent {
 }
 
 pub(super) const FULL: Extent = Extent {
-    half_space_every: 2,
-    half_space_errors: [-3.0, -2.0],
-    chain_errors: [-2.5, -1.7],
-    grids: [8, 16, 32],
-    marches: [8, 10, 14],
+    half_space_every: 3,
+    half_space_errors: [-2.5, -2.0],
+    chain_errors: [-2.3, -1.6],
+    grids: [8, 12, 16],
+    marches: [8, 8, 10],
 };
 
 pub(super) const QUICK: Extent = Extent {

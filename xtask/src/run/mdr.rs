@@ -14,6 +14,8 @@ use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Elements along the contact after which a march in time gives up.
 const LARGEST_CHAIN: usize = 4096;
+/// Relative rounding of the stationary state; on a sphere of 46 times the contact 5e-12 was measured.
+const STEADY_ROUNDING: f64 = 1e-11;
 /// Rounding of forces times slopes, relative to the mean slope.
 const ROUNDING: f64 = 1e-12;
 /// Measured on paraboloids is 2.4.
@@ -49,8 +51,10 @@ pub(super) fn stationary(
         contact_box: ends.map(|(first, last)| ContactBox::along([first[0], last[1]])),
         unknowns: state.n_pieces,
         left_out: vec!["elements", "time steps", "half space"],
-        ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
-            .with_friction(state.friction_coefficient, state.friction_coefficient_error)
+        ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force).with_friction(
+            state.friction_coefficient,
+            state.friction_coefficient_error + STEADY_ROUNDING * state.friction_coefficient.abs(),
+        )
     })
 }
 

@@ -7,7 +7,7 @@ use crate::scene_file::Accuracy;
 /// The finest result, and how it differs from those with three quarters and half of its elements.
 ///
 /// An error C/n^q differs by (2^q − 1) C/n^q from half the elements and by ((4/3)^q − 1) C/n^q from three quarters. The
-/// larger error of both, doubled, because which elements touch jumps from resolution to resolution, and one difference
+/// larger error of both, tripled, because which elements touch jumps from resolution to resolution, and one difference
 /// alone may vanish by chance.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Resolved<T> {
@@ -38,7 +38,8 @@ pub(super) struct Quantity {
 }
 
 const FIRST: usize = 16;
-const SAFETY: f64 = 2.0;
+/// With 2 the bars of chains held on 32 of 34 random scenes, with 3 on 33.
+const SAFETY: f64 = 3.0;
 /// Of the many sums behind a value.
 const ROUNDING: f64 = 1e-12;
 /// Orders of friction: smooth bodies are better than the first, which their outline on the elements makes safe to
@@ -115,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bar_of_a_known_order_is_twice_the_error() {
+    fn the_bar_of_a_known_order_is_the_error_times_the_safety() {
         for order in [0.1, 0.2, 0.5, 1.0] {
             let got = resolved(order, |n| 3.0 + n.powf(-order));
             let bar_over_error = got.error / (got.value - 3.0);
@@ -130,7 +131,7 @@ mod tests {
     fn one_difference_that_vanishes_by_chance_does_not_make_the_bar_small() {
         let got = resolved(1.0, |n| if n > 40.0 { 3.1 } else { 3.2 });
         assert!(
-            (got.error - 2.0 * 0.1).abs() < 1e-9,
+            (got.error - SAFETY * 0.1).abs() < 1e-9,
             "half of the elements differ by 0.1: {got:?}"
         );
     }
