@@ -10,7 +10,7 @@ use indenters::SlidingLoad;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox};
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -74,13 +74,16 @@ impl<S: Shape> Scene<'_, S> {
     fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
         let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
         let solve = |elements: usize| self.on_grid(length / elements as f64);
+        let goal = Goal {
+            accuracy,
+            largest: usize::MAX,
+            order: order_of_apex(self.ladder.apex_exponent),
+        };
         let Resolved {
             value,
             error: [friction_error, force_error],
             ..
-        } = resolve(accuracy, usize::MAX, solve, |state| {
-            [state.friction_coefficient, state.normal_force]
-        })?;
+        } = resolve(&goal, solve, on_one_grid)?;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
             .with_friction(value.friction_coefficient, friction_error);
         self.with_state(self.with_force_error(answer, force_error), value)
@@ -147,6 +150,16 @@ impl<S: Shape> Scene<'_, S> {
             velocity: self.drive.velocity,
         }
     }
+}
+
+/// Friction and force; the gaps that the solver leaves change the friction like rounding.
+fn on_one_grid(state: &SteadySliding) -> [Quantity; 2] {
+    let friction = Quantity {
+        value: state.friction_coefficient,
+        rounding: state.residual * state.mean_slope,
+        hidden: 0.0,
+    };
+    [friction, Quantity::shown(state.normal_force)]
 }
 
 /// With room for elements at the boundary, where a steep body leaves none.

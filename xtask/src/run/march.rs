@@ -11,7 +11,7 @@ use rheology::{CreepSpectrum, Material};
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::bem::widened;
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -72,8 +72,12 @@ pub(super) fn transient(
         accuracy,
     };
     let solve = |elements: usize| scene.march(scene.length / elements as f64);
-    let Resolved { value, error, .. } =
-        resolve(accuracy, LARGEST_GRID, solve, |end| scene.quantities(end))?;
+    let goal = Goal {
+        accuracy,
+        largest: LARGEST_GRID,
+        order: order_of_apex(ladder.apex_exponent),
+    };
+    let Resolved { value, error, .. } = resolve(&goal, solve, |end| scene.quantities(end))?;
     Ok(scene.answer(value, error))
 }
 
@@ -83,13 +87,17 @@ impl<S: Shape> Scene<'_, S> {
     }
 
     /// Friction and force; nothing rubs on an elastic half space, where the depth stands for the friction.
-    fn quantities(&self, end: &End) -> [f64; 2] {
+    fn quantities(&self, end: &End) -> [Quantity; 2] {
         let first = if self.is_elastic() {
-            end.depth
+            Quantity::shown(end.depth)
         } else {
-            end.friction
+            Quantity {
+                value: end.friction,
+                rounding: 0.0,
+                hidden: end.distance_error,
+            }
         };
-        [first, end.force]
+        [first, Quantity::shown(end.force)]
     }
 
     fn answer(&self, end: End, [error, force_error]: [f64; 2]) -> Answer {
@@ -110,7 +118,7 @@ impl<S: Shape> Scene<'_, S> {
             iterations: end.history.len(),
             left_out: vec!["history outside the contact box"],
             ..Answer::new(Method::BemTransient, Model::HalfSpace, end.force)
-                .with_friction(end.friction, friction_error + end.distance_error)
+                .with_friction(end.friction, friction_error)
         };
         answer.fields.history = end.history;
         answer.fields.pressure = Some(end.pressure);

@@ -23,6 +23,7 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 pub(crate) use answer::Answer;
+pub(crate) use body::{Body, Revolution};
 pub(crate) use offer::{NotOffered, choose};
 pub(crate) use question::Question;
 pub(crate) use solve::solve;

@@ -20,7 +20,7 @@ use rheology::{Material, Viscous};
 use super::answer::{Answer, ContactBox};
 use super::body::Revolution;
 use super::half_space::Simple;
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, resolve};
 use super::shape::{Patch, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -137,12 +137,9 @@ pub(super) fn chain(
         value: row,
         error: [error],
         elements,
-    } = resolve(
-        accuracy,
-        LARGEST_CHAIN,
-        solve,
-        |row| [row.indentation_depth],
-    )?;
+    } = resolve(&goal(accuracy, LARGEST_CHAIN), solve, |row| {
+        [Quantity::shown(row.indentation_depth)]
+    })?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -177,8 +174,9 @@ pub(super) fn boundary_elements(
         last(indent_history(body, &unit_dashpot()?, &[step], &options)?)
     };
     // What is given has no error.
-    let quantities = |row: &IndentRow| [row.indentation_depth, row.normal_force];
-    let Resolved { value, error, .. } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
+    let quantities =
+        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::shown);
+    let Resolved { value, error, .. } = resolve(&goal(accuracy, LARGEST_GRID), solve, quantities)?;
     let answer = Answer {
         indentation_depth: Some(value.indentation_depth),
         contact_area: Some(value.contact_area),
@@ -202,6 +200,17 @@ pub(super) fn boundary_elements(
             }
         }
     })
+}
+
+/// Depth and force converge faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+
+fn goal(accuracy: Accuracy, largest: usize) -> Goal {
+    Goal {
+        accuracy,
+        largest,
+        order: ORDER,
+    }
 }
 
 fn for_a_second(control: Control) -> IndentStep {

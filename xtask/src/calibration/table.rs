@@ -1,0 +1,61 @@
+//! How many bars hold, and how wide they are.
+
+use std::collections::BTreeMap;
+
+use comfy_table::Table;
+
+use super::judged::{Judged, Row};
+use crate::meter::median;
+use crate::output::markdown_table;
+
+/// One line per method.
+pub(super) fn table(judged: &Judged) -> Table {
+    let mut methods: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
+    for row in &judged.rows {
+        methods.entry(&row.method).or_default().push(row);
+    }
+    let header = [
+        "method",
+        "answers",
+        "bars that hold",
+        "within the bar alone",
+        "median of bar/deviation",
+        "worst deviation/bar",
+        "refused",
+    ];
+    let lines = methods.into_iter().map(|(method, rows)| {
+        let refused = judged.refusals.iter();
+        let refused = refused.filter(|refusal| refusal.method == method).count();
+        line(method, &rows, refused)
+    });
+    markdown_table(header, lines)
+}
+
+fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 7] {
+    let part = |held: fn(&Row) -> bool| {
+        let held = rows.iter().filter(|row| held(row)).count();
+        format!("{:.1} %", 100.0 * held as f64 / rows.len() as f64)
+    };
+    let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
+    let worst = parts.iter().copied().fold(0.0, f64::max);
+    [
+        method.to_owned(),
+        rows.len().to_string(),
+        part(|row| row.holds),
+        part(|row| row.holds_alone),
+        short(1.0 / median(parts)),
+        short(worst),
+        refused.to_string(),
+    ]
+}
+
+/// Two digits, or a power of ten.
+fn short(value: f64) -> String {
+    if value.is_finite() && !(1e-2..1e4).contains(&value) && value > 0.0 {
+        return format!("{value:.0e}");
+    }
+    if value.is_finite() {
+        return format!("{value:.2}");
+    }
+    "∞".to_owned()
+}
