@@ -21,6 +21,8 @@ use crate::{BemError, Grid};
 
 /// Height below which the flanks of a steep body count as flat, in units of the depth scale.
 const FLAT: f64 = 0.1;
+/// Height that the sides of the contact of a paraboloid reach, about, in the same units.
+const GUESSED_HEIGHT: f64 = 0.5;
 
 /// How grid and body mirror in y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -297,16 +299,14 @@ impl Mesh {
         self.only_rising && self.height(element) < FLAT
     }
 
-    /// The elements up to the height that the sides of the contact of a paraboloid reach; flat parts only where they are
-    /// the front.
+    /// The low elements; flat parts only where they are the front.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
-        let below = |height: f64| {
-            (0..self.n_elements()).filter(move |&element| self.height(element) < height)
-        };
-        let mut guess: BTreeSet<usize> = below(0.5).collect();
+        let low =
+            || (0..self.n_elements()).filter(|&element| self.height(element) < GUESSED_HEIGHT);
+        let mut guess: BTreeSet<usize> = low().collect();
         if self.only_rising {
             guess.retain(|&element| !self.is_flat(element));
-            let fronts: BTreeMap<usize, usize> = below(0.5)
+            let fronts: BTreeMap<usize, usize> = low()
                 .map(|element| (self.elements[element].column, element))
                 .collect();
             guess.extend(fronts.values());
