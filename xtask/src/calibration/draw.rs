@@ -7,7 +7,7 @@ use benches::Random;
 use indenters::Axisymmetric;
 
 use crate::run::{Body, Question};
-use crate::scene_file::{Indenter, SceneFile, scene_file};
+use crate::scene_file::{Indenter, MaterialTable, SceneFile, scene_file};
 
 /// A scene; its parts are inline tables of a scene file.
 #[derive(Debug)]
@@ -37,6 +37,8 @@ enum Motion {
     Stationary,
 }
 
+/// Depth over the length of a contact within a flat end.
+const FLAT: f64 = 0.1;
 /// Part of the stationary scenes that are held at a depth instead of under a force.
 const AT_DEPTH: f64 = 0.1;
 
@@ -61,8 +63,10 @@ pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
         Motion::OnTheWay => choice(random, &KNOWN_WAYS)(random, units),
         _ => choice(random, &BODIES)(random, units),
     };
+    let slides_on_edge = motion == Motion::Stationary && WITH_EDGE.contains(&indenter.0);
     let material = match motion {
         Motion::OnTheWay => viscous(random, units),
+        _ if slides_on_edge => choice(random, &WITHOUT_DASHPOT)(random, units),
         _ => choice(random, &MATERIALS)(random, units),
     };
     let compressible = between(random, [-0.9, 0.5]);
@@ -106,14 +110,17 @@ fn load(random: &mut Random, (motion, units): (Motion, Units), parts: &str) -> R
     })
 }
 
-/// D = h(a) = 2 (1 − ν) F J(t)/(4 a).
+/// D = h(a) = 2 (1 − ν) F J(t)/(4 a); at least a tenth of the contact where the end is flat.
 fn force_and_depth(parts: &str, load: &str, [contact, time]: [f64; 2]) -> Result<[f64; 2]> {
     let file = scene_file(format!("{parts}{load}").parse()?)?;
     let question = Question::new(&file, Path::new(""))?;
     let Body::Revolution(body) = &question.body else {
         bail!("only bodies of revolution are drawn");
     };
-    let depth = body.height(contact);
+    let depth = match body.height(contact) {
+        height if height > 0.0 => height,
+        _ => FLAT * contact,
+    };
     let material = &*question.material;
     let compliance = material.half_space_factor() * material.creep_compliance(time)?;
     Ok([4.0 * contact * depth / compliance, depth])
@@ -130,8 +137,7 @@ fn inline((name, keys): &Table) -> String {
     format!("{{ {name} = {{ {keys} }} }}")
 }
 
-/// Without flat ends: the reference of the line takes too long at their steep kinks.
-const BODIES: [Draw; 9] = [
+const BODIES: [Draw; 11] = [
     power,
     power,
     cusp,
@@ -139,9 +145,14 @@ const BODIES: [Draw; 9] = [
     paraboloid,
     sphere,
     superposition,
+    flat_cone,
     round_tipped_cone,
     hyperboloid,
+    truncated_paraboloid,
 ];
+
+/// Bodies with an edge, at which the friction of a dashpot is infinite.
+const WITH_EDGE: [&str; 2] = ["flat-cone", "truncated-paraboloid"];
 
 fn power(random: &mut Random, units: Units) -> Table {
     ("power", term(between(random, [1.0, 5.0]), units))
@@ -181,6 +192,10 @@ fn superposition(random: &mut Random, units: Units) -> Table {
     )
 }
 
+fn flat_cone(random: &mut Random, units: Units) -> Table {
+    ("flat-cone", tip(random, units))
+}
+
 fn round_tipped_cone(random: &mut Random, units: Units) -> Table {
     ("round-tipped-cone", tip(random, units))
 }
@@ -195,6 +210,15 @@ fn tip(random: &mut Random, units: Units) -> String {
     format!("radius = {radius:?}, slope = {slope:?}")
 }
 
+fn truncated_paraboloid(random: &mut Random, units: Units) -> Table {
+    let radius = 0.3 * decades(random, 0.5) * units.length;
+    let curvature = decades(random, 0.5) / units.length;
+    (
+        "truncated-paraboloid",
+        format!("radius = {radius:?}, curvature = {curvature:?}"),
+    )
+}
+
 /// The dashpot more often: every method answers there.
 const MATERIALS: [Draw; 8] = [
     viscous,
@@ -206,6 +230,8 @@ const MATERIALS: [Draw; 8] = [
     standard_solid,
     prony,
 ];
+
+const WITHOUT_DASHPOT: [Draw; 4] = [elastic, maxwell, standard_solid, prony];
 
 fn viscous(_: &mut Random, units: Units) -> Table {
     let viscosity = units.stress * units.time;
@@ -273,6 +299,11 @@ impl Scene {
     /// Whether the slope is infinite at the lowest point.
     pub(super) fn has_cusp(&self) -> bool {
         matches!(&self.file.indenter, Indenter::Power(power) if power.exponent < 1.0)
+    }
+
+    /// Whether the half space has no friction, whatever slides over it.
+    pub(super) fn is_elastic(&self) -> bool {
+        matches!(&self.file.material, MaterialTable::Elastic(_))
     }
 
     /// Whether nothing slides.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::draw::{Scene, scene};
 use super::reference::{Reference, judged, question, reference};
-use super::ways::{Extent, Way, ways};
+use super::ways::{Extent, Way, Ways, ways};
 use crate::run::{choose, solve};
 use crate::scene_file::{Accuracy, Method, Model};
 
@@ -62,13 +62,15 @@ pub(super) struct Refusal {
 pub(super) struct Judged {
     pub(super) rows: Vec<Row>,
     pub(super) refusals: Vec<Refusal>,
+    /// Reasons for what is not asked.
+    pub(super) left_out: Vec<&'static str>,
 }
 
 /// A scene with all that is asked about it.
 #[derive(Debug)]
 pub(super) struct Examination {
     scene: Scene,
-    ways: Vec<Way>,
+    ways: Ways,
 }
 
 const MODELS: [Model; 2] = [Model::Line, Model::HalfSpace];
@@ -83,7 +85,10 @@ impl Examination {
 
     /// Asks every method that offers an answer.
     pub(super) fn judge(&self) -> Result<Judged> {
-        let mut judged = Judged::default();
+        let mut judged = Judged {
+            left_out: self.ways.left_out.clone(),
+            ..Judged::default()
+        };
         // Closed forms are compared with no other closed form.
         for (model, closed) in MODELS.into_iter().flat_map(|m| [(m, true), (m, false)]) {
             let ways = self.offered((model, closed))?;
@@ -110,7 +115,7 @@ impl Examination {
 
     fn offered(&self, (model, closed): (Model, bool)) -> Result<Vec<&Way>> {
         let mut offered = Vec::new();
-        for way in &self.ways {
+        for way in &self.ways.asked {
             let is_meant = way.model == model && (way.method == Method::Analytic) == closed;
             if is_meant && choose(&question(&self.scene, way)?).is_ok() {
                 offered.push(way);
@@ -121,7 +126,7 @@ impl Examination {
 
     /// The smallest relative error that any method of the model is asked for.
     fn least_error(&self, model: Model) -> f64 {
-        let asked = self.ways.iter().filter(|way| way.model == model);
+        let asked = self.ways.asked.iter().filter(|way| way.model == model);
         let errors = asked.filter_map(|way| match way.accuracy {
             Accuracy::RelativeError(error) => Some(error),
             Accuracy::Elements(_) => None,

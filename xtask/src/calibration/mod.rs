@@ -52,7 +52,8 @@ pub(crate) fn calibrate(options: &Calibrate) -> Result<()> {
     let svg = render_svg(&picture::figure(&judged.rows))?;
     write_atomically(&out.join("calibration.svg"), svg.as_bytes())?;
     write_atomically(&out.join("calibration.png"), &render_png(&svg, PNG_WIDTH)?)?;
-    print_line(&table::table(&judged))
+    print_line(&table::table(&judged))?;
+    print_line(&table::left_out(&judged.left_out))
 }
 
 fn examinations(options: &Calibrate) -> Result<Vec<Examination>> {
@@ -88,6 +89,7 @@ fn judge(examinations: &[Examination]) -> Result<Judged> {
     for part in parts {
         judged.rows.extend(part.rows);
         judged.refusals.extend(part.refusals);
+        judged.left_out.extend(part.left_out);
     }
     Ok(judged)
 }

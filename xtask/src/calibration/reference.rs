@@ -71,6 +71,13 @@ pub(super) fn reference(
     if !closed && choose(&question(scene, &closed_form)?).is_ok() {
         return ask(scene, &closed_form).map(Some);
     }
+    if scene.is_elastic() && !scene.presses() {
+        return Ok(Some(Reference {
+            value: 0.0,
+            error: 0.0,
+            source: "no friction on an elastic material".to_owned(),
+        }));
+    }
     let reference = match model {
         Model::HalfSpace => half_space(scene, FINER * asked),
         Model::Line => line(scene),

@@ -28,7 +28,18 @@ pub(super) fn table(judged: &Judged) -> Table {
         let refused = refused.filter(|refusal| refusal.method == method).count();
         line(method, &rows, refused)
     });
-    markdown_table(header, lines)
+    let all = line("all", &judged.rows.iter().collect::<Vec<_>>(), judged.refusals.len());
+    markdown_table(header, lines.chain([all]))
+}
+
+/// What was not asked, and how often.
+pub(super) fn left_out(reasons: &[&'static str]) -> String {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for reason in reasons {
+        *counts.entry(reason).or_default() += 1;
+    }
+    let lines = counts.iter().map(|(reason, count)| format!("- {count} × {reason}\n"));
+    format!("\nnot asked:\n{}", lines.collect::<String>())
 }
 
 fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 7] {

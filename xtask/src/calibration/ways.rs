@@ -23,24 +23,24 @@ pub(super) struct Extent {
     /// The same of a chain.
     pub(super) chain_errors: [f64; 2],
     /// Elements along the contact.
-    pub(super) grids: [usize; 3],
-    pub(super) marches: [usize; 3],
+    pub(super) grids: [usize; 5],
+    pub(super) marches: [usize; 5],
 }
 
 pub(super) const FULL: Extent = Extent {
-    half_space_every: 3,
-    half_space_errors: [-2.5, -2.0],
-    chain_errors: [-2.3, -1.6],
-    grids: [8, 12, 16],
-    marches: [8, 8, 10],
+    half_space_every: 2,
+    half_space_errors: [-3.0, -2.0],
+    chain_errors: [-3.0, -1.6],
+    grids: [8, 12, 16, 24, 32],
+    marches: [8, 10, 12, 16, 24],
 };
 
 pub(super) const QUICK: Extent = Extent {
     half_space_every: 4,
     half_space_errors: [-2.0, -2.0],
     chain_errors: [-1.8, -1.5],
-    grids: [8, 12, 16],
-    marches: [8; 3],
+    grids: [8, 8, 12, 12, 16],
+    marches: [8; 5],
 };
 
 /// Elements along the contact of a chain.
@@ -50,23 +50,54 @@ const PRESSES: [usize; 3] = [16, 32, 64];
 /// Closed forms are asked for this, so that the table of s(p) answers too.
 const CLOSED: Accuracy = Accuracy::RelativeError(1e-2);
 
-/// The ways of a scene; not every one is offered there.
-pub(super) fn ways(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Way> {
+/// What is asked of a scene, and why some is not.
+#[derive(Debug)]
+pub(super) struct Ways {
+    /// Not every one is offered there.
+    pub(super) asked: Vec<Way>,
+    /// One reason per way that is left out.
+    pub(super) left_out: Vec<&'static str>,
+}
+
+const SLOW_CUSP: &str = "a chain to an error on a cusp, where errors fall too slowly";
+const NO_REFERENCE: &str = "the half space on its way, of which there is no reference";
+const EXPENSIVE: &str = "the half space in the scenes between, because it costs most";
+
+/// The ways of a scene.
+pub(super) fn ways(random: &mut Random, scene: &Scene, extent: &Extent) -> Ways {
+    let mut ways = Ways {
+        asked: Vec::new(),
+        left_out: Vec::new(),
+    };
     if scene.presses() {
-        return pressed(random);
+        ways.asked = pressed(random);
+        return ways;
     }
-    let mut ways = line(random, extent);
-    if scene.has_cusp() {
-        // Errors of a chain fall too slowly there.
-        ways.retain(|way| way.method != Method::MdrTransient || way.is_by_elements());
+    for way in line(random, extent) {
+        let is_slow = way.method == Method::MdrTransient && !way.is_by_elements();
+        ways.add(way, (scene.has_cusp() && is_slow).then_some(SLOW_CUSP));
     }
-    let half_space = half_space(random, extent);
-    // On its way the half space has no reference.
     let is_stationary = scene.file.solve.sliding_distance.is_none();
-    if is_stationary && scene.number.is_multiple_of(extent.half_space_every) {
-        ways.extend(half_space);
+    let why = if !is_stationary {
+        Some(NO_REFERENCE)
+    } else if !scene.number.is_multiple_of(extent.half_space_every) {
+        Some(EXPENSIVE)
+    } else {
+        None
+    };
+    for way in half_space(random, extent) {
+        ways.add(way, why);
     }
     ways
+}
+
+impl Ways {
+    fn add(&mut self, way: Way, why_not: Option<&'static str>) {
+        match why_not {
+            None => self.asked.push(way),
+            Some(reason) => self.left_out.push(reason),
+        }
+    }
 }
 
 /// Both models are the same where nothing slides.

@@ -10,6 +10,7 @@ use indenters::SlidingLoad;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox};
+use super::error_parts::ErrorParts;
 use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
@@ -83,7 +84,7 @@ impl<S: Shape> Scene<'_, S> {
             value,
             error: [friction_error, force_error],
             ..
-        } = resolve(&goal, solve, on_one_grid)?;
+        } = resolve(&goal, solve, on_one_grid, |_, state| Ok(gaps(state)))?;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
             .with_friction(value.friction_coefficient, friction_error);
         self.with_state(self.with_force_error(answer, force_error), value)
@@ -152,14 +153,17 @@ impl<S: Shape> Scene<'_, S> {
     }
 }
 
-/// Friction and force; the gaps that the solver leaves change the friction like rounding.
 fn on_one_grid(state: &SteadySliding) -> [Quantity; 2] {
-    let friction = Quantity {
-        value: state.friction_coefficient,
-        rounding: state.residual * state.mean_slope,
-        hidden: 0.0,
+    [state.friction_coefficient, state.normal_force].map(Quantity::from)
+}
+
+/// What the gaps that the solver leaves change of friction and force.
+fn gaps(state: &SteadySliding) -> [ErrorParts; 2] {
+    let friction = ErrorParts {
+        iteration: Some(state.residual * state.mean_slope),
+        ..ErrorParts::default()
     };
-    [friction, Quantity::shown(state.normal_force)]
+    [friction, ErrorParts::default()]
 }
 
 /// With room for elements at the boundary, where a steep body leaves none.

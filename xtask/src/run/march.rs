@@ -11,6 +11,7 @@ use rheology::{CreepSpectrum, Material};
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::bem::widened;
+use super::error_parts::ErrorParts;
 use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
@@ -33,8 +34,8 @@ const MOST_STEPS: f64 = 1e5;
 /// What one march ends with.
 struct End {
     friction: f64,
-    /// What the finite distance leaves open.
-    distance_error: f64,
+    /// What the finite distance leaves open of the stationary state, where that is asked for.
+    distance_error: Option<f64>,
     depth: f64,
     force: f64,
     contact_area: f64,
@@ -77,7 +78,10 @@ pub(super) fn transient(
         largest: LARGEST_GRID,
         order: order_of_apex(ladder.apex_exponent),
     };
-    let Resolved { value, error, .. } = resolve(&goal, solve, |end| scene.quantities(end))?;
+    let Resolved { value, error, .. } = {
+        let others = |_, end: &End| Ok(scene.rest_of_the_way(end));
+        resolve(&goal, solve, |end| scene.quantities(end), others)
+    }?;
     Ok(scene.answer(value, error))
 }
 
@@ -89,15 +93,21 @@ impl<S: Shape> Scene<'_, S> {
     /// Friction and force; nothing rubs on an elastic half space, where the depth stands for the friction.
     fn quantities(&self, end: &End) -> [Quantity; 2] {
         let first = if self.is_elastic() {
-            Quantity::shown(end.depth)
+            end.depth
         } else {
-            Quantity {
-                value: end.friction,
-                rounding: 0.0,
-                hidden: end.distance_error,
-            }
+            end.friction
         };
-        [first, Quantity::shown(end.force)]
+        [first, end.force].map(Quantity::from)
+    }
+
+    /// What the finite distance leaves open of friction and force.
+    fn rest_of_the_way(&self, end: &End) -> [ErrorParts; 2] {
+        let truncation = end.distance_error.filter(|_| !self.is_elastic());
+        let friction = ErrorParts {
+            truncation,
+            ..ErrorParts::default()
+        };
+        [friction, ErrorParts::default()]
     }
 
     fn answer(&self, end: End, [error, force_error]: [f64; 2]) -> Answer {
@@ -132,7 +142,7 @@ impl<S: Shape> Scene<'_, S> {
                 let options = self.options(spacing, distance);
                 let transient = slide(self.body, self.material, &load, &options)?;
                 let friction = transient.last().friction_coefficient;
-                Ok(End::of(transient, force, [friction, 0.0]))
+                Ok(End::of(transient, force, (friction, None)))
             }
             (Control::NormalForce(force), None) => self.to_stationary(force, spacing),
             (Control::IndentationDepth(depth), Some(distance)) => {
@@ -161,10 +171,10 @@ impl<S: Shape> Scene<'_, S> {
             let transient = slide(self.body, self.material, &load, &options)?;
             if self.is_elastic() {
                 let friction = transient.last().friction_coefficient;
-                return Ok(End::of(transient, force, [friction, 0.0]));
+                return Ok(End::of(transient, force, (friction, None)));
             }
             let state = transient.stationary(DRIFT)?;
-            let reached = [state.friction_coefficient, state.distance_error];
+            let reached = (state.friction_coefficient, Some(state.distance_error));
             return Ok(End::of(transient, force, reached));
         }
         self.settle(&load, memory, spacing)
@@ -195,7 +205,7 @@ impl<S: Shape> Scene<'_, S> {
         Ok(End::of(
             slide.transient,
             load.normal_force(),
-            [friction, left],
+            (friction, Some(left)),
         ))
     }
 
@@ -243,7 +253,11 @@ impl<S: Shape> Scene<'_, S> {
 }
 
 impl End {
-    fn of(transient: Transient, force: f64, [friction, distance_error]: [f64; 2]) -> Self {
+    fn of(
+        transient: Transient,
+        force: f64,
+        (friction, distance_error): (f64, Option<f64>),
+    ) -> Self {
         let last = transient.last();
         Self {
             friction,
@@ -272,7 +286,7 @@ impl End {
         };
         Ok(Self {
             friction: last.tangential_force / last.normal_force,
-            distance_error: 0.0,
+            distance_error: None,
             depth: last.indentation_depth,
             force: last.normal_force,
             contact_area: last.contact_area,

@@ -9,7 +9,9 @@ use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::body::Revolution;
-use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
+use super::error_parts::ErrorParts;
+use super::memory::ahead;
+use super::resolution::{Goal, Quantity, order_of_apex, resolve};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Elements along the contact after which a march in time gives up.
@@ -18,8 +20,6 @@ const LARGEST_CHAIN: usize = 4096;
 const STEADY_ROUNDING: f64 = 1e-11;
 /// Rounding of forces times slopes, relative to the mean slope.
 const ROUNDING: f64 = 1e-12;
-/// Measured on paraboloids is 2.4.
-const LAYER: f64 = 4.0;
 
 /// The stationary state.
 pub(super) fn stationary(
@@ -58,10 +58,15 @@ pub(super) fn stationary(
     })
 }
 
-/// A march to its end.
-struct March {
-    rows: Vec<SlideRow>,
-    friction: Quantity,
+/// Changes that fall more slowly from contact length to contact length are rounding.
+const SLOWEST_RATIO: f64 = 0.99;
+
+/// A body that slides over a chain.
+struct Ride<'a> {
+    body: &'a Revolution,
+    load: &'a SlidingLoad,
+    /// From first touch \[m]; none for the stationary state.
+    distance: Option<f64>,
 }
 
 /// From first touch to the stationary state, or over a distance.
@@ -71,17 +76,26 @@ pub(super) fn transient(
     (load, distance): (&SlidingLoad, Option<f64>),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let solve = |elements: usize| march(body, material, (load, distance), elements);
+    let ride = Ride {
+        body,
+        load,
+        distance,
+    };
+    let solve = |elements: usize| ride.march(material, &ride.options(material, elements)?);
     let goal = Goal {
         accuracy,
         largest: LARGEST_CHAIN,
         order: order_of_apex(body.apex_exponent()),
     };
-    let Resolved {
-        value: March { rows, friction },
-        error: [error],
-        ..
-    } = resolve(&goal, solve, |march| [march.friction])?;
+    let others = |elements: usize, rows: &Vec<SlideRow>| {
+        Ok([ErrorParts {
+            time_stepping: ride.error_of_step(material, elements, rows)?,
+            truncation: ride.rest_of_the_way(rows),
+            ..ErrorParts::default()
+        }])
+    };
+    let resolved = resolve(&goal, solve, |rows| [ride.friction(rows)], others)?;
+    let (rows, [error]) = (resolved.value, resolved.error);
     let last = last(&rows)?;
     let mut answer = Answer {
         indentation_depth: Some(last.indentation_depth),
@@ -90,86 +104,86 @@ pub(super) fn transient(
         iterations: rows.len(),
         left_out: vec!["half space"],
         ..Answer::new(Method::MdrTransient, Model::Line, load.normal_force())
-            .with_friction(friction.value, error)
+            .with_friction(ride.friction(&rows).value, error)
     };
     answer.fields.history = rows.iter().map(history).collect();
     Ok(answer)
 }
 
-fn march(
-    body: &Revolution,
-    material: &dyn Material,
-    (load, distance): (&SlidingLoad, Option<f64>),
-    elements: usize,
-) -> Result<March> {
-    let mut options = SlideOptions::with_elements(elements, body, material, load)?;
-    if let Some(distance) = distance {
-        let steps = (distance / options.spacing).ceil().max(1.0);
-        options.spacing = distance / steps;
-        // Half a step more than the last step, so that rounding does not lose it.
-        options.max_sliding_distance = distance + 0.5 * options.spacing;
+impl Ride<'_> {
+    fn options(&self, material: &dyn Material, elements: usize) -> Result<SlideOptions> {
+        let mut options = SlideOptions::with_elements(elements, self.body, material, self.load)?;
+        if let Some(distance) = self.distance {
+            let steps = (distance / options.spacing).ceil().max(1.0);
+            options.spacing = distance / steps;
+            // Half a step more than the last step, so that rounding does not lose it.
+            options.max_sliding_distance = distance + 0.5 * options.spacing;
+        }
+        Ok(options)
     }
-    let rows = match slide(&EquivalentLine(body), material, load, &options) {
-        Ok(transient) => transient.rows,
-        Err(MdrError::NotStationary { rows, .. }) if distance.is_some() => rows,
-        Err(error) => return Err(error.into()),
-    };
-    let last = last(&rows)?;
-    let value = friction_at_end(&rows, distance.is_some());
-    let layers = unresolved_layers(body, material, load.velocity(), (last, options.spacing))?;
-    let friction = Quantity {
-        value,
-        rounding: ROUNDING * (last.indentation_depth / last.contact_length),
-        hidden: layers * value.abs(),
-    };
-    Ok(March { rows, friction })
+
+    /// One step or more.
+    fn march(&self, material: &dyn Material, options: &SlideOptions) -> Result<Vec<SlideRow>> {
+        let rows = match slide(&EquivalentLine(self.body), material, self.load, options) {
+            Ok(transient) => transient.rows,
+            Err(MdrError::NotStationary { rows, .. }) if self.distance.is_some() => rows,
+            Err(error) => return Err(error.into()),
+        };
+        last(&rows)?;
+        Ok(rows)
+    }
+
+    /// The friction of a step belongs to its middle; on the way to the stationary state the end is half a step further.
+    fn friction(&self, rows: &[SlideRow]) -> Quantity {
+        let value = match rows {
+            [.., before, last] if self.distance.is_some() => {
+                1.5 * last.friction_coefficient - 0.5 * before.friction_coefficient
+            }
+            [.., last] => last.friction_coefficient,
+            [] => 0.0,
+        };
+        let rounding = rows.last().map_or(0.0, |last| {
+            ROUNDING * (last.indentation_depth / last.contact_length)
+        });
+        Quantity { value, rounding }
+    }
+
+    /// What is left of an exponential approach, by its change over the last contact length and over the one before; on
+    /// the way to the stationary state nothing is left out.
+    fn rest_of_the_way(&self, rows: &[SlideRow]) -> Option<f64> {
+        let (last, None) = (rows.last()?, self.distance) else {
+            return None;
+        };
+        let back = |lengths: usize| {
+            let row = rows.len().checked_sub(1 + lengths * last.n_contact)?;
+            Some(rows.get(row)?.friction_coefficient)
+        };
+        let [now, before, earlier] = [back(0)?, back(1)?, back(2)?];
+        let [change, change_before] = [now - before, before - earlier].map(f64::abs);
+        let ratio = (change / change_before).min(SLOWEST_RATIO);
+        Some(change * ratio / (1.0 - ratio)).filter(|rest| rest.is_finite())
+    }
+
+    /// What the step does to the memory of the material, if it has one.
+    fn error_of_step(
+        &self,
+        material: &dyn Material,
+        elements: usize,
+        rows: &[SlideRow],
+    ) -> Result<Option<f64>> {
+        let options = self.options(material, elements)?;
+        let Some(ahead) = ahead(material, options.spacing / self.load.velocity())? else {
+            return Ok(None);
+        };
+        let rows_ahead = self.march(&ahead, &options)?;
+        let [value, value_ahead] = [rows, &rows_ahead].map(|rows| self.friction(rows).value);
+        Ok(Some((value_ahead - value).abs()))
+    }
 }
 
 fn last(rows: &[SlideRow]) -> Result<&SlideRow> {
     rows.last()
         .ok_or_else(|| anyhow::anyhow!("the march made no step"))
-}
-
-/// Relative error of the friction that comes from relaxation within the first element of the contact.
-///
-/// At the front the load of a branch rises over the distance v τ_k. A chain with longer elements takes the branch for a
-/// dashpot, whose load is there at once, whatever their number: three resolutions agree and all are wrong. The layer has
-/// the share of the branch in the dissipation, times its length over that of the contact, times the square of the slope
-/// at the front over its mean.
-fn unresolved_layers(
-    body: &Revolution,
-    material: &dyn Material,
-    velocity: f64,
-    (last, spacing): (&SlideRow, f64),
-) -> Result<f64> {
-    let frequency = velocity / last.contact_length;
-    let whole = material.loss_modulus(frequency)?;
-    let relaxation = material.relaxation();
-    let unresolved = relaxation.branches().iter().filter(|branch| {
-        let layer = velocity * branch.relaxation_time;
-        layer < spacing
-    });
-    let layers = unresolved.map(|branch| {
-        let turned = frequency * branch.relaxation_time;
-        let loss = branch.modulus * turned / (1.0 + turned * turned);
-        loss / whole * turned
-    });
-    let front = last.contact[1];
-    // p of a power that is as steep at the front.
-    let exponent = front * body.line_slope(front) / body.line_height(front);
-    let steepness = (2.0 * exponent - 1.0).max(1.0);
-    Ok(LAYER * steepness * layers.sum::<f64>())
-}
-
-/// The friction of a step belongs to its middle; on the way to the stationary state the end is half a step further.
-fn friction_at_end(rows: &[SlideRow], on_the_way: bool) -> f64 {
-    match rows {
-        [.., before, last] if on_the_way => {
-            1.5 * last.friction_coefficient - 0.5 * before.friction_coefficient
-        }
-        [.., last] => last.friction_coefficient,
-        [] => 0.0,
-    }
 }
 
 fn history(row: &SlideRow) -> HistoryRow {

@@ -20,7 +20,7 @@ use rheology::{Material, Viscous};
 use super::answer::{Answer, ContactBox};
 use super::body::Revolution;
 use super::half_space::Simple;
-use super::resolution::{Goal, Quantity, Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, nothing_else, resolve};
 use super::shape::{Patch, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -133,13 +133,14 @@ pub(super) fn chain(
         let rows = mdr_core::indent(&line, material, force, &times, &options)?;
         last(rows)
     };
+    let goal = goal(accuracy, LARGEST_CHAIN);
+    let depth = |row: &mdr_core::IndentRow| [Quantity::from(row.indentation_depth)];
     let Resolved {
         value: row,
         error: [error],
         elements,
-    } = resolve(&goal(accuracy, LARGEST_CHAIN), solve, |row| {
-        [Quantity::shown(row.indentation_depth)]
-    })?;
+        ..
+    } = resolve(&goal, solve, depth, nothing_else)?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -175,8 +176,9 @@ pub(super) fn boundary_elements(
     };
     // What is given has no error.
     let quantities =
-        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::shown);
-    let Resolved { value, error, .. } = resolve(&goal(accuracy, LARGEST_GRID), solve, quantities)?;
+        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
+    let goal = goal(accuracy, LARGEST_GRID);
+    let Resolved { value, error, .. } = resolve(&goal, solve, quantities, nothing_else)?;
     let answer = Answer {
         indentation_depth: Some(value.indentation_depth),
         contact_area: Some(value.contact_area),

@@ -1,0 +1,58 @@
+//! What an error bar consists of.
+
+use serde::Serialize;
+
+/// Parts of an error bar, absolute, of the same unit as its value; a part that a method does not have is left out.
+///
+/// The bar is not smaller than their sum.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub(crate) struct ErrorParts {
+    /// Of the elements, and of the steps in time where their size follows from that of the elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) discretisation: Option<f64>,
+    /// Of a system of equations that is solved to a tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) iteration: Option<f64>,
+    /// Of the memory of the material over a step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) time_stepping: Option<f64>,
+    /// Of the distance that is left to the stationary state.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) truncation: Option<f64>,
+}
+
+impl ErrorParts {
+    /// An error of elements only.
+    pub(super) const fn of_elements(error: f64) -> Self {
+        Self {
+            discretisation: Some(error),
+            iteration: None,
+            time_stepping: None,
+            truncation: None,
+        }
+    }
+
+    /// The parts by their names in JSON and CSV.
+    pub(crate) const fn named(&self) -> [(&'static str, Option<f64>); 4] {
+        [
+            ("discretisation", self.discretisation),
+            ("iteration", self.iteration),
+            ("time_stepping", self.time_stepping),
+            ("truncation", self.truncation),
+        ]
+    }
+
+    pub(super) fn sum(&self) -> f64 {
+        self.named().iter().filter_map(|(_, part)| *part).sum()
+    }
+
+    /// All parts of both; no part is in both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            discretisation: self.discretisation.or(other.discretisation),
+            iteration: self.iteration.or(other.iteration),
+            time_stepping: self.time_stepping.or(other.time_stepping),
+            truncation: self.truncation.or(other.truncation),
+        }
+    }
+}
