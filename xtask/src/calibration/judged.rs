@@ -36,6 +36,11 @@ pub(super) struct Row {
 }
 
 impl Row {
+    /// Whether the reference is much more exact than the bar says of the answer.
+    pub(super) fn is_sharply_judged(&self) -> bool {
+        self.reference_error <= SHARP * self.error_bar
+    }
+
     /// Deviation over bar; a bar of zero holds for a deviation of zero only.
     pub(super) fn part_of_bar(&self) -> f64 {
         if self.deviation > 0.0 {
@@ -45,6 +50,9 @@ impl Row {
         }
     }
 }
+
+/// Errors of references are at most this part of the bars that they judge sharply.
+const SHARP: f64 = 1.0 / 3.0;
 
 /// An answer or a reference that did not come.
 #[derive(Debug, Clone, Serialize)]

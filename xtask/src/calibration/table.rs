@@ -18,7 +18,8 @@ pub(super) fn table(judged: &Judged) -> Table {
         "method",
         "answers",
         "bars that hold",
-        "within the bar alone",
+        "with a sharp reference",
+        "of these within the bar alone",
         "median of bar/deviation",
         "worst deviation/bar",
         "refused",
@@ -42,22 +43,29 @@ pub(super) fn left_out(reasons: &[&'static str]) -> String {
     format!("\nnot asked:\n{}", lines.collect::<String>())
 }
 
-fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 7] {
-    let part = |held: fn(&Row) -> bool| {
-        let held = rows.iter().filter(|row| held(row)).count();
-        format!("{:.1} %", 100.0 * held as f64 / rows.len() as f64)
-    };
+fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 8] {
+    let held = rows.iter().filter(|row| row.holds).count();
+    let sharp: Vec<_> = rows.iter().filter(|row| row.is_sharply_judged()).collect();
+    let held_alone = sharp.iter().filter(|row| row.holds_alone).count();
     let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
     let worst = parts.iter().copied().fold(0.0, f64::max);
     [
         method.to_owned(),
         rows.len().to_string(),
-        part(|row| row.holds),
-        part(|row| row.holds_alone),
+        part(held, rows.len()),
+        sharp.len().to_string(),
+        part(held_alone, sharp.len()),
         short(1.0 / median(parts)),
         short(worst),
         refused.to_string(),
     ]
+}
+
+fn part(held: usize, all: usize) -> String {
+    if all == 0 {
+        return String::new();
+    }
+    format!("{:.1} %", 100.0 * held as f64 / all as f64)
 }
 
 /// Two digits, or a power of ten.

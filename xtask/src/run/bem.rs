@@ -65,7 +65,12 @@ impl<S: Shape> Scene<'_, S> {
         let last = estimate.refinements.last();
         let spacing = last.context("no grid was refined")?.spacing;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, estimate.normal_force)
-            .with_friction(estimate.friction_coefficient, estimate.error);
+            .with_friction(estimate.friction_coefficient, estimate.error)
+            .with_parts(ErrorParts {
+                discretisation: Some(estimate.error - estimate.gap_error),
+                iteration: Some(estimate.gap_error),
+                ..ErrorParts::NONE
+            });
         self.with_state(
             self.with_force_error(answer, estimate.normal_force_error),
             self.on_grid(spacing)?,
@@ -83,10 +88,12 @@ impl<S: Shape> Scene<'_, S> {
         let Resolved {
             value,
             error: [friction_error, force_error],
+            parts: [parts, _],
             ..
         } = resolve(&goal, solve, on_one_grid, |_, state| Ok(gaps(state)))?;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
-            .with_friction(value.friction_coefficient, friction_error);
+            .with_friction(value.friction_coefficient, friction_error)
+            .with_parts(parts);
         self.with_state(self.with_force_error(answer, force_error), value)
     }
 
@@ -161,9 +168,9 @@ fn on_one_grid(state: &SteadySliding) -> [Quantity; 2] {
 fn gaps(state: &SteadySliding) -> [ErrorParts; 2] {
     let friction = ErrorParts {
         iteration: Some(state.residual * state.mean_slope),
-        ..ErrorParts::default()
+        ..ErrorParts::NONE
     };
-    [friction, ErrorParts::default()]
+    [friction, ErrorParts::NONE]
 }
 
 /// With room for elements at the boundary, where a steep body leaves none.

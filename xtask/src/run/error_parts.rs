@@ -5,7 +5,7 @@ use serde::Serialize;
 /// Parts of an error bar, absolute, of the same unit as its value; a part that a method does not have is left out.
 ///
 /// The bar is not smaller than their sum.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct ErrorParts {
     /// Of the elements, and of the steps in time where their size follows from that of the elements.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,14 +22,24 @@ pub(crate) struct ErrorParts {
 }
 
 impl ErrorParts {
+    /// Of a method that has no such parts.
+    pub(super) const NONE: Self = Self {
+        discretisation: None,
+        iteration: None,
+        time_stepping: None,
+        truncation: None,
+    };
+
     /// An error of elements only.
     pub(super) const fn of_elements(error: f64) -> Self {
         Self {
             discretisation: Some(error),
-            iteration: None,
-            time_stepping: None,
-            truncation: None,
+            ..Self::NONE
         }
+    }
+
+    pub(super) fn is_none(&self) -> bool {
+        *self == Self::NONE
     }
 
     /// The parts by their names in JSON and CSV.

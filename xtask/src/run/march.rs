@@ -105,9 +105,9 @@ impl<S: Shape> Scene<'_, S> {
         let truncation = end.distance_error.filter(|_| !self.is_elastic());
         let friction = ErrorParts {
             truncation,
-            ..ErrorParts::default()
+            ..ErrorParts::NONE
         };
-        [friction, ErrorParts::default()]
+        [friction, ErrorParts::NONE]
     }
 
     fn answer(&self, end: End, [error, force_error]: [f64; 2]) -> Answer {

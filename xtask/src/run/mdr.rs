@@ -45,16 +45,17 @@ pub(super) fn stationary(
             steady_at_depth(&line, material, &motion, &options)
         }
     }?;
+    let error =
+        state.friction_coefficient_error + STEADY_ROUNDING * state.friction_coefficient.abs();
     let ends = state.contacts.first().zip(state.contacts.last());
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
         contact_box: ends.map(|(first, last)| ContactBox::along([first[0], last[1]])),
         unknowns: state.n_pieces,
         left_out: vec!["elements", "time steps", "half space"],
-        ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force).with_friction(
-            state.friction_coefficient,
-            state.friction_coefficient_error + STEADY_ROUNDING * state.friction_coefficient.abs(),
-        )
+        ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
+            .with_friction(state.friction_coefficient, error)
+            .with_parts(ErrorParts::of_elements(state.friction_coefficient_error))
     })
 }
 
@@ -91,11 +92,11 @@ pub(super) fn transient(
         Ok([ErrorParts {
             time_stepping: ride.error_of_step(material, elements, rows)?,
             truncation: ride.rest_of_the_way(rows),
-            ..ErrorParts::default()
+            ..ErrorParts::NONE
         }])
     };
     let resolved = resolve(&goal, solve, |rows| [ride.friction(rows)], others)?;
-    let (rows, [error]) = (resolved.value, resolved.error);
+    let (rows, [error], [parts]) = (resolved.value, resolved.error, resolved.parts);
     let last = last(&rows)?;
     let mut answer = Answer {
         indentation_depth: Some(last.indentation_depth),
@@ -105,6 +106,7 @@ pub(super) fn transient(
         left_out: vec!["half space"],
         ..Answer::new(Method::MdrTransient, Model::Line, load.normal_force())
             .with_friction(ride.friction(&rows).value, error)
+            .with_parts(parts)
     };
     answer.fields.history = rows.iter().map(history).collect();
     Ok(answer)

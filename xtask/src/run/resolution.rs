@@ -53,7 +53,7 @@ impl From<f64> for Quantity {
     reason = "stands where marches are asked, which may fail"
 )]
 pub(super) fn nothing_else<T, const N: usize>(_: usize, _: &T) -> Result<[ErrorParts; N]> {
-    Ok([ErrorParts::default(); N])
+    Ok([ErrorParts::NONE; N])
 }
 
 const FIRST: usize = 16;
