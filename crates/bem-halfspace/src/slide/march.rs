@@ -10,7 +10,7 @@ use crate::grid::elements_along;
 use crate::slide::motion::{Motion, MotionRow};
 use crate::slide::slopes::{MeanSlopes, Slopes};
 use crate::slide::{PressureField, SlideOptions};
-use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
+use crate::stepping::{HalfSpace, Instant, MarchState, Route, SlideOmission, Stepping};
 use crate::{BemError, Control, Grid, Resolution};
 
 /// An indenter on its way over a half space.
@@ -95,6 +95,11 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         };
         self.means = self.slopes.over(self.surface, &self.stepping, &instant)?;
         Ok(Some(self.row(&instant)))
+    }
+
+    /// Does the work of an omission too; before the first step.
+    pub(super) fn keep(&mut self, omission: SlideOmission) -> Result<(), BemError> {
+        self.stepping.keep(omission)
     }
 
     /// What is needed to go on from here in a later run.
