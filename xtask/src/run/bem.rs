@@ -10,7 +10,7 @@ use friction_analytic::stationary_depth;
 use indenters::{SlidingLoad, contact_radius};
 use rheology::{Material, Viscous};
 
-use super::answer::{Answer, ContactBox, HistoryRow};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::body::Revolution;
 use super::resolution::{Resolved, resolve};
 use crate::scene_file::{Accuracy, Method, Model};
@@ -67,7 +67,10 @@ fn with_state(answer: Answer, state: SteadySliding, depth: Option<f64>) -> Answe
         contact_box: Some(ContactBox::around(state.contact_x, state.contact_y)),
         unknowns: state.unknowns,
         iterations: state.iterations,
-        left_out: vec!["time steps", "free surface", "mirror half"],
+        grid: Some(Grid {
+            spacing: state.pressure.grid.spacing()[0],
+            factorised: state.is_factorised(),
+        }),
         ..answer
     };
     answer.fields.pressure = Some(state.pressure);
@@ -86,15 +89,24 @@ fn line_length(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Res
     Ok(contact_radius(body, stationary_depth(material, load))?)
 }
 
-/// Elements half as wide as long.
 fn on_grid(
     body: &Revolution,
     (material, load): (&dyn Material, &SlidingLoad),
     spacing: f64,
 ) -> Result<SteadySliding> {
+    let options = grid_options(body, (material, load), spacing)?;
+    Ok(steady(body, material, load, &options)?)
+}
+
+/// Elements half as wide as long.
+pub(super) fn grid_options(
+    body: &Revolution,
+    (material, load): (&dyn Material, &SlidingLoad),
+    spacing: f64,
+) -> Result<SteadyOptions> {
     let Footprint { x, y } = Ladder::of_body(body, material, load)?.footprint;
     let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
-    let options = SteadyOptions {
+    Ok(SteadyOptions {
         spacing: [spacing, 0.5 * spacing],
         phase: [0.0, 0.0],
         footprint: Footprint {
@@ -103,8 +115,23 @@ fn on_grid(
         },
         tolerance: TOLERANCE,
         max_iterations: MAX_ITERATIONS,
-    };
-    Ok(steady(body, material, load, &options)?)
+    })
+}
+
+/// Square elements, over a distance or so far that the state counts as stationary.
+pub(super) fn march_options(
+    body: &Revolution,
+    (material, load): (&Viscous, &SlidingLoad),
+    spacing: f64,
+    distance: Option<f64>,
+) -> Result<SlideOptions> {
+    let length = line_length(body, material, load)?;
+    Ok(SlideOptions {
+        spacing: [spacing; 2],
+        footprint: Footprint::of_body(body, material, load)?,
+        sliding_distance: distance.unwrap_or(LENGTHS * length),
+        contact: ContactOptions::default(),
+    })
 }
 
 /// From first touch to the stationary state, or over a distance.
@@ -116,12 +143,8 @@ pub(super) fn transient(
 ) -> Result<Answer> {
     let length = line_length(body, material, load)?;
     let solve = |elements: usize| {
-        let options = SlideOptions {
-            spacing: [length / elements as f64; 2],
-            footprint: Footprint::of_body(body, material, load)?,
-            sliding_distance: distance.unwrap_or(LENGTHS * length),
-            contact: ContactOptions::default(),
-        };
+        let spacing = length / elements as f64;
+        let options = march_options(body, (material, load), spacing, distance)?;
         let transient = slide(body, material, load, &options)?;
         let friction = friction(&transient, distance)?;
         Ok((friction, transient))
@@ -155,7 +178,10 @@ fn with_transient(answer: Answer, transient: Transient, depth: Option<f64>) -> A
         contact_box: Some(ContactBox::around(last.contact_x, last.contact_y)),
         unknowns: last.n_contact,
         iterations: transient.rows.len(),
-        left_out: vec!["history outside the contact box"],
+        grid: Some(Grid {
+            spacing: transient.pressure.grid.spacing()[0],
+            factorised: false,
+        }),
         ..answer
     };
     answer.fields.history = transient.rows.iter().map(history).collect();

@@ -11,12 +11,13 @@
 use std::f64::consts::PI;
 
 use anyhow::{Result, bail};
+use bem_halfspace::indent::IndentOptions;
 use bem_halfspace::{ContactOptions, Footprint};
 use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
 use indenters::{EquivalentLine, PowerProfile, contact_radius};
 use rheology::{Material, Viscous};
 
-use super::answer::{Answer, ContactBox};
+use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
 use super::half_space::Simple;
 use super::resolution::{Resolved, resolve};
@@ -64,7 +65,6 @@ pub(super) fn analytic(
         contact_area: Some(PI * radius * radius),
         contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
         peak_pressure,
-        left_out: vec!["elements", "time steps", "gradients", "friction"],
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
@@ -137,7 +137,6 @@ pub(super) fn chain(
         contact_box: row.contact.map(ContactBox::along),
         unknowns: row.n_contact,
         iterations: elements,
-        left_out: vec!["half space", "gradients", "friction"],
         ..Answer::new(Method::MdrTransient, Model::Line, force)
     })
 }
@@ -150,21 +149,19 @@ pub(super) fn boundary_elements(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let radius = radius(body, material, force, duration)?;
-    let time = impulse(material, force, duration)? / force;
-    let dashpot = unit_dashpot()?;
+    let (dashpot, time) = dashpot_and_time(material, duration)?;
+    let spacing = |elements: usize| 2.0 * radius / elements as f64;
     let solve = |elements: usize| {
-        let options = bem_halfspace::indent::IndentOptions {
-            spacing: [2.0 * radius / elements as f64; 2],
-            footprint: Footprint::square(1.3 * radius),
-            contact: ContactOptions::default(),
-        };
+        let options = grid_options(body, material, (force, duration), spacing(elements))?;
         let load = (force, &[time][..]);
         last(bem_halfspace::indent::indent(
             body, &dashpot, load, &options,
         )?)
     };
     let Resolved {
-        value: row, error, ..
+        value: row,
+        error,
+        elements,
     } = resolve(accuracy, LARGEST_GRID, solve, |row| row.indentation_depth)?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
@@ -172,8 +169,31 @@ pub(super) fn boundary_elements(
         contact_area: Some(row.contact_area),
         unknowns: row.n_contact,
         iterations: 1,
-        left_out: vec!["time steps", "gradients", "friction"],
+        grid: Some(Grid {
+            spacing: spacing(elements),
+            factorised: false,
+        }),
         ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
+    })
+}
+
+/// The dashpot that stands for the material, and how long the same force takes on it.
+pub(super) fn dashpot_and_time(material: &dyn Material, duration: f64) -> Result<(Viscous, f64)> {
+    Ok((unit_dashpot()?, impulse(material, 1.0, duration)?))
+}
+
+/// Square elements.
+pub(super) fn grid_options(
+    body: &Revolution,
+    material: &dyn Material,
+    (force, duration): (f64, f64),
+    spacing: f64,
+) -> Result<IndentOptions> {
+    let radius = radius(body, material, force, duration)?;
+    Ok(IndentOptions {
+        spacing: [spacing; 2],
+        footprint: Footprint::square(1.3 * radius),
+        contact: ContactOptions::default(),
     })
 }
 

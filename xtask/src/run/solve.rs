@@ -8,40 +8,47 @@ use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::half_space::{Simple, simple};
 use super::offer::choose;
+use super::omission::plan;
 use super::question::{Motion, Question};
 use super::{analytic, bem, mdr, pressing};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 pub(crate) fn solve(question: &Question) -> Result<Answer> {
+    solve_by(question, choose(question)?, question.accuracy)
+}
+
+/// Asks a method that answers the scene.
+pub(super) fn solve_by(question: &Question, method: Method, accuracy: Accuracy) -> Result<Answer> {
     let started = std::time::Instant::now();
-    let method = choose(question)?;
     let Body::Revolution(body) = &question.body else {
         bail!("only bodies of revolution are answered");
     };
     let answer = match question.motion {
-        Motion::Pressing { duration } => pressed(question, body, method, duration)?,
+        Motion::Pressing { duration } => pressed(question, body, (method, accuracy), duration)?,
         Motion::Sliding { velocity, distance } => {
-            slid(question, body, method, (velocity, distance))?
+            slid(question, body, (method, accuracy), (velocity, distance))?
         }
     };
+    let left_out = plan(question, &answer);
+    let answer = Answer { left_out, ..answer };
     answer.after(started.elapsed()).finite()
 }
 
 fn pressed(
     question: &Question,
     body: &Revolution,
-    method: Method,
+    (method, accuracy): (Method, Accuracy),
     duration: f64,
 ) -> Result<Answer> {
     let material = &*question.material;
     let simple = simple(material)?;
     match (method, question.control) {
         (Method::MdrTransient, Control::NormalForce(force)) => {
-            pressing::chain(body, material, (force, duration), question.accuracy)
+            pressing::chain(body, material, (force, duration), accuracy)
         }
         (Method::BemTransient, Control::NormalForce(force)) => {
-            pressing::boundary_elements(body, material, (force, duration), question.accuracy)
+            pressing::boundary_elements(body, material, (force, duration), accuracy)
         }
         (_, control) => pressing::analytic(body, material, (control, duration), simple.as_ref()),
     }
@@ -50,11 +57,10 @@ fn pressed(
 fn slid(
     question: &Question,
     body: &Revolution,
-    method: Method,
+    (method, accuracy): (Method, Accuracy),
     (velocity, distance): (f64, Option<f64>),
 ) -> Result<Answer> {
     let material = &*question.material;
-    let accuracy = question.accuracy;
     let motion = (question.control, velocity);
     match method {
         Method::Analytic => closed(question, body, (velocity, distance)),
@@ -98,14 +104,18 @@ fn closed(
     }
 }
 
-fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
+pub(super) fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
+    Ok(SlidingLoad::new(normal_force(control)?, velocity)?)
+}
+
+pub(super) fn normal_force(control: Control) -> Result<f64> {
     match control {
-        Control::NormalForce(force) => Ok(SlidingLoad::new(force, velocity)?),
-        Control::IndentationDepth(_) => bail!("the method slides under a force, not at a depth"),
+        Control::NormalForce(force) => Ok(force),
+        Control::IndentationDepth(_) => bail!("the method needs a force, not a depth"),
     }
 }
 
-fn viscous(question: &Question) -> Result<Viscous> {
+pub(super) fn viscous(question: &Question) -> Result<Viscous> {
     match simple(&*question.material)? {
         Some(Simple::Viscous(material)) => Ok(material),
         _ => bail!("the method slides on a viscous material only"),
