@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::material::check_table;
 use crate::output::WrongInput;
 use crate::run::plan;
-use crate::scene_file::{Source, profile};
+use crate::scene_file::{Source, height_map, profile};
 use crate::sweep::check_rows;
 
 /// A kind of file that the commands read.
@@ -15,6 +15,8 @@ pub enum InputKind {
     Scene,
     /// Radii and heights that a scene names.
     Profile,
+    /// A grid of heights that a scene names.
+    HeightMap,
     /// Measured moduli, of `fit-material`.
     Moduli,
     /// Rows of a sweep, of `sweep --resume` and `sweep --merge`.
@@ -31,6 +33,10 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
     match kind {
         InputKind::Scene => plan(&Source::new(file, contents.to_vec())?, None).map(|_| ()),
         InputKind::Profile => profile(file, contents).map(|_| ()).map_err(WrongInput),
+        InputKind::HeightMap => {
+            let map = height_map(file, contents, [1.0; 2]);
+            map.map(|_| ()).map_err(WrongInput)
+        }
         InputKind::Moduli => check_table(file, contents),
         InputKind::SweepRows => check_rows(file, contents),
     }

@@ -151,6 +151,19 @@ pub enum BemError {
         /// Relative error asked for.
         relative_error: f64,
     },
+    /// The normal force at a depth was not reached to the error asked for.
+    #[error(
+        "the normal force was not reached to the relative error {relative_error:e}: it is {normal_force} N with an error \
+         of {error:e} N"
+    )]
+    ForceNotReached {
+        /// Best value reached, \[N].
+        normal_force: f64,
+        /// Its absolute error, \[N].
+        error: f64,
+        /// Relative error asked for.
+        relative_error: f64,
+    },
     /// The rigid body refuses the question.
     #[error(transparent)]
     Indenter(#[from] IndenterError),

@@ -4,6 +4,7 @@ use indenters::{Axisymmetric, SlidingLoad, bracketed_root};
 use rheology::Material;
 
 use crate::BemError;
+use crate::error::positive;
 use crate::grid::elements_along;
 use crate::steady::depth_scale_of_body;
 
@@ -44,10 +45,30 @@ impl Footprint {
         } else {
             1.5
         };
-        let radius = radius_at_height(body, height * depth).filter(|radius| *radius > 0.0);
+        Self::below(body, height * depth, ("depth scale", depth))
+    }
+
+    /// The square that holds the contact of a body of revolution at a depth of its lowest point \[m]: the surface nowhere
+    /// rises to meet the body.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a depth that is not positive, or that the body reaches at no finite radius.
+    pub fn of_body_at_depth(
+        body: &(impl Axisymmetric + ?Sized),
+        depth: f64,
+    ) -> Result<Self, BemError> {
+        Self::below(body, positive("depth", depth)?, ("depth", depth))
+    }
+
+    fn below(
+        body: &(impl Axisymmetric + ?Sized),
+        height: f64,
+        (parameter, value): (&'static str, f64),
+    ) -> Result<Self, BemError> {
+        let radius = radius_at_height(body, height).filter(|radius| *radius > 0.0);
         radius.map(Self::square).ok_or(BemError::InvalidParameter {
-            parameter: "depth scale",
-            value: depth,
+            parameter,
+            value,
             allowed: "a height that the body reaches at a finite radius greater than 0",
         })
     }
@@ -74,7 +95,7 @@ impl Footprint {
             .enumerate()
         {
             for (side, end) in [-ends[0], ends[1]].into_iter().enumerate() {
-                crate::error::positive(name, end)?;
+                positive(name, end)?;
                 counts[axis][side] = elements_along(end, spacing[axis])?;
             }
         }

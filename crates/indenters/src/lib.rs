@@ -33,6 +33,7 @@ mod discrete_edge;
 mod error;
 mod flat_cone;
 mod flat_punch;
+mod height_map;
 mod hyperboloid;
 mod inverse_abel;
 mod leading_edge;
@@ -60,6 +61,7 @@ pub use discrete_edge::{leading_indices, running_minimum};
 pub use error::IndenterError;
 pub use flat_cone::FlatCone;
 pub use flat_punch::FlatPunch;
+pub use height_map::HeightMap;
 pub use hyperboloid::Hyperboloid;
 pub use inverse_abel::inverse_abel;
 pub use leading_edge::{

@@ -22,6 +22,9 @@ pub(crate) struct Answer {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) friction_coefficient_error: Option<f64>,
     pub(crate) normal_force: f64,
+    /// Absolute; of a force that is given there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) normal_force_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) tangential_force: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -97,6 +100,7 @@ impl Answer {
             friction_coefficient: None,
             friction_coefficient_error: None,
             normal_force,
+            normal_force_error: None,
             tangential_force: None,
             indentation_depth: None,
             indentation_depth_error: None,
@@ -135,7 +139,7 @@ impl Answer {
     }
 
     /// The quantities by their names in JSON and CSV.
-    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 12] {
+    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 13] {
         let edges = self.contact_box;
         [
             ("friction_coefficient", self.friction_coefficient),
@@ -144,6 +148,7 @@ impl Answer {
                 self.friction_coefficient_error,
             ),
             ("normal_force", Some(self.normal_force)),
+            ("normal_force_error", self.normal_force_error),
             ("tangential_force", self.tangential_force),
             ("indentation_depth", self.indentation_depth),
             ("indentation_depth_error", self.indentation_depth_error),
@@ -186,7 +191,12 @@ impl Answer {
                 self.friction_coefficient_error,
                 "",
             ),
-            ("normal force", Some(self.normal_force), None, "N"),
+            (
+                "normal force",
+                Some(self.normal_force),
+                self.normal_force_error,
+                "N",
+            ),
             ("tangential force", self.tangential_force, None, "N"),
             (
                 "indentation depth",

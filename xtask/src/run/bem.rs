@@ -1,199 +1,197 @@
-//! Sliding on the half space: stationary on any material, from first touch on a viscous one.
+//! Stationary sliding on the half space, under a force or at a depth.
 
-use anyhow::Result;
-use bem_halfspace::slide::{SlideOptions, SlideRow, Transient, slide};
+use anyhow::{Context, Result};
+use bem_halfspace::Footprint;
 use bem_halfspace::steady::{
-    FrictionOptions, Ladder, SinkingDepth, SteadyOptions, SteadySliding, steady, steady_friction,
+    DepthControl, FrictionOptions, Ladder, SinkingDepth, SteadyOmission, SteadyOptions,
+    SteadySliding, steady, steady_at_depth, steady_at_depth_without_omission,
+    steady_friction_at_depth, steady_friction_of_surface, steady_without_omission,
 };
-use bem_halfspace::{ContactOptions, Footprint};
-use friction_analytic::stationary_depth;
-use indenters::{SlidingLoad, contact_radius};
-use rheology::{Material, Viscous};
+use indenters::SlidingLoad;
+use rheology::Material;
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow};
-use super::body::Revolution;
+use super::answer::{Answer, ContactBox, Grid};
 use super::resolution::{Resolved, resolve};
-use crate::scene_file::{Accuracy, Method, Model};
+use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
+use crate::scene_file::{Accuracy, Control, Method, Model};
 
-/// Elements of the coarsest grids of a ladder along the contact length of the one-dimensional model.
-const COARSEST_ELEMENTS: f64 = 5.0;
-/// Elements along the contact after which a march in time gives up; it takes about a minute.
-const LARGEST_GRID: usize = 32;
-/// Contact lengths of the one-dimensional model until the state counts as stationary.
-const LENGTHS: f64 = 24.0;
-const DRIFT: f64 = 0.05;
 const TOLERANCE: f64 = 1e-9;
 const MAX_ITERATIONS: usize = 500;
+/// Lengths of the footprint that a solid has slid over, on which they have no effect.
+const FAR: f64 = 100.0;
 
 /// The stationary state, to an error or on a grid.
 pub(super) fn stationary(
-    body: &Revolution,
-    (material, load): (&dyn Material, &SlidingLoad),
+    body: &impl Shape,
+    (material, drive): (&dyn Material, &Drive),
     accuracy: Accuracy,
-    distance: Option<f64>,
 ) -> Result<Answer> {
-    let (friction, error, state) = match accuracy {
-        Accuracy::RelativeError(relative_error) => {
-            let options = FrictionOptions {
-                relative_error,
-                ..FrictionOptions::default()
-            };
-            let estimate = steady_friction(body, material, load, &options)?;
-            let spacing = estimate.refinements.last().map(|last| last.spacing);
-            let spacing = spacing.ok_or_else(|| anyhow::anyhow!("no grid was refined"))?;
-            let state = on_grid(body, (material, load), spacing)?;
-            (estimate.friction_coefficient, estimate.error, state)
-        }
-        Accuracy::Elements(_) => {
-            let ladder = Ladder::of_body(body, material, load)?;
-            let length = COARSEST_ELEMENTS * ladder.coarsest_spacing;
-            let solve = |elements: usize| on_grid(body, (material, load), length / elements as f64);
-            let Resolved { value, error, .. } = resolve(accuracy, usize::MAX, solve, |state| {
-                state.friction_coefficient
-            })?;
-            (value.friction_coefficient, error, value)
-        }
-    };
-    let depth = depth_after(&state.depth, distance).transpose();
-    let answer = Answer::new(Method::BemSteady, Model::HalfSpace, load.normal_force())
-        .with_friction(friction, error);
-    Ok(with_state(answer, state, depth?))
+    let scene = Scene::new(body, (material, drive))?;
+    match accuracy {
+        Accuracy::RelativeError(relative_error) => scene.to_an_error(relative_error),
+        Accuracy::Elements(_) => scene.on_elements(accuracy),
+    }
 }
 
-fn with_state(answer: Answer, state: SteadySliding, depth: Option<f64>) -> Answer {
-    let mut answer = Answer {
-        indentation_depth: depth,
-        contact_area: Some(state.contact_area),
-        contact_box: Some(ContactBox::around(state.contact_x, state.contact_y)),
-        unknowns: state.unknowns,
-        iterations: state.iterations,
-        grid: Some(Grid {
-            spacing: state.pressure.grid.spacing()[0],
-            factorised: state.is_factorised(),
-        }),
-        ..answer
-    };
-    answer.fields.pressure = Some(state.pressure);
-    answer
+/// A body that slides in the stationary state.
+pub(super) struct Scene<'a, S> {
+    body: &'a S,
+    material: &'a dyn Material,
+    drive: &'a Drive,
+    ladder: Ladder,
+}
+
+impl<'a, S: Shape> Scene<'a, S> {
+    pub(super) fn new(
+        body: &'a S,
+        (material, drive): (&'a dyn Material, &'a Drive),
+    ) -> Result<Self> {
+        Ok(Self {
+            body,
+            material,
+            drive,
+            ladder: body.ladder(material, drive)?,
+        })
+    }
+
+    fn to_an_error(&self, relative_error: f64) -> Result<Answer> {
+        let Self { body, material, .. } = *self;
+        let options = FrictionOptions {
+            relative_error,
+            ..FrictionOptions::default()
+        };
+        let estimate = match self.drive.control {
+            Control::NormalForce(force) => {
+                let load = SlidingLoad::new(force, self.drive.velocity)?;
+                steady_friction_of_surface(body, (material, &load), &self.ladder, &options)
+            }
+            Control::IndentationDepth(depth) => {
+                let control = self.depth_control(depth);
+                steady_friction_at_depth(body, (material, &control), &self.ladder, &options)
+            }
+        }?;
+        let last = estimate.refinements.last();
+        let spacing = last.context("no grid was refined")?.spacing;
+        let answer = Answer::new(Method::BemSteady, Model::HalfSpace, estimate.normal_force)
+            .with_friction(estimate.friction_coefficient, estimate.error);
+        self.with_state(
+            self.with_force_error(answer, estimate.normal_force_error),
+            self.on_grid(spacing)?,
+        )
+    }
+
+    fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
+        let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
+        let solve = |elements: usize| self.on_grid(length / elements as f64);
+        let Resolved {
+            value,
+            error: [friction_error, force_error],
+            ..
+        } = resolve(accuracy, usize::MAX, solve, |state| {
+            [state.friction_coefficient, state.normal_force]
+        })?;
+        let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
+            .with_friction(value.friction_coefficient, friction_error);
+        self.with_state(self.with_force_error(answer, force_error), value)
+    }
+
+    /// A force that is given has no error.
+    fn with_force_error(&self, answer: Answer, error: f64) -> Answer {
+        match self.drive.control {
+            Control::NormalForce(_) => answer,
+            Control::IndentationDepth(_) => Answer {
+                normal_force_error: Some(error),
+                ..answer
+            },
+        }
+    }
+
+    fn with_state(&self, answer: Answer, state: SteadySliding) -> Result<Answer> {
+        let indentation_depth = match self.drive.control {
+            Control::NormalForce(_) => depth_after(&state.depth, self.drive.distance)?,
+            Control::IndentationDepth(depth) => Some(depth),
+        };
+        let mut answer = Answer {
+            indentation_depth,
+            contact_area: Some(state.contact_area),
+            contact_box: Some(ContactBox::around(state.contact_x, state.contact_y)),
+            unknowns: state.unknowns,
+            iterations: state.iterations,
+            grid: Some(Grid {
+                spacing: state.pressure.grid.spacing()[0],
+                factorised: state.is_factorised(),
+            }),
+            ..answer
+        };
+        answer.fields.pressure = Some(state.pressure);
+        Ok(answer)
+    }
+
+    fn on_grid(&self, spacing: f64) -> Result<SteadySliding> {
+        self.solve(&self.grid(spacing), None)
+    }
+
+    /// Elements half as wide as long.
+    pub(super) fn grid(&self, spacing: f64) -> SteadyOptions {
+        SteadyOptions {
+            spacing: [spacing, 0.5 * spacing],
+            phase: [0.0, 0.0],
+            footprint: widened(&self.ladder.footprint, spacing),
+            tolerance: TOLERANCE,
+            max_iterations: MAX_ITERATIONS,
+        }
+    }
+
+    /// The state on one grid, where the work of an omission may be done too.
+    pub(super) fn solve(
+        &self,
+        grid: &SteadyOptions,
+        kept: Option<SteadyOmission>,
+    ) -> Result<SteadySliding> {
+        let Self { body, material, .. } = *self;
+        Ok(match self.drive.control {
+            Control::NormalForce(force) => {
+                let load = SlidingLoad::new(force, self.drive.velocity)?;
+                match kept {
+                    None => steady(body, material, &load, grid),
+                    Some(kept) => steady_without_omission(body, material, &load, grid, kept),
+                }
+            }
+            Control::IndentationDepth(depth) => {
+                let control = self.depth_control(depth);
+                match kept {
+                    None => steady_at_depth(body, material, &control, grid),
+                    Some(kept) => {
+                        steady_at_depth_without_omission(body, material, &control, grid, kept)
+                    }
+                }
+            }
+        }?)
+    }
+
+    fn depth_control(&self, depth: f64) -> DepthControl {
+        let [rear, front] = self.ladder.footprint.x;
+        DepthControl {
+            depth,
+            sliding_distance: self.drive.distance.unwrap_or(FAR * (front - rear)),
+            velocity: self.drive.velocity,
+        }
+    }
+}
+
+/// With room for elements at the boundary, where a steep body leaves none.
+pub(super) fn widened(footprint: &Footprint, spacing: f64) -> Footprint {
+    let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
+    Footprint {
+        x: widened(footprint.x),
+        y: widened(footprint.y),
+    }
 }
 
 /// A solid has a depth of its own; one that flows has a depth after a distance only.
-fn depth_after(depth: &SinkingDepth, distance: Option<f64>) -> Option<Result<f64>> {
+fn depth_after(depth: &SinkingDepth, distance: Option<f64>) -> Result<Option<f64>> {
     if depth.depth_per_e_fold == 0.0 {
-        return Some(Ok(depth.reference_depth));
+        return Ok(Some(depth.reference_depth));
     }
-    distance.map(|distance| Ok(depth.after(distance)?))
-}
-
-fn line_length(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Result<f64> {
-    Ok(contact_radius(body, stationary_depth(material, load))?)
-}
-
-fn on_grid(
-    body: &Revolution,
-    (material, load): (&dyn Material, &SlidingLoad),
-    spacing: f64,
-) -> Result<SteadySliding> {
-    let options = grid_options(body, (material, load), spacing)?;
-    Ok(steady(body, material, load, &options)?)
-}
-
-/// Elements half as wide as long.
-pub(super) fn grid_options(
-    body: &Revolution,
-    (material, load): (&dyn Material, &SlidingLoad),
-    spacing: f64,
-) -> Result<SteadyOptions> {
-    let Footprint { x, y } = Ladder::of_body(body, material, load)?.footprint;
-    let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
-    Ok(SteadyOptions {
-        spacing: [spacing, 0.5 * spacing],
-        phase: [0.0, 0.0],
-        footprint: Footprint {
-            x: widened(x),
-            y: widened(y),
-        },
-        tolerance: TOLERANCE,
-        max_iterations: MAX_ITERATIONS,
-    })
-}
-
-/// Square elements, over a distance or so far that the state counts as stationary.
-pub(super) fn march_options(
-    body: &Revolution,
-    (material, load): (&Viscous, &SlidingLoad),
-    spacing: f64,
-    distance: Option<f64>,
-) -> Result<SlideOptions> {
-    let length = line_length(body, material, load)?;
-    Ok(SlideOptions {
-        spacing: [spacing; 2],
-        footprint: Footprint::of_body(body, material, load)?,
-        sliding_distance: distance.unwrap_or(LENGTHS * length),
-        contact: ContactOptions::default(),
-    })
-}
-
-/// From first touch to the stationary state, or over a distance.
-pub(super) fn transient(
-    body: &Revolution,
-    (material, load): (&Viscous, &SlidingLoad),
-    accuracy: Accuracy,
-    distance: Option<f64>,
-) -> Result<Answer> {
-    let length = line_length(body, material, load)?;
-    let solve = |elements: usize| {
-        let spacing = length / elements as f64;
-        let options = march_options(body, (material, load), spacing, distance)?;
-        let transient = slide(body, material, load, &options)?;
-        let friction = friction(&transient, distance)?;
-        Ok((friction, transient))
-    };
-    let Resolved { value, error, .. } =
-        resolve(accuracy, LARGEST_GRID, solve, |([friction, _], _)| {
-            *friction
-        })?;
-    let ([friction, distance_error], transient) = value;
-    let answer = Answer::new(Method::BemTransient, Model::HalfSpace, load.normal_force())
-        .with_friction(friction, error + distance_error);
-    // Without a distance the depth has no meaning: it never stops to grow.
-    let depth = distance.map(|_| transient.last().indentation_depth);
-    Ok(with_transient(answer, transient, depth))
-}
-
-/// The friction coefficient after a distance, or that of the stationary state and what the finite distance leaves open.
-fn friction(transient: &Transient, distance: Option<f64>) -> Result<[f64; 2]> {
-    if distance.is_some() {
-        return Ok([transient.last().friction_coefficient, 0.0]);
-    }
-    let state = transient.stationary(DRIFT)?;
-    Ok([state.friction_coefficient, state.distance_error])
-}
-
-fn with_transient(answer: Answer, transient: Transient, depth: Option<f64>) -> Answer {
-    let last = transient.last();
-    let mut answer = Answer {
-        indentation_depth: depth,
-        contact_area: Some(last.contact_area),
-        contact_box: Some(ContactBox::around(last.contact_x, last.contact_y)),
-        unknowns: last.n_contact,
-        iterations: transient.rows.len(),
-        grid: Some(Grid {
-            spacing: transient.pressure.grid.spacing()[0],
-            factorised: false,
-        }),
-        ..answer
-    };
-    answer.fields.history = transient.rows.iter().map(history).collect();
-    answer.fields.pressure = Some(transient.pressure);
-    answer
-}
-
-fn history(row: &SlideRow) -> HistoryRow {
-    HistoryRow {
-        sliding_distance_m: row.sliding_distance,
-        time_s: row.time,
-        indentation_depth_m: row.indentation_depth,
-        friction_coefficient: row.friction_coefficient,
-    }
+    Ok(distance.map(|distance| depth.after(distance)).transpose()?)
 }

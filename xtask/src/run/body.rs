@@ -3,12 +3,14 @@
 use std::path::Path;
 
 use indenters::{
-    Axisymmetric, FlatCone, FlatPunch, Hyperboloid, IndenterError, Kink, PowerProfile, PowerTerm,
-    RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    Axisymmetric, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError, Kink, PowerProfile,
+    PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
 use crate::output::{WrongInput, read_input};
-use crate::scene_file::{Indenter, SceneError, Term, in_range, positive, profile};
+use crate::scene_file::{
+    HeightMapFile, Indenter, SceneError, Term, height_map, in_range, positive, profile,
+};
 
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]
@@ -16,7 +18,7 @@ pub(crate) enum Body {
     Revolution(Revolution),
     /// Infinite along y.
     Cylinder,
-    HeightMap,
+    HeightMap(HeightMap),
 }
 
 /// A body of revolution.
@@ -106,9 +108,7 @@ pub(super) fn body(indenter: &Indenter, folder: &Path) -> Result<Body, SceneErro
         Indenter::Cylinder(table) => {
             positive("indenter.cylinder.radius", table.radius).map(|_| Body::Cylinder)
         }
-        Indenter::HeightMap(table) => {
-            positive("indenter.height-map.spacing", table.spacing).map(|_| Body::HeightMap)
-        }
+        Indenter::HeightMap(table) => map(table, folder),
     }
 }
 
@@ -149,6 +149,23 @@ fn table_profile(file: &Path) -> Result<Body, SceneError> {
     let contents = read_input(file).map_err(|WrongInput(problem)| wrong(problem))?;
     let profile = profile(file, &contents).map_err(wrong)?;
     Ok(Body::Revolution(Revolution::Other(Box::new(profile))))
+}
+
+fn map(table: &HeightMapFile, folder: &Path) -> Result<Body, SceneError> {
+    for (index, spacing) in table.spacing.into_iter().enumerate() {
+        positive(&format!("indenter.height-map.spacing[{index}]"), spacing)?;
+    }
+    let wrong = |problem| SceneError::together("indenter.height-map.file", problem);
+    let file = folder.join(&table.file);
+    let contents = read_input(&file).map_err(|WrongInput(problem)| wrong(problem))?;
+    let map = height_map(&file, &contents, table.spacing).map_err(wrong)?;
+    if map.extent().into_iter().flatten().any(|end| end == 0.0) {
+        return Err(wrong(format!(
+            "{}: the lowest height lies on the edge of the map, where the contact would end with it",
+            file.display()
+        )));
+    }
+    Ok(Body::HeightMap(map))
 }
 
 /// The number that the library refuses, with its key.

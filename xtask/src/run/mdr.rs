@@ -72,8 +72,10 @@ pub(super) fn transient(
     };
     let friction = |rows: &Vec<SlideRow>| friction_at_end(rows, distance.is_some());
     let Resolved {
-        value: rows, error, ..
-    } = resolve(accuracy, LARGEST_CHAIN, solve, friction)?;
+        value: rows,
+        error: [error],
+        ..
+    } = resolve(accuracy, LARGEST_CHAIN, solve, |rows| [friction(rows)])?;
     let last = rows
         .last()
         .ok_or_else(|| anyhow::anyhow!("the march made no step"))?;

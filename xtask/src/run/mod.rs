@@ -7,6 +7,7 @@ mod body;
 mod explain;
 mod files;
 mod half_space;
+mod march;
 mod mdr;
 mod offer;
 mod omission;
@@ -16,6 +17,7 @@ mod question;
 mod resolution;
 mod same_problem;
 mod savings;
+mod shape;
 mod solve;
 
 use std::path::{Path, PathBuf};

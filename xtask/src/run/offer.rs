@@ -86,62 +86,84 @@ pub(super) fn answers(method: Method, question: &Question) -> bool {
 
 /// Why a method does not answer, if it does not.
 fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
-    let Body::Revolution(body) = &question.body else {
-        return Some(match question.body {
-            Body::Cylinder => "it needs a body of revolution, and a cylinder is none",
-            _ => "it needs a body of revolution, and a height map is none",
-        });
-    };
-    match (method, question.motion) {
-        (Method::Analytic, _) if matches!(question.accuracy, Accuracy::Elements(_)) => {
-            Some("closed forms have no elements; give relative_error instead")
-        }
-        (Method::Analytic, Motion::Pressing { .. }) => None,
-        (Method::Analytic, Motion::Sliding { distance, .. }) => match question.model {
-            Some(Model::HalfSpace) => closed_half_space(question, body, simple, distance),
-            _ => closed_line(question, body, simple, distance),
-        },
-        (Method::MdrSteady | Method::MdrTransient, Motion::Sliding { .. })
-            if question.model == Some(Model::HalfSpace) =>
-        {
-            Some("it answers for the one-dimensional model, and the scene asks for the half space")
-        }
-        (Method::BemSteady | Method::BemTransient, Motion::Sliding { .. })
-            if question.model == Some(Model::Line) =>
-        {
-            Some("it answers for the half space, and the scene asks for the one-dimensional model")
-        }
-        (Method::MdrSteady | Method::BemSteady, Motion::Pressing { .. }) => {
-            Some("nothing slides, and without sliding there is no stationary state to solve for")
-        }
-        (Method::MdrSteady, Motion::Sliding { distance, .. }) => match question.accuracy {
-            _ if distance.is_some() => Some(STATIONARY),
-            Accuracy::Elements(_) => {
-                Some("it chooses its polynomials itself; give relative_error instead of elements")
-            }
-            Accuracy::RelativeError(_) => None,
-        },
-        (Method::MdrTransient | Method::BemTransient, Motion::Pressing { .. }) => {
-            at_depth(question).then_some("it presses with a force; analytic holds a depth")
-        }
-        (Method::MdrTransient, Motion::Sliding { .. }) => at_depth(question).then_some(UNDER_FORCE),
-        (Method::BemSteady, Motion::Sliding { .. }) => at_depth(question).then_some(UNDER_FORCE),
-        (Method::BemTransient, Motion::Sliding { .. }) => on_half_space(question, simple),
+    match (method, &question.body) {
+        (_, Body::Cylinder) => Some(LINE_CONTACT),
+        (Method::BemSteady | Method::BemTransient, _) => boundary_elements(method, question),
+        (_, Body::HeightMap(_)) => Some(
+            "it needs a body of revolution, and a height map is none; boundary elements take it",
+        ),
+        (Method::Analytic, Body::Revolution(body)) => closed(question, body, simple),
+        (_, Body::Revolution(_)) => line(method, question),
     }
 }
 
+const LINE_CONTACT: &str =
+    "it needs a contact of finite area or a body of revolution, and a cylinder has a line contact";
 const UNDER_FORCE: &str = "it slides under a force, not at a depth";
 const STATIONARY: &str = "it answers the stationary state, without duration and sliding_distance";
+const NOTHING_SLIDES: &str =
+    "nothing slides, and without sliding there is no stationary state to solve for";
 
 fn at_depth(question: &Question) -> bool {
     matches!(question.control, Control::IndentationDepth(_))
 }
 
-fn on_half_space(question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
-    if !matches!(simple, Some(Simple::Viscous(_))) {
-        return Some("boundary elements march in time on a viscous half space only, so far");
+fn boundary_elements(method: Method, question: &Question) -> Option<&'static str> {
+    let Motion::Sliding { distance, .. } = question.motion else {
+        return (method == Method::BemSteady).then_some(NOTHING_SLIDES);
+    };
+    if question.model == Some(Model::Line) {
+        return Some(
+            "it answers for the half space, and the scene asks for the one-dimensional model",
+        );
     }
-    at_depth(question).then_some(UNDER_FORCE)
+    if !at_depth(question) || distance.is_some() {
+        return None;
+    }
+    if method == Method::BemTransient {
+        return Some("at a depth it marches over a distance; give solve.sliding_distance");
+    }
+    let flows = question.material.creep().fluidity() > 0.0;
+    flows.then_some(
+        "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance",
+    )
+}
+
+fn line(method: Method, question: &Question) -> Option<&'static str> {
+    let Motion::Sliding { distance, .. } = question.motion else {
+        return match method {
+            Method::MdrSteady => Some(NOTHING_SLIDES),
+            _ => at_depth(question).then_some("it presses with a force; analytic holds a depth"),
+        };
+    };
+    if question.model == Some(Model::HalfSpace) {
+        return Some(
+            "it answers for the one-dimensional model, and the scene asks for the half space",
+        );
+    }
+    if method == Method::MdrTransient {
+        return at_depth(question).then_some(UNDER_FORCE);
+    }
+    match question.accuracy {
+        _ if distance.is_some() => Some(STATIONARY),
+        Accuracy::Elements(_) => {
+            Some("it chooses its polynomials itself; give relative_error instead of elements")
+        }
+        Accuracy::RelativeError(_) => None,
+    }
+}
+
+fn closed(question: &Question, body: &Revolution, simple: Option<&Simple>) -> Option<&'static str> {
+    if matches!(question.accuracy, Accuracy::Elements(_)) {
+        return Some("closed forms have no elements; give relative_error instead");
+    }
+    let Motion::Sliding { distance, .. } = question.motion else {
+        return None;
+    };
+    match question.model {
+        Some(Model::HalfSpace) => closed_half_space(question, body, simple, distance),
+        _ => closed_line(question, body, simple, distance),
+    }
 }
 
 fn closed_line(
@@ -185,5 +207,5 @@ fn closed_half_space(
     if distance.is_some() {
         return Some(STATIONARY);
     }
-    on_half_space(question, simple)
+    at_depth(question).then_some(UNDER_FORCE)
 }

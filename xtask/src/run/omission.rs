@@ -4,9 +4,10 @@ use rheology::CreepSpectrum;
 use serde::Serialize;
 
 use super::answer::Answer;
+use super::body::Body;
 use super::offer::answers;
 use super::question::{Motion, Question};
-use crate::scene_file::{Method, Model};
+use crate::scene_file::{Control, Method, Model};
 
 /// A part of the work that was left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -95,7 +96,9 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         (Method::MdrTransient, Motion::Pressing { .. }) => vec![Omission::HalfSpace],
         (Method::MdrTransient, Motion::Sliding { .. }) => Vec::new(),
         (Method::BemSteady, Motion::Sliding { distance, .. }) => {
-            let mut left_out = vec![Omission::MirrorHalf, outside_or_transforms(answer)];
+            let mut left_out = Vec::new();
+            left_out.extend(is_mirror_symmetric(&question.body).then_some(Omission::MirrorHalf));
+            left_out.push(outside_or_transforms(answer));
             // After a distance the friction is not yet that of the stationary state.
             left_out.extend(distance.is_none().then_some(Omission::TimeSteps));
             left_out
@@ -106,10 +109,20 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         }
         (Method::BemTransient, Motion::Pressing { .. }) => {
             let mut left_out = vec![Omission::TimeSteps, Omission::Gradients];
+            // A depth that is held needs another force at every time.
+            let constant = matches!(question.control, Control::NormalForce(_));
             let remembers = n_fields(&question.material.creep()) > 1;
-            left_out.extend(remembers.then_some(Omission::HistoryFields));
+            left_out.extend((constant && remembers).then_some(Omission::HistoryFields));
             left_out
         }
+    }
+}
+
+/// Whether one half of a body in y is the mirror image of the other; of heights from a file it is not known.
+const fn is_mirror_symmetric(body: &Body) -> bool {
+    match body {
+        Body::Revolution(_) | Body::Cylinder => true,
+        Body::HeightMap(_) => false,
     }
 }
 

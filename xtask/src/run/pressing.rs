@@ -11,24 +11,25 @@
 use std::f64::consts::PI;
 
 use anyhow::{Result, bail};
-use bem_halfspace::indent::IndentOptions;
-use bem_halfspace::{ContactOptions, Footprint};
+use bem_halfspace::ContactOptions;
+use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
 use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
 use indenters::{EquivalentLine, PowerProfile, contact_radius};
-use rheology::{Material, Viscous};
+use rheology::{Material, RheologyError, Viscous};
 
 use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
 use super::half_space::Simple;
 use super::resolution::{Resolved, resolve};
+use super::shape::{Patch, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Relative error of the depth by quadrature.
 const QUADRATURE: f64 = 1e-10;
 
 /// The dashpot on which an impulse does what the material does with F J(t).
-fn unit_dashpot() -> Result<Viscous> {
-    Ok(Viscous::new(1.0)?)
+pub(super) fn unit_dashpot() -> Result<Viscous, RheologyError> {
+    Viscous::new(1.0)
 }
 
 fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
@@ -76,19 +77,24 @@ fn held(
     depth: f64,
     duration: f64,
 ) -> Result<(f64, Indentation)> {
-    let modulus = material.relaxation_modulus(duration)?;
-    let stiffness = modulus / material.half_space_factor();
-    let force = stiffness * impulse_to_depth(body, &unit_dashpot()?, depth)?;
-    if !(force.is_finite() && force > 0.0) {
-        bail!(
-            "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
-        );
-    }
+    let force = stiffness(material, duration)? * impulse_to_depth(body, &unit_dashpot()?, depth)?;
     let contact = Indentation {
         contact_radius: contact_radius(body, depth)?,
         indentation_depth: depth,
     };
     Ok((force, contact))
+}
+
+/// Force at a depth that was held for a duration, over the impulse that leads to it on the unit dashpot, [1/s].
+fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
+    let modulus = material.relaxation_modulus(duration)?;
+    let stiffness = modulus / material.half_space_factor();
+    if !(stiffness.is_finite() && stiffness > 0.0) {
+        bail!(
+            "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
+        );
+    }
+    Ok(stiffness)
 }
 
 /// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
@@ -128,9 +134,14 @@ pub(super) fn chain(
     };
     let Resolved {
         value: row,
-        error,
+        error: [error],
         elements,
-    } = resolve(accuracy, LARGEST_CHAIN, solve, |row| row.indentation_depth)?;
+    } = resolve(
+        accuracy,
+        LARGEST_CHAIN,
+        solve,
+        |row| [row.indentation_depth],
+    )?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -141,60 +152,85 @@ pub(super) fn chain(
     })
 }
 
-/// Boundary elements, in one step: the steps that lead to a constant force do not count.
+/// Boundary elements, in one step on a dashpot of unit viscosity: the steps that lead to a constant force or depth do not
+/// count.
 pub(super) fn boundary_elements(
-    body: &Revolution,
+    body: &impl Shape,
     material: &dyn Material,
-    (force, duration): (f64, f64),
+    (control, duration): (Control, f64),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let radius = radius(body, material, force, duration)?;
-    let (dashpot, time) = dashpot_and_time(material, duration)?;
-    let spacing = |elements: usize| 2.0 * radius / elements as f64;
+    let pressed = on_unit_dashpot(material, (control, duration))?;
+    let Patch { footprint, length } = body.patch(pressed)?;
+    let spacing = |elements: usize| length / elements as f64;
     let solve = |elements: usize| {
-        let options = grid_options(body, material, (force, duration), spacing(elements))?;
-        let load = (force, &[time][..]);
-        last(bem_halfspace::indent::indent(
-            body, &dashpot, load, &options,
-        )?)
+        let options = IndentOptions {
+            spacing: [spacing(elements); 2],
+            footprint,
+            contact: ContactOptions::default(),
+        };
+        let steps = in_steps(pressed, 1);
+        last(indent_history(body, &unit_dashpot()?, &steps, &options)?)
     };
+    // What is given has no error.
+    let quantities = |row: &IndentRow| [row.indentation_depth, row.normal_force];
     let Resolved {
-        value: row,
+        value,
         error,
         elements,
-    } = resolve(accuracy, LARGEST_GRID, solve, |row| row.indentation_depth)?;
-    Ok(Answer {
-        indentation_depth: Some(row.indentation_depth),
-        indentation_depth_error: Some(error),
-        contact_area: Some(row.contact_area),
-        unknowns: row.n_contact,
+    } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
+    let answer = Answer {
+        indentation_depth: Some(value.indentation_depth),
+        contact_area: Some(value.contact_area),
+        unknowns: value.n_contact,
         iterations: 1,
         grid: Some(Grid {
             spacing: spacing(elements),
             factorised: false,
         }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, value.normal_force)
+    };
+    Ok(match control {
+        Control::NormalForce(normal_force) => Answer {
+            indentation_depth_error: Some(error[0]),
+            normal_force,
+            ..answer
+        },
+        Control::IndentationDepth(_) => {
+            let stiffness = stiffness(material, duration)?;
+            Answer {
+                normal_force: stiffness * value.normal_force,
+                normal_force_error: Some(stiffness * error[1]),
+                ..answer
+            }
+        }
     })
 }
 
-/// The dashpot that stands for the material, and how long the same force takes on it.
-pub(super) fn dashpot_and_time(material: &dyn Material, duration: f64) -> Result<(Viscous, f64)> {
-    Ok((unit_dashpot()?, impulse(material, 1.0, duration)?))
-}
-
-/// Square elements.
-pub(super) fn grid_options(
-    body: &Revolution,
+/// What does in a second on the dashpot of unit viscosity what the control does to the material.
+pub(super) fn on_unit_dashpot(
     material: &dyn Material,
-    (force, duration): (f64, f64),
-    spacing: f64,
-) -> Result<IndentOptions> {
-    let radius = radius(body, material, force, duration)?;
-    Ok(IndentOptions {
-        spacing: [spacing; 2],
-        footprint: Footprint::square(1.3 * radius),
-        contact: ContactOptions::default(),
+    (control, duration): (Control, f64),
+) -> Result<Control> {
+    Ok(match control {
+        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
+        depth @ Control::IndentationDepth(_) => depth,
     })
+}
+
+/// A second of a constant force, or of a depth that grows in proportion to time.
+pub(super) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
+    let step = |step: usize| {
+        let time = step as f64 / n_steps as f64;
+        let control = match control {
+            Control::NormalForce(force) => bem_halfspace::Control::NormalForce(force),
+            Control::IndentationDepth(depth) => {
+                bem_halfspace::Control::IndentationDepth(time * depth)
+            }
+        };
+        IndentStep { time, control }
+    };
+    (1..=n_steps).map(step).collect()
 }
 
 const LARGEST_CHAIN: usize = 16_384;

@@ -4,24 +4,18 @@
 //! omission changes is not hidden.
 
 use anyhow::{Context, Result, bail};
-use bem_halfspace::indent::{IndentOptions, indent};
-use bem_halfspace::slide::{
-    Motion as Step, SlideOmission, SlideOptions, Transient, follow, slide, slide_without_omission,
-};
-use bem_halfspace::steady::{
-    SteadyOmission, SteadyOptions, SteadySliding, steady, steady_without_omission,
-};
-use bem_halfspace::{ContactOptions, Control as Held};
-use indenters::SlidingLoad;
-use rheology::Material;
+use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent, indent_history};
+use bem_halfspace::slide::{Motion as Step, MotionRow, SlideOmission, follow};
+use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding};
+use bem_halfspace::{BemError, ContactOptions};
 
 use super::answer::{Answer, Grid};
-use super::body::{Body, Revolution};
+use super::body::Body;
 use super::omission::Omission;
 use super::question::{Motion, Question};
-use super::solve::{load, normal_force, viscous};
-use super::{bem, pressing};
-use crate::scene_file::Method;
+use super::shape::{Drive, Shape};
+use super::{bem, march, pressing};
+use crate::scene_file::{Control, Method};
 
 /// Far below the agreement that is demanded.
 const STATIONARY_TOLERANCE: f64 = 1e-11;
@@ -29,7 +23,7 @@ const CONTACT: ContactOptions = ContactOptions {
     tolerance: 1e-12,
     max_iterations: 5000,
 };
-/// Steps to the end of a constant force where one would do.
+/// Steps to the end where one would do.
 const STEPS: usize = 8;
 
 /// A quantity and what it is compared relative to.
@@ -38,121 +32,148 @@ type Number = [f64; 2];
 /// The grid behind an answer.
 pub(super) struct SameProblem<'a> {
     question: &'a Question,
-    body: &'a Revolution,
     method: Method,
     grid: Grid,
+    /// Distance over which the answer marched, \[m].
+    marched: Option<f64>,
 }
 
 impl<'a> SameProblem<'a> {
     pub(super) fn of(question: &'a Question, answer: &Answer) -> Result<Self> {
-        let Body::Revolution(body) = &question.body else {
-            bail!("only bodies of revolution are answered");
-        };
+        let last = answer.fields.history.last();
         Ok(Self {
             question,
-            body,
             method: answer.method,
             grid: answer.grid.context("the answer has no grid")?,
+            marched: last.map(|row| row.sliding_distance_m),
         })
     }
 
     /// What the grid answers when the work of an omission is done too.
     pub(super) fn solve(&self, kept: Option<Omission>) -> Result<Vec<Number>> {
-        let material = &*self.question.material;
-        match (self.method, self.question.motion) {
-            (Method::BemSteady, Motion::Sliding { velocity, .. }) => {
-                let load = load((self.question.control, velocity))?;
-                self.stationary((material, &load), kept)
-            }
-            (Method::BemTransient, Motion::Sliding { velocity, distance }) => {
-                let load = load((self.question.control, velocity))?;
-                self.march(&load, distance, kept)
-            }
-            (Method::BemTransient, Motion::Pressing { duration }) => {
-                let force = normal_force(self.question.control)?;
-                self.press(material, (force, duration), kept)
-            }
-            (method, _) => bail!("{} has no grid", method.name()),
+        match &self.question.body {
+            Body::Revolution(body) => self.solve_for(body, kept),
+            Body::HeightMap(map) => self.solve_for(map, kept),
+            Body::Cylinder => bail!("no method answers for a line contact"),
+        }
+    }
+
+    fn solve_for(&self, body: &impl Shape, kept: Option<Omission>) -> Result<Vec<Number>> {
+        let (velocity, distance) = match self.question.motion {
+            Motion::Sliding { velocity, distance } => (velocity, distance),
+            Motion::Pressing { duration } => return self.press(body, duration, kept),
+        };
+        let drive = Drive {
+            control: self.question.control,
+            velocity,
+            distance,
+        };
+        match self.method {
+            Method::BemSteady => self.stationary(body, &drive, kept),
+            Method::BemTransient => self.march(body, &drive, kept),
+            other => bail!("{} has no grid", other.name()),
         }
     }
 
     fn stationary(
         &self,
-        (material, load): (&dyn Material, &SlidingLoad),
+        body: &impl Shape,
+        drive: &Drive,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
+        let scene = bem::Scene::new(body, (&*self.question.material, drive))?;
         let options = SteadyOptions {
             tolerance: STATIONARY_TOLERANCE,
-            ..bem::grid_options(self.body, (material, load), self.grid.spacing)?
+            ..scene.grid(self.grid.spacing)
         };
-        let without =
-            |omission| steady_without_omission(self.body, material, load, &options, omission);
-        let state = match kept {
-            None => steady(self.body, material, load, &options),
-            Some(Omission::MirrorHalf) => without(SteadyOmission::MirrorHalf),
-            Some(Omission::OutsideContact) => without(SteadyOmission::OutsideContact),
-            Some(Omission::Transforms) => without(SteadyOmission::Transforms),
+        let kept = match kept {
+            None => None,
+            Some(Omission::MirrorHalf) => Some(SteadyOmission::MirrorHalf),
+            Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
+            Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
             Some(other) => bail!("the stationary solver does not leave out {}", other.name()),
         };
-        Ok(of_state(&state?))
+        Ok(of_state(&scene.solve(&options, kept)?))
     }
 
     fn march(
         &self,
-        load: &SlidingLoad,
-        distance: Option<f64>,
+        body: &impl Shape,
+        drive: &Drive,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let (body, material) = (self.body, viscous(self.question)?);
-        let options = SlideOptions {
-            contact: CONTACT,
-            ..bem::march_options(body, (&material, load), self.grid.spacing, distance)?
-        };
-        let without = |omission| slide_without_omission(body, &material, load, &options, omission);
-        let transient = match kept {
-            None => slide(body, &material, load, &options),
-            Some(Omission::OutsideContact) => without(SlideOmission::OutsideContact),
-            Some(Omission::RowsBehind) => without(SlideOmission::RowsBehind),
+        let material = &*self.question.material;
+        let scene = march::Scene::new(body, (material, drive), self.question.accuracy)?;
+        let distance = drive.distance.or(self.marched);
+        let distance = distance.context("the answer has no distance")?;
+        let march = scene.over([self.grid.spacing, distance], CONTACT)?;
+        let mut march = match kept {
+            None => march,
+            Some(Omission::OutsideContact) => {
+                march.without_omission(SlideOmission::OutsideContact)?
+            }
+            Some(Omission::RowsBehind) => march.without_omission(SlideOmission::RowsBehind)?,
             Some(other) => bail!("a march does not leave out {}", other.name()),
         };
-        Ok(of_march(&transient?))
+        let mut last = None;
+        while let Some(row) = march.step()? {
+            last = Some(row);
+        }
+        of_motion(&last.context("the march made no step")?)
     }
 
     fn press(
         &self,
-        material: &dyn Material,
-        (force, duration): (f64, f64),
+        body: &impl Shape,
+        duration: f64,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let body = self.body;
+        let (control, material) = (self.question.control, &*self.question.material);
+        let pressed = pressing::on_unit_dashpot(material, (control, duration))?;
         let options = IndentOptions {
+            spacing: [self.grid.spacing; 2],
+            footprint: body.patch(pressed)?.footprint,
             contact: CONTACT,
-            ..pressing::grid_options(body, material, (force, duration), self.grid.spacing)?
         };
-        let (dashpot, time) = pressing::dashpot_and_time(material, duration)?;
-        let rows = match kept {
-            None => indent(body, &dashpot, (force, &[time]), &options),
-            Some(Omission::TimeSteps) => {
-                let part = |step: usize| time * (step as f64 / STEPS as f64);
-                let times: Vec<f64> = (1..=STEPS).map(part).collect();
-                indent(body, &dashpot, (force, &times), &options)
+        let dashpot = pressing::unit_dashpot()?;
+        let rows = match (kept, control) {
+            (None, _) => indent_history(body, &dashpot, &pressing::in_steps(pressed, 1), &options),
+            (Some(Omission::TimeSteps), _) => {
+                let steps = pressing::in_steps(pressed, STEPS);
+                indent_history(body, &dashpot, &steps, &options)
             }
-            Some(Omission::HistoryFields) => indent(body, material, (force, &[duration]), &options),
-            Some(Omission::Gradients) => {
-                let step = Step {
-                    time,
-                    position: 0.0,
-                    control: Held::NormalForce(force),
-                };
-                let rows = follow(body, &dashpot, &[step], &options)?;
-                let row = rows.last().context("the march made no step")?;
-                return Ok(pressed(row.indentation_depth, row.contact_area));
+            (Some(Omission::Gradients), _) => press_with_slopes(body, pressed, &options),
+            (Some(Omission::HistoryFields), Control::NormalForce(force)) => {
+                indent(body, material, (force, &[duration]), &options)
             }
-            Some(other) => bail!("pressing does not leave out {}", other.name()),
+            (Some(other), _) => bail!("pressing does not leave out {}", other.name()),
         }?;
-        let row = rows.last().context("the march made no step")?;
-        Ok(pressed(row.indentation_depth, row.contact_area))
+        of_press(control, &rows)
     }
+}
+
+/// The step made as a motion over no distance, with its slopes.
+fn press_with_slopes(
+    body: &impl Shape,
+    pressed: Control,
+    options: &IndentOptions,
+) -> Result<Vec<IndentRow>, BemError> {
+    let steps = pressing::in_steps(pressed, 1);
+    let motion = |step: &IndentStep| Step {
+        time: step.time,
+        position: 0.0,
+        control: step.control,
+    };
+    let motions: Vec<Step> = steps.iter().map(motion).collect();
+    let rows = follow(body, &pressing::unit_dashpot()?, &motions, options)?;
+    let without_slopes = |row: &MotionRow| IndentRow {
+        time: row.time,
+        indentation_depth: row.indentation_depth,
+        normal_force: row.normal_force,
+        contact_area: row.contact_area,
+        n_contact: row.n_contact,
+    };
+    Ok(rows.iter().map(without_slopes).collect())
 }
 
 fn own(value: f64) -> Number {
@@ -168,16 +189,33 @@ fn of_state(state: &SteadySliding) -> Vec<Number> {
     ]
 }
 
-fn of_march(transient: &Transient) -> Vec<Number> {
-    let last = transient.last();
-    let numbers = [
-        last.friction_coefficient,
-        last.indentation_depth,
-        last.contact_area,
-    ];
-    numbers.map(own).to_vec()
+/// Friction relative to the slope of a body that rises by the depth over the length of the contact.
+fn of_motion(row: &MotionRow) -> Result<Vec<Number>> {
+    let [rear, front] = row.contact_x.context("the march ended without contact")?;
+    let slope = row.indentation_depth.abs() / (front - rear);
+    Ok(vec![
+        [row.tangential_force / row.normal_force, slope],
+        own(row.indentation_depth),
+        own(row.contact_area),
+        own(row.normal_force),
+    ])
 }
 
-fn pressed(indentation_depth: f64, contact_area: f64) -> Vec<Number> {
-    [indentation_depth, contact_area].map(own).to_vec()
+/// Of force and depth the one that is not given.
+fn of_press(control: Control, rows: &[IndentRow]) -> Result<Vec<Number>> {
+    let last = rows.last().context("the march made no step")?;
+    let found = match control {
+        Control::NormalForce(_) => last.indentation_depth,
+        Control::IndentationDepth(_) => impulse(rows),
+    };
+    Ok(vec![own(found), own(last.contact_area)])
+}
+
+/// ∫F dt, which a depth on a dashpot needs, in however many steps, \[N s].
+fn impulse(rows: &[IndentRow]) -> f64 {
+    let begins = std::iter::once(0.0).chain(rows.iter().map(|row| row.time));
+    let steps = rows.iter().zip(begins);
+    steps
+        .map(|(row, begin)| row.normal_force * (row.time - begin))
+        .sum()
 }

@@ -130,6 +130,9 @@ fn by_method(question: &Question, answer: &Answer, method: Method) -> Result<Sav
     let (other, done) = metered(|| solve_by(question, method, accuracy))?;
     let [value, error] = asked(&again)?;
     let [other, other_error] = asked(&other)?;
+    if value.abs() <= error {
+        bail!("the answer, {value:e} with an error of {error:.1e}, cannot be told from 0");
+    }
     Ok(Saving {
         left_out,
         done,

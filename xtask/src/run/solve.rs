@@ -2,7 +2,6 @@
 
 use anyhow::{Result, bail};
 use indenters::SlidingLoad;
-use rheology::Viscous;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
@@ -10,7 +9,8 @@ use super::half_space::{Simple, simple};
 use super::offer::choose;
 use super::omission::plan;
 use super::question::{Motion, Question};
-use super::{analytic, bem, mdr, pressing};
+use super::shape::{Drive, Shape};
+use super::{analytic, bem, march, mdr, pressing};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -21,18 +21,52 @@ pub(crate) fn solve(question: &Question) -> Result<Answer> {
 /// Asks a method that answers the scene.
 pub(super) fn solve_by(question: &Question, method: Method, accuracy: Accuracy) -> Result<Answer> {
     let started = std::time::Instant::now();
-    let Body::Revolution(body) = &question.body else {
-        bail!("only bodies of revolution are answered");
-    };
-    let answer = match question.motion {
-        Motion::Pressing { duration } => pressed(question, body, (method, accuracy), duration)?,
-        Motion::Sliding { velocity, distance } => {
-            slid(question, body, (method, accuracy), (velocity, distance))?
+    let way = (method, accuracy);
+    let answer = match (&question.body, method) {
+        (Body::Revolution(body), Method::BemSteady | Method::BemTransient) => {
+            by_elements(question, body, way)
         }
-    };
+        (Body::Revolution(body), _) => of_revolution(question, body, way),
+        (Body::HeightMap(map), _) => by_elements(question, map, way),
+        (Body::Cylinder, _) => bail!("no method answers for a line contact"),
+    }?;
     let left_out = plan(question, &answer);
     let answer = Answer { left_out, ..answer };
     answer.after(started.elapsed()).finite()
+}
+
+fn by_elements(
+    question: &Question,
+    body: &impl Shape,
+    (method, accuracy): (Method, Accuracy),
+) -> Result<Answer> {
+    let (material, control) = (&*question.material, question.control);
+    let (velocity, distance) = match question.motion {
+        Motion::Sliding { velocity, distance } => (velocity, distance),
+        Motion::Pressing { duration } => {
+            return pressing::boundary_elements(body, material, (control, duration), accuracy);
+        }
+    };
+    let drive = Drive {
+        control,
+        velocity,
+        distance,
+    };
+    match method {
+        Method::BemSteady => bem::stationary(body, (material, &drive), accuracy),
+        _ => march::transient(body, (material, &drive), accuracy),
+    }
+}
+
+fn of_revolution(
+    question: &Question,
+    body: &Revolution,
+    way: (Method, Accuracy),
+) -> Result<Answer> {
+    match question.motion {
+        Motion::Pressing { duration } => pressed(question, body, way, duration),
+        Motion::Sliding { velocity, distance } => slid(question, body, way, (velocity, distance)),
+    }
 }
 
 fn pressed(
@@ -42,15 +76,14 @@ fn pressed(
     duration: f64,
 ) -> Result<Answer> {
     let material = &*question.material;
-    let simple = simple(material)?;
     match (method, question.control) {
         (Method::MdrTransient, Control::NormalForce(force)) => {
             pressing::chain(body, material, (force, duration), accuracy)
         }
-        (Method::BemTransient, Control::NormalForce(force)) => {
-            pressing::boundary_elements(body, material, (force, duration), accuracy)
+        (_, control) => {
+            let simple = simple(material)?;
+            pressing::analytic(body, material, (control, duration), simple.as_ref())
         }
-        (_, control) => pressing::analytic(body, material, (control, duration), simple.as_ref()),
     }
 }
 
@@ -63,20 +96,12 @@ fn slid(
     let material = &*question.material;
     let motion = (question.control, velocity);
     match method {
-        Method::Analytic => closed(question, body, (velocity, distance)),
         Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)?),
         Method::MdrTransient => {
             let load = load(motion)?;
             mdr::transient(body, material, (&load, distance), accuracy)
         }
-        Method::BemSteady => {
-            let load = load(motion)?;
-            bem::stationary(body, (material, &load), accuracy, distance)
-        }
-        Method::BemTransient => {
-            let load = load(motion)?;
-            bem::transient(body, (&viscous(question)?, &load), accuracy, distance)
-        }
+        _ => closed(question, body, (velocity, distance)),
     }
 }
 
@@ -104,21 +129,10 @@ fn closed(
     }
 }
 
-pub(super) fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
-    Ok(SlidingLoad::new(normal_force(control)?, velocity)?)
-}
-
-pub(super) fn normal_force(control: Control) -> Result<f64> {
+fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
     match control {
-        Control::NormalForce(force) => Ok(force),
-        Control::IndentationDepth(_) => bail!("the method needs a force, not a depth"),
-    }
-}
-
-pub(super) fn viscous(question: &Question) -> Result<Viscous> {
-    match simple(&*question.material)? {
-        Some(Simple::Viscous(material)) => Ok(material),
-        _ => bail!("the method slides on a viscous material only"),
+        Control::NormalForce(force) => Ok(SlidingLoad::new(force, velocity)?),
+        Control::IndentationDepth(_) => bail!("the method slides under a force, not at a depth"),
     }
 }
 

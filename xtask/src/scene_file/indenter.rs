@@ -33,7 +33,7 @@ pub(crate) enum Indenter {
     Cylinder(Round),
     /// A body of revolution from a table of radii and heights, straight between its rows.
     Table(TableFile),
-    /// A surface from a grid of heights.
+    /// A surface from a grid of heights, bilinear between them; it ends at the edge of the grid.
     HeightMap(HeightMapFile),
 }
 
@@ -121,10 +121,11 @@ pub(crate) struct TableFile {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HeightMapFile {
-    /// CSV file with one row of heights \[m] per x, beside the scene file.
+    /// CSV file without names, beside the scene file: one line of heights \[m] per x, from rear to front, and one column
+    /// per y.
     pub(crate) file: PathBuf,
-    /// Distance of neighbouring heights along x and y, > 0, \[m].
-    pub(crate) spacing: f64,
+    /// Distances of neighbouring heights along x and y, > 0, \[m].
+    pub(crate) spacing: [f64; 2],
 }
 
 impl Indenter {

@@ -3,6 +3,7 @@
 //! Tables are externally tagged, because only then an error knows the line and the key it belongs to.
 
 mod error;
+mod height_map_file;
 mod indenter;
 mod load;
 mod material;
@@ -14,7 +15,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub(crate) use error::{SceneError, in_range, not_negative, positive};
-pub(crate) use indenter::{Indenter, Term};
+pub(crate) use height_map_file::height_map;
+pub(crate) use indenter::{HeightMapFile, Indenter, Term};
 pub(crate) use load::{Control, Load};
 pub(crate) use material::{Branch, MaterialTable};
 pub(crate) use solve::{Accuracy, Method, Model, Solve};

@@ -45,7 +45,7 @@ fn rows(contents: &[u8]) -> Result<Vec<(usize, Row)>, (usize, String)> {
 }
 
 /// What is wrong, with the name of the column.
-fn problem(error: &csv::Error, names: &StringRecord) -> String {
+pub(super) fn problem(error: &csv::Error, names: &StringRecord) -> String {
     match error.kind() {
         ErrorKind::Deserialize { err, .. } => {
             let name = err

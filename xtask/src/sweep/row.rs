@@ -7,12 +7,13 @@ use crate::run::Answer;
 
 /// The columns before and after the keys that vary.
 const BEFORE: [&str; 3] = ["sweep", "point", "points"];
-const AFTER: [&str; 16] = [
+const AFTER: [&str; 17] = [
     "method",
     "model",
     "friction_coefficient",
     "friction_coefficient_error",
     "normal_force",
+    "normal_force_error",
     "tangential_force",
     "indentation_depth",
     "indentation_depth_error",

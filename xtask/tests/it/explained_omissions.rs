@@ -63,12 +63,37 @@ fn the_stationary_half_space_needs_no_mirror_half_no_surroundings_and_no_time() 
     }
 }
 
+/// Of heights from a file no symmetry is known.
+#[test]
+fn under_a_height_map_no_surroundings_and_no_time_are_needed() {
+    let file = folder("explained-map").join("scene.toml");
+    let scene = fs::read_to_string(example("tread.toml")).expect("the scene");
+    let map = example("tread.csv");
+    let scene = scene.replace("tread.csv", argument(&map));
+    fs::write(
+        &file,
+        scene.replace("relative_error = 2e-2", "elements = 16"),
+    )
+    .expect("a scene");
+    let rows = explained(&[argument(&file)]);
+    let parts = ["outside of contact box", "time steps"];
+    assert_explains(&rows, &parts);
+    assert_same(&rows, &parts[..1]);
+}
+
 #[test]
 fn a_march_needs_no_surroundings_and_nothing_behind() {
-    let rows = explained(&[argument(&example("half-space-run-in.toml"))]);
-    let parts = ["outside of contact box", "history behind"];
-    assert_explains(&rows, &parts);
-    assert_same(&rows, &parts);
+    let at_depth = folder("explained-march").join("scene.toml");
+    let scene = "[indenter.paraboloid]\ncurvature = 50.0\n[material.viscous]\nviscosity = 1.0e4\n\
+        [load]\nindentation_depth = 1.0e-4\nvelocity = 0.01\n\
+        [solve]\nmethod = \"bem-transient\"\nsliding_distance = 5.0e-3\nelements = 12\n";
+    fs::write(&at_depth, scene).expect("a scene");
+    for scene in [example("half-space-run-in.toml"), at_depth] {
+        let rows = explained(&[argument(&scene)]);
+        let parts = ["outside of contact box", "history behind"];
+        assert_explains(&rows, &parts);
+        assert_same(&rows, &parts);
+    }
 }
 
 #[test]
@@ -84,6 +109,34 @@ fn a_constant_force_needs_no_steps_no_slopes_and_one_field() {
     let parts = ["time steps", "gradients", "history fields"];
     assert_explains(&rows, &parts);
     assert_same(&rows, &parts);
+}
+
+/// A depth of 0.1 mm in eight steps takes the same impulse as in one.
+#[test]
+fn a_depth_needs_no_steps_and_no_slopes() {
+    let file = folder("explained-depth").join("scene.toml");
+    let scene = "[indenter.cone]\nslope = 0.1\n\
+        [material.maxwell]\nshear_modulus = 1.0e6\nviscosity = 1.0e4\n\
+        [load]\nindentation_depth = 1.0e-4\nvelocity = 0.0\n\
+        [solve]\nmethod = \"bem-transient\"\nduration = 1.0e-3\nelements = 24\n";
+    fs::write(&file, scene).expect("a scene");
+    let rows = explained(&[argument(&file)]);
+    let parts = ["time steps", "gradients"];
+    assert_explains(&rows, &parts);
+    assert_same(&rows, &parts);
+}
+
+/// On an elastic half space friction is what rounding leaves, and no change of it means anything.
+#[test]
+fn friction_that_cannot_be_told_from_zero_is_not_compared() {
+    let file = folder("explained-elastic").join("scene.toml");
+    let scene = "[indenter.paraboloid]\ncurvature = 50.0\n[material.elastic]\nshear_modulus = 1.0e6\n\
+        [load]\nnormal_force = 1.0\nvelocity = 0.1\n[solve]\nmethod = \"bem-steady\"\nelements = 12\n";
+    fs::write(&file, scene).expect("a scene");
+    let rows = explained(&[argument(&file)]);
+    let time = rows.iter().find(|row| row[1] == "time steps");
+    let time = time.unwrap_or_else(|| panic!("no time steps in {rows:#?}"));
+    assert!(time[7].contains("cannot be told from 0"), "{time:?}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod documented_commands;
 mod explained_omissions;
 mod fit_material;
 mod fuzzed_inputs;
+mod half_space_scenes;
 mod malformed_numbers;
 mod malformed_scenes;
 mod malformed_tables;

@@ -262,7 +262,7 @@ const SOLVE: [(&str, usize, &str); 18] = [
 ];
 
 /// Whole other tables: what replaces the indenter or the material, the line that is named, and what is said.
-const TABLES: [(&str, usize, &str); 22] = [
+const TABLES: [(&str, usize, &str); 26] = [
     (
         "[indenter.cone]\nslope = 0",
         2,
@@ -342,6 +342,26 @@ const TABLES: [(&str, usize, &str); 22] = [
         "[indenter.height-map]\nfile = \"h.csv\"\nspacing = 0",
         3,
         "indenter.height-map.spacing",
+    ),
+    (
+        "[indenter.height-map]\nfile = \"h.csv\"\nspacing = [1, 0]",
+        3,
+        "indenter.height-map.spacing[1] must be finite and greater than 0, but is 0",
+    ),
+    (
+        "[indenter.height-map]\nfile = \"h.csv\"\nspacing = [1, 1, 1]",
+        3,
+        "indenter.height-map.spacing",
+    ),
+    (
+        "[indenter.height-map]\nfile = \"is-not-there.csv\"\nspacing = [1, 1]",
+        2,
+        "is-not-there.csv",
+    ),
+    (
+        "[indenter.height-map]\nfile = \"h.csv\"",
+        1,
+        "indenter.height-map.spacing: missing field",
     ),
     (
         "[material.elastic]\nshear_modulus = 0",

@@ -95,6 +95,64 @@ const PROFILES: [(&[u8], usize, &str); 20] = [
     ),
 ];
 
+const MAP_SCENE: &str = "[indenter.height-map]\nfile = \"map.csv\"\nspacing = [1, 1]\n\
+                         [material.viscous]\nviscosity = 1e4\n[load]\nnormal_force = 1\nvelocity = 1\n";
+
+/// Height maps, the line that is named, and what is said.
+const MAPS: [(&[u8], usize, &str); 11] = [
+    (
+        b"",
+        1,
+        "rows of heights must have at least 2 entries, but has 0",
+    ),
+    (
+        b"1,0,1\n",
+        1,
+        "rows of heights must have at least 2 entries, but has 1",
+    ),
+    (
+        b"1\n0\n1\n",
+        3,
+        "columns of heights must have at least 2 entries, but has 1",
+    ),
+    (
+        b"a,b,c\n1,0,1\n",
+        1,
+        "column 1: a finite height in m is needed, and not 'a'",
+    ),
+    (
+        b"1,1,1\n1,0,1\n1,1\n",
+        3,
+        "3 values are needed, but there are 2",
+    ),
+    (
+        b"1,1,1\n1,0,1\n1,1,1,1\n",
+        3,
+        "3 values are needed, but there are 4",
+    ),
+    (
+        b"1,1,1\n1,0,\n1,1,1\n",
+        2,
+        "column 3: a finite height in m is needed, and not ''",
+    ),
+    (
+        b"1,1,1\n\n1,nan,1\n",
+        3,
+        "column 2: a finite height in m is needed, and not 'nan'",
+    ),
+    (
+        b"1;1;1\n1;0;1\n1;1;1\n",
+        1,
+        "column 1: a finite height in m is needed, and not '1;1;1'",
+    ),
+    (b"1,1,1\n1,0,\xff\n", 2, "the text is no UTF-8"),
+    (
+        b"1,1,1\n1,-1e308,1\n1,1,1e308\n",
+        3,
+        "height above the lowest must be finite",
+    ),
+];
+
 const HEADER: &str = "sweep,point,points,load.velocity,failure\n";
 
 /// Rows of a sweep, the line that is named, and what is said.
@@ -124,6 +182,33 @@ fn every_malformed_profile_names_scene_and_line_and_the_line_of_the_table() {
         let profile = String::from_utf8_lossy(profile);
         wrong.extend(complaint.map(|complaint| format!("{profile}--- {complaint}")));
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn every_malformed_height_map_names_scene_and_line_and_the_line_of_the_map() {
+    let folder = folder("malformed-maps");
+    let [scene, map] = ["scene.toml", "map.csv"].map(|name| folder.join(name));
+    fs::write(&scene, MAP_SCENE).expect("a scene");
+    let mut wrong = Vec::new();
+    for (heights, line, needed) in MAPS {
+        fs::write(&map, heights).expect("a map");
+        let place = format!(
+            "{}:2: indenter.height-map.file: {}:{line}",
+            scene.display(),
+            map.display()
+        );
+        let complaint = complaint(&["run", argument(&scene)], &place, needed);
+        let heights = String::from_utf8_lossy(heights);
+        wrong.extend(complaint.map(|complaint| format!("{heights}--- {complaint}")));
+    }
+    fs::write(&map, "0,1\n1,1\n").expect("a map");
+    let place = format!("{}:2", scene.display());
+    wrong.extend(complaint(
+        &["run", argument(&scene)],
+        &place,
+        "on the edge of the map",
+    ));
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 

@@ -97,9 +97,14 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         Ok(Some(self.row(&instant)))
     }
 
-    /// Does the work of an omission too; before the first step.
-    pub(super) fn keep(&mut self, omission: SlideOmission) -> Result<(), BemError> {
-        self.stepping.keep(omission)
+    /// This march before its first step, but with the work of one `omission` too: the steps are the same up to the
+    /// tolerance, and cost more.
+    ///
+    /// # Errors
+    /// [`BemError::GridTooLarge`] when all of the footprint is too large to be solved at once.
+    pub fn without_omission(mut self, omission: SlideOmission) -> Result<Self, BemError> {
+        self.stepping.keep(omission)?;
+        Ok(self)
     }
 
     /// What is needed to go on from here in a later run.

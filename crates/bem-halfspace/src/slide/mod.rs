@@ -66,30 +66,7 @@ pub fn slide(
     load: &SlidingLoad,
     options: &SlideOptions,
 ) -> Result<Transient, BemError> {
-    let march = March::sliding(surface, material, load, options)?;
-    to_the_end(march, load)
-}
-
-/// Like [`slide`], but does the work of one `omission` too: the answer is the same up to the tolerance, and costs more.
-///
-/// # Errors
-/// As for [`slide`].
-pub fn slide_without_omission(
-    surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-    options: &SlideOptions,
-    omission: SlideOmission,
-) -> Result<Transient, BemError> {
     let mut march = March::sliding(surface, material, load, options)?;
-    march.keep(omission)?;
-    to_the_end(march, load)
-}
-
-fn to_the_end<S: Surface + ?Sized>(
-    mut march: March<'_, S>,
-    load: &SlidingLoad,
-) -> Result<Transient, BemError> {
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
         rows.push(SlideRow::of(&row)?);

@@ -11,8 +11,8 @@ use rheology::Material;
 
 use crate::error::{below_one, positive};
 use crate::steady::contact_scale::depth_scale_of_body;
-use crate::steady::extrapolation::extrapolate;
-use crate::steady::loading::Loading;
+use crate::steady::extrapolation::{Limit, extrapolate};
+use crate::steady::loading::{DepthControl, Loading};
 use crate::steady::{Reuse, SinkingDepth, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
 
@@ -89,6 +89,10 @@ pub struct Refinement {
     pub friction_coefficient: f64,
     /// Standard deviation over the shifts.
     pub scatter: f64,
+    /// Normal force, averaged over the shifts, \[N].
+    pub normal_force: f64,
+    /// Standard deviation of the normal force over the shifts, \[N].
+    pub force_scatter: f64,
     /// Unknown pressures on the largest of the grids.
     pub unknowns: usize,
 }
@@ -102,20 +106,14 @@ pub struct FrictionEstimate {
     pub friction_coefficient: f64,
     /// Estimated absolute error.
     pub error: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
+    /// Estimated absolute error of the normal force, 0 where it is given, \[N].
+    pub normal_force_error: f64,
     /// Depth on the last grid.
     pub depth: SinkingDepth,
     /// The refinements that led there, from coarse to fine.
     pub refinements: Vec<Refinement>,
-}
-
-impl FrictionEstimate {
-    /// Friction coefficient of each refinement.
-    fn sequence(refinements: &[Refinement]) -> Vec<f64> {
-        refinements
-            .iter()
-            .map(|refinement| refinement.friction_coefficient)
-            .collect()
-    }
 }
 
 impl Ladder {
@@ -129,10 +127,30 @@ impl Ladder {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let contact_length = contact_radius(body, depth_scale_of_body(body, material, load)?)?;
+        let depth = depth_scale_of_body(body, material, load)?;
+        Self::on(body, Footprint::of_body(body, material, load)?, depth)
+    }
+
+    /// The refinements for a body of revolution at a depth of its lowest point, \[m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] and [`BemError::Indenter`] when the body has no radius that could be found for
+    /// this depth.
+    pub fn of_body_at_depth(
+        body: &(impl Axisymmetric + ?Sized),
+        depth: f64,
+    ) -> Result<Self, BemError> {
+        Self::on(body, Footprint::of_body_at_depth(body, depth)?, depth)
+    }
+
+    fn on(
+        body: &(impl Axisymmetric + ?Sized),
+        footprint: Footprint,
+        depth: f64,
+    ) -> Result<Self, BemError> {
         let mut ladder = Self {
-            footprint: Footprint::of_body(body, material, load)?,
-            coarsest_spacing: contact_length / COARSEST,
+            footprint,
+            coarsest_spacing: contact_radius(body, depth)? / COARSEST,
             apex_exponent: body.apex_exponent(),
         };
         // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
@@ -203,12 +221,38 @@ pub fn steady_friction_of_surface(
     ladder: &Ladder,
     options: &FrictionOptions,
 ) -> Result<FrictionEstimate, BemError> {
+    let loading = Loading::force(surface, (material, load), &ladder.footprint)?;
+    climb(surface, loading, ladder, options)
+}
+
+/// Computes the stationary friction coefficient and the normal force of any surface at a depth, both to a relative error.
+///
+/// # Errors
+/// Those of [`steady_friction_of_surface`]; [`BemError::ForceNotReached`]; and [`BemError::InvalidParameter`] for a
+/// depth, a speed or a sliding distance out of range.
+pub fn steady_friction_at_depth(
+    surface: &impl Surface,
+    (material, control): (&(impl Material + ?Sized), &DepthControl),
+    ladder: &Ladder,
+    options: &FrictionOptions,
+) -> Result<FrictionEstimate, BemError> {
+    let [rear, front] = ladder.footprint.x;
+    let loading = Loading::depth(material, control, front - rear)?;
+    climb(surface, loading, ladder, options)
+}
+
+fn climb(
+    surface: &impl Surface,
+    loading: Loading,
+    ladder: &Ladder,
+    options: &FrictionOptions,
+) -> Result<FrictionEstimate, BemError> {
     let relative_error = below_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
     let order = ladder.order()?;
     let question = Question {
         surface,
-        loading: Loading::force(surface, (material, load), &ladder.footprint)?,
+        loading,
         ladder,
         options,
     };
@@ -216,16 +260,17 @@ pub fn steady_friction_of_surface(
     let (mut index, first) = question.coarsest(&mut reuse)?;
     let mut refinements = vec![first];
     loop {
-        let mut reached = extrapolate(&FrictionEstimate::sequence(&refinements), order);
-        if let (false, Some(last)) = (question.loading.creep.only_flows(), refinements.last()) {
-            reached.error += last.scatter;
-        }
+        let friction = question.friction(&refinements, order);
+        let force = question.force(&refinements, order);
         if let Some(last) = &reuse.solution {
             let rounding = ROUNDING * last.mean_slope;
-            if reached.holds(relative_error) || reached.error <= rounding {
+            let is_known = friction.holds(relative_error) || friction.error <= rounding;
+            if is_known && force.holds(relative_error) {
                 return Ok(FrictionEstimate {
-                    friction_coefficient: reached.value,
-                    error: reached.error + error_of_gaps(last),
+                    friction_coefficient: friction.value,
+                    error: friction.error + error_of_gaps(last),
+                    normal_force: force.value,
+                    normal_force_error: force.error,
                     depth: last.depth,
                     refinements,
                 });
@@ -236,13 +281,24 @@ pub fn steady_friction_of_surface(
             .last()
             .is_some_and(|last| !question.allows(index, last))
         {
-            return Err(BemError::FrictionNotReached {
-                friction_coefficient: reached.value,
-                error: reached.error,
-                relative_error,
-            });
+            return Err(not_reached(friction, force, relative_error));
         }
         refinements.push(question.refine(index, &mut reuse)?);
+    }
+}
+
+fn not_reached(friction: Limit, force: Limit, relative_error: f64) -> BemError {
+    if force.holds(relative_error) {
+        return BemError::FrictionNotReached {
+            friction_coefficient: friction.value,
+            error: friction.error,
+            relative_error,
+        };
+    }
+    BemError::ForceNotReached {
+        normal_force: force.value,
+        error: force.error,
+        relative_error,
     }
 }
 
@@ -255,6 +311,29 @@ struct Question<'a, S> {
 }
 
 impl<S: Surface> Question<'_, S> {
+    /// What the friction coefficients lead to.
+    fn friction(&self, refinements: &[Refinement], order: f64) -> Limit {
+        let values: Vec<f64> = refinements.iter().map(|r| r.friction_coefficient).collect();
+        let mut limit = extrapolate(&values, order);
+        if let (false, Some(last)) = (self.loading.creep.only_flows(), refinements.last()) {
+            limit.error += last.scatter;
+        }
+        limit
+    }
+
+    /// The normal force that is given, or what those at the depth lead to.
+    fn force(&self, refinements: &[Refinement], order: f64) -> Limit {
+        if let Some(value) = self.loading.given_force() {
+            return Limit { value, error: 0.0 };
+        }
+        let values: Vec<f64> = refinements.iter().map(|r| r.normal_force).collect();
+        let mut limit = extrapolate(&values, order);
+        if let Some(last) = refinements.last() {
+            limit.error += last.force_scatter;
+        }
+        limit
+    }
+
     /// The coarsest refinement on which the body is resolved, if enough of those that follow are within the limits.
     fn coarsest(&self, reuse: &mut Reuse) -> Result<(i32, Refinement), BemError> {
         let mut index = 0;
@@ -297,8 +376,9 @@ impl<S: Surface> Question<'_, S> {
     fn refine(&self, index: i32, reuse: &mut Reuse) -> Result<Refinement, BemError> {
         let spacing = self.ladder.spacing(index);
         let mut friction = [0.0; PHASES.len()];
+        let mut force = [0.0; PHASES.len()];
         let mut unknowns = 0;
-        for (friction, phase) in friction.iter_mut().zip(PHASES) {
+        for (shift, phase) in PHASES.into_iter().enumerate() {
             let options = SteadyOptions {
                 spacing: [spacing, self.options.aspect * spacing],
                 phase,
@@ -307,15 +387,19 @@ impl<S: Surface> Question<'_, S> {
                 max_iterations: MAX_ITERATIONS,
             };
             let solution = self.solve_near(&options, reuse)?;
-            *friction = solution.friction_coefficient;
+            friction[shift] = solution.friction_coefficient;
+            force[shift] = solution.normal_force;
             unknowns = unknowns.max(solution.unknowns);
             reuse.solution = Some(solution);
         }
         let [friction_coefficient, scatter] = mean_and_deviation(&friction);
+        let [normal_force, force_scatter] = mean_and_deviation(&force);
         Ok(Refinement {
             spacing,
             friction_coefficient,
             scatter,
+            normal_force,
+            force_scatter,
             unknowns,
         })
     }

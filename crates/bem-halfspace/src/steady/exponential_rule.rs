@@ -4,7 +4,7 @@
 //! rate · ∫_0^1 e^(−rate·s) f(s) ds = Σ W_j(rate) f(s_j)
 //! ```
 //!
-//! The function is replaced by the polynomial through the Gauss–Lobatto points; Legendre polynomials against the
+//! The function is replaced by the polynomial through the Gauss–Lobatto points, or through whole numbers; Legendre polynomials against the
 //! exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial,
 //! whatever the rate, because the weight is positive with the sum 1 − e^(−rate).
 
@@ -17,7 +17,7 @@ const UPWARD: f64 = 60.0;
 /// Degrees above the argument at which the downward recurrence starts: what is left out is below rounding.
 const HEADROOM: usize = 40;
 
-/// The Gauss–Lobatto points on [0, 1], and the Legendre coefficients of the polynomial through values at them.
+/// Points on [0, 1] or around it, and the Legendre coefficients of the polynomial through values at them.
 #[derive(Debug)]
 pub(super) struct ExponentialRule {
     pub(super) nodes: Vec<f64>,
@@ -57,6 +57,23 @@ impl ExponentialRule {
         }
     }
 
+    /// The rule of 2 to [`MAX_POINTS`] points at whole numbers around [0, 1], as many on either side; for functions that
+    /// are smooth over all of them.
+    pub(super) fn on_lattice(n_points: usize) -> Self {
+        let lobatto = Self::new(n_points);
+        let first = 1.0 - 0.5 * n_points as f64;
+        let nodes: Vec<f64> = (0..n_points).map(|index| first + index as f64).collect();
+        let mut projection = vec![[0.0; MAX_POINTS]; n_points];
+        for (coefficients, lobatto_coefficients) in projection.iter_mut().zip(&lobatto.projection) {
+            for (&x, from_lobatto) in lobatto.nodes.iter().zip(lobatto_coefficients) {
+                for (index, coefficient) in coefficients[..n_points].iter_mut().enumerate() {
+                    *coefficient += from_lobatto * lagrange(&nodes, index, x);
+                }
+            }
+        }
+        Self { nodes, projection }
+    }
+
     /// W_j(rate), 0 beyond the points of the rule.
     pub(super) fn weights(&self, rate: f64) -> [f64; MAX_POINTS] {
         let moments = legendre_moments(rate, self.nodes.len());
@@ -68,6 +85,17 @@ impl ExponentialRule {
         }
         weights
     }
+}
+
+/// The polynomial that is 1 at one of the nodes and 0 at the others.
+fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
+    let others = nodes
+        .iter()
+        .enumerate()
+        .filter(|(other, _)| *other != index);
+    others
+        .map(|(_, node)| (x - node) / (nodes[index] - node))
+        .product()
 }
 
 /// Legendre polynomials of the degree before, and of this one.
@@ -128,8 +156,10 @@ mod tests {
     /// for any rate, `m! e^(−rate) Σ_{j>m} rate^j/j!` over rate^m.
     #[test]
     fn powers_against_exponentials_of_any_rate() {
-        for n_points in [4, 6, 8, MAX_POINTS] {
-            let rule = ExponentialRule::new(n_points);
+        let lobatto = [4, 6, 8, MAX_POINTS].map(ExponentialRule::new);
+        let lattice = [4, 6, 8, 10].map(ExponentialRule::on_lattice);
+        for rule in lobatto.into_iter().chain(lattice) {
+            let n_points = rule.nodes.len();
             for decade in -12..=12 {
                 let rate = 10.0_f64.powi(decade);
                 let weights = rule.weights(rate);
@@ -140,7 +170,10 @@ mod tests {
                         .map(|(weight, node)| weight * (0..power).map(|_| node).product::<f64>())
                         .sum();
                     let expected = power_moment(rate, power);
-                    let allowed = 1e-13 * (1.0 - (-rate).exp()).max(1e-3 * rate.min(1.0));
+                    // Relative to the largest value of the power at a point.
+                    let largest = rule.nodes.iter().map(|node| node.abs()).fold(1.0, f64::max);
+                    let largest: f64 = (0..power).map(|_| largest).product();
+                    let allowed = 1e-13 * largest * (1.0 - (-rate).exp()).max(1e-3 * rate.min(1.0));
                     assert!(
                         (actual - expected).abs() <= allowed,
                         "{n_points} points, rate {rate:e}, s^{power}: {actual:e} instead of {expected:e}"

@@ -106,6 +106,14 @@ impl Loading {
         })
     }
 
+    /// The normal force, where it is given, \[N].
+    pub(super) const fn given_force(&self) -> Option<f64> {
+        match self.control {
+            Control::Force(force) => Some(force),
+            Control::Depth(_) => None,
+        }
+    }
+
     /// The problem on a grid.
     pub(super) fn on_grid(&self, spacing: [f64; 2]) -> Result<GridLoading, BemError> {
         let creep = self.creep.over(spacing[0])?;

@@ -21,6 +21,8 @@ use crate::{BemError, Grid};
 
 /// Height below which the flanks of a steep body count as flat, in units of the depth scale.
 const FLAT: f64 = 0.1;
+/// Height that the sides of the contact of a paraboloid reach, about, in the same units.
+const GUESSED_HEIGHT: f64 = 0.5;
 
 /// How grid and body mirror in y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -294,16 +296,20 @@ impl Mesh {
         !self.elements.iter().any(passes)
     }
 
-    /// The elements up to the height that the sides of the contact of a paraboloid reach. Where the material only flows,
-    /// what lies behind the front is down already: low elements are left to those that find them.
+    /// Whether an element belongs to the flat part of the body, which on a material that only flows has been pressed down
+    /// by the flank ahead of it already.
+    pub(super) fn is_flat(&self, element: usize) -> bool {
+        self.only_rising && self.height(element) < FLAT
+    }
+
+    /// The low elements; flat parts only where they are the front.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
-        let below = |height: f64| {
-            (0..self.n_elements()).filter(move |&element| self.height(element) < height)
-        };
-        let mut guess: BTreeSet<usize> = below(0.5).collect();
+        let low =
+            || (0..self.n_elements()).filter(|&element| self.height(element) < GUESSED_HEIGHT);
+        let mut guess: BTreeSet<usize> = low().collect();
         if self.only_rising {
-            guess.retain(|&element| self.height(element) > FLAT);
-            let fronts: BTreeMap<usize, usize> = below(0.5)
+            guess.retain(|&element| !self.is_flat(element));
+            let fronts: BTreeMap<usize, usize> = low()
                 .map(|element| (self.elements[element].column, element))
                 .collect();
             guess.extend(fronts.values());

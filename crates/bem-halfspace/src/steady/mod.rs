@@ -47,13 +47,14 @@ pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
 pub use estimate::{
     FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,
-    steady_friction_of_surface,
+    steady_friction_at_depth, steady_friction_of_surface,
 };
 pub use kernel::wake_influence;
 pub use loading::DepthControl;
 use loading::Loading;
 use mesh::Mesh;
 pub use omission::SteadyOmission;
+use pivoting::Start;
 use plans::Plans;
 pub use solution::SteadySliding;
 
@@ -135,6 +136,36 @@ pub fn steady_at_depth(
     solve(surface, &loading, (options, None), &mut Reuse::default())
 }
 
+/// Like [`steady_at_depth`], but does the work of one `omission` too.
+///
+/// # Errors
+/// As for [`steady_at_depth`].
+pub fn steady_at_depth_without_omission(
+    surface: &impl Surface,
+    material: &(impl Material + ?Sized),
+    control: &DepthControl,
+    options: &SteadyOptions,
+    omission: SteadyOmission,
+) -> Result<SteadySliding, BemError> {
+    let [rear, front] = options.footprint.x;
+    let loading = Loading::depth(material, control, front - rear)?;
+    let work = (options, Some(omission));
+    solve(surface, &loading, work, &mut Reuse::default())
+}
+
+/// The depth scale D of [`SteadyOptions::tolerance`] for a `surface` that ends at `extent`: how deep the load presses it,
+/// about, \[m].
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for an extent or a scale out of range; [`BemError::Material`].
+pub fn depth_scale(
+    surface: &impl Surface,
+    (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+    extent: &Footprint,
+) -> Result<f64, BemError> {
+    Ok(Loading::force(surface, (material, load), extent)?.depth_scale)
+}
+
 /// A resolution, and what is not left out all the same.
 type Work<'a> = (&'a SteadyOptions, Option<SteadyOmission>);
 
@@ -167,11 +198,11 @@ fn solve(
         // Without a solution on the coarse grid the fine one starts from its own guess.
         reuse.solution = solve(surface, loading, (&coarse, kept), coarse_reuse).ok();
     }
-    let guess = match &reuse.solution {
-        Some(other) => loads_of(other, &mesh),
-        None => mesh.first_guess(),
+    let start = match &reuse.solution {
+        Some(other) => Start::Known(loads_of(other, &mesh)),
+        None => Start::Guessed(mesh.first_guess()),
     };
-    let solution = pivoting::solve(&mesh, &mut reuse.plans, guess)?;
+    let solution = pivoting::solve(&mesh, &mut reuse.plans, start)?;
     SteadySliding::new(&mesh, &solution)
 }
 

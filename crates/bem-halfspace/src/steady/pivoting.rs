@@ -42,20 +42,28 @@ pub(super) struct Solution {
     pub(super) residual: f64,
 }
 
+/// Where the search begins.
+#[derive(Debug)]
+pub(super) enum Start {
+    /// Loads of another grid.
+    Known(Vec<(usize, f64)>),
+    /// Elements that may be in contact. Flat parts of the body join when its flanks are settled: through the holes of a
+    /// guess all of them would seem to penetrate.
+    Guessed(Vec<(usize, f64)>),
+}
+
 /// Solves the complementarity problem from a first guess of the loads.
-pub(super) fn solve(
-    mesh: &Mesh,
-    plans: &mut Plans,
-    guess: Vec<(usize, f64)>,
-) -> Result<Solution, BemError> {
+pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solution, BemError> {
     let target = mesh.options.tolerance;
-    let mut search = Search::new(mesh, plans, guess);
+    let mut search = Search::new(mesh, plans, start);
     let mut progress = Progress::default();
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.close();
         (residual, made) = (state.residual, iterations);
-        if state.violations.is_empty() {
+        if state.violations.is_empty() && search.flat_parts_wait {
+            search.flat_parts_wait = false;
+        } else if state.violations.is_empty() {
             if residual <= target {
                 return Ok(search.finish(residual, iterations));
             }
@@ -156,6 +164,8 @@ struct Search<'mesh> {
     loads: Vec<f64>,
     depth: f64,
     tolerance: f64,
+    /// Whether flat parts may not join yet.
+    flat_parts_wait: bool,
     all: Region,
     product: Product,
 }
@@ -171,7 +181,11 @@ struct State {
 }
 
 impl<'mesh> Search<'mesh> {
-    fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, guess: Vec<(usize, f64)>) -> Self {
+    fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, start: Start) -> Self {
+        let (guess, flat_parts_wait) = match start {
+            Start::Known(guess) => (guess, false),
+            Start::Guessed(guess) => (guess, true),
+        };
         let all = Region::around(mesh, 0..mesh.n_elements());
         let mut search = Self {
             mesh,
@@ -179,6 +193,7 @@ impl<'mesh> Search<'mesh> {
             loads: vec![0.0; mesh.n_elements()],
             depth: 0.0,
             tolerance: first_tolerance(guess.len()).max(LAST * mesh.options.tolerance),
+            flat_parts_wait,
             product: Product::new(plans, &all),
             plans,
             all,
@@ -240,7 +255,8 @@ impl<'mesh> Search<'mesh> {
         let violation = |(element, gap): (usize, f64)| {
             let pulls = self.inside[element];
             let size = if pulls { -self.loads[element] } else { -gap };
-            (size > if pulls { 0.0 } else { allowed }).then_some(Violation {
+            let waits = self.flat_parts_wait && !pulls && self.mesh.is_flat(element);
+            (!waits && size > if pulls { 0.0 } else { allowed }).then_some(Violation {
                 element,
                 size,
                 pulls,

@@ -3,7 +3,10 @@
 //! The potential is replaced by polynomials on panels that are at most as long as their distance from the edges of the
 //! loaded element, where it is singular; the exponentials are integrated exactly. The panels of a polynomial of n points
 //! leave an error of the order ρ⁻ⁿ of the potential, ρ the sum of the half axes of the ellipse around the panel that
-//! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away.
+//! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away. Where the potential is
+//! smooth over several rows, the polynomial goes through its values at the rows, of which each is computed once.
+
+use std::collections::VecDeque;
 
 use crate::influence;
 use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
@@ -11,11 +14,16 @@ use crate::steady::sliding_creep::ElementCreep;
 
 /// Distance, in panel lengths, from which on so many points are enough for eleven digits.
 const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
+/// Distance, in rows, from which on a polynomial through the values at so many rows leaves eleven digits: its error is
+/// (1/2 · 3/2 · …)² over the power of the distance to the nearest of them.
+const ROWS: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
+/// Rows kept on either side of a panel.
+const KEPT: usize = 5;
 /// Panels next to a singularity on the line itself are not made shorter than this.
 const SHORTEST: f64 = 1.0 / (1_u64 << 26) as f64;
 /// The recursion starts at least that far ahead; from there on panels grow in proportion to the distance.
 const FIRST_ROW: f64 = 16.0;
-const GROWTH: f64 = 1.5;
+const GROWTH: f64 = 1.9;
 /// Exponents of what no longer counts.
 const FORGOTTEN: f64 = 40.0;
 
@@ -36,6 +44,7 @@ struct Retardation {
     decay: f64,
     /// Weights of each rule, in parts of the compliance.
     weights: [[f64; MAX_POINTS]; POINTS.len()],
+    row_weights: [[f64; MAX_POINTS]; ROWS.len()],
 }
 
 /// The values of all retardation elements along a row of the table.
@@ -50,22 +59,27 @@ pub(super) struct RetardedPotential {
     /// By delay and column, in parts of the compliance.
     values: Vec<f64>,
     increments: Vec<f64>,
-    /// V at the row that was reached, by column.
-    ahead: Vec<f64>,
+    /// V by row and column, from behind the panel at the row that was reached to ahead of it.
+    rows: VecDeque<Vec<f64>>,
 }
 
 impl RetardedPotential {
     /// Starts one element ahead of the row at `first`.
     pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
         let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
-        let delays = creep.delays.iter().map(|delay| Retardation {
-            rate: delay.rate,
-            compliance: delay.compliance(),
-            decay: delay.decay(),
-            weights: rules.each_ref().map(|rule| {
+        let row_rules = ROWS.map(|(_, n_points)| ExponentialRule::on_lattice(n_points));
+        let delays = creep.delays.iter().map(|delay| {
+            let weights = |rule: &ExponentialRule| {
                 rule.weights(delay.rate)
                     .map(|weight| delay.compliance() * weight)
-            }),
+            };
+            Retardation {
+                rate: delay.rate,
+                compliance: delay.compliance(),
+                decay: delay.decay(),
+                weights: rules.each_ref().map(weights),
+                row_weights: row_rules.each_ref().map(weights),
+            }
         });
         let position = first + 1.0 + (FIRST_ROW - first).max(0.0).ceil();
         let mut start = Self {
@@ -76,12 +90,12 @@ impl RetardedPotential {
             position,
             values: vec![0.0; creep.delays.len() * n_columns],
             increments: vec![0.0; creep.delays.len() * n_columns],
-            ahead: Vec::new(),
+            rows: VecDeque::with_capacity(2 * KEPT),
         };
         start.come_from_infinity();
-        start.ahead = (0..n_columns)
-            .map(|column| start.potential(position, column))
-            .collect();
+        for row in (1..=2 * KEPT).rev() {
+            start.push_row(position - KEPT as f64 + row as f64);
+        }
         while start.position > first + 1.5 {
             start.step(start.position - 1.0);
         }
@@ -91,6 +105,18 @@ impl RetardedPotential {
     /// V.
     fn potential(&self, x: f64, column: usize) -> f64 {
         influence([x, column as f64 * self.aspect], [1.0, self.aspect])
+    }
+
+    /// Takes in a row behind those that are kept.
+    fn push_row(&mut self, x: f64) {
+        let mut row = if self.rows.len() == 2 * KEPT {
+            self.rows.pop_back().unwrap_or_default()
+        } else {
+            Vec::new()
+        };
+        row.clear();
+        row.extend((0..self.n_columns).map(|column| self.potential(x, column)));
+        self.rows.push_front(row);
     }
 
     /// The values at the first row.
@@ -147,12 +173,14 @@ impl RetardedPotential {
 
     /// Goes back to the row at `x`, one element behind the last.
     pub(super) fn step(&mut self, x: f64) {
+        self.push_row(x + 1.0 - KEPT as f64);
         for column in 0..self.n_columns {
-            let here = self.potential(x, column);
             let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
             let distance = distance_from_edges([x, x + 1.0], clearance);
-            if let Some(rule) = rule_for(distance) {
-                self.whole((x, column), rule, here);
+            if let Some(rule) = shortest(&ROWS, distance) {
+                self.through_rows(column, rule);
+            } else if let Some(rule) = shortest(&POINTS, distance) {
+                self.whole((x, column), rule);
             } else {
                 self.graded((x, column), clearance);
             }
@@ -160,17 +188,32 @@ impl RetardedPotential {
                 let place = index * self.n_columns + column;
                 self.values[place] = delay.decay * self.values[place] + self.increments[place];
             }
-            self.ahead[column] = here;
         }
         self.position = x;
     }
 
+    /// The integral over an element from the values at the rows around it.
+    fn through_rows(&mut self, column: usize, rule: usize) {
+        let n_points = ROWS[rule].1;
+        let mut potentials = [0.0; MAX_POINTS];
+        let rows = self.rows.iter().skip(KEPT - n_points / 2);
+        for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
+            *potential = row[column];
+        }
+        for (index, delay) in self.delays.iter().enumerate() {
+            self.increments[index * self.n_columns + column] = dot(
+                &delay.row_weights[rule][..n_points],
+                &potentials[..n_points],
+            );
+        }
+    }
+
     /// The integral over an element in one panel.
-    fn whole(&mut self, (x, column): (f64, usize), rule: usize, here: f64) {
+    fn whole(&mut self, (x, column): (f64, usize), rule: usize) {
         let n_points = POINTS[rule].1;
         let mut potentials = [0.0; MAX_POINTS];
-        potentials[0] = here;
-        potentials[n_points - 1] = self.ahead[column];
+        potentials[0] = self.rows[KEPT - 1][column];
+        potentials[n_points - 1] = self.rows[KEPT][column];
         for (potential, node) in potentials[..n_points]
             .iter_mut()
             .zip(&self.rules[rule].nodes)
@@ -222,9 +265,9 @@ fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
         .fold(f64::MAX, f64::min)
 }
 
-/// The shortest rule for a panel at this distance in its own length; none that is too near.
-fn rule_for(distance: f64) -> Option<usize> {
-    POINTS.iter().position(|(far, _)| distance >= *far)
+/// The shortest of some rules for a panel at this distance in its own length; none that is too near.
+fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
+    rules.iter().position(|(far, _)| distance >= *far)
 }
 
 /// Panels of the element ahead of `x`, divided where the potential is singular and then by halves.
@@ -246,7 +289,8 @@ fn panels(x: f64, clearance: f64) -> Vec<Panel> {
 fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], clearance);
-    let rule = rule_for(distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
+    let rule =
+        shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
     if let Some(rule) = rule {
         panels.push(Panel {
             start,
@@ -316,12 +360,12 @@ mod tests {
             delays: vec![delay],
             ..ElementCreep::default()
         };
-        let first = 30.0 + shift;
+        let first = 130.0 + shift;
         let mut retarded = RetardedPotential::new(&creep, [first, aspect], 4);
-        for row in 0..=60 {
+        for row in 0..=230 {
             let x = first - f64::from(row);
             retarded.step(x);
-            if ![20, 29, 30, 31, 60].contains(&row) {
+            if ![30, 80, 98, 120, 129, 130, 131, 160, 230].contains(&row) {
                 continue;
             }
             for column in [0, 1, 3] {

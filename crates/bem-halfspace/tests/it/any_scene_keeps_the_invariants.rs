@@ -7,12 +7,12 @@ use bem_halfspace::{
     Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
     influence, solve_contact,
 };
-use indenters::{PowerProfile, SlidingLoad, Surface};
+use indenters::{PowerProfile, SlidingLoad};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rheology::{Compressible, Prony};
 
-use crate::support::prony;
+use crate::support::{Skewed, prony};
 
 /// One unit of length \[m], stress \[Pa] and time \[s].
 type Units = [f64; 3];
@@ -321,25 +321,6 @@ impl Physical {
         };
         let transient = slide(&body, &self.material, &self.load, &options).expect("a transient");
         (transient.last().friction_coefficient, transient.pressure)
-    }
-}
-
-/// A body of elliptic sections that are turned to one side.
-struct Skewed {
-    body: PowerProfile,
-    handedness: f64,
-}
-
-impl Surface for Skewed {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        let y = self.handedness * y;
-        Surface::height(&self.body, [x + 0.3 * y, 1.2 * y])
-    }
-
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let y = self.handedness * y;
-        let [along, across] = Surface::gradient(&self.body, [x + 0.3 * y, 1.2 * y]);
-        [along, self.handedness * (0.3 * along + 1.2 * across)]
     }
 }
 

@@ -4,11 +4,10 @@
 
 use allocation_counter::measure;
 use bem_halfspace::Footprint;
-use bem_halfspace::slide::{
-    PressureField, SlideOmission, SlideOptions, Transient, slide, slide_without_omission,
-};
+use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission, SlideOptions};
 use bem_halfspace::steady::{
-    SteadyOmission, SteadyOptions, SteadySliding, steady, steady_without_omission,
+    DepthControl, SteadyOmission, SteadyOptions, SteadySliding, steady, steady_at_depth,
+    steady_at_depth_without_omission, steady_without_omission,
 };
 use rheology::Material;
 
@@ -155,26 +154,48 @@ fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
     }
 }
 
-fn march(omission: Option<SlideOmission>) -> (Transient, u64) {
+#[test]
+fn at_a_depth_the_same_work_is_not_missed() {
+    let question = stationary(6.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let options = question.options();
+    let control = DepthControl {
+        depth: 0.2,
+        sliding_distance: 100.0,
+        velocity: question.scene.load.velocity(),
+    };
+    let body = &question.scene.body;
+    let expected = steady_at_depth(body, &solid, &control, &options).expect("a solution");
+    for omission in [SteadyOmission::MirrorHalf, SteadyOmission::Transforms] {
+        let got = steady_at_depth_without_omission(body, &solid, &control, &options, omission);
+        let got = got.expect("a solution with more work");
+        let name = format!("force, {omission:?}");
+        assert_same(&name, got.normal_force, [expected.normal_force; 2]);
+        let scale = [expected.friction_coefficient, expected.mean_slope];
+        assert_same("friction", got.friction_coefficient, scale);
+        // With the omission these would be the same to the last bit.
+        assert_ne!(got.pressure, expected.pressure, "{omission:?} was left out");
+    }
+}
+
+fn march(omission: Option<SlideOmission>) -> (Vec<MotionRow>, u64) {
     let scene = Scene::unit(2.0);
-    let Scene {
-        body,
-        material,
-        load,
-    } = &scene;
     let options = SlideOptions {
         contact: TIGHT,
         ..scene.options(8.0, 3.0)
     };
-    let mut transient = None;
+    let mut rows = Vec::new();
     let memory = measure(|| {
-        transient = Some(match omission {
-            None => slide(body, material, load, &options),
-            Some(omission) => slide_without_omission(body, material, load, &options, omission),
-        });
+        let march = March::sliding(&scene.body, &scene.material, &scene.load, &options);
+        let mut march = march.expect("a march");
+        if let Some(omission) = omission {
+            march = march.without_omission(omission).expect("a larger march");
+        }
+        while let Some(row) = march.step().expect("a step") {
+            rows.push(row);
+        }
     });
-    let transient = transient.expect("work").expect("a transient");
-    (transient, memory.bytes_max)
+    (rows, memory.bytes_max)
 }
 
 #[test]
@@ -185,12 +206,12 @@ fn a_march_on_the_whole_footprint_makes_the_same_steps() {
         (SlideOmission::RowsBehind, false),
     ] {
         let (got, other_bytes) = march(Some(omission));
-        assert_eq!(got.rows.len(), expected.rows.len(), "steps, {omission:?}");
-        for (got, expected) in got.rows.iter().zip(&expected.rows) {
-            let place = format!("{omission:?} after {} m", expected.sliding_distance);
+        assert_eq!(got.len(), expected.len(), "steps, {omission:?}");
+        for (got, expected) in got.iter().zip(&expected) {
+            let place = format!("{omission:?} at {} m", expected.position);
             assert_eq!(got.n_contact, expected.n_contact, "contact, {place}");
             for (got, expected) in [
-                (got.friction_coefficient, expected.friction_coefficient),
+                (got.tangential_force, expected.tangential_force),
                 (got.indentation_depth, expected.indentation_depth),
             ] {
                 assert_same(&place, got, [expected, expected]);

@@ -2,9 +2,8 @@
 
 use bem_halfspace::slide::slide;
 use casebook::group;
-use indenters::{PowerProfile, Surface};
 
-use crate::support::Scene;
+use crate::support::{Scene, Skewed};
 
 /// μ / (c^(1/p) (F/(ηv))^(1−1/p)) for random scenes over many decades (casebook BEM-07).
 #[test]
@@ -94,25 +93,6 @@ fn pressure_is_mirror_symmetric_and_balances_the_force() {
         (force / expected - 1.0).abs() < 1e-12,
         "force {force} instead of {expected}"
     );
-}
-
-/// A body without symmetry, and its mirror image in y.
-struct Skewed {
-    body: PowerProfile,
-    handedness: f64,
-}
-
-impl Surface for Skewed {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        let y = self.handedness * y;
-        Surface::height(&self.body, [x + 0.4 * y, 1.3 * y])
-    }
-
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let y = self.handedness * y;
-        let [along, across] = Surface::gradient(&self.body, [x + 0.4 * y, 1.3 * y]);
-        [along, self.handedness * (0.4 * along + 1.3 * across)]
-    }
 }
 
 #[test]

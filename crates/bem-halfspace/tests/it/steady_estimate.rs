@@ -1,8 +1,13 @@
 //! The friction to a requested error: its bar holds, and the march in time arrives at the same value.
 
 use bem_halfspace::BemError;
-use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use bem_halfspace::steady::{
+    DepthControl, FrictionEstimate, FrictionOptions, Ladder, steady_friction,
+    steady_friction_at_depth,
+};
 use friction_analytic::half_space_power_friction;
+use indenters::PowerProfile;
+use rheology::Elastic;
 
 use crate::support::Scene;
 
@@ -126,4 +131,108 @@ fn a_steep_body_starts_on_a_grid_that_resolves_its_flank() {
         (friction_coefficient - expected).abs() <= error && error < 0.05 * expected,
         "{friction_coefficient} ± {error}, expected {expected}"
     );
+}
+
+/// Hertz: F = (16/3) G √R d^(3/2) on an incompressible half space, with R = 1/(2c).
+#[test]
+fn an_elastic_body_at_a_depth_carries_the_force_of_hertz() {
+    for units in [1e-9, 1.0, 1e9] {
+        let body = PowerProfile::paraboloid(0.5 / units).expect("a body");
+        let material = Elastic::new(3.0).expect("a material");
+        let depth = 0.01 * units;
+        let control = DepthControl {
+            depth,
+            sliding_distance: 10.0 * units,
+            velocity: 2.0 * units,
+        };
+        let ladder = Ladder::of_body_at_depth(&body, depth).expect("a ladder");
+        let options = FrictionOptions {
+            relative_error: 5e-3,
+            ..FrictionOptions::default()
+        };
+        let estimate = steady_friction_at_depth(&body, (&material, &control), &ladder, &options)
+            .expect("a force");
+        let expected = 16.0 * units.sqrt() * depth.powf(1.5);
+        let [force, error] = [estimate.normal_force, estimate.normal_force_error];
+        assert!(
+            (force - expected).abs() <= error && error <= 5e-3 * force,
+            "{force} ± {error} instead of {expected} in units of {units:e} m"
+        );
+        let [friction, error] = [estimate.friction_coefficient, estimate.error];
+        assert!(
+            friction.abs() <= error && error < 1e-8,
+            "{friction} ± {error} without dissipation"
+        );
+    }
+}
+
+#[test]
+fn the_friction_at_a_depth_is_that_under_its_force() {
+    let scene = Scene::unit(2.0);
+    let options = FrictionOptions {
+        relative_error: 1e-3,
+        ..FrictionOptions::default()
+    };
+    let pressed = friction(&scene, 1e-3);
+    let sliding_distance = 1e3 * scene.contact_length();
+    let control = DepthControl {
+        depth: pressed.depth.after(sliding_distance).expect("a depth"),
+        sliding_distance,
+        velocity: scene.load.velocity(),
+    };
+    let ladder = Ladder::of_body_at_depth(&scene.body, control.depth).expect("a ladder");
+    let (body, material) = (&scene.body, &scene.material);
+    let held = steady_friction_at_depth(body, (material, &control), &ladder, &options)
+        .expect("a force and a friction coefficient");
+    // The depth is that of the last grid; it is about as exact as its friction.
+    let expected = scene.load.normal_force();
+    let allowed = held.normal_force_error + 2e-3 * expected;
+    assert!(
+        (held.normal_force - expected).abs() <= allowed,
+        "{} ± {allowed} instead of {expected}",
+        held.normal_force
+    );
+    let deviation = (held.friction_coefficient - pressed.friction_coefficient).abs();
+    let allowed = held.error + pressed.error + 1e-3 * pressed.friction_coefficient;
+    assert!(deviation <= allowed, "{held:?} and {pressed:?}");
+}
+
+#[test]
+fn a_force_out_of_reach_says_what_was_reached() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    let material = Elastic::new(3.0).expect("a material");
+    let control = DepthControl {
+        depth: 0.01,
+        sliding_distance: 10.0,
+        velocity: 1.0,
+    };
+    let ladder = Ladder::of_body_at_depth(&body, control.depth).expect("a ladder");
+    let options = FrictionOptions {
+        relative_error: 1e-6,
+        max_unknowns: 400,
+        ..FrictionOptions::default()
+    };
+    match steady_friction_at_depth(&body, (&material, &control), &ladder, &options) {
+        Err(BemError::ForceNotReached {
+            normal_force,
+            error,
+            ..
+        }) => assert!(
+            (normal_force - 0.016).abs() <= error,
+            "{normal_force} ± {error} instead of 0.016"
+        ),
+        other => panic!("{other:?} of so few unknowns"),
+    }
+}
+
+#[test]
+fn depths_without_a_ladder_are_refused() {
+    let body = PowerProfile::paraboloid(0.5).expect("a body");
+    for depth in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let ladder = Ladder::of_body_at_depth(&body, depth);
+        assert!(
+            matches!(ladder, Err(BemError::InvalidParameter { .. })),
+            "depth {depth}: {ladder:?}"
+        );
+    }
 }

@@ -41,6 +41,26 @@ pub(crate) fn elastic_contact(
     (contact, state)
 }
 
+/// A body without symmetry, and its mirror image in y.
+pub(crate) struct Skewed {
+    pub(crate) body: PowerProfile,
+    /// 1 or −1.
+    pub(crate) handedness: f64,
+}
+
+impl Surface for Skewed {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        let y = self.handedness * y;
+        Surface::height(&self.body, [x + 0.4 * y, 1.3 * y])
+    }
+
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let y = self.handedness * y;
+        let [along, across] = Surface::gradient(&self.body, [x + 0.4 * y, 1.3 * y]);
+        [along, self.handedness * (0.4 * along + 1.3 * across)]
+    }
+}
+
 /// A power profile h = c r^p on a viscous half space.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scene {

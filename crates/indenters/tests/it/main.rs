@@ -3,6 +3,7 @@
 mod casebook_bodies;
 mod contact_radius_solves_the_line;
 mod fixed_seed;
+mod height_maps_are_bilinear;
 mod invalid_inputs_are_refused;
 mod inverse_transform_recovers_the_body;
 mod leading_edge_has_several_intervals;
