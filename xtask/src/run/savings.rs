@@ -95,8 +95,9 @@ fn of_files(answer: &Answer) -> Result<Saving> {
     let name = format!("explain-{}", std::process::id());
     let folder = std::env::temp_dir().join(name);
     let written = metered(|| files::write(answer, &folder));
-    std::fs::remove_dir_all(&folder).context("removing what was written for the measurement")?;
+    let removed = std::fs::remove_dir_all(&folder);
     let ((), done) = written?;
+    removed.context("removing what was written for the measurement")?;
     Ok(Saving {
         left_out: Cost::default(),
         done,
