@@ -306,6 +306,10 @@ impl Scene {
         matches!(&self.file.material, MaterialTable::Elastic(_))
     }
 
+    pub(super) fn is_viscous(&self) -> bool {
+        matches!(&self.file.material, MaterialTable::Viscous(_))
+    }
+
     /// Whether nothing slides.
     pub(super) fn presses(&self) -> bool {
         self.file.load.velocity <= 0.0

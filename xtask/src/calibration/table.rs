@@ -29,7 +29,11 @@ pub(super) fn table(judged: &Judged) -> Table {
         let refused = refused.filter(|refusal| refusal.method == method).count();
         line(method, &rows, refused)
     });
-    let all = line("all", &judged.rows.iter().collect::<Vec<_>>(), judged.refusals.len());
+    let all = line(
+        "all",
+        &judged.rows.iter().collect::<Vec<_>>(),
+        judged.refusals.len(),
+    );
     markdown_table(header, lines.chain([all]))
 }
 
@@ -39,7 +43,9 @@ pub(super) fn left_out(reasons: &[&'static str]) -> String {
     for reason in reasons {
         *counts.entry(reason).or_default() += 1;
     }
-    let lines = counts.iter().map(|(reason, count)| format!("- {count} × {reason}\n"));
+    let lines = counts
+        .iter()
+        .map(|(reason, count)| format!("- {count} × {reason}\n"));
     format!("\nnot asked:\n{}", lines.collect::<String>())
 }
 

@@ -25,14 +25,17 @@ pub(super) struct Extent {
     /// Elements along the contact.
     pub(super) grids: [usize; 5],
     pub(super) marches: [usize; 5],
+    /// Where nothing but flow is slow, so that the way is shorter.
+    pub(super) marches_on_dashpot: [usize; 5],
 }
 
 pub(super) const FULL: Extent = Extent {
     half_space_every: 2,
-    half_space_errors: [-3.0, -2.0],
+    half_space_errors: [-2.7, -2.0],
     chain_errors: [-3.0, -1.6],
     grids: [8, 12, 16, 24, 32],
-    marches: [8, 10, 12, 16, 24],
+    marches: [8, 8, 10, 10, 12],
+    marches_on_dashpot: [8, 12, 16, 20, 24],
 };
 
 pub(super) const QUICK: Extent = Extent {
@@ -41,6 +44,7 @@ pub(super) const QUICK: Extent = Extent {
     chain_errors: [-1.8, -1.5],
     grids: [8, 8, 12, 12, 16],
     marches: [8; 5],
+    marches_on_dashpot: [8; 5],
 };
 
 /// Elements along the contact of a chain.
@@ -85,7 +89,7 @@ pub(super) fn ways(random: &mut Random, scene: &Scene, extent: &Extent) -> Ways 
     } else {
         None
     };
-    for way in half_space(random, extent) {
+    for way in half_space(random, scene, extent) {
         ways.add(way, why);
     }
     ways
@@ -124,12 +128,17 @@ fn line(random: &mut Random, extent: &Extent) -> Vec<Way> {
     of_model(Model::Line, asked)
 }
 
-fn half_space(random: &mut Random, extent: &Extent) -> Vec<Way> {
+fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Way> {
+    let marches = if scene.is_viscous() {
+        &extent.marches_on_dashpot
+    } else {
+        &extent.marches
+    };
     let asked = [
         (Method::Analytic, CLOSED),
         (Method::BemSteady, error(random, extent.half_space_errors)),
         (Method::BemSteady, elements(random, &extent.grids)),
-        (Method::BemTransient, elements(random, &extent.marches)),
+        (Method::BemTransient, elements(random, marches)),
     ];
     of_model(Model::HalfSpace, asked)
 }

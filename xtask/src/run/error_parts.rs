@@ -56,6 +56,17 @@ impl ErrorParts {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }
 
+    /// Of a value that is so many times as large.
+    pub(super) fn times(self, factor: f64) -> Self {
+        let scaled = |part: Option<f64>| part.map(|part| factor * part);
+        Self {
+            discretisation: scaled(self.discretisation),
+            iteration: scaled(self.iteration),
+            time_stepping: scaled(self.time_stepping),
+            truncation: scaled(self.truncation),
+        }
+    }
+
     /// All parts of both; no part is in both.
     pub(super) fn and(self, other: Self) -> Self {
         Self {

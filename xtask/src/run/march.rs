@@ -6,10 +6,10 @@ use bem_halfspace::slide::{
     StationaryOptions, Transient, slide, slide_to_stationary,
 };
 use bem_halfspace::{BemError, ContactOptions, Footprint, Resolution};
-use indenters::SlidingLoad;
+use indenters::{SlidingLoad, Surface};
 use rheology::{CreepSpectrum, Material};
 
-use super::answer::{Answer, ContactBox, HistoryRow};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::bem::widened;
 use super::error_parts::ErrorParts;
 use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
@@ -45,7 +45,8 @@ struct End {
     pressure: PressureField,
 }
 
-struct Scene<'a, S> {
+/// A body that slides from first touch on.
+pub(super) struct Scene<'a, S> {
     body: &'a S,
     material: &'a dyn Material,
     drive: &'a Drive,
@@ -53,6 +54,7 @@ struct Scene<'a, S> {
     footprint: Footprint,
     /// Contact length of the one-dimensional model, about, \[m].
     length: f64,
+    apex_exponent: f64,
     accuracy: Accuracy,
 }
 
@@ -62,30 +64,37 @@ pub(super) fn transient(
     (material, drive): (&dyn Material, &Drive),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let ladder = body.ladder(material, drive)?;
-    let scene = Scene {
-        body,
-        material,
-        drive,
-        creep: material.creep(),
-        footprint: ladder.footprint,
-        length: COARSEST_ELEMENTS * ladder.coarsest_spacing,
-        accuracy,
-    };
+    let scene = Scene::new(body, (material, drive), accuracy)?;
     let solve = |elements: usize| scene.march(scene.length / elements as f64);
     let goal = Goal {
         accuracy,
         largest: LARGEST_GRID,
-        order: order_of_apex(ladder.apex_exponent),
+        order: order_of_apex(scene.apex_exponent),
     };
-    let Resolved { value, error, .. } = {
-        let others = |_, end: &End| Ok(scene.rest_of_the_way(end));
-        resolve(&goal, solve, |end| scene.quantities(end), others)
-    }?;
-    Ok(scene.answer(value, error))
+    let others = |_, end: &End| Ok([scene.other_parts(end), ErrorParts::NONE]);
+    let resolved = resolve(&goal, solve, |end| scene.quantities(end), others)?;
+    Ok(scene.answer(resolved))
 }
 
-impl<S: Shape> Scene<'_, S> {
+impl<'a, S: Shape> Scene<'a, S> {
+    pub(super) fn new(
+        body: &'a S,
+        (material, drive): (&'a dyn Material, &'a Drive),
+        accuracy: Accuracy,
+    ) -> Result<Self> {
+        let ladder = body.ladder(material, drive)?;
+        Ok(Self {
+            body,
+            material,
+            drive,
+            creep: material.creep(),
+            footprint: ladder.footprint,
+            length: COARSEST_ELEMENTS * ladder.coarsest_spacing,
+            apex_exponent: ladder.apex_exponent,
+            accuracy,
+        })
+    }
+
     fn is_elastic(&self) -> bool {
         self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
     }
@@ -100,21 +109,27 @@ impl<S: Shape> Scene<'_, S> {
         [first, end.force].map(Quantity::from)
     }
 
-    /// What the finite distance leaves open of friction and force.
-    fn rest_of_the_way(&self, end: &End) -> [ErrorParts; 2] {
-        let truncation = end.distance_error.filter(|_| !self.is_elastic());
-        let friction = ErrorParts {
-            truncation,
+    /// What the contact solver and the finite distance leave open of the friction.
+    fn other_parts(&self, end: &End) -> ErrorParts {
+        if self.is_elastic() {
+            return ErrorParts::NONE;
+        }
+        ErrorParts {
+            iteration: Some(error_of_gaps(self.body, &end.pressure)),
+            truncation: end.distance_error,
             ..ErrorParts::NONE
-        };
-        [friction, ErrorParts::NONE]
+        }
     }
 
-    fn answer(&self, end: End, [error, force_error]: [f64; 2]) -> Answer {
-        let friction_error = if self.is_elastic() {
-            end.friction.abs()
+    fn answer(&self, resolved: Resolved<End, 2>) -> Answer {
+        let (end, [error, force_error]) = (resolved.value, resolved.error);
+        // The friction of an elastic half space is what the elements leave of none.
+        let (friction_error, parts) = if self.is_elastic() {
+            let error = end.friction.abs();
+            (error, ErrorParts::of_elements(error))
         } else {
-            error
+            let [parts, _] = resolved.parts;
+            (error, parts)
         };
         let at_force = matches!(self.drive.control, Control::NormalForce(_));
         // Without a distance the depth on a material that flows has no meaning: it never stops to grow.
@@ -126,9 +141,13 @@ impl<S: Shape> Scene<'_, S> {
             contact_box: Some(end.contact_box),
             unknowns: end.n_contact,
             iterations: end.history.len(),
-            left_out: vec!["history outside the contact box"],
+            grid: Some(Grid {
+                spacing: end.pressure.grid.spacing()[0],
+                factorised: false,
+            }),
             ..Answer::new(Method::BemTransient, Model::HalfSpace, end.force)
                 .with_friction(end.friction, friction_error)
+                .with_parts(parts)
         };
         answer.fields.history = end.history;
         answer.fields.pressure = Some(end.pressure);
@@ -145,9 +164,7 @@ impl<S: Shape> Scene<'_, S> {
                 Ok(End::of(transient, force, (friction, None)))
             }
             (Control::NormalForce(force), None) => self.to_stationary(force, spacing),
-            (Control::IndentationDepth(depth), Some(distance)) => {
-                self.at_depth(depth, [spacing, distance])
-            }
+            (Control::IndentationDepth(_), Some(distance)) => self.at_depth([spacing, distance]),
             (Control::IndentationDepth(_), None) => {
                 bail!("at a depth the method marches over a distance only")
             }
@@ -160,6 +177,33 @@ impl<S: Shape> Scene<'_, S> {
             footprint: self.footprint,
             sliding_distance,
             contact: ContactOptions::default(),
+        }
+    }
+
+    /// The march over a distance, ready for its first step.
+    pub(super) fn over(
+        &self,
+        [spacing, distance]: [f64; 2],
+        contact: ContactOptions,
+    ) -> Result<March<'a, S>> {
+        match self.drive.control {
+            Control::NormalForce(force) => {
+                let load = SlidingLoad::new(force, self.drive.velocity)?;
+                let options = SlideOptions {
+                    contact,
+                    ..self.options(spacing, distance)
+                };
+                Ok(March::sliding(self.body, self.material, &load, &options)?)
+            }
+            Control::IndentationDepth(depth) => {
+                let resolution = Resolution {
+                    spacing: [spacing; 2],
+                    footprint: widened(&self.footprint, spacing),
+                    contact,
+                };
+                let motions = self.motions(depth, [spacing, distance]);
+                Ok(March::new(self.body, self.material, &motions, &resolution)?)
+            }
         }
     }
 
@@ -219,20 +263,14 @@ impl<S: Shape> Scene<'_, S> {
         self.drive.velocity * times.fold(0.0, f64::max)
     }
 
-    fn at_depth(&self, depth: f64, [spacing, distance]: [f64; 2]) -> Result<End> {
+    fn at_depth(&self, [spacing, distance]: [f64; 2]) -> Result<End> {
         if distance > MOST_STEPS * spacing {
             bail!(
                 "a march over {distance} m in steps of {spacing:e} m has more than {MOST_STEPS:e} of them"
             );
         }
-        let resolution = Resolution {
-            spacing: [spacing; 2],
-            footprint: widened(&self.footprint, spacing),
-            contact: ContactOptions::default(),
-        };
-        let motions = self.motions(depth, [spacing, distance]);
-        let mut march = March::new(self.body, self.material, &motions, &resolution)?;
-        let mut rows = Vec::with_capacity(motions.len());
+        let mut march = self.over([spacing, distance], ContactOptions::default())?;
+        let mut rows = Vec::new();
         while let Some(row) = march.step()? {
             rows.push(row);
         }
@@ -296,6 +334,25 @@ impl End {
             pressure,
         })
     }
+}
+
+/// What gaps of the size of the tolerance change of the friction.
+///
+/// A gap that alternates from element to element changes the pressure by as many times its part of the displacement as
+/// there are elements along the contact, and the friction by as much of the mean modulus of the slope.
+fn error_of_gaps(surface: &impl Surface, field: &PressureField) -> f64 {
+    let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
+    let [mut load, mut climb] = [0.0; 2];
+    for (index, pressure) in field.pressure.iter().enumerate() {
+        let x = field.origin[0] + (index / columns) as f64 * dx;
+        let y = field.origin[1] + (index % columns) as f64 * dy;
+        let rise = surface.height([x + 0.5 * dx, y]) - surface.height([x - 0.5 * dx, y]);
+        load += pressure;
+        if *pressure > 0.0 {
+            climb += pressure * (rise / dx).abs();
+        }
+    }
+    ContactOptions::default().tolerance * rows as f64 * (climb / load)
 }
 
 fn sliding(row: &SlideRow) -> HistoryRow {

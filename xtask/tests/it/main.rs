@@ -4,6 +4,7 @@ mod any_scene_is_answered;
 mod calibration;
 mod commands;
 mod documented_commands;
+mod explained_omissions;
 mod fit_material;
 mod fuzzed_inputs;
 mod half_space_scenes;

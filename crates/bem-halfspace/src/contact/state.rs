@@ -17,6 +17,8 @@ pub struct ContactState {
     pub(super) fields: Option<Box<Fields>>,
     /// The part of the grid on which the iteration last ran instead.
     pub(super) inner: Option<Box<ContactBox>>,
+    /// Whether the iteration may run on a part of the grid at all.
+    pub(super) in_parts: bool,
 }
 
 impl ContactState {
@@ -31,6 +33,7 @@ impl ContactState {
             workspace: convolution.workspace(),
             fields: None,
             inner: None,
+            in_parts: true,
         }
     }
 

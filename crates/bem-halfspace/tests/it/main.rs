@@ -17,6 +17,7 @@ mod influence_coefficients;
 mod interrupted_marches;
 mod nested_grids;
 mod normal_indentation;
+mod omissions;
 mod periodic_contact;
 mod sliding_converges;
 mod sliding_invariance;
