@@ -30,9 +30,9 @@ pub(super) struct Extent {
 }
 
 pub(super) const FULL: Extent = Extent {
-    half_space_every: 2,
-    half_space_errors: [-2.7, -2.0],
-    chain_errors: [-3.0, -1.6],
+    half_space_every: 3,
+    half_space_errors: [-2.5, -2.0],
+    chain_errors: [-2.3, -1.6],
     grids: [8, 12, 16, 24, 32],
     marches: [8, 8, 10, 10, 12],
     marches_on_dashpot: [8, 12, 16, 20, 24],

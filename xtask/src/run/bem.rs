@@ -219,3 +219,50 @@ fn depth_after(depth: &SinkingDepth, distance: Option<f64>) -> Result<Option<f64
     }
     Ok(distance.map(|distance| depth.after(distance)).transpose()?)
 }
+
+#[cfg(test)]
+mod tests {
+    use indenters::PowerProfile;
+    use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+
+    use super::*;
+    use crate::run::Revolution;
+
+    /// Contacts that are large enough to be solved by iteration.
+    #[test]
+    fn smaller_gaps_change_the_friction_by_less_than_the_iteration() {
+        let solid = StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: 1.0,
+            maxwell_modulus: 3.0,
+            viscosity: 1.0,
+        })
+        .expect("a material");
+        let viscous = Viscous::new(1.0).expect("a material");
+        let materials: [&dyn Material; 2] = [&viscous, &solid];
+        for (exponent, material) in [1.0, 2.0].iter().flat_map(|p| materials.map(|m| (*p, m))) {
+            let body = Revolution::Power(PowerProfile::new(0.3, exponent).expect("a body"));
+            let drive = Drive {
+                control: Control::NormalForce(1.0),
+                velocity: 1.0,
+                distance: None,
+            };
+            let scene = Scene::new(&body, (material, &drive)).expect("a scene");
+            let spacing = COARSEST_ELEMENTS * scene.ladder.coarsest_spacing / 48.0;
+            let [coarse, exact] = [1e-4, 1e-12].map(|tolerance| {
+                let options = SteadyOptions {
+                    tolerance,
+                    ..scene.grid(spacing)
+                };
+                scene.solve(&options, None).expect("a state")
+            });
+            let change = (coarse.friction_coefficient - exact.friction_coefficient).abs();
+            let [parts, _] = gaps(&coarse);
+            let iteration = parts.iteration.expect("a part");
+            assert!(
+                change <= iteration && iteration > 0.0,
+                "p = {exponent} on {material:?}, {} unknowns: {change:e}, and the part is {iteration:e}",
+                coarse.unknowns
+            );
+        }
+    }
+}

@@ -52,6 +52,16 @@ impl ErrorParts {
         ]
     }
 
+    /// For a person; nothing of a method without parts.
+    pub(super) fn in_words(&self) -> Option<String> {
+        let known = self.named().into_iter();
+        let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
+        let parts: Vec<String> = known
+            .map(|(name, part)| format!("{name} {part:.1e}"))
+            .collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
+    }
+
     pub(super) fn sum(&self) -> f64 {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }

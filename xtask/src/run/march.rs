@@ -21,6 +21,8 @@ const LARGEST_GRID: usize = 32;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
 const LENGTHS: f64 = 24.0;
 const DRIFT: f64 = 0.05;
+/// What counts as stationary where only the limit is asked for.
+const ANY_DRIFT: f64 = f64::INFINITY;
 /// Distances v λ of the slowest element until a solid counts as stationary.
 const MEMORIES: f64 = 12.0;
 /// Contact lengths after which a march to the stationary state is not begun.
@@ -211,17 +213,25 @@ impl<'a, S: Shape> Scene<'a, S> {
         let load = SlidingLoad::new(force, self.drive.velocity)?;
         let memory = self.memory();
         if memory == 0.0 {
-            let options = self.options(spacing, LENGTHS * self.length);
-            let transient = slide(self.body, self.material, &load, &options)?;
-            if self.is_elastic() {
-                let friction = transient.last().friction_coefficient;
-                return Ok(End::of(transient, force, (friction, None)));
-            }
-            let state = transient.stationary(DRIFT)?;
-            let reached = (state.friction_coefficient, Some(state.distance_error));
-            return Ok(End::of(transient, force, reached));
+            return self.flow(&load, &self.options(spacing, LENGTHS * self.length));
         }
         self.settle(&load, memory, spacing)
+    }
+
+    /// Slides over the distance of the options, and beyond it by extrapolation.
+    fn flow(&self, load: &SlidingLoad, options: &SlideOptions) -> Result<End> {
+        let transient = slide(self.body, self.material, load, options)?;
+        let reached = if self.is_elastic() {
+            (transient.last().friction_coefficient, None)
+        } else {
+            let state = transient.stationary(DRIFT)?;
+            let scatter = scatter_of_limits(&transient)?;
+            (
+                state.friction_coefficient,
+                Some(state.distance_error.max(scatter)),
+            )
+        };
+        Ok(End::of(transient, load.normal_force(), reached))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
@@ -336,6 +346,20 @@ impl End {
     }
 }
 
+/// How far apart the limits are that were foretold on the last quarter of the way; which elements touch changes from step
+/// to step, and an extrapolation widens that.
+fn scatter_of_limits(transient: &Transient) -> Result<f64> {
+    let mut shorter = transient.clone();
+    let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
+    for _ in 0..=transient.rows.len() / 4 {
+        let limit = shorter.stationary(ANY_DRIFT)?.friction_coefficient;
+        lowest = limit.min(lowest);
+        highest = limit.max(highest);
+        shorter.rows.pop();
+    }
+    Ok(highest - lowest)
+}
+
 /// What gaps of the size of the tolerance change of the friction.
 ///
 /// A gap that alternates from element to element changes the pressure by as many times its part of the displacement as
@@ -372,4 +396,80 @@ fn moving(row: &MotionRow) -> Option<HistoryRow> {
         indentation_depth_m: row.indentation_depth,
         friction_coefficient: row.tangential_force / row.normal_force,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::PowerProfile;
+    use rheology::Viscous;
+
+    use super::*;
+    use crate::run::Revolution;
+
+    const ELEMENTS: f64 = 10.0;
+    const FORCE: f64 = 1.0;
+
+    fn on_dashpot<T>(exponent: f64, ask: impl Fn(&Scene<'_, Revolution>, &SlideOptions) -> T) -> T {
+        let body = PowerProfile::new(0.3, exponent).expect("a body");
+        let material = Viscous::new(1.0).expect("a material");
+        let drive = Drive {
+            control: Control::NormalForce(FORCE),
+            velocity: 1.0,
+            distance: None,
+        };
+        let body = Revolution::Power(body);
+        let accuracy = Accuracy::Elements(10);
+        let scene = Scene::new(&body, (&material, &drive), accuracy).expect("a scene");
+        let options = scene.options(scene.length / ELEMENTS, LENGTHS * scene.length);
+        ask(&scene, &options)
+    }
+
+    fn flow(scene: &Scene<'_, Revolution>, options: &SlideOptions) -> End {
+        let load = SlidingLoad::new(FORCE, 1.0).expect("a load");
+        scene.flow(&load, options).expect("a march")
+    }
+
+    #[test]
+    fn twice_the_distance_changes_the_friction_by_less_than_the_truncation() {
+        for exponent in [0.75, 1.0, 2.0] {
+            on_dashpot(exponent, |scene, options| {
+                let end = flow(scene, options);
+                let farther = SlideOptions {
+                    sliding_distance: 2.0 * options.sliding_distance,
+                    ..*options
+                };
+                let end_farther = flow(scene, &farther);
+                let change = (end_farther.friction - end.friction).abs();
+                let [part, other] = [&end, &end_farther]
+                    .map(|end| scene.other_parts(end).truncation.expect("a part"));
+                // What is left after twice the distance is not nothing.
+                assert!(
+                    change <= part + other && part < 0.02 * end.friction,
+                    "p = {exponent}: {change:e}, and the parts are {part:e} and {other:e}"
+                );
+            });
+        }
+    }
+
+    #[test]
+    fn smaller_gaps_change_the_friction_by_less_than_the_iteration() {
+        for exponent in [0.75, 1.0, 2.0] {
+            on_dashpot(exponent, |scene, options| {
+                let end = flow(scene, options);
+                let exact = SlideOptions {
+                    contact: ContactOptions {
+                        tolerance: 1e-13,
+                        max_iterations: 10_000,
+                    },
+                    ..*options
+                };
+                let change = (flow(scene, &exact).friction - end.friction).abs();
+                let iteration = scene.other_parts(&end).iteration.expect("a part");
+                assert!(
+                    change <= iteration && iteration < 1e-6 * end.friction,
+                    "p = {exponent}: {change:e}, and the part is {iteration:e}"
+                );
+            });
+        }
+    }
 }

@@ -194,3 +194,89 @@ fn history(row: &SlideRow) -> HistoryRow {
         friction_coefficient: row.friction_coefficient,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use indenters::PowerProfile;
+    use rheology::{Maxwell, StandardSolid, StandardSolidParameters};
+
+    use super::*;
+
+    fn body(exponent: f64) -> Revolution {
+        Revolution::Power(PowerProfile::new(1.0, exponent).expect("a body"))
+    }
+
+    fn solid(times: f64) -> StandardSolid {
+        let parameters = StandardSolidParameters {
+            equilibrium_modulus: 1.0,
+            maxwell_modulus: 3.0,
+            viscosity: 3.0 * times,
+        };
+        StandardSolid::new(parameters).expect("a material")
+    }
+
+    fn exact(body: &Revolution, material: &dyn Material, load: &SlidingLoad) -> f64 {
+        let options = SteadyOptions::default();
+        let state = steady(&EquivalentLine(body), material, load, &options);
+        state.expect("a stationary state").friction_coefficient
+    }
+
+    /// What is not of first order is smaller by the number of elements along the layer or the contact, and is seen to be:
+    /// a tenth on 256 elements, of which 26 are along the shortest way of relaxation.
+    #[test]
+    fn the_error_of_the_step_is_that_of_a_chain_with_memory() {
+        let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+        let maxwell = Maxwell::new(5.0, 1.0).expect("a material");
+        let solids = [0.2, 1.0].map(solid);
+        let materials: [&dyn Material; 3] = [&maxwell, &solids[0], &solids[1]];
+        for (exponent, material) in [1.0, 2.0].iter().flat_map(|p| materials.map(|m| (*p, m))) {
+            let body = body(exponent);
+            let ride = Ride {
+                body: &body,
+                load: &load,
+                distance: None,
+            };
+            let elements = 256;
+            let options = ride.options(material, elements).expect("options");
+            let rows = ride.march(material, &options).expect("a march");
+            let part = ride.error_of_step(material, elements, &rows);
+            let part = part.expect("a march").expect("a memory");
+            let deviation = (ride.friction(&rows).value - exact(&body, material, &load)).abs();
+            let ratio = part / deviation;
+            assert!(
+                (0.95..1.15).contains(&ratio),
+                "p = {exponent} on {material:?}: off by {deviation:e}, and the part is {part:e}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_longer_march_changes_the_friction_by_less_than_the_truncation() {
+        let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+        for times in [0.1, 1.0, 10.0] {
+            let (body, material) = (body(2.0), solid(times));
+            let ride = Ride {
+                body: &body,
+                load: &load,
+                distance: None,
+            };
+            let march = |drift_tolerance: f64| {
+                let options = ride.options(&material, 32).expect("options");
+                let options = SlideOptions {
+                    drift_tolerance,
+                    max_sliding_distance: 10.0 * options.max_sliding_distance,
+                    ..options
+                };
+                ride.march(&material, &options).expect("a march")
+            };
+            // Rounding is far below what is left after the shorter one.
+            let [rows, longer] = [1e-5, 1e-10].map(march);
+            let change = (ride.friction(&longer).value - ride.friction(&rows).value).abs();
+            let part = ride.rest_of_the_way(&rows).expect("a part");
+            assert!(
+                change <= part && part < 1e-3 * ride.friction(&rows).value,
+                "{times} s: {change:e}, and the part is {part:e}"
+            );
+        }
+    }
+}

@@ -134,6 +134,9 @@ fn print(answer: &Answer, options: &Run, chosen: bool) -> Result<()> {
             };
             print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
             print_line(&answer.table())?;
+            if let Some(parts) = answer.error_parts.in_words() {
+                print_line(&format!("error bar: {parts}"))?;
+            }
         }
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! Every committed scene is answered, and answers agree across methods.
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 
@@ -28,10 +29,69 @@ fn every_committed_scene_is_answered() {
                 answered.iter().any(|field| result[*field].is_number()),
                 "{path:?}: {result}"
             );
+            assert_bar_is_its_parts(&result);
             n_scenes += 1;
         }
     }
     assert!(n_scenes >= 12, "only {n_scenes} scenes");
+}
+
+/// Besides the parts there is rounding, of 1e-11 of the value at most.
+fn assert_bar_is_its_parts(result: &Value) {
+    let bars = ["friction_coefficient", "indentation_depth", "normal_force"];
+    let bar = bars.iter().find_map(|field| {
+        let error = result[format!("{field}_error")].as_f64()?;
+        Some([error, number(result, field)])
+    });
+    let [error, value] = bar.unwrap_or_else(|| panic!("no error in {result}"));
+    let Some(parts) = result["error_parts"].as_object() else {
+        assert_eq!(
+            result["method"], "analytic",
+            "only closed forms have no parts: {result}"
+        );
+        return;
+    };
+    let sum: f64 = parts
+        .keys()
+        .map(|part| number(&result["error_parts"], part))
+        .sum();
+    let rounding = error - sum;
+    assert!(
+        rounding >= -1e-12 * error && rounding <= 1.1e-11 * value.abs(),
+        "the parts add up to {sum:e}, and the bar is {error:e}: {result}"
+    );
+}
+
+#[test]
+fn each_method_names_the_parts_that_it_has() {
+    let maxwell = folder("parts").join("maxwell.toml");
+    let text = fs::read_to_string(example("maxwell-paraboloid.toml")).expect("a scene");
+    fs::write(&maxwell, text + "\n[solve]\nelements = 64\n").expect("a scene");
+    let parts = |scene: &Path, method: &str| {
+        let result = run_json(&[argument(scene), "--method", method]);
+        assert_bar_is_its_parts(&result);
+        let parts = result["error_parts"].as_object().cloned();
+        let names = parts.map(|parts| parts.keys().cloned().collect::<Vec<String>>());
+        names.unwrap_or_default().join(" ")
+    };
+    let names = parts(&maxwell, "mdr-transient");
+    assert_eq!(names, "discretisation time_stepping truncation", "a memory");
+    for (scene, method, expected) in [
+        ("cone-viscous", "analytic", ""),
+        ("cone-viscous", "mdr-steady", "discretisation"),
+        ("cone-viscous", "mdr-transient", "discretisation truncation"),
+        ("cone-half-space", "bem-steady", "discretisation iteration"),
+        (
+            "half-space-run-in",
+            "bem-transient",
+            "discretisation iteration",
+        ),
+        ("hertz", "mdr-transient", "discretisation"),
+        ("hertz", "bem-transient", "discretisation iteration"),
+    ] {
+        let names = parts(&example(&format!("{scene}.toml")), method);
+        assert_eq!(names, expected, "{scene} by {method}");
+    }
 }
 
 #[test]
