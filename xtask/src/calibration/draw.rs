@@ -296,9 +296,17 @@ pub(super) fn choice<T: Copy, const N: usize>(random: &mut Random, items: &[T; N
 }
 
 impl Scene {
-    /// Whether the slope is infinite at the lowest point.
-    pub(super) fn has_cusp(&self) -> bool {
-        matches!(&self.file.indenter, Indenter::Power(power) if power.exponent < 1.0)
+    /// Whether the equivalent line is infinitely steep somewhere.
+    pub(super) fn is_sharp(&self) -> bool {
+        let has_cusp =
+            matches!(&self.file.indenter, Indenter::Power(power) if power.exponent < 1.0);
+        has_cusp || self.has_edge()
+    }
+
+    /// Whether the slope jumps upwards.
+    pub(super) fn has_edge(&self) -> bool {
+        let key = self.file.indenter.key();
+        WITH_EDGE.iter().any(|name| key.ends_with(name))
     }
 
     /// Whether the half space has no friction, whatever slides over it.

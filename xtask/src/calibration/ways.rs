@@ -32,7 +32,7 @@ pub(super) struct Extent {
 pub(super) const FULL: Extent = Extent {
     half_space_every: 3,
     half_space_errors: [-2.5, -2.0],
-    chain_errors: [-2.3, -1.6],
+    chain_errors: [-2.0, -1.4],
     grids: [8, 12, 16, 24, 32],
     marches: [8, 8, 10, 10, 12],
     marches_on_dashpot: [8, 12, 16, 20, 24],
@@ -41,7 +41,7 @@ pub(super) const FULL: Extent = Extent {
 pub(super) const QUICK: Extent = Extent {
     half_space_every: 4,
     half_space_errors: [-2.0, -2.0],
-    chain_errors: [-1.8, -1.5],
+    chain_errors: [-1.6, -1.3],
     grids: [8, 8, 12, 12, 16],
     marches: [8; 5],
     marches_on_dashpot: [8; 5],
@@ -63,7 +63,8 @@ pub(super) struct Ways {
     pub(super) left_out: Vec<&'static str>,
 }
 
-const SLOW_CUSP: &str = "a chain to an error on a cusp, where errors fall too slowly";
+const SLOW: &str = "a chain to an error at a cusp or an edge, where errors fall too slowly";
+const SLOW_EDGE: &str = "the half space at an edge, where errors fall too slowly for a reference";
 const NO_REFERENCE: &str = "the half space on its way, of which there is no reference";
 const EXPENSIVE: &str = "the half space in the scenes between, because it costs most";
 
@@ -79,13 +80,15 @@ pub(super) fn ways(random: &mut Random, scene: &Scene, extent: &Extent) -> Ways 
     }
     for way in line(random, extent) {
         let is_slow = way.method == Method::MdrTransient && !way.is_by_elements();
-        ways.add(way, (scene.has_cusp() && is_slow).then_some(SLOW_CUSP));
+        ways.add(way, (scene.is_sharp() && is_slow).then_some(SLOW));
     }
     let is_stationary = scene.file.solve.sliding_distance.is_none();
     let why = if !is_stationary {
         Some(NO_REFERENCE)
     } else if !scene.number.is_multiple_of(extent.half_space_every) {
         Some(EXPENSIVE)
+    } else if scene.has_edge() {
+        Some(SLOW_EDGE)
     } else {
         None
     };

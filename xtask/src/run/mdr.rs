@@ -145,7 +145,10 @@ impl Ride<'_> {
         let rounding = rows.last().map_or(0.0, |last| {
             ROUNDING * (last.indentation_depth / last.contact_length)
         });
-        Quantity { value, rounding }
+        Quantity {
+            rounding,
+            ..Quantity::from(value)
+        }
     }
 
     /// What is left of an exponential approach, by its change over the last contact length and over the one before; on

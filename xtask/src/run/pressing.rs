@@ -134,7 +134,12 @@ pub(super) fn chain(
         last(rows)
     };
     let goal = goal(accuracy, LARGEST_CHAIN);
-    let depth = |row: &mdr_core::IndentRow| [Quantity::from(row.indentation_depth)];
+    let depth = |row: &mdr_core::IndentRow| {
+        [Quantity {
+            least: error_of_outline(body, row),
+            ..Quantity::from(row.indentation_depth)
+        }]
+    };
     let Resolved {
         value: row,
         error: [error],
@@ -149,6 +154,16 @@ pub(super) fn chain(
         iterations: elements,
         ..Answer::new(Method::MdrTransient, Model::Line, force).with_parts(parts)
     })
+}
+
+/// The outermost elements are loaded as wholes, whatever part of them touches: at the edge of a flat end they carry as much
+/// as any, at every resolution.
+fn error_of_outline(body: &Revolution, row: &mdr_core::IndentRow) -> f64 {
+    let depth = row.indentation_depth;
+    let carried = row.contact.map_or(depth, |[_, front]| {
+        (depth - body.line_height(front)).clamp(0.0, depth)
+    });
+    carried / row.n_contact as f64
 }
 
 /// Boundary elements, in one step on a dashpot of unit viscosity: the steps that lead to a constant force or depth do not

@@ -35,6 +35,8 @@ pub(super) struct Quantity {
     pub(super) value: f64,
     /// Absolute error by rounding; no resolution is finer.
     pub(super) rounding: f64,
+    /// Error of the elements at least, where all resolutions may agree.
+    pub(super) least: f64,
 }
 
 impl From<f64> for Quantity {
@@ -43,6 +45,7 @@ impl From<f64> for Quantity {
         Self {
             value,
             rounding: 0.0,
+            least: 0.0,
         }
     }
 }
@@ -104,6 +107,7 @@ pub(super) fn resolve<T, const N: usize>(
                 three_eighths: three_eighths.as_ref().map(value),
             }
             .error(goal.order)
+            .max(fine[quantity].least)
         });
         let is_last = elements >= goal.largest;
         let mut outcome = Outcome::new(&fine, changes);
@@ -150,7 +154,9 @@ impl<'a, const N: usize> Outcome<'a, N> {
 
     fn errors(&self) -> [f64; N] {
         std::array::from_fn(|quantity| {
-            let Quantity { value, rounding } = self.fine[quantity];
+            let Quantity {
+                value, rounding, ..
+            } = self.fine[quantity];
             self.parts[quantity].sum() + ROUNDING * value.abs() + rounding
         })
     }

@@ -124,7 +124,7 @@ impl March<'_> {
             self.foundation.free_stresses(&recovery, distance)
         };
         let position = segment.position(t);
-        let displacement = self.foundation.free_displacement(&recovery, distance);
+        let displacement = self.strain(self.foundation.free_displacement(&recovery, distance));
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         self.sums.contacts.push([position; 2]);
         self.surface = Surface::Loaded {
@@ -152,6 +152,15 @@ impl March<'_> {
         None
     }
 
+    /// A spring that is touched or let go is not strained; rounding must not count as friction.
+    fn strain(&self, displacement: f64) -> f64 {
+        if self.foundation.is_elastic() {
+            0.0
+        } else {
+            displacement
+        }
+    }
+
     fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
         if t > -1.0 {
@@ -160,12 +169,7 @@ impl March<'_> {
             self.add(&passage, &loaded, tail);
             stresses = passage.stresses;
         }
-        // A spring that is let go is not strained; rounding must not count as friction.
-        let displacement = if self.foundation.is_elastic() {
-            0.0
-        } else {
-            segment.displacement(t)
-        };
+        let displacement = self.strain(segment.displacement(t));
         self.close(displacement, &stresses, segment.position(t));
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
