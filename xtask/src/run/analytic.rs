@@ -36,7 +36,6 @@ pub(super) fn viscous_line(
     let mut answer = Answer {
         indentation_depth: Some(state.indentation_depth),
         contact_box: ends(&state.contact_line).map(ContactBox::along),
-        left_out: vec!["elements", "time steps", "half space"],
         ..answer
     };
     answer.fields.line_load = load_along(body, material, velocity, &state);
@@ -87,7 +86,6 @@ pub(super) fn viscous_half_space(
 ) -> Result<Answer> {
     let friction = half_space_power_friction(profile, material, load)?;
     Ok(Answer {
-        left_out: vec!["elements", "time steps"],
         ..Answer::new(Method::Analytic, Model::HalfSpace, load.normal_force())
             .with_friction(friction.value, friction.error)
     })
@@ -105,7 +103,6 @@ pub(super) fn viscous_transient(
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
         contact_box: Some(ContactBox::along(state.contact_line)),
-        left_out: vec!["elements", "time steps", "half space"],
         ..Answer::new(Method::Analytic, Model::Line, load.normal_force())
             .with_friction(friction, SEARCHED * friction)
     })
@@ -141,7 +138,6 @@ pub(super) fn viscoelastic_line(
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
         contact_box: Some(ContactBox::along(state.contact)),
-        left_out: vec!["elements", "time steps", "half space"],
         ..Answer::new(Method::Analytic, Model::Line, force)
             .with_friction(friction, SEARCHED * friction)
     })

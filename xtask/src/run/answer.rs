@@ -7,6 +7,7 @@ use bem_halfspace::slide::PressureField;
 use comfy_table::Table;
 use serde::Serialize;
 
+use super::omission::Omission;
 use crate::scene_file::{Method, Model};
 
 /// One result, all SI; what a method does not know is left out.
@@ -43,7 +44,9 @@ pub(crate) struct Answer {
     pub(crate) iterations: usize,
     pub(crate) seconds: f64,
     /// Parts of the method that the scene did not need.
-    pub(crate) left_out: Vec<&'static str>,
+    pub(crate) left_out: Vec<Omission>,
+    #[serde(skip)]
+    pub(crate) grid: Option<Grid>,
     #[serde(skip)]
     pub(crate) fields: Fields,
 }
@@ -57,6 +60,15 @@ pub(crate) struct ContactBox {
     pub(crate) y_min: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) y_max: Option<f64>,
+}
+
+/// The finest boundary elements behind an answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Grid {
+    /// Length of an element, \[m].
+    pub(crate) spacing: f64,
+    /// Whether the stationary contact was factorised.
+    pub(crate) factorised: bool,
 }
 
 /// What only files hold.
@@ -99,6 +111,7 @@ impl Answer {
             iterations: 0,
             seconds: 0.0,
             left_out: Vec::new(),
+            grid: None,
             fields: Fields {
                 pressure: None,
                 line_load: Vec::new(),

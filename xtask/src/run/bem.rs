@@ -3,13 +3,14 @@
 use anyhow::{Context, Result};
 use bem_halfspace::Footprint;
 use bem_halfspace::steady::{
-    DepthControl, FrictionOptions, Ladder, SinkingDepth, SteadyOptions, SteadySliding, steady,
-    steady_at_depth, steady_friction_at_depth, steady_friction_of_surface,
+    DepthControl, FrictionOptions, Ladder, SinkingDepth, SteadyOmission, SteadyOptions,
+    SteadySliding, steady, steady_at_depth, steady_at_depth_without_omission,
+    steady_friction_at_depth, steady_friction_of_surface, steady_without_omission,
 };
 use indenters::SlidingLoad;
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox};
+use super::answer::{Answer, ContactBox, Grid};
 use super::resolution::{Resolved, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
@@ -25,26 +26,34 @@ pub(super) fn stationary(
     (material, drive): (&dyn Material, &Drive),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let scene = Scene {
-        body,
-        material,
-        drive,
-        ladder: body.ladder(material, drive)?,
-    };
+    let scene = Scene::new(body, (material, drive))?;
     match accuracy {
         Accuracy::RelativeError(relative_error) => scene.to_an_error(relative_error),
         Accuracy::Elements(_) => scene.on_elements(accuracy),
     }
 }
 
-struct Scene<'a, S> {
+/// A body that slides in the stationary state.
+pub(super) struct Scene<'a, S> {
     body: &'a S,
     material: &'a dyn Material,
     drive: &'a Drive,
     ladder: Ladder,
 }
 
-impl<S: Shape> Scene<'_, S> {
+impl<'a, S: Shape> Scene<'a, S> {
+    pub(super) fn new(
+        body: &'a S,
+        (material, drive): (&'a dyn Material, &'a Drive),
+    ) -> Result<Self> {
+        Ok(Self {
+            body,
+            material,
+            drive,
+            ladder: body.ladder(material, drive)?,
+        })
+    }
+
     fn to_an_error(&self, relative_error: f64) -> Result<Answer> {
         let Self { body, material, .. } = *self;
         let options = FrictionOptions {
@@ -108,33 +117,54 @@ impl<S: Shape> Scene<'_, S> {
             contact_box: Some(ContactBox::around(state.contact_x, state.contact_y)),
             unknowns: state.unknowns,
             iterations: state.iterations,
-            left_out: vec!["time steps", "free surface"],
+            grid: Some(Grid {
+                spacing: state.pressure.grid.spacing()[0],
+                factorised: state.is_factorised(),
+            }),
             ..answer
         };
-        if self.body.is_mirror_symmetric() {
-            answer.left_out.push("mirror half");
-        }
         answer.fields.pressure = Some(state.pressure);
         Ok(answer)
     }
 
-    /// Elements half as wide as long.
     fn on_grid(&self, spacing: f64) -> Result<SteadySliding> {
-        let Self { body, material, .. } = *self;
-        let options = SteadyOptions {
+        self.solve(&self.grid(spacing), None)
+    }
+
+    /// Elements half as wide as long.
+    pub(super) fn grid(&self, spacing: f64) -> SteadyOptions {
+        SteadyOptions {
             spacing: [spacing, 0.5 * spacing],
             phase: [0.0, 0.0],
             footprint: widened(&self.ladder.footprint, spacing),
             tolerance: TOLERANCE,
             max_iterations: MAX_ITERATIONS,
-        };
+        }
+    }
+
+    /// The state on one grid, where the work of an omission may be done too.
+    pub(super) fn solve(
+        &self,
+        grid: &SteadyOptions,
+        kept: Option<SteadyOmission>,
+    ) -> Result<SteadySliding> {
+        let Self { body, material, .. } = *self;
         Ok(match self.drive.control {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, self.drive.velocity)?;
-                steady(body, material, &load, &options)
+                match kept {
+                    None => steady(body, material, &load, grid),
+                    Some(kept) => steady_without_omission(body, material, &load, grid, kept),
+                }
             }
             Control::IndentationDepth(depth) => {
-                steady_at_depth(body, material, &self.depth_control(depth), &options)
+                let control = self.depth_control(depth);
+                match kept {
+                    None => steady_at_depth(body, material, &control, grid),
+                    Some(kept) => {
+                        steady_at_depth_without_omission(body, material, &control, grid, kept)
+                    }
+                }
             }
         }?)
     }

@@ -1,54 +1,74 @@
 //! What the scene did not need, why, and what leaving it out saves.
 
+use anyhow::Result;
 use comfy_table::Table;
 
 use super::answer::Answer;
+use super::question::Question;
+use super::savings::{Change, Cost, Saving, savings};
 
-/// One row per part that was left out; savings are counted from this result where they can be.
-pub(super) fn table(answer: &Answer) -> Table {
+/// One row per part that was left out, with the work measured without it and with it.
+pub(super) fn table(question: &Question, answer: &Answer) -> Result<Table> {
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(["left out", "because", "saves"]);
-    for part in &answer.left_out {
-        let (because, saves) = reason(part, answer);
-        table.add_row([(*part).to_owned(), because.to_owned(), saves]);
+    table.set_header([
+        "left out",
+        "because",
+        "time",
+        "with it",
+        "memory",
+        "with it",
+        "answer changes by",
+    ]);
+    for (omission, saving) in savings(question, answer)? {
+        let mut row = vec![omission.name().to_owned(), omission.because().to_owned()];
+        row.extend(match saving {
+            Ok(saving) => cells(&saving),
+            Err(error) => {
+                let nothing = String::new;
+                let why = format!("not measured: {error:#}");
+                [nothing(), nothing(), nothing(), nothing(), why]
+            }
+        });
+        table.add_row(row);
     }
-    table
+    Ok(table)
 }
 
-fn reason(part: &str, answer: &Answer) -> (&'static str, String) {
-    let unknowns = answer.unknowns;
-    match part {
-        "elements" if unknowns == 0 => ("there is a closed form", "all unknowns".to_owned()),
-        "elements" => (
-            "the foundation is integrated exactly between two events",
-            format!("all elements; {unknowns} polynomials stand for the line"),
-        ),
-        "time steps" => (
-            "only the state at the end is asked for",
-            "all steps from first touch on, about 20 contact lengths of them".to_owned(),
-        ),
-        "half space" => (
-            "the one-dimensional model answers the scene",
-            "the second dimension of the contact".to_owned(),
-        ),
-        "mirror half" => (
-            "body and motion are mirror symmetric in y",
-            format!("half of {} unknown pressures", 2 * unknowns),
-        ),
-        "free surface" => (
-            "the displacement is needed in the contact only",
-            "all elements outside the contact".to_owned(),
-        ),
-        "history outside the contact box" => (
-            "what the contact has left does not come back",
-            "the displacement behind the contact".to_owned(),
-        ),
-        "gradients" => (
-            "nothing slides, so that no slope enters",
-            "one field".to_owned(),
-        ),
-        "friction" => ("nothing slides", "one sum over the contact".to_owned()),
-        _ => ("there is no --out", "fields and pictures".to_owned()),
+fn cells(saving: &Saving) -> [String; 5] {
+    let Saving {
+        left_out,
+        done,
+        change,
+    } = saving;
+    [
+        time(left_out),
+        time(done),
+        memory(left_out),
+        memory(done),
+        changes(change),
+    ]
+}
+
+fn time(cost: &Cost) -> String {
+    format!("{:.2e} s", cost.seconds)
+}
+
+fn memory(cost: &Cost) -> String {
+    format!("{:.2e} B", cost.bytes as f64)
+}
+
+fn changes(change: &Change) -> String {
+    match change {
+        Change::None => "nothing".to_owned(),
+        Change::Rounding(change) => format!("{change:.1e}"),
+        Change::OfMethod {
+            method,
+            change,
+            bars: [own, other],
+        } => {
+            let name = method.name();
+            format!("{change:.1e}; error bars {own:.1e} and, {name}, {other:.1e}")
+        }
     }
 }

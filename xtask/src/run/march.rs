@@ -9,7 +9,7 @@ use bem_halfspace::{BemError, ContactOptions, Footprint, Resolution};
 use indenters::SlidingLoad;
 use rheology::{CreepSpectrum, Material};
 
-use super::answer::{Answer, ContactBox, HistoryRow};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::bem::widened;
 use super::resolution::{Resolved, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
@@ -44,7 +44,8 @@ struct End {
     pressure: PressureField,
 }
 
-struct Scene<'a, S> {
+/// A body that slides from first touch on.
+pub(super) struct Scene<'a, S> {
     body: &'a S,
     material: &'a dyn Material,
     drive: &'a Drive,
@@ -61,23 +62,31 @@ pub(super) fn transient(
     (material, drive): (&dyn Material, &Drive),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let ladder = body.ladder(material, drive)?;
-    let scene = Scene {
-        body,
-        material,
-        drive,
-        creep: material.creep(),
-        footprint: ladder.footprint,
-        length: COARSEST_ELEMENTS * ladder.coarsest_spacing,
-        accuracy,
-    };
+    let scene = Scene::new(body, (material, drive), accuracy)?;
     let solve = |elements: usize| scene.march(scene.length / elements as f64);
     let Resolved { value, error, .. } =
         resolve(accuracy, LARGEST_GRID, solve, |end| scene.quantities(end))?;
     Ok(scene.answer(value, error))
 }
 
-impl<S: Shape> Scene<'_, S> {
+impl<'a, S: Shape> Scene<'a, S> {
+    pub(super) fn new(
+        body: &'a S,
+        (material, drive): (&'a dyn Material, &'a Drive),
+        accuracy: Accuracy,
+    ) -> Result<Self> {
+        let ladder = body.ladder(material, drive)?;
+        Ok(Self {
+            body,
+            material,
+            drive,
+            creep: material.creep(),
+            footprint: ladder.footprint,
+            length: COARSEST_ELEMENTS * ladder.coarsest_spacing,
+            accuracy,
+        })
+    }
+
     fn is_elastic(&self) -> bool {
         self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
     }
@@ -108,7 +117,10 @@ impl<S: Shape> Scene<'_, S> {
             contact_box: Some(end.contact_box),
             unknowns: end.n_contact,
             iterations: end.history.len(),
-            left_out: vec!["history outside the contact box"],
+            grid: Some(Grid {
+                spacing: end.pressure.grid.spacing()[0],
+                factorised: false,
+            }),
             ..Answer::new(Method::BemTransient, Model::HalfSpace, end.force)
                 .with_friction(end.friction, friction_error + end.distance_error)
         };
@@ -127,9 +139,7 @@ impl<S: Shape> Scene<'_, S> {
                 Ok(End::of(transient, force, [friction, 0.0]))
             }
             (Control::NormalForce(force), None) => self.to_stationary(force, spacing),
-            (Control::IndentationDepth(depth), Some(distance)) => {
-                self.at_depth(depth, [spacing, distance])
-            }
+            (Control::IndentationDepth(_), Some(distance)) => self.at_depth([spacing, distance]),
             (Control::IndentationDepth(_), None) => {
                 bail!("at a depth the method marches over a distance only")
             }
@@ -142,6 +152,33 @@ impl<S: Shape> Scene<'_, S> {
             footprint: self.footprint,
             sliding_distance,
             contact: ContactOptions::default(),
+        }
+    }
+
+    /// The march over a distance, ready for its first step.
+    pub(super) fn over(
+        &self,
+        [spacing, distance]: [f64; 2],
+        contact: ContactOptions,
+    ) -> Result<March<'a, S>> {
+        match self.drive.control {
+            Control::NormalForce(force) => {
+                let load = SlidingLoad::new(force, self.drive.velocity)?;
+                let options = SlideOptions {
+                    contact,
+                    ..self.options(spacing, distance)
+                };
+                Ok(March::sliding(self.body, self.material, &load, &options)?)
+            }
+            Control::IndentationDepth(depth) => {
+                let resolution = Resolution {
+                    spacing: [spacing; 2],
+                    footprint: widened(&self.footprint, spacing),
+                    contact,
+                };
+                let motions = self.motions(depth, [spacing, distance]);
+                Ok(March::new(self.body, self.material, &motions, &resolution)?)
+            }
         }
     }
 
@@ -201,20 +238,14 @@ impl<S: Shape> Scene<'_, S> {
         self.drive.velocity * times.fold(0.0, f64::max)
     }
 
-    fn at_depth(&self, depth: f64, [spacing, distance]: [f64; 2]) -> Result<End> {
+    fn at_depth(&self, [spacing, distance]: [f64; 2]) -> Result<End> {
         if distance > MOST_STEPS * spacing {
             bail!(
                 "a march over {distance} m in steps of {spacing:e} m has more than {MOST_STEPS:e} of them"
             );
         }
-        let resolution = Resolution {
-            spacing: [spacing; 2],
-            footprint: widened(&self.footprint, spacing),
-            contact: ContactOptions::default(),
-        };
-        let motions = self.motions(depth, [spacing, distance]);
-        let mut march = March::new(self.body, self.material, &motions, &resolution)?;
-        let mut rows = Vec::with_capacity(motions.len());
+        let mut march = self.over([spacing, distance], ContactOptions::default())?;
+        let mut rows = Vec::new();
         while let Some(row) = march.step()? {
             rows.push(row);
         }

@@ -44,7 +44,6 @@ pub(super) fn stationary(
         indentation_depth: Some(state.indentation_depth),
         contact_box: ends.map(|(first, last)| ContactBox::along([first[0], last[1]])),
         unknowns: state.n_pieces,
-        left_out: vec!["elements", "time steps", "half space"],
         ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
             .with_friction(state.friction_coefficient, state.friction_coefficient_error)
     })
@@ -85,7 +84,6 @@ pub(super) fn transient(
         contact_box: Some(ContactBox::along(last.contact)),
         unknowns: last.n_contact,
         iterations: rows.len(),
-        left_out: vec!["half space"],
         ..Answer::new(Method::MdrTransient, Model::Line, load.normal_force())
             .with_friction(friction(&rows), error)
     };

@@ -10,10 +10,13 @@ mod half_space;
 mod march;
 mod mdr;
 mod offer;
+mod omission;
 mod pictures;
 mod pressing;
 mod question;
 mod resolution;
+mod same_problem;
+mod savings;
 mod shape;
 mod solve;
 
@@ -24,6 +27,7 @@ use clap::{Args, ValueEnum};
 
 pub(crate) use answer::Answer;
 pub(crate) use offer::{NotOffered, choose};
+use omission::Omission;
 pub(crate) use question::Question;
 pub(crate) use solve::solve;
 
@@ -42,7 +46,7 @@ pub(crate) struct Run {
     /// How the result is printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Say which parts of the method the scene did not need, and what that saved.
+    /// Say which parts of the method the scene did not need, and measure what that saves by doing them too.
     #[arg(long)]
     explain: bool,
     /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
@@ -66,7 +70,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     bar.finish_and_clear();
     let mut answer = answer.with_context(|| format!("{}", source.path().display()))?;
     if options.out.is_none() {
-        answer.left_out.push("files");
+        answer.left_out.push(Omission::Files);
     }
     print(&answer, options, question.method.is_none())?;
     if let Some(out) = &options.out {
@@ -74,6 +78,9 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         if options.format == Format::Table {
             print_line(&format!("written into {}", out.display()))?;
         }
+    }
+    if options.explain {
+        explain(&question, &answer, options.format)?;
     }
     Ok(())
 }
@@ -113,10 +120,6 @@ fn print(answer: &Answer, options: &Run, chosen: bool) -> Result<()> {
     match options.format {
         Format::Json => {
             print_line(&serde_json::to_string_pretty(answer)?)?;
-            // The result on the standard output stays JSON.
-            if options.explain {
-                eprintln!("{}", explain::table(answer));
-            }
         }
         Format::Table => {
             let (method, model) = (answer.method.name(), answer.model_name());
@@ -128,11 +131,20 @@ fn print(answer: &Answer, options: &Run, chosen: bool) -> Result<()> {
             };
             print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
             print_line(&answer.table())?;
-            if options.explain {
-                let omissions = explain::table(answer);
-                print_line(&format!("\nnot needed, and left out:\n{omissions}"))?;
-            }
         }
+    }
+    Ok(())
+}
+
+/// Measures what the scene did not need; a result as JSON stays alone on the standard output.
+fn explain(question: &Question, answer: &Answer, format: Format) -> Result<()> {
+    let bar = progress::spinner("measuring what was left out".to_owned());
+    let omissions = explain::table(question, answer);
+    bar.finish_and_clear();
+    let omissions = omissions?;
+    match format {
+        Format::Json => eprintln!("{omissions}"),
+        Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,
     }
     Ok(())
 }

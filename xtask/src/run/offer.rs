@@ -78,6 +78,12 @@ pub(crate) fn choose(question: &Question) -> Result<Method, NotOffered> {
     }
 }
 
+/// Whether a method answers a question, whichever method that names.
+pub(super) fn answers(method: Method, question: &Question) -> bool {
+    simple(&*question.material)
+        .is_ok_and(|simple| refusal(method, question, simple.as_ref()).is_none())
+}
+
 /// Why a method does not answer, if it does not.
 fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
     match (method, &question.body) {

@@ -15,9 +15,9 @@ use bem_halfspace::ContactOptions;
 use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
 use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
 use indenters::{EquivalentLine, PowerProfile, contact_radius};
-use rheology::{Material, Viscous};
+use rheology::{Material, RheologyError, Viscous};
 
-use super::answer::{Answer, ContactBox};
+use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
 use super::half_space::Simple;
 use super::resolution::{Resolved, resolve};
@@ -28,8 +28,8 @@ use crate::scene_file::{Accuracy, Control, Method, Model};
 const QUADRATURE: f64 = 1e-10;
 
 /// The dashpot on which an impulse does what the material does with F J(t).
-fn unit_dashpot() -> Result<Viscous> {
-    Ok(Viscous::new(1.0)?)
+pub(super) fn unit_dashpot() -> Result<Viscous, RheologyError> {
+    Viscous::new(1.0)
 }
 
 fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
@@ -66,7 +66,6 @@ pub(super) fn analytic(
         contact_area: Some(PI * radius * radius),
         contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
         peak_pressure,
-        left_out: vec!["elements", "time steps", "gradients", "friction"],
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
@@ -149,7 +148,6 @@ pub(super) fn chain(
         contact_box: row.contact.map(ContactBox::along),
         unknowns: row.n_contact,
         iterations: elements,
-        left_out: vec!["half space", "gradients", "friction"],
         ..Answer::new(Method::MdrTransient, Model::Line, force)
     })
 }
@@ -162,29 +160,34 @@ pub(super) fn boundary_elements(
     (control, duration): (Control, f64),
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let pressed = match control {
-        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
-        depth @ Control::IndentationDepth(_) => depth,
-    };
+    let pressed = on_unit_dashpot(material, (control, duration))?;
     let Patch { footprint, length } = body.patch(pressed)?;
+    let spacing = |elements: usize| length / elements as f64;
     let solve = |elements: usize| {
         let options = IndentOptions {
-            spacing: [length / elements as f64; 2],
+            spacing: [spacing(elements); 2],
             footprint,
             contact: ContactOptions::default(),
         };
-        let step = for_a_second(pressed);
-        last(indent_history(body, &unit_dashpot()?, &[step], &options)?)
+        let steps = in_steps(pressed, 1);
+        last(indent_history(body, &unit_dashpot()?, &steps, &options)?)
     };
     // What is given has no error.
     let quantities = |row: &IndentRow| [row.indentation_depth, row.normal_force];
-    let Resolved { value, error, .. } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
+    let Resolved {
+        value,
+        error,
+        elements,
+    } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
     let answer = Answer {
         indentation_depth: Some(value.indentation_depth),
         contact_area: Some(value.contact_area),
         unknowns: value.n_contact,
         iterations: 1,
-        left_out: vec!["time steps", "gradients", "friction"],
+        grid: Some(Grid {
+            spacing: spacing(elements),
+            factorised: false,
+        }),
         ..Answer::new(Method::BemTransient, Model::HalfSpace, value.normal_force)
     };
     Ok(match control {
@@ -204,14 +207,30 @@ pub(super) fn boundary_elements(
     })
 }
 
-fn for_a_second(control: Control) -> IndentStep {
-    IndentStep {
-        time: 1.0,
-        control: match control {
-            Control::NormalForce(impulse) => bem_halfspace::Control::NormalForce(impulse),
-            Control::IndentationDepth(depth) => bem_halfspace::Control::IndentationDepth(depth),
-        },
-    }
+/// What does in a second on the dashpot of unit viscosity what the control does to the material.
+pub(super) fn on_unit_dashpot(
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+) -> Result<Control> {
+    Ok(match control {
+        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
+        depth @ Control::IndentationDepth(_) => depth,
+    })
+}
+
+/// A second of a constant force, or of a depth that grows in proportion to time.
+pub(super) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
+    let step = |step: usize| {
+        let time = step as f64 / n_steps as f64;
+        let control = match control {
+            Control::NormalForce(force) => bem_halfspace::Control::NormalForce(force),
+            Control::IndentationDepth(depth) => {
+                bem_halfspace::Control::IndentationDepth(time * depth)
+            }
+        };
+        IndentStep { time, control }
+    };
+    (1..=n_steps).map(step).collect()
 }
 
 const LARGEST_CHAIN: usize = 16_384;

@@ -36,18 +36,11 @@ pub(super) trait Shape: Surface {
     /// The grids on which it slides.
     fn ladder(&self, material: &dyn Material, drive: &Drive) -> Result<Ladder>;
 
-    /// Whether one half of it in y is the mirror image of the other.
-    fn is_mirror_symmetric(&self) -> bool;
-
     /// Where it touches when it is pressed for a second on a dashpot of unit viscosity.
     fn patch(&self, control: Control) -> Result<Patch>;
 }
 
 impl Shape for Revolution {
-    fn is_mirror_symmetric(&self) -> bool {
-        true
-    }
-
     fn ladder(&self, material: &dyn Material, drive: &Drive) -> Result<Ladder> {
         Ok(match drive.control {
             Control::NormalForce(force) => {
@@ -77,10 +70,6 @@ const HIGHEST: f64 = 2.0;
 const SHORTER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 impl Shape for HeightMap {
-    fn is_mirror_symmetric(&self) -> bool {
-        false
-    }
-
     fn ladder(&self, material: &dyn Material, drive: &Drive) -> Result<Ladder> {
         let [depth, highest] = match drive.control {
             Control::NormalForce(force) => {

@@ -7,6 +7,7 @@ use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::half_space::{Simple, simple};
 use super::offer::choose;
+use super::omission::plan;
 use super::question::{Motion, Question};
 use super::shape::{Drive, Shape};
 use super::{analytic, bem, march, mdr, pressing};
@@ -14,22 +15,32 @@ use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 pub(crate) fn solve(question: &Question) -> Result<Answer> {
-    let started = std::time::Instant::now();
-    let method = choose(question)?;
-    let answer = match (&question.body, method) {
-        (Body::Revolution(body), Method::BemSteady | Method::BemTransient) => {
-            by_elements(question, body, method)
-        }
-        (Body::Revolution(body), _) => of_revolution(question, body, method),
-        (Body::HeightMap(map), _) => by_elements(question, map, method),
-        (Body::Cylinder, _) => bail!("no method answers for a line contact"),
-    };
-    answer?.after(started.elapsed()).finite()
+    solve_by(question, choose(question)?, question.accuracy)
 }
 
-fn by_elements(question: &Question, body: &impl Shape, method: Method) -> Result<Answer> {
-    let (material, accuracy) = (&*question.material, question.accuracy);
-    let control = question.control;
+/// Asks a method that answers the scene.
+pub(super) fn solve_by(question: &Question, method: Method, accuracy: Accuracy) -> Result<Answer> {
+    let started = std::time::Instant::now();
+    let way = (method, accuracy);
+    let answer = match (&question.body, method) {
+        (Body::Revolution(body), Method::BemSteady | Method::BemTransient) => {
+            by_elements(question, body, way)
+        }
+        (Body::Revolution(body), _) => of_revolution(question, body, way),
+        (Body::HeightMap(map), _) => by_elements(question, map, way),
+        (Body::Cylinder, _) => bail!("no method answers for a line contact"),
+    }?;
+    let left_out = plan(question, &answer);
+    let answer = Answer { left_out, ..answer };
+    answer.after(started.elapsed()).finite()
+}
+
+fn by_elements(
+    question: &Question,
+    body: &impl Shape,
+    (method, accuracy): (Method, Accuracy),
+) -> Result<Answer> {
+    let (material, control) = (&*question.material, question.control);
     let (velocity, distance) = match question.motion {
         Motion::Sliding { velocity, distance } => (velocity, distance),
         Motion::Pressing { duration } => {
@@ -47,25 +58,27 @@ fn by_elements(question: &Question, body: &impl Shape, method: Method) -> Result
     }
 }
 
-fn of_revolution(question: &Question, body: &Revolution, method: Method) -> Result<Answer> {
+fn of_revolution(
+    question: &Question,
+    body: &Revolution,
+    way: (Method, Accuracy),
+) -> Result<Answer> {
     match question.motion {
-        Motion::Pressing { duration } => pressed(question, body, method, duration),
-        Motion::Sliding { velocity, distance } => {
-            slid(question, body, method, (velocity, distance))
-        }
+        Motion::Pressing { duration } => pressed(question, body, way, duration),
+        Motion::Sliding { velocity, distance } => slid(question, body, way, (velocity, distance)),
     }
 }
 
 fn pressed(
     question: &Question,
     body: &Revolution,
-    method: Method,
+    (method, accuracy): (Method, Accuracy),
     duration: f64,
 ) -> Result<Answer> {
     let material = &*question.material;
     match (method, question.control) {
         (Method::MdrTransient, Control::NormalForce(force)) => {
-            pressing::chain(body, material, (force, duration), question.accuracy)
+            pressing::chain(body, material, (force, duration), accuracy)
         }
         (_, control) => {
             let simple = simple(material)?;
@@ -77,11 +90,10 @@ fn pressed(
 fn slid(
     question: &Question,
     body: &Revolution,
-    method: Method,
+    (method, accuracy): (Method, Accuracy),
     (velocity, distance): (f64, Option<f64>),
 ) -> Result<Answer> {
     let material = &*question.material;
-    let accuracy = question.accuracy;
     let motion = (question.control, velocity);
     match method {
         Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)?),

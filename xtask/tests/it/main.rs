@@ -3,6 +3,7 @@
 mod any_scene_is_answered;
 mod commands;
 mod documented_commands;
+mod explained_omissions;
 mod fit_material;
 mod fuzzed_inputs;
 mod half_space_scenes;

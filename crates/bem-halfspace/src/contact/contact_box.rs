@@ -38,6 +38,13 @@ impl ContactBox {
         }
     }
 
+    /// A box that is solved as a whole, also where the contact is much smaller.
+    pub(crate) fn undivided(bounds: Bounds, spacing: [f64; 2]) -> Result<Self, BemError> {
+        let mut contact_box = Self::new(bounds, spacing)?;
+        contact_box.state.in_parts = false;
+        Ok(contact_box)
+    }
+
     /// A box of other bounds that starts from the load of this one.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
         let mut moved = Self::new(bounds, self.convolution.grid().spacing())?;

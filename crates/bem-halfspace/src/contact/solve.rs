@@ -50,9 +50,10 @@ fn solve_around(
 ) -> Result<Outcome, BemError> {
     let (convolution, ..) = question;
     let grid = convolution.grid();
+    let in_parts = state.in_parts;
     let pays = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
-        part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
+        in_parts && part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
     };
     let with_margin =
         bounds.map(|bounds| bounds.with_margin_from(grid.shape(), convolution.mirrors()));

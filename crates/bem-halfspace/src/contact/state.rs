@@ -13,6 +13,8 @@ pub struct ContactState {
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     pub(super) contact: Vec<usize>,
+    /// Whether the iteration may run on a box around the contact.
+    pub(super) in_parts: bool,
     /// Made when it is first needed, like everything below.
     pub(super) workspace: Option<ConvolutionWorkspace>,
     /// Buffers of the iteration on the whole grid.
@@ -32,6 +34,7 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
+            in_parts: true,
             workspace: None,
             fields: None,
             inner: None,

@@ -10,7 +10,7 @@ use crate::grid::elements_along;
 use crate::slide::motion::{Motion, MotionRow};
 use crate::slide::slopes::{MeanSlopes, Slopes};
 use crate::slide::{PressureField, SlideOptions};
-use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
+use crate::stepping::{HalfSpace, Instant, MarchState, Route, SlideOmission, Stepping};
 use crate::{BemError, Control, Grid, Resolution};
 
 /// An indenter on its way over a half space.
@@ -95,6 +95,16 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         };
         self.means = self.slopes.over(self.surface, &self.stepping, &instant)?;
         Ok(Some(self.row(&instant)))
+    }
+
+    /// This march before its first step, but with the work of one `omission` too: the steps are the same up to the
+    /// tolerance, and cost more.
+    ///
+    /// # Errors
+    /// [`BemError::GridTooLarge`] when all of the footprint is too large to be solved at once.
+    pub fn without_omission(mut self, omission: SlideOmission) -> Result<Self, BemError> {
+        self.stepping.keep(omission)?;
+        Ok(self)
     }
 
     /// What is needed to go on from here in a later run.

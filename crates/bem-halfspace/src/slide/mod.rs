@@ -20,7 +20,7 @@ mod until_stationary;
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
-pub use crate::stepping::MarchState;
+pub use crate::stepping::{MarchState, SlideOmission};
 use crate::{BemError, ContactOptions, Footprint, Resolution};
 pub use march::March;
 pub use motion::{Motion, MotionRow};

@@ -9,6 +9,7 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
+use crate::steady::SteadyOmission;
 use crate::steady::krylov::minimal_residual;
 use crate::steady::mesh::Mesh;
 use crate::steady::plans::Plans;
@@ -38,13 +39,22 @@ pub(super) fn close_gaps(
     start: Vec<f64>,
     tolerance: f64,
 ) -> Closure {
-    let region = Region::around(mesh, contact.iter().copied());
-    let work = (contact.len() as f64).powi(3);
-    if contact.len() <= LARGEST_MATRIX && work <= FACTORISED * region.n_places() as f64 {
-        factorise(mesh, contact)
-    } else {
-        ContactSystem::new((mesh, plans), (contact, region)).iterate(start, tolerance)
+    let elements = contact.iter().copied();
+    let mut region = Region::around(mesh, elements.clone());
+    let small = is_factorised(contact.len(), region.n_places());
+    if small && mesh.kept != Some(SteadyOmission::Transforms) {
+        return factorise(mesh, contact);
     }
+    if mesh.kept == Some(SteadyOmission::OutsideContact) {
+        region = Region::of_all(mesh, elements);
+    }
+    ContactSystem::new((mesh, plans), (contact, region)).iterate(start, tolerance)
+}
+
+/// Whether so many unknowns in a box of so many elements are factorised.
+pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
+    let work = (n_unknowns as f64).powi(3);
+    n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
 }
 
 fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {

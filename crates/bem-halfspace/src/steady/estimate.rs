@@ -410,7 +410,7 @@ impl<S: Surface> Question<'_, S> {
         options: &SteadyOptions,
         reuse: &mut Reuse,
     ) -> Result<SteadySliding, BemError> {
-        let mut solution = solve(self.surface, &self.loading, options, reuse);
+        let mut solution = solve(self.surface, &self.loading, (options, None), reuse);
         for finer in OTHER_GRIDS {
             if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
                 break;
@@ -419,7 +419,7 @@ impl<S: Surface> Question<'_, S> {
                 spacing: options.spacing.map(|edge| finer * edge),
                 ..*options
             };
-            solution = solve(self.surface, &self.loading, &other, reuse);
+            solution = solve(self.surface, &self.loading, (&other, None), reuse);
         }
         solution
     }

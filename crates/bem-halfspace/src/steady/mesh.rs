@@ -11,12 +11,12 @@ use std::sync::Arc;
 use indenters::Surface;
 
 use crate::error::positive;
-use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
 use crate::steady::pivoting::Solution;
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
+use crate::steady::{SteadyOmission, SteadyOptions, Work};
 use crate::{BemError, Grid};
 
 /// Height below which the flanks of a steep body count as flat, in units of the depth scale.
@@ -51,6 +51,8 @@ struct Element {
 #[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
+    /// What is not left out all the same.
+    pub(super) kept: Option<SteadyOmission>,
     pub(super) loading: GridLoading,
     /// Whether only elements over which the body rises may touch.
     only_rising: bool,
@@ -71,7 +73,7 @@ impl Mesh {
     pub(super) fn new(
         surface: &impl Surface,
         (loading, plans): (&Loading, &mut Plans),
-        options: &SteadyOptions,
+        (options, kept): Work,
     ) -> Result<Self, BemError> {
         positive("spacing along x", options.spacing[0])?;
         positive("spacing along y", options.spacing[1])?;
@@ -88,6 +90,7 @@ impl Mesh {
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
+            kept,
             loading: loading.on_grid(options.spacing)?,
             only_rising: loading.creep.only_flows(),
             shape: [behind + ahead + 1, right + left + 1],
@@ -167,7 +170,7 @@ impl Mesh {
         } else {
             Mirror::Edge
         };
-        if phase > 0.0 && phase < 0.5 {
+        if phase > 0.0 && phase < 0.5 || self.kept == Some(SteadyOmission::MirrorHalf) {
             return;
         }
         let mirrored = |element: &Element| {

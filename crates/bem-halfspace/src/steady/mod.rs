@@ -27,6 +27,7 @@ mod krylov;
 mod loading;
 mod mesh;
 mod neighbourhood;
+mod omission;
 mod pivoting;
 mod plans;
 mod product;
@@ -52,6 +53,7 @@ pub use kernel::wake_influence;
 pub use loading::DepthControl;
 use loading::Loading;
 use mesh::Mesh;
+pub use omission::SteadyOmission;
 use pivoting::Start;
 use plans::Plans;
 pub use solution::SteadySliding;
@@ -100,7 +102,23 @@ pub fn steady(
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
     let loading = Loading::force(surface, (material, load), &options.footprint)?;
-    solve(surface, &loading, options, &mut Reuse::default())
+    solve(surface, &loading, (options, None), &mut Reuse::default())
+}
+
+/// Like [`steady`], but does the work of one `omission` too: the answer is the same up to the tolerance, and costs more.
+///
+/// # Errors
+/// As for [`steady`].
+pub fn steady_without_omission(
+    surface: &impl Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &SteadyOptions,
+    omission: SteadyOmission,
+) -> Result<SteadySliding, BemError> {
+    let loading = Loading::force(surface, (material, load), &options.footprint)?;
+    let work = (options, Some(omission));
+    solve(surface, &loading, work, &mut Reuse::default())
 }
 
 /// Solves the stationary sliding of `surface` at a depth on one grid; the normal force is part of the answer.
@@ -115,7 +133,24 @@ pub fn steady_at_depth(
 ) -> Result<SteadySliding, BemError> {
     let [rear, front] = options.footprint.x;
     let loading = Loading::depth(material, control, front - rear)?;
-    solve(surface, &loading, options, &mut Reuse::default())
+    solve(surface, &loading, (options, None), &mut Reuse::default())
+}
+
+/// Like [`steady_at_depth`], but does the work of one `omission` too.
+///
+/// # Errors
+/// As for [`steady_at_depth`].
+pub fn steady_at_depth_without_omission(
+    surface: &impl Surface,
+    material: &(impl Material + ?Sized),
+    control: &DepthControl,
+    options: &SteadyOptions,
+    omission: SteadyOmission,
+) -> Result<SteadySliding, BemError> {
+    let [rear, front] = options.footprint.x;
+    let loading = Loading::depth(material, control, front - rear)?;
+    let work = (options, Some(omission));
+    solve(surface, &loading, work, &mut Reuse::default())
 }
 
 /// The depth scale D of [`SteadyOptions::tolerance`] for a `surface` that ends at `extent`: how deep the load presses it,
@@ -131,6 +166,9 @@ pub fn depth_scale(
     Ok(Loading::force(surface, (material, load), extent)?.depth_scale)
 }
 
+/// A resolution, and what is not left out all the same.
+type Work<'a> = (&'a SteadyOptions, Option<SteadyOmission>);
+
 /// What one solution leaves for the next.
 #[derive(Debug, Default)]
 struct Reuse {
@@ -142,12 +180,12 @@ struct Reuse {
 fn solve(
     surface: &impl Surface,
     loading: &Loading,
-    options: &SteadyOptions,
+    (options, kept): Work,
     reuse: &mut Reuse,
 ) -> Result<SteadySliding, BemError> {
     positive("max_iterations", options.max_iterations as f64)?;
     below_one("tolerance", options.tolerance)?;
-    let mesh = Mesh::new(surface, (loading, &mut reuse.plans), options)?;
+    let mesh = Mesh::new(surface, (loading, &mut reuse.plans), (options, kept))?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
         let coarse = coarser(options);
         // Only the kernel of a dashpot is the same on both grids.
@@ -158,7 +196,7 @@ fn solve(
             &mut other
         };
         // Without a solution on the coarse grid the fine one starts from its own guess.
-        reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
+        reuse.solution = solve(surface, loading, (&coarse, kept), coarse_reuse).ok();
     }
     let start = match &reuse.solution {
         Some(other) => Start::Known(loads_of(other, &mesh)),

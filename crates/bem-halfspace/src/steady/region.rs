@@ -14,14 +14,29 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// The box around `elements` of the mesh.
+    /// `elements` of the mesh in the box around them.
     pub(super) fn around(mesh: &Mesh, elements: impl Iterator<Item = usize> + Clone) -> Self {
-        let positions = elements.map(|element| mesh.places(element));
+        Self::within(mesh, elements.clone(), elements)
+    }
+
+    /// Some `elements` in the box around all of the mesh.
+    pub(super) fn of_all(mesh: &Mesh, elements: impl Iterator<Item = usize>) -> Self {
+        Self::within(mesh, 0..mesh.n_elements(), elements)
+    }
+
+    /// `elements` in the box around others that include them.
+    fn within(
+        mesh: &Mesh,
+        others: impl Iterator<Item = usize> + Clone,
+        elements: impl Iterator<Item = usize>,
+    ) -> Self {
+        let occupied = others.map(|element| mesh.places(element));
         let [rows, columns] = [0, 1].map(|axis| {
-            let indices = positions.clone().flatten().map(|place| place[axis]);
+            let indices = occupied.clone().flatten().map(|place| place[axis]);
             let first = indices.clone().min().unwrap_or(0);
             first..indices.max().map_or(first, |last| last + 1)
         });
+        let positions = elements.map(|element| mesh.places(element));
         let width = columns.len();
         let place = |[row, column]: [usize; 2]| (row - rows.start) * width + column - columns.start;
         Self {

@@ -1,6 +1,7 @@
 //! What the stationary solver returns.
 
 use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField};
+use crate::steady::contact_system::is_factorised;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
@@ -37,6 +38,12 @@ pub struct SteadySliding {
 }
 
 impl SteadySliding {
+    /// Whether the equations of this contact were factorised; if not, they were solved by iteration with transforms.
+    #[must_use]
+    pub fn is_factorised(&self) -> bool {
+        is_factorised(self.unknowns, self.pressure.grid.n_elements())
+    }
+
     /// Turns a solution in the units of the mesh into one in SI.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         let loaded = mesh.loaded(solution);

@@ -10,6 +10,7 @@
 //! that only ratios enter.
 
 mod checkpoint;
+mod omission;
 mod press;
 mod route;
 mod window;
@@ -26,6 +27,7 @@ use crate::error::positive;
 use crate::resolution::Layout;
 use crate::{BemError, Control, Resolution};
 pub use checkpoint::MarchState;
+pub use omission::SlideOmission;
 pub(crate) use route::{Leg, Route};
 use window::Window;
 
@@ -46,6 +48,8 @@ pub(crate) struct Stepping<'scene, S: ?Sized> {
     separation: Vec<f64>,
     window: Window,
     contact_box: ContactBox,
+    /// What is not left out all the same.
+    kept: Option<SlideOmission>,
     /// Unit of heights, \[m].
     scale: f64,
 }
@@ -115,6 +119,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
             separation: vec![0.0; layout.shape[0] * layout.shape[1]],
             window,
             contact_box: ContactBox::new(Bounds::around(layout.apex), [1.0, dy / dx])?,
+            kept: None,
         };
         stepping.sample(stepping.route.legs[0].offset)?;
         stepping.contact_box = stepping.box_at_lowest(&stepping.heights)?;
@@ -176,6 +181,9 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
 
     /// Rows that the step under way or a later one needs.
     fn rows_needed(&self) -> Range<usize> {
+        if self.kept == Some(SlideOmission::RowsBehind) {
+            return 0..self.window.n_rows();
+        }
         self.route.rows_from(self.steps_done, self.layout.shape[0])
     }
 
@@ -235,6 +243,13 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
 
     /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
+        if self.kept == Some(SlideOmission::OutsideContact) {
+            let bounds = Bounds {
+                lower: [0; 2],
+                upper: self.layout.shape,
+            };
+            return ContactBox::undivided(bounds, self.aspect());
+        }
         let columns = self.layout.shape[1];
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let element = lowest.map_or(self.layout.apex, |index| [index / columns, index % columns]);

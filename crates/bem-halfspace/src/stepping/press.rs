@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use indenters::Surface;
 
-use super::{Instant, Leg, Stepping};
+use super::{Instant, Leg, SlideOmission, Stepping};
 use crate::bounds::Bounds;
 use crate::contact::Outcome;
 use crate::{BemError, Control};
@@ -121,6 +121,9 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     ///
     /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
     fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
+        if self.kept == Some(SlideOmission::OutsideContact) {
+            return Ok(());
+        }
         let shape = self.contact_box.bounds.shape();
         let needed = contact.with_margin(self.layout.shape);
         let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));

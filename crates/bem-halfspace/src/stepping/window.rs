@@ -49,6 +49,10 @@ impl Window {
         self.load.len()
     }
 
+    pub(super) fn n_rows(&self) -> usize {
+        self.convolution.grid().shape()[0]
+    }
+
     pub(super) fn n_fields(&self) -> usize {
         self.n_fields
     }

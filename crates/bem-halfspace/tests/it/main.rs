@@ -18,6 +18,7 @@ mod interrupted_marches;
 mod mirrored_contact;
 mod nested_grids;
 mod normal_indentation;
+mod omissions;
 mod periodic_contact;
 mod sliding_converges;
 mod sliding_invariance;

@@ -1,0 +1,226 @@
+//! What is left out is not missed: with the work done all the same, every answer stays what it was.
+//!
+//! Both are the same discrete problem, so that answers differ by what the tolerance of 1e-11 leaves open only.
+
+use allocation_counter::measure;
+use bem_halfspace::Footprint;
+use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission, SlideOptions};
+use bem_halfspace::steady::{
+    DepthControl, SteadyOmission, SteadyOptions, SteadySliding, steady, steady_at_depth,
+    steady_at_depth_without_omission, steady_without_omission,
+};
+use rheology::Material;
+
+use crate::support::{Scene, TIGHT, prony};
+
+const SAME: f64 = 1e-10;
+
+fn assert_same(name: &str, got: f64, [expected, scale]: [f64; 2]) {
+    assert!(
+        (got - expected).abs() <= SAME * scale.abs(),
+        "{name}: {got} instead of {expected}, on the scale {scale}"
+    );
+}
+
+/// Compares pressures where the smaller field is, relative to the mean pressure.
+fn assert_same_pressure(got: &PressureField, expected: &PressureField, mean: f64) {
+    assert_eq!(got.grid, expected.grid, "the box around the contact");
+    let pairs = got.pressure.iter().zip(&expected.pressure);
+    let largest = pairs.map(|(got, expected)| (got - expected).abs());
+    let largest = largest.fold(0.0, f64::max) / mean;
+    // A gap of 1e-11 of the depth scale over one element is about so much of the mean pressure.
+    assert!(
+        largest < 1e-8,
+        "pressures differ by {largest:e} of the mean"
+    );
+}
+
+struct Stationary {
+    scene: Scene,
+    elements: f64,
+}
+
+impl Stationary {
+    fn options(&self) -> SteadyOptions {
+        let spacing = self.scene.contact_length() / self.elements;
+        let Footprint { x, y } = self.scene.options(self.elements, 1.0).footprint;
+        SteadyOptions {
+            spacing: [spacing, 0.5 * spacing],
+            phase: [0.0, 0.0],
+            footprint: Footprint { x, y },
+            tolerance: 1e-11,
+            max_iterations: 500,
+        }
+    }
+
+    /// The solution with the omission and without it, and the most memory that both take.
+    fn solve(
+        &self,
+        material: &impl Material,
+        omission: SteadyOmission,
+    ) -> [(SteadySliding, u64); 2] {
+        let Scene { body, load, .. } = &self.scene;
+        let options = self.options();
+        let counted = |work: &dyn Fn() -> SteadySliding| {
+            let mut state = None;
+            let memory = measure(|| state = Some(work()));
+            (state.expect("a state"), memory.bytes_max)
+        };
+        [
+            counted(&|| steady(body, material, load, &options).expect("a solution")),
+            counted(&|| {
+                steady_without_omission(body, material, load, &options, omission)
+                    .expect("a solution with more work")
+            }),
+        ]
+    }
+
+    fn check(
+        &self,
+        material: &impl Material,
+        omission: SteadyOmission,
+    ) -> [(SteadySliding, u64); 2] {
+        let solved = self.solve(material, omission);
+        let [(expected, _), (got, _)] = &solved;
+        let slope = expected.mean_slope;
+        assert_same(
+            "friction",
+            got.friction_coefficient,
+            [expected.friction_coefficient, slope],
+        );
+        for (name, got, expected) in [
+            ("area", got.contact_area, expected.contact_area),
+            ("force", got.normal_force, expected.normal_force),
+            (
+                "depth",
+                got.depth.reference_depth,
+                expected.depth.reference_depth,
+            ),
+        ] {
+            assert_same(name, got, [expected, expected]);
+        }
+        let mean = expected.normal_force / expected.contact_area;
+        assert_same_pressure(&got.pressure, &expected.pressure, mean);
+        solved
+    }
+}
+
+fn stationary(elements: f64) -> Stationary {
+    Stationary {
+        scene: Scene::unit(2.0),
+        elements,
+    }
+}
+
+#[test]
+fn the_mirror_half_is_twice_the_unknowns_of_the_same_answer() {
+    for (elements, power) in [(6.0, 1.0), (16.0, 2.0)] {
+        let scene = Scene::unit(power);
+        let question = Stationary { scene, elements };
+        let [(half, _), (whole, _)] = question.check(&scene.material, SteadyOmission::MirrorHalf);
+        // Elements on the axis are their own image.
+        assert!(
+            whole.unknowns > half.unknowns && whole.unknowns < 2 * half.unknowns,
+            "{} unknowns of the half, {} of the whole",
+            half.unknowns,
+            whole.unknowns
+        );
+    }
+}
+
+#[test]
+fn a_factorised_contact_is_that_of_the_iteration() {
+    let question = stationary(6.0);
+    let solved = question.check(&question.scene.material, SteadyOmission::Transforms);
+    let [(factorised, bytes), (_, other_bytes)] = solved;
+    assert!(
+        factorised.is_factorised(),
+        "{} unknowns",
+        factorised.unknowns
+    );
+    assert_ne!(bytes, other_bytes, "memory of two ways to solve");
+}
+
+#[test]
+fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
+    let question = stationary(24.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let viscous = question.check(&question.scene.material, SteadyOmission::OutsideContact);
+    let solid = question.check(&solid, SteadyOmission::OutsideContact);
+    for [(in_box, bytes), (_, other_bytes)] in [viscous, solid] {
+        assert!(!in_box.is_factorised(), "{} unknowns", in_box.unknowns);
+        // Which of them is less depends on the boxes whose transforms are kept.
+        assert_ne!(bytes, other_bytes, "memory of the box and of the footprint");
+    }
+}
+
+#[test]
+fn at_a_depth_the_same_work_is_not_missed() {
+    let question = stationary(6.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let options = question.options();
+    let control = DepthControl {
+        depth: 0.2,
+        sliding_distance: 100.0,
+        velocity: question.scene.load.velocity(),
+    };
+    let body = &question.scene.body;
+    let expected = steady_at_depth(body, &solid, &control, &options).expect("a solution");
+    for omission in [SteadyOmission::MirrorHalf, SteadyOmission::Transforms] {
+        let got = steady_at_depth_without_omission(body, &solid, &control, &options, omission);
+        let got = got.expect("a solution with more work");
+        let name = format!("force, {omission:?}");
+        assert_same(&name, got.normal_force, [expected.normal_force; 2]);
+        let scale = [expected.friction_coefficient, expected.mean_slope];
+        assert_same("friction", got.friction_coefficient, scale);
+        // With the omission these would be the same to the last bit.
+        assert_ne!(got.pressure, expected.pressure, "{omission:?} was left out");
+    }
+}
+
+fn march(omission: Option<SlideOmission>) -> (Vec<MotionRow>, u64) {
+    let scene = Scene::unit(2.0);
+    let options = SlideOptions {
+        contact: TIGHT,
+        ..scene.options(8.0, 3.0)
+    };
+    let mut rows = Vec::new();
+    let memory = measure(|| {
+        let march = March::sliding(&scene.body, &scene.material, &scene.load, &options);
+        let mut march = march.expect("a march");
+        if let Some(omission) = omission {
+            march = march.without_omission(omission).expect("a larger march");
+        }
+        while let Some(row) = march.step().expect("a step") {
+            rows.push(row);
+        }
+    });
+    (rows, memory.bytes_max)
+}
+
+#[test]
+fn a_march_on_the_whole_footprint_makes_the_same_steps() {
+    let (expected, bytes) = march(None);
+    for (omission, costs_memory) in [
+        (SlideOmission::OutsideContact, true),
+        (SlideOmission::RowsBehind, false),
+    ] {
+        let (got, other_bytes) = march(Some(omission));
+        assert_eq!(got.len(), expected.len(), "steps, {omission:?}");
+        for (got, expected) in got.iter().zip(&expected) {
+            let place = format!("{omission:?} at {} m", expected.position);
+            assert_eq!(got.n_contact, expected.n_contact, "contact, {place}");
+            for (got, expected) in [
+                (got.tangential_force, expected.tangential_force),
+                (got.indentation_depth, expected.indentation_depth),
+            ] {
+                assert_same(&place, got, [expected, expected]);
+            }
+        }
+        assert_eq!(
+            other_bytes > bytes,
+            costs_memory,
+            "{omission:?}: {bytes} bytes without, {other_bytes} with it"
+        );
+    }
+}

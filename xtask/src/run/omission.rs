@@ -1,0 +1,140 @@
+//! What a scene does not need, decided here and nowhere else.
+
+use rheology::CreepSpectrum;
+use serde::Serialize;
+
+use super::answer::Answer;
+use super::body::Body;
+use super::offer::answers;
+use super::question::{Motion, Question};
+use crate::scene_file::{Control, Method, Model};
+
+/// A part of the work that was left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Omission {
+    NumericalSolution,
+    TimeSteps,
+    HalfSpace,
+    MirrorHalf,
+    OutsideContact,
+    Transforms,
+    RowsBehind,
+    HistoryFields,
+    Gradients,
+    Files,
+}
+
+impl Omission {
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::NumericalSolution => "numerical solution",
+            Self::TimeSteps => "time steps",
+            Self::HalfSpace => "half space",
+            Self::MirrorHalf => "mirror half",
+            Self::OutsideContact => "outside of contact box",
+            Self::Transforms => "transforms",
+            Self::RowsBehind => "history behind",
+            Self::HistoryFields => "history fields",
+            Self::Gradients => "gradients",
+            Self::Files => "files",
+        }
+    }
+
+    pub(super) const fn because(self) -> &'static str {
+        match self {
+            Self::NumericalSolution => "there is a closed form or a quadrature",
+            Self::TimeSteps => "only the state at the end is asked for",
+            Self::HalfSpace => "without sliding the line has the same depth",
+            Self::MirrorHalf => "body and motion are mirror symmetric in y",
+            Self::OutsideContact => "pressure is in the contact only",
+            Self::Transforms => "the contact is small enough to be factorised",
+            Self::RowsBehind => "what the footprint has left does not come back",
+            Self::HistoryFields => "a dashpot under the same impulse has the same depth",
+            Self::Gradients => "nothing slides, so that no slope enters",
+            Self::Files => "there is no --out",
+        }
+    }
+
+    /// The method that does the work of an omission too, where another method does.
+    pub(super) const fn done_by(self, answer: &Answer, motion: Motion) -> Option<Method> {
+        match (self, answer.model, motion) {
+            (Self::NumericalSolution, Model::Line, Motion::Sliding { .. }) => {
+                Some(Method::MdrSteady)
+            }
+            (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding { .. }) => {
+                Some(Method::BemSteady)
+            }
+            (Self::NumericalSolution, _, Motion::Pressing { .. })
+            | (Self::TimeSteps, Model::Line, _) => Some(Method::MdrTransient),
+            (Self::TimeSteps, Model::HalfSpace, Motion::Sliding { .. })
+            | (Self::HalfSpace, _, _) => Some(Method::BemTransient),
+            _ => None,
+        }
+    }
+}
+
+/// What the method of the answer left out; what only another method would do counts where that answers the scene too.
+pub(super) fn plan(question: &Question, answer: &Answer) -> Vec<Omission> {
+    let mut left_out = candidates(question, answer);
+    left_out.retain(|omission| {
+        let other = omission.done_by(answer, question.motion);
+        other.is_none_or(|method| answers(method, question))
+    });
+    left_out
+}
+
+fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
+    match (answer.method, question.motion) {
+        (Method::Analytic, Motion::Sliding { .. }) => {
+            vec![Omission::NumericalSolution, Omission::TimeSteps]
+        }
+        (Method::Analytic, Motion::Pressing { .. }) => {
+            vec![Omission::NumericalSolution, Omission::HalfSpace]
+        }
+        (Method::MdrSteady, _) => vec![Omission::TimeSteps],
+        (Method::MdrTransient, Motion::Pressing { .. }) => vec![Omission::HalfSpace],
+        (Method::MdrTransient, Motion::Sliding { .. }) => Vec::new(),
+        (Method::BemSteady, Motion::Sliding { distance, .. }) => {
+            let mut left_out = Vec::new();
+            left_out.extend(is_mirror_symmetric(&question.body).then_some(Omission::MirrorHalf));
+            left_out.push(outside_or_transforms(answer));
+            // After a distance the friction is not yet that of the stationary state.
+            left_out.extend(distance.is_none().then_some(Omission::TimeSteps));
+            left_out
+        }
+        (Method::BemSteady, Motion::Pressing { .. }) => Vec::new(),
+        (Method::BemTransient, Motion::Sliding { .. }) => {
+            vec![Omission::OutsideContact, Omission::RowsBehind]
+        }
+        (Method::BemTransient, Motion::Pressing { .. }) => {
+            let mut left_out = vec![Omission::TimeSteps, Omission::Gradients];
+            // A depth that is held needs another force at every time.
+            let constant = matches!(question.control, Control::NormalForce(_));
+            let remembers = n_fields(&question.material.creep()) > 1;
+            left_out.extend((constant && remembers).then_some(Omission::HistoryFields));
+            left_out
+        }
+    }
+}
+
+/// Whether one half of a body in y is the mirror image of the other; of heights from a file it is not known.
+const fn is_mirror_symmetric(body: &Body) -> bool {
+    match body {
+        Body::Revolution(_) | Body::Cylinder => true,
+        Body::HeightMap(_) => false,
+    }
+}
+
+/// A box is transformed unless its contact is factorised.
+fn outside_or_transforms(answer: &Answer) -> Omission {
+    match answer.grid {
+        Some(grid) if grid.factorised => Omission::Transforms,
+        _ => Omission::OutsideContact,
+    }
+}
+
+/// Values that an element of the half space remembers; the dashpot in its place remembers one.
+fn n_fields(creep: &CreepSpectrum) -> usize {
+    creep.elements().len() + usize::from(creep.fluidity() > 0.0)
+}

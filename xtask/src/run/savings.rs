@@ -1,0 +1,170 @@
+//! What each omission saves: the work is done once with it and once without, and the answers are compared.
+
+use anyhow::{Context, Result, bail};
+
+use super::answer::Answer;
+use super::files;
+use super::omission::Omission;
+use super::question::Question;
+use super::same_problem::SameProblem;
+use super::solve::solve_by;
+use crate::meter;
+use crate::scene_file::{Accuracy, Method};
+
+/// Relative change of the answer up to which a discrete problem counts as the same.
+const SAME: f64 = 1e-10;
+/// An answer that took longer is not computed again, up to twice for each omission, and more tightly \[s].
+const LONGEST: f64 = 10.0;
+/// Elements along the contact of the marches in time that a stationary answer is compared with.
+const CHAIN: usize = 64;
+const GRID: usize = 12;
+
+/// Work on one thread.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Cost {
+    /// Processor time, \[s].
+    pub(super) seconds: f64,
+    /// Largest size of all that is allocated at the same time.
+    pub(super) bytes: u64,
+}
+
+/// How the answer changes when the work is not left out, relative to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Change {
+    /// Of the same discrete problem.
+    Rounding(f64),
+    /// Of another method, and the error bars of the answer and of the other one.
+    OfMethod {
+        method: Method,
+        change: f64,
+        bars: [f64; 2],
+    },
+    /// The answer was not computed again.
+    None,
+}
+
+/// What one omission saves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Saving {
+    pub(super) left_out: Cost,
+    pub(super) done: Cost,
+    pub(super) change: Change,
+}
+
+/// One saving for each omission, or why it could not be measured.
+///
+/// # Errors
+/// When a discrete problem does not stay the same.
+pub(super) fn savings(
+    question: &Question,
+    answer: &Answer,
+) -> Result<Vec<(Omission, Result<Saving>)>> {
+    let mut savings = Vec::new();
+    for &omission in &answer.left_out {
+        let saving = saving(question, answer, omission);
+        if let Ok(Saving {
+            change: Change::Rounding(change),
+            ..
+        }) = saving
+            && (change.is_nan() || change > SAME)
+        {
+            bail!(
+                "the answer changes by {change:e} when {} is not left out, and may by {SAME:e}",
+                omission.name()
+            );
+        }
+        savings.push((omission, saving));
+    }
+    Ok(savings)
+}
+
+fn saving(question: &Question, answer: &Answer, omission: Omission) -> Result<Saving> {
+    if omission == Omission::Files {
+        return of_files(answer);
+    }
+    if answer.seconds > LONGEST {
+        bail!("the answer took longer than {LONGEST} s");
+    }
+    match omission.done_by(answer, question.motion) {
+        Some(method) => by_method(question, answer, method),
+        None => on_same_problem(&SameProblem::of(question, answer)?, omission),
+    }
+}
+
+fn of_files(answer: &Answer) -> Result<Saving> {
+    let name = format!("explain-{}", std::process::id());
+    let folder = std::env::temp_dir().join(name);
+    let written = metered(|| files::write(answer, &folder));
+    let removed = std::fs::remove_dir_all(&folder);
+    let ((), done) = written?;
+    removed.context("removing what was written for the measurement")?;
+    Ok(Saving {
+        left_out: Cost::default(),
+        done,
+        change: Change::None,
+    })
+}
+
+fn on_same_problem(problem: &SameProblem, omission: Omission) -> Result<Saving> {
+    let (numbers, left_out) = metered(|| problem.solve(None))?;
+    let (others, done) = metered(|| problem.solve(Some(omission)))?;
+    let changes = numbers.iter().zip(&others);
+    let changes = changes.map(|([number, scale], [other, _])| ((other - number) / scale).abs());
+    // NaN counts as the largest.
+    let change = changes
+        .max_by(f64::total_cmp)
+        .context("nothing to compare")?;
+    Ok(Saving {
+        left_out,
+        done,
+        change: Change::Rounding(change),
+    })
+}
+
+fn by_method(question: &Question, answer: &Answer, method: Method) -> Result<Saving> {
+    let accuracy = match method {
+        Method::MdrTransient => Accuracy::Elements(CHAIN),
+        Method::BemTransient => Accuracy::Elements(GRID),
+        _ => question.accuracy,
+    };
+    let (again, left_out) = metered(|| solve_by(question, answer.method, question.accuracy))?;
+    let (other, done) = metered(|| solve_by(question, method, accuracy))?;
+    let [value, error] = asked(&again)?;
+    let [other, other_error] = asked(&other)?;
+    if value.abs() <= error {
+        bail!("the answer, {value:e} with an error of {error:.1e}, cannot be told from 0");
+    }
+    Ok(Saving {
+        left_out,
+        done,
+        change: Change::OfMethod {
+            method,
+            change: ((other - value) / value).abs(),
+            bars: [error, other_error].map(|error| error / value.abs()),
+        },
+    })
+}
+
+/// Friction with its error, or depth where nothing slides.
+fn asked(answer: &Answer) -> Result<[f64; 2]> {
+    let friction = answer
+        .friction_coefficient
+        .zip(answer.friction_coefficient_error);
+    let depth = answer.indentation_depth.zip(answer.indentation_depth_error);
+    let (value, error) = friction.or(depth).context("the answer has no error bar")?;
+    Ok([value, error])
+}
+
+/// Does the work on one thread, where the memory of all of it is counted.
+fn metered<T: Send>(work: impl Fn() -> Result<T> + Sync) -> Result<(T, Cost)> {
+    let counted = || {
+        let mut value = None;
+        let memory = allocation_counter::measure(|| value = Some(work()));
+        let value = value.context("the work was not done")??;
+        anyhow::Ok((value, memory.bytes_max))
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let ((value, bytes), cost) = pool.install(|| meter::measure_median(counted))?;
+    let seconds = cost.processor_seconds;
+    Ok((value, Cost { seconds, bytes }))
+}
