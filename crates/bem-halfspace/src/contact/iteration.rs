@@ -335,6 +335,10 @@ impl<'a> Iteration<'a> {
             direction,
             image: preconditioned,
         } = &mut *self.fields;
+        if !self.improved {
+            // The first direction on a contact is not conjugate to any before.
+            preconditioner.prepare(contact, [direction, preconditioned]);
+        }
         preconditioner.apply(contact, residual, preconditioned);
         let (residual, preconditioned) = (&*residual, &*preconditioned);
         let mean = match self.control {

@@ -9,9 +9,11 @@
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
 mod accuracy;
+mod blocks;
 mod coarser;
 mod contact_box;
 mod contact_set;
+mod far_loads;
 mod folded;
 mod iteration;
 mod preconditioner;

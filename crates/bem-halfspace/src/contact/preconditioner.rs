@@ -10,8 +10,9 @@
 //! and on blocks of two by two elements, where a convolution costs a quarter and needs no padding, what is missing to
 //! `|q|` for the long waves. Restricted to the contact it remains positive definite, as conjugate gradients need it.
 
-use crate::bands::fold_parts;
+use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
+use crate::contact::far_loads::FarLoads;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// The weight w; π/4 would be right for the shortest wave along an edge, but what counts is the whole spectrum.
@@ -29,6 +30,7 @@ pub(super) struct Preconditioner {
     /// Means of the residual over the blocks, and what the convolution makes of them.
     means: Vec<f64>,
     images: Vec<f64>,
+    far_loads: FarLoads,
 }
 
 impl Preconditioner {
@@ -49,12 +51,32 @@ impl Preconditioner {
             blocks,
             means: vec![0.0; n_blocks],
             images: vec![0.0; n_blocks],
+            far_loads: FarLoads::new(grid),
         }
+    }
+
+    /// Prepares for another contact; overwrites the fields, of which the first must vanish outside the contact.
+    pub(super) fn prepare(&mut self, contact: &ContactSet, [one, answer]: [&mut [f64]; 2]) {
+        let bands = contact.bands();
+        bands.for_each([&mut *one], |band, [one]| {
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                one[run.start - first..run.end - first].fill(1.0);
+            }
+        });
+        self.invert(contact, one, answer);
+        self.far_loads.weigh(contact, answer);
     }
 
     /// Applies the inverse to a residual that vanishes outside the contact; the result is set in the contact only.
     pub(super) fn apply(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
-        self.find_means(contact, residual);
+        self.invert(contact, residual, result);
+        self.far_loads.take_from(contact, residual, result);
+    }
+
+    fn invert(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
+        let mean = |element: usize| 0.25 * residual[element];
+        sum_blocks(contact, self.shape[1], mean, &mut self.means);
         let [block_rows, block_columns] = self.blocks.grid().shape();
         self.blocks.apply(
             &mut self.workspace,
@@ -74,24 +96,6 @@ impl Preconditioner {
                 }
             }
         });
-    }
-
-    fn find_means(&mut self, contact: &ContactSet, residual: &[f64]) {
-        let (bands, columns) = (contact.bands(), self.shape[1]);
-        let block_columns = self.blocks.grid().shape()[1];
-        let blocks_per_band = bands.rows_per_band() / 2 * block_columns;
-        let in_band = |band, [means]: [&mut [f64]; 1]| {
-            means.fill(0.0);
-            for run in contact.runs(band) {
-                let (row, column) = (run.start / columns, run.start % columns);
-                let means = &mut means[(row - bands.rows(band).start) / 2 * block_columns..];
-                for (column, value) in (column..).zip(&residual[run.clone()]) {
-                    means[column / 2] += 0.25 * value;
-                }
-            }
-        };
-        let means = [(&mut self.means[..], blocks_per_band)];
-        fold_parts(0..bands.n_bands(), means, &in_band, &|(), ()| ());
     }
 
     fn differences(&self, residual: &[f64], element: usize, [row, column]: [usize; 2]) -> f64 {
