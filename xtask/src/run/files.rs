@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::pictures;
+use crate::npy::to_npy;
 use crate::output::{WrongInput, to_csv, write_atomically};
 use crate::plot::{Figure, PNG_WIDTH, render_png, render_svg};
 
@@ -48,10 +49,10 @@ fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
     };
     let rows: Vec<PressureRow> = field.pressure.iter().enumerate().map(row).collect();
     write_atomically(&out.join("pressure.csv"), to_csv(&rows)?.as_bytes())?;
-    write_atomically(&out.join("pressure.npy"), &npy(&field.pressure, &shape))?;
+    write_atomically(&out.join("pressure.npy"), &to_npy(&field.pressure, &shape))?;
     for (axis, name) in ["pressure_x.npy", "pressure_y.npy"].into_iter().enumerate() {
         let places: Vec<f64> = (0..shape[axis]).map(|index| place(axis, index)).collect();
-        write_atomically(&out.join(name), &npy(&places, &[places.len()]))?;
+        write_atomically(&out.join(name), &to_npy(&places, &[places.len()]))?;
     }
     draw(&pictures::pressure(field)?, out, "pressure")
 }
@@ -68,7 +69,10 @@ fn write_line(answer: &Answer, out: &Path) -> Result<()> {
     let rows: Vec<LineRow> = points.iter().map(row).collect();
     write_atomically(&out.join("line_load.csv"), to_csv(&rows)?.as_bytes())?;
     let flat = points.concat();
-    write_atomically(&out.join("line_load.npy"), &npy(&flat, &[points.len(), 2]))?;
+    write_atomically(
+        &out.join("line_load.npy"),
+        &to_npy(&flat, &[points.len(), 2]),
+    )?;
     draw(&pictures::line_load(points), out, "line_load")
 }
 
@@ -88,22 +92,3 @@ fn draw(figure: &Figure, out: &Path, name: &str) -> Result<()> {
     let png = render_png(&svg, PNG_WIDTH).with_context(say)?;
     write_atomically(&out.join(format!("{name}.png")), &png)
 }
-
-/// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
-fn npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
-    let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
-    let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
-    // Magic, version, length and header together are a multiple of 64 bytes and end with a line feed.
-    let unpadded = PREFIX.len() + 2 + header.len() + 1;
-    header.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
-    header.push('\n');
-    let mut bytes = PREFIX.to_vec();
-    let length = u16::try_from(header.len()).unwrap_or(u16::MAX);
-    bytes.extend(length.to_le_bytes());
-    bytes.extend(header.bytes());
-    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    bytes
-}
-
-/// Magic and version.
-const PREFIX: &[u8] = b"\x93NUMPY\x01\x00";

@@ -1,0 +1,20 @@
+//! Arrays as NumPy keeps them: a header in the notation of Python, then the numbers.
+
+/// Magic number, and the version of the format.
+const PREFIX: &[u8] = b"\x93NUMPY\x01\x00";
+
+/// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
+pub(crate) fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
+    let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
+    let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
+    // Magic, version, length and header together are a multiple of 64 bytes and end with a line feed.
+    let unpadded = PREFIX.len() + 2 + header.len() + 1;
+    header.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
+    header.push('\n');
+    let mut bytes = PREFIX.to_vec();
+    // A few lengths take no more bytes than two can count.
+    bytes.extend(&header.len().to_le_bytes()[..2]);
+    bytes.extend(header.bytes());
+    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    bytes
+}
