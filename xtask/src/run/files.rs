@@ -24,6 +24,12 @@ struct LineRow {
     load_n_per_m: f64,
 }
 
+#[derive(Debug, Serialize)]
+struct LinePressureRow {
+    x_m: f64,
+    pressure_pa: f64,
+}
+
 /// Writes what the answer has; result.json comes last: with it the others are there.
 pub(super) fn write(answer: &Answer, out: &Path) -> Result<()> {
     std::fs::create_dir_all(out)
@@ -58,22 +64,35 @@ fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
 }
 
 fn write_line(answer: &Answer, out: &Path) -> Result<()> {
-    let points = &answer.fields.line_load;
-    if points.is_empty() {
-        return Ok(());
-    }
     let row = |[x_m, load_n_per_m]: &[f64; 2]| LineRow {
         x_m: *x_m,
         load_n_per_m: *load_n_per_m,
     };
-    let rows: Vec<LineRow> = points.iter().map(row).collect();
-    write_atomically(&out.join("line_load.csv"), to_csv(&rows)?.as_bytes())?;
-    let flat = points.concat();
-    write_atomically(
-        &out.join("line_load.npy"),
-        &to_npy(&flat, &[points.len(), 2]),
-    )?;
-    draw(&pictures::line_load(points), out, "line_load")
+    let points = &answer.fields.line_load;
+    write_along(points, row, (out, "line_load"), pictures::line_load)?;
+    let row = |[x_m, pressure_pa]: &[f64; 2]| LinePressureRow {
+        x_m: *x_m,
+        pressure_pa: *pressure_pa,
+    };
+    let points = &answer.fields.line_pressure;
+    write_along(points, row, (out, "line_pressure"), pictures::line_pressure)
+}
+
+/// What is known along a line, if there is anything.
+fn write_along<R: Serialize>(
+    points: &[[f64; 2]],
+    row: impl Fn(&[f64; 2]) -> R,
+    (out, name): (&Path, &str),
+    figure: impl Fn(&[[f64; 2]]) -> Figure,
+) -> Result<()> {
+    if points.is_empty() {
+        return Ok(());
+    }
+    let rows: Vec<R> = points.iter().map(row).collect();
+    let path = |extension: &str| out.join(format!("{name}.{extension}"));
+    write_atomically(&path("csv"), to_csv(&rows)?.as_bytes())?;
+    write_atomically(&path("npy"), &to_npy(&points.concat(), &[points.len(), 2]))?;
+    draw(&figure(points), out, name)
 }
 
 fn write_history(answer: &Answer, out: &Path) -> Result<()> {

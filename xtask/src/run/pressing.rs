@@ -32,7 +32,7 @@ pub(super) fn unit_dashpot() -> Result<Viscous, RheologyError> {
     Viscous::new(1.0)
 }
 
-fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+pub(super) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }

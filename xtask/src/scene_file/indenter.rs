@@ -29,7 +29,7 @@ pub(crate) enum Indenter {
     Hyperboloid(RoundAndSlope),
     /// A paraboloid whose tip is cut off.
     TruncatedParaboloid(RoundAndCurvature),
-    /// A cylinder, infinite along y; loads and areas are per length.
+    /// The parabola of a cylinder, infinite along y; loads and areas are per length.
     Cylinder(Round),
     /// A body of revolution from a table of radii and heights, straight between its rows.
     Table(TableFile),
