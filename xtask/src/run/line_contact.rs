@@ -16,7 +16,9 @@ use super::resolution::{Resolved, resolve};
 use super::solve::load;
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
-const TOLERANCE: f64 = 1e-10;
+/// Gaps relative to the depth scale that disturb a small friction little, and those that do not show in the width.
+const FINE: f64 = 1e-9;
+const COARSE: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 500;
 /// Coarsest elements along the contact of a cylinder on an elastic half space.
 const COARSEST_ELEMENTS: f64 = 8.0;
@@ -30,8 +32,18 @@ pub(super) fn answer(
     let material = &*question.material;
     match (question.motion, question.control) {
         (Motion::Sliding { velocity, .. }, control) => {
-            let load = load((control, velocity))?;
-            slid(cylinder, (material, &load), accuracy)
+            let load = &load((control, velocity))?;
+            let ladder = LineLadder::of_profile(cylinder, material, load)?;
+            let sliding = Sliding {
+                cylinder,
+                material,
+                load,
+                ladder,
+            };
+            match accuracy {
+                Accuracy::RelativeError(error) => sliding.to_an_error(error),
+                Accuracy::Elements(_) => sliding.on_elements(accuracy),
+            }
         }
         (Motion::Pressing { duration }, Control::NormalForce(force)) => {
             pressed(cylinder, material, (force, duration))
@@ -40,65 +52,67 @@ pub(super) fn answer(
     }
 }
 
-/// The stationary state, to an error or on a grid.
-fn slid(
-    cylinder: &Cylinder,
-    (material, load): (&dyn Material, &SlidingLoad),
-    accuracy: Accuracy,
-) -> Result<Answer> {
-    let ladder = LineLadder::of_profile(cylinder, material, load)?;
-    let on_grid = |spacing: f64| -> Result<LineSliding> {
+/// A cylinder that slides in the stationary state.
+struct Sliding<'a> {
+    cylinder: &'a Cylinder,
+    material: &'a dyn Material,
+    load: &'a SlidingLoad,
+    ladder: LineLadder,
+}
+
+impl Sliding<'_> {
+    fn to_an_error(&self, relative_error: f64) -> Result<Answer> {
+        let scene = (self.material, self.load);
+        let estimate = steady_line_friction(self.cylinder, scene, &self.ladder, relative_error)?;
+        let last = estimate.refinements.last();
+        let spacing = last.context("no grid was refined")?.spacing;
+        let friction = [estimate.friction_coefficient, estimate.error];
+        Ok(self.answer(friction, self.on_grid(spacing, COARSE)?))
+    }
+
+    fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
+        let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
+        let solve = |elements: usize| self.on_grid(length / elements as f64, FINE);
+        let Resolved {
+            value,
+            error: [error],
+            ..
+        } = resolve(accuracy, usize::MAX, solve, |state| {
+            [state.friction_coefficient]
+        })?;
+        Ok(self.answer([value.friction_coefficient, error], value))
+    }
+
+    fn on_grid(&self, spacing: f64, tolerance: f64) -> Result<LineSliding> {
         let options = LineOptions {
             spacing,
             phase: 0.0,
-            footprint: ladder.footprint,
-            tolerance: TOLERANCE,
+            footprint: self.ladder.footprint,
+            tolerance,
             max_iterations: MAX_ITERATIONS,
         };
-        Ok(steady_line(cylinder, material, load, &options)?)
-    };
-    let (friction, error, state) = match accuracy {
-        Accuracy::RelativeError(relative_error) => {
-            let estimate =
-                steady_line_friction(cylinder, (material, load), &ladder, relative_error)?;
-            let last = estimate.refinements.last();
-            let spacing = last.context("no grid was refined")?.spacing;
-            (
-                estimate.friction_coefficient,
-                estimate.error,
-                on_grid(spacing)?,
-            )
-        }
-        Accuracy::Elements(_) => {
-            let length = COARSEST_ELEMENTS * ladder.coarsest_spacing;
-            let solve = |elements: usize| on_grid(length / elements as f64);
-            let Resolved {
-                value,
-                error: [error],
-                ..
-            } = resolve(accuracy, usize::MAX, solve, |state| {
-                [state.friction_coefficient]
-            })?;
-            (value.friction_coefficient, error, value)
-        }
-    };
-    let answer = Answer::new(Method::BemSteady, Model::HalfSpace, load.normal_force())
-        .with_friction(friction, error);
-    Ok(with_state(answer, state))
-}
+        Ok(steady_line(
+            self.cylinder,
+            self.material,
+            self.load,
+            &options,
+        )?)
+    }
 
-fn with_state(answer: Answer, state: LineSliding) -> Answer {
-    let [rear, front] = state.contact;
-    let mut answer = Answer {
-        is_per_length: true,
-        contact_area: Some(front - rear),
-        contact_box: Some(ContactBox::along(state.contact)),
-        unknowns: state.unknowns,
-        iterations: state.iterations,
-        ..answer
-    };
-    answer.fields.line_pressure = state.pressure;
-    answer
+    fn answer(&self, [friction, error]: [f64; 2], state: LineSliding) -> Answer {
+        let [rear, front] = state.contact;
+        let force = self.load.normal_force();
+        let mut answer = Answer {
+            is_per_length: true,
+            contact_area: Some(front - rear),
+            contact_box: Some(ContactBox::along(state.contact)),
+            unknowns: state.unknowns,
+            iterations: state.iterations,
+            ..Answer::new(Method::BemSteady, Model::HalfSpace, force).with_friction(friction, error)
+        };
+        answer.fields.line_pressure = state.pressure;
+        answer
+    }
 }
 
 /// Under a constant force, in closed form.

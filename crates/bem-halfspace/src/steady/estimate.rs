@@ -41,6 +41,8 @@ const OTHER_GRIDS: [f64; 2] = [0.99, 0.98];
 /// Gaps left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
 const GAP_SHARE: f64 = 1e-4;
 const SMALLEST_GAP: f64 = 1e-12;
+/// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
+const GAP_SHARE_OF_STRIP: f64 = 1e-2;
 /// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
 const FIRST_PART: f64 = 1e-3;
 /// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
@@ -447,7 +449,11 @@ impl<S: Surface> Question<'_, S> {
             None if self.loading.creep.only_flows() => 1.0,
             None => FIRST_PART,
         };
-        (GAP_SHARE * self.options.relative_error * part).max(SMALLEST_GAP)
+        let share = match self.loading.strip() {
+            Some(_) => GAP_SHARE_OF_STRIP,
+            None => GAP_SHARE,
+        };
+        (share * self.options.relative_error * part).max(SMALLEST_GAP)
     }
 }
 

@@ -79,7 +79,8 @@ fn a_cylinder_on_a_three_element_solid_is_hunters_within_the_error_bar() {
 }
 
 /// γ, z, P and μR/l of Hunter's closed form, evaluated with mpmath 1.3 and 60 digits.
-const EXTREME: [[f64; 4]; 6] = [
+const EXTREME: [[f64; 4]; 7] = [
+    [1e-6, 1.0, 892775.379762957, 6.3389082332772695],
     [1e-3, 1e-3, 1000.999868040761, 0.007084135726821092],
     [1.0, 1e-6, 1.9999999999962188, 3.718647313538869e-6],
     [1.0, 1e-3, 1.9999979457936135, 0.001991706581706198],
