@@ -12,7 +12,7 @@
 
 use crate::bands::fold_parts;
 use crate::contact::contact_set::ContactSet;
-use crate::{Convolution, ConvolutionWorkspace, Grid};
+use crate::{Convolution, ConvolutionWorkspace};
 
 /// The weight w; π/4 would be right for the shortest wave along an edge, but what counts is the whole spectrum.
 const WEIGHT: f64 = 0.7;
@@ -22,6 +22,8 @@ pub(super) struct Preconditioner {
     /// Differences along x and along y, \[1/m].
     weights: [f64; 2],
     shape: [usize; 2],
+    /// Whether the grid has a mirror at its rear along x and y.
+    mirrors: [bool; 2],
     blocks: Convolution,
     workspace: ConvolutionWorkspace,
     /// Means of the residual over the blocks, and what the convolution makes of them.
@@ -30,9 +32,10 @@ pub(super) struct Preconditioner {
 }
 
 impl Preconditioner {
-    pub(super) fn new(grid: &Grid) -> Self {
+    pub(super) fn new(convolution: &Convolution) -> Self {
+        let grid = convolution.grid();
         let weights = grid.spacing().map(|edge| WEIGHT / edge);
-        let blocks = Convolution::on_blocks(grid, |q| {
+        let blocks = convolution.on_blocks(|q| {
             let difference =
                 |axis: usize| weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
             q[0].hypot(q[1]) - difference(0) - difference(1)
@@ -41,6 +44,7 @@ impl Preconditioner {
         Self {
             weights,
             shape: grid.shape(),
+            mirrors: convolution.mirrors(),
             workspace: blocks.workspace(),
             blocks,
             means: vec![0.0; n_blocks],
@@ -92,12 +96,23 @@ impl Preconditioner {
 
     fn differences(&self, residual: &[f64], element: usize, [row, column]: [usize; 2]) -> f64 {
         let [rows, columns] = self.shape;
-        let neighbour = |exists: bool, index: usize| if exists { residual[index] } else { 0.0 };
-        let above = neighbour(row > 0, element.wrapping_sub(columns));
-        let below = neighbour(row + 1 < rows, element + columns);
-        let left = neighbour(column > 0, element.wrapping_sub(1));
-        let right = neighbour(column + 1 < columns, element + 1);
-        let twice = 2.0 * residual[element];
+        let here = residual[element];
+        // Behind a mirror stands the element itself.
+        let before = |axis: usize, position: usize, step: usize| match position {
+            0 if self.mirrors[axis] => here,
+            0 => 0.0,
+            _ => residual[element - step],
+        };
+        let behind = |exists: bool, step: usize| {
+            if exists {
+                residual[element + step]
+            } else {
+                0.0
+            }
+        };
+        let [above, below] = [before(0, row, columns), behind(row + 1 < rows, columns)];
+        let [left, right] = [before(1, column, 1), behind(column + 1 < columns, 1)];
+        let twice = 2.0 * here;
         self.weights[0] * (twice - above - below) + self.weights[1] * (twice - left - right)
     }
 }

@@ -45,10 +45,10 @@ fn iterations_hardly_depend_on_the_grid() {
         assert!(error < 4.0 / (n * n) as f64, "{n}: {contact:?}");
         contact.iterations
     });
-    // Guesses that end at one residual on all grids fail here: with them it is 14, 14, 17, 20.
+    // Guesses that end at one residual on all grids fail here: with them it is 13, 16, 19, 20.
     let [coarse, .., fine] = iterations;
     assert!(
-        4 * fine <= 5 * coarse && fine <= 20,
+        2 * fine <= 3 * coarse && fine < 20,
         "iterations {iterations:?}"
     );
 }
