@@ -7,6 +7,7 @@ mod body;
 mod explain;
 mod files;
 mod half_space;
+mod line_contact;
 mod march;
 mod mdr;
 mod offer;

@@ -32,7 +32,7 @@ pub(super) fn unit_dashpot() -> Result<Viscous, RheologyError> {
     Viscous::new(1.0)
 }
 
-fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+pub(super) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }
@@ -179,8 +179,18 @@ pub(super) fn boundary_elements(
         error,
         elements,
     } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
-    let answer = Answer {
+    let (normal_force, errors) = match control {
+        Control::NormalForce(force) => (force, [Some(error[0]), None]),
+        Control::IndentationDepth(_) => {
+            let stiffness = stiffness(material, duration)?;
+            let force_error = stiffness * error[1];
+            (stiffness * value.normal_force, [None, Some(force_error)])
+        }
+    };
+    Ok(Answer {
+        normal_force_error: errors[1],
         indentation_depth: Some(value.indentation_depth),
+        indentation_depth_error: errors[0],
         contact_area: Some(value.contact_area),
         unknowns: value.n_contact,
         iterations: 1,
@@ -188,22 +198,7 @@ pub(super) fn boundary_elements(
             spacing: spacing(elements),
             factorised: false,
         }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, value.normal_force)
-    };
-    Ok(match control {
-        Control::NormalForce(normal_force) => Answer {
-            indentation_depth_error: Some(error[0]),
-            normal_force,
-            ..answer
-        },
-        Control::IndentationDepth(_) => {
-            let stiffness = stiffness(material, duration)?;
-            Answer {
-                normal_force: stiffness * value.normal_force,
-                normal_force_error: Some(stiffness * error[1]),
-                ..answer
-            }
-        }
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force)
     })
 }
 
