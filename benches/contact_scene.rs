@@ -32,8 +32,17 @@ impl ContactScene {
     /// # Errors
     /// [`BemError`] for a number of elements that no grid has.
     pub fn hertz(n: usize) -> Result<Self, BemError> {
+        Self::hertz_aside(n, 0.0)
+    }
+
+    /// The same with the apex so many elements aside along x and y; there is no mirror unless it is zero.
+    ///
+    /// # Errors
+    /// [`BemError`] for a number of elements that no grid has.
+    pub fn hertz_aside(n: usize, offset: f64) -> Result<Self, BemError> {
         let edge = 1.0 / n as f64;
-        let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
+        let middle = 0.5 * n as f64 + offset;
+        let centre = |index: usize| (index as f64 + 0.5 - middle) * edge;
         let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
         Ok(Self {
             convolution: Convolution::new(&Grid::new([n; 2], [edge; 2])?),

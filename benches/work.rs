@@ -1,8 +1,8 @@
 //! Time, error, peak memory and iterations of contact solves, and the time as a multiple of one real Fourier transform
 //! there and back of the padded grid, measured between the solves.
 //!
-//! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- rough 512 1024`; with `--features rayon` also the
-//! time on the wall on two threads. Instead of a number of elements along the edge, `rough` takes a file with the
+//! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- hertz-aside 256` · `… -- rough 512 1024`; with
+//! `--features rayon` also the time on the wall on two threads. The first has two mirrors, the others have none. Instead of a number of elements along the edge, `rough` takes a file with the
 //! heights of a square grid on a side of length 1 as little-endian numbers of eight bytes.
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
@@ -16,6 +16,8 @@ use benches::{ContactScene, Failure, deviation, on_threads, self_affine};
 
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
+/// Distance of the apex from the middle, in elements.
+const ASIDE: f64 = 0.3;
 /// Numbers of threads of which the time on the wall is measured.
 const THREADS: &[usize] = if cfg!(feature = "rayon") {
     &[1, 2]
@@ -40,7 +42,7 @@ fn main() -> Result<(), Failure> {
     match words.split_last() {
         Some((&"--bench", [name, sizes @ ..])) if !sizes.is_empty() => report_each(name, sizes),
         Some((size, [name])) => on_threads(1, || report(&scene(name, size)?))?,
-        _ => on_threads(1, || report(&hertz(256)?))?,
+        _ => on_threads(1, || report(&scene("hertz", "256")?))?,
     }
 }
 
@@ -62,18 +64,19 @@ fn report_each(name: &str, sizes: &[&str]) -> Result<(), Failure> {
 
 fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
     match (name, size.parse()) {
-        ("hertz", Ok(n)) => hertz(n),
+        ("hertz", Ok(n)) => hertz("hertz", n, 0.0),
+        ("hertz-aside", Ok(n)) => hertz("hertz-aside", n, ASIDE),
         ("rough", Ok(n)) => rough(self_affine(n)),
         ("rough", Err(_)) => rough(heights_in(size)?),
         _ => Err(format!("there is no scene {name} {size}").into()),
     }
 }
 
-fn hertz(n: usize) -> Result<Scene, Failure> {
+fn hertz(name: &'static str, n: usize, offset: f64) -> Result<Scene, Failure> {
     let start = processor_time()?;
     Ok(Scene {
-        name: "hertz",
-        contact: ContactScene::hertz(n)?,
+        name,
+        contact: ContactScene::hertz_aside(n, offset)?,
         setup: processor_time()? - start,
         tolerance: 5e-10,
         padded: 2 * n,

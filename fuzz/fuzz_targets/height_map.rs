@@ -5,4 +5,8 @@
 use libfuzzer_sys::fuzz_target;
 use xtask::InputKind;
 
-fuzz_target!(|contents: &[u8]| fuzz::check(InputKind::HeightMap, "map.csv", contents));
+fuzz_target!(|contents: &[u8]| {
+    for file in ["map.csv", "map.npy"] {
+        fuzz::check(InputKind::HeightMap, file, contents);
+    }
+});

@@ -13,6 +13,7 @@ mod figures;
 mod input;
 mod material;
 mod meter;
+mod npy;
 mod output;
 mod plot;
 mod progress;

@@ -101,15 +101,19 @@ impl Bounds {
 
     /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast.
     pub(crate) fn with_margin(&self, field: [usize; 2]) -> Self {
+        self.with_margin_from(field, [false; 2])
+    }
+
+    /// The same, but from the rear of the field on along the axes with mirrors there.
+    pub(crate) fn with_margin_from(&self, field: [usize; 2], mirrors: [bool; 2]) -> Self {
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
-            let needed = self.shape()[axis];
+            let rear = if mirrors[axis] { 0 } else { self.lower[axis] };
+            let needed = self.upper[axis] - rear;
             let wanted = needed + (needed / 16).max(2) * 2;
             let length = (fast_length(2 * wanted) / 2).min(available);
             let behind = (length - needed) / 2;
-            grown.lower[axis] = self.lower[axis]
-                .saturating_sub(behind)
-                .min(available - length);
+            grown.lower[axis] = rear.saturating_sub(behind).min(available - length);
             grown.upper[axis] = grown.lower[axis] + length;
         }
         grown

@@ -43,6 +43,24 @@ impl Grid {
         }
     }
 
+    /// The part in front of mirrors through the middle of the grid, where the number of elements is even.
+    pub(crate) fn folded(&self, mirrors: [bool; 2]) -> Self {
+        let part = |axis: usize| self.shape[axis] >> usize::from(mirrors[axis]);
+        Self {
+            shape: [0, 1].map(part),
+            ..*self
+        }
+    }
+
+    /// The grid of which this is the part in front of mirrors.
+    pub(crate) fn unfolded(&self, mirrors: [bool; 2]) -> Self {
+        let whole = |axis: usize| self.shape[axis] << usize::from(mirrors[axis]);
+        Self {
+            shape: [0, 1].map(whole),
+            ..*self
+        }
+    }
+
     /// Number of elements [n_x, n_y].
     #[must_use]
     pub const fn shape(&self) -> [usize; 2] {

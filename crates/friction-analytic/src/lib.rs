@@ -40,6 +40,7 @@ mod elastic_limit;
 mod error;
 mod indentation;
 mod line;
+mod line_contact;
 mod pieces;
 mod power;
 mod scaling;
@@ -62,6 +63,7 @@ pub use indentation::{
     time_to_depth,
 };
 pub use line::line_sliding;
+pub use line_contact::cylinder_half_width_after_impulse;
 pub use power::power_sliding;
 pub use scaling::{ScalingFactor, half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};

@@ -29,6 +29,7 @@
 mod analytic_line;
 mod axisymmetric;
 mod contact_radius;
+mod cylinder;
 mod discrete_edge;
 mod error;
 mod flat_cone;
@@ -57,6 +58,7 @@ mod truncated_paraboloid;
 pub use analytic_line::AnalyticLine;
 pub use axisymmetric::{Axisymmetric, Kink, abel_height, abel_slope};
 pub use contact_radius::contact_radius;
+pub use cylinder::Cylinder;
 pub use discrete_edge::{leading_indices, running_minimum};
 pub use error::IndenterError;
 pub use flat_cone::FlatCone;

@@ -9,25 +9,25 @@ use crate::Axisymmetric;
 /// ```
 /// use indenters::{PowerProfile, Surface};
 ///
-/// /// An infinitely long cylinder across the direction of motion, as a parabola.
-/// struct Cylinder {
-///     curvature: f64,
+/// /// A paraboloid that is flatter across the direction of motion.
+/// struct Ellipse {
+///     curvatures: [f64; 2],
 /// }
 ///
-/// impl Surface for Cylinder {
-///     fn height(&self, [x, _]: [f64; 2]) -> f64 {
-///         self.curvature * x * x
+/// impl Surface for Ellipse {
+///     fn height(&self, [x, y]: [f64; 2]) -> f64 {
+///         self.curvatures[0] * x * x + self.curvatures[1] * y * y
 ///     }
 ///
-///     fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
-///         [2.0 * self.curvature * x, 0.0]
+///     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+///         [2.0 * self.curvatures[0] * x, 2.0 * self.curvatures[1] * y]
 ///     }
 /// }
 ///
 /// # fn main() -> Result<(), indenters::IndenterError> {
-/// let cylinder = Cylinder { curvature: 0.5 };
+/// let ellipse = Ellipse { curvatures: [0.5, 0.25] };
 /// let paraboloid = PowerProfile::paraboloid(0.5)?;
-/// assert_eq!(cylinder.gradient([0.3, 0.4]), [0.3, 0.0]);
+/// assert_eq!(ellipse.gradient([0.3, 0.4]), [0.3, 0.2]);
 /// assert!((paraboloid.gradient([0.3, 0.4])[1] - 0.4).abs() < 1e-15);
 /// # Ok(())
 /// # }

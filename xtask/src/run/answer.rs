@@ -47,6 +47,9 @@ pub(crate) struct Answer {
     /// Iterations or time steps on the finest resolution.
     pub(crate) iterations: usize,
     pub(crate) seconds: f64,
+    /// Whether forces and areas are per length along y.
+    #[serde(skip)]
+    pub(crate) is_per_length: bool,
     /// Parts of the method that the scene did not need.
     pub(crate) left_out: Vec<Omission>,
     #[serde(skip)]
@@ -82,6 +85,8 @@ pub(crate) struct Fields {
     pub(crate) pressure: Option<PressureField>,
     /// Position \[m] and load per length \[N/m] along the contact of a line.
     pub(crate) line_load: Vec<[f64; 2]>,
+    /// Position \[m] and pressure \[Pa] across a line contact.
+    pub(crate) line_pressure: Vec<[f64; 2]>,
     /// From first touch to the state that was asked for.
     pub(crate) history: Vec<HistoryRow>,
 }
@@ -115,11 +120,13 @@ impl Answer {
             unknowns: 0,
             iterations: 0,
             seconds: 0.0,
+            is_per_length: false,
             left_out: Vec::new(),
             grid: None,
             fields: Fields {
                 pressure: None,
                 line_load: Vec::new(),
+                line_pressure: Vec::new(),
                 history: Vec::new(),
             },
         }
@@ -202,6 +209,11 @@ impl Answer {
         let mut table = Table::new();
         table.load_style(comfy_table::presets::ASCII_MARKDOWN);
         table.set_header(["quantity", "value", "error", "unit"]);
+        let [force, area] = if self.is_per_length {
+            ["N/m", "m²/m"]
+        } else {
+            ["N", "m²"]
+        };
         let rows = [
             (
                 "friction coefficient",
@@ -213,16 +225,16 @@ impl Answer {
                 "normal force",
                 Some(self.normal_force),
                 self.normal_force_error,
-                "N",
+                force,
             ),
-            ("tangential force", self.tangential_force, None, "N"),
+            ("tangential force", self.tangential_force, None, force),
             (
                 "indentation depth",
                 self.indentation_depth,
                 self.indentation_depth_error,
                 "m",
             ),
-            ("contact area", self.contact_area, None, "m²"),
+            ("contact area", self.contact_area, None, area),
             ("peak pressure", self.peak_pressure, None, "Pa"),
         ];
         for (name, value, error, unit) in rows {

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use indenters::{
-    Axisymmetric, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError, Kink, PowerProfile,
-    PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError, Kink,
+    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
 use crate::output::{WrongInput, read_input};
@@ -17,7 +17,7 @@ use crate::scene_file::{
 pub(crate) enum Body {
     Revolution(Revolution),
     /// Infinite along y.
-    Cylinder,
+    Cylinder(Cylinder),
     HeightMap(HeightMap),
 }
 
@@ -106,7 +106,10 @@ pub(super) fn body(indenter: &Indenter, folder: &Path) -> Result<Body, SceneErro
         }
         Indenter::Table(table) => table_profile(&folder.join(&table.file)),
         Indenter::Cylinder(table) => {
-            positive("indenter.cylinder.radius", table.radius).map(|_| Body::Cylinder)
+            let cylinder = Cylinder::new(table.radius);
+            Ok(Body::Cylinder(
+                cylinder.map_err(|error| refused(key, error))?,
+            ))
         }
         Indenter::HeightMap(table) => map(table, folder),
     }

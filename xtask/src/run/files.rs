@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::answer::Answer;
 use super::pictures;
+use crate::npy::to_npy;
 use crate::output::{WrongInput, to_csv, write_atomically};
 use crate::plot::{Figure, PNG_WIDTH, render_png, render_svg};
 
@@ -21,6 +22,12 @@ struct PressureRow {
 struct LineRow {
     x_m: f64,
     load_n_per_m: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct LinePressureRow {
+    x_m: f64,
+    pressure_pa: f64,
 }
 
 /// Writes what the answer has; result.json comes last: with it the others are there.
@@ -48,28 +55,44 @@ fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
     };
     let rows: Vec<PressureRow> = field.pressure.iter().enumerate().map(row).collect();
     write_atomically(&out.join("pressure.csv"), to_csv(&rows)?.as_bytes())?;
-    write_atomically(&out.join("pressure.npy"), &npy(&field.pressure, &shape))?;
+    write_atomically(&out.join("pressure.npy"), &to_npy(&field.pressure, &shape))?;
     for (axis, name) in ["pressure_x.npy", "pressure_y.npy"].into_iter().enumerate() {
         let places: Vec<f64> = (0..shape[axis]).map(|index| place(axis, index)).collect();
-        write_atomically(&out.join(name), &npy(&places, &[places.len()]))?;
+        write_atomically(&out.join(name), &to_npy(&places, &[places.len()]))?;
     }
     draw(&pictures::pressure(field)?, out, "pressure")
 }
 
 fn write_line(answer: &Answer, out: &Path) -> Result<()> {
-    let points = &answer.fields.line_load;
-    if points.is_empty() {
-        return Ok(());
-    }
     let row = |[x_m, load_n_per_m]: &[f64; 2]| LineRow {
         x_m: *x_m,
         load_n_per_m: *load_n_per_m,
     };
-    let rows: Vec<LineRow> = points.iter().map(row).collect();
-    write_atomically(&out.join("line_load.csv"), to_csv(&rows)?.as_bytes())?;
-    let flat = points.concat();
-    write_atomically(&out.join("line_load.npy"), &npy(&flat, &[points.len(), 2]))?;
-    draw(&pictures::line_load(points), out, "line_load")
+    let points = &answer.fields.line_load;
+    write_along(points, row, (out, "line_load"), pictures::line_load)?;
+    let row = |[x_m, pressure_pa]: &[f64; 2]| LinePressureRow {
+        x_m: *x_m,
+        pressure_pa: *pressure_pa,
+    };
+    let points = &answer.fields.line_pressure;
+    write_along(points, row, (out, "line_pressure"), pictures::line_pressure)
+}
+
+/// What is known along a line, if there is anything.
+fn write_along<R: Serialize>(
+    points: &[[f64; 2]],
+    row: impl Fn(&[f64; 2]) -> R,
+    (out, name): (&Path, &str),
+    figure: impl Fn(&[[f64; 2]]) -> Figure,
+) -> Result<()> {
+    if points.is_empty() {
+        return Ok(());
+    }
+    let rows: Vec<R> = points.iter().map(row).collect();
+    let path = |extension: &str| out.join(format!("{name}.{extension}"));
+    write_atomically(&path("csv"), to_csv(&rows)?.as_bytes())?;
+    write_atomically(&path("npy"), &to_npy(&points.concat(), &[points.len(), 2]))?;
+    draw(&figure(points), out, name)
 }
 
 fn write_history(answer: &Answer, out: &Path) -> Result<()> {
@@ -88,22 +111,3 @@ fn draw(figure: &Figure, out: &Path, name: &str) -> Result<()> {
     let png = render_png(&svg, PNG_WIDTH).with_context(say)?;
     write_atomically(&out.join(format!("{name}.png")), &png)
 }
-
-/// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
-fn npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
-    let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
-    let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
-    // Magic, version, length and header together are a multiple of 64 bytes and end with a line feed.
-    let unpadded = PREFIX.len() + 2 + header.len() + 1;
-    header.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
-    header.push('\n');
-    let mut bytes = PREFIX.to_vec();
-    let length = u16::try_from(header.len()).unwrap_or(u16::MAX);
-    bytes.extend(length.to_le_bytes());
-    bytes.extend(header.bytes());
-    bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
-    bytes
-}
-
-/// Magic and version.
-const PREFIX: &[u8] = b"\x93NUMPY\x01\x00";

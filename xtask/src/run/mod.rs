@@ -8,6 +8,7 @@ mod error_parts;
 mod explain;
 mod files;
 mod half_space;
+mod line_contact;
 mod march;
 mod mdr;
 mod memory;

@@ -87,7 +87,7 @@ pub(super) fn answers(method: Method, question: &Question) -> bool {
 /// Why a method does not answer, if it does not.
 fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Option<&'static str> {
     match (method, &question.body) {
-        (_, Body::Cylinder) => Some(LINE_CONTACT),
+        (_, Body::Cylinder(_)) => line_contact(method, question),
         (Method::BemSteady | Method::BemTransient, _) => boundary_elements(method, question),
         (_, Body::HeightMap(_)) => Some(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
@@ -97,8 +97,7 @@ fn refusal(method: Method, question: &Question, simple: Option<&Simple>) -> Opti
     }
 }
 
-const LINE_CONTACT: &str =
-    "it needs a contact of finite area or a body of revolution, and a cylinder has a line contact";
+const NO_ELEMENTS: &str = "closed forms have no elements; give relative_error instead";
 const UNDER_FORCE: &str = "it slides under a force, not at a depth";
 const STATIONARY: &str = "it answers the stationary state, without duration and sliding_distance";
 const NOTHING_SLIDES: &str =
@@ -106,6 +105,40 @@ const NOTHING_SLIDES: &str =
 
 fn at_depth(question: &Question) -> bool {
     matches!(question.control, Control::IndentationDepth(_))
+}
+
+fn line_contact(method: Method, question: &Question) -> Option<&'static str> {
+    if at_depth(question) {
+        return Some(
+            "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
+        );
+    }
+    match (method, question.motion) {
+        (Method::MdrSteady | Method::MdrTransient, _) => {
+            Some("it needs a body of revolution, and a cylinder is none")
+        }
+        _ if question.model == Some(Model::Line) => Some(
+            "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
+        ),
+        (Method::Analytic, Motion::Sliding { .. }) => {
+            Some("there is no closed form for a cylinder that slides")
+        }
+        (Method::Analytic, Motion::Pressing { .. }) => {
+            matches!(question.accuracy, Accuracy::Elements(_)).then_some(NO_ELEMENTS)
+        }
+        (Method::BemTransient, _) => Some(
+            "its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it",
+        ),
+        (Method::BemSteady, Motion::Pressing { .. }) => Some(NOTHING_SLIDES),
+        (Method::BemSteady, Motion::Sliding { distance, .. }) => {
+            if question.material.creep().fluidity() > 0.0 {
+                return Some(
+                    "under a line contact a half space that flows sinks the faster the longer it is, without limit",
+                );
+            }
+            distance.is_some().then_some(STATIONARY)
+        }
+    }
 }
 
 fn boundary_elements(method: Method, question: &Question) -> Option<&'static str> {
@@ -155,7 +188,7 @@ fn line(method: Method, question: &Question) -> Option<&'static str> {
 
 fn closed(question: &Question, body: &Revolution, simple: Option<&Simple>) -> Option<&'static str> {
     if matches!(question.accuracy, Accuracy::Elements(_)) {
-        return Some("closed forms have no elements; give relative_error instead");
+        return Some(NO_ELEMENTS);
     }
     let Motion::Sliding { distance, .. } = question.motion else {
         return None;

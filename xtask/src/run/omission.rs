@@ -85,6 +85,10 @@ pub(super) fn plan(question: &Question, answer: &Answer) -> Vec<Omission> {
 }
 
 fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
+    if matches!(question.body, Body::Cylinder(_)) {
+        // No other method answers for it, and one element along y leaves nothing to leave out.
+        return Vec::new();
+    }
     match (answer.method, question.motion) {
         (Method::Analytic, Motion::Sliding { .. }) => {
             vec![Omission::NumericalSolution, Omission::TimeSteps]
@@ -121,8 +125,8 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
 /// Whether one half of a body in y is the mirror image of the other; of heights from a file it is not known.
 const fn is_mirror_symmetric(body: &Body) -> bool {
     match body {
-        Body::Revolution(_) | Body::Cylinder => true,
-        Body::HeightMap(_) => false,
+        Body::Revolution(_) => true,
+        Body::Cylinder(_) | Body::HeightMap(_) => false,
     }
 }
 

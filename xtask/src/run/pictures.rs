@@ -43,6 +43,11 @@ pub(super) fn line_load(points: &[[f64; 2]]) -> Figure {
     curve("position x [m]", "load per length [N/m]", points.to_vec())
 }
 
+/// The pressure across a line contact.
+pub(super) fn line_pressure(points: &[[f64; 2]]) -> Figure {
+    curve("position x [m]", "pressure [Pa]", points.to_vec())
+}
+
 /// The friction coefficient from first touch on.
 pub(super) fn history(rows: &[HistoryRow]) -> Figure {
     let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];

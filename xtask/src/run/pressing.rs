@@ -33,7 +33,7 @@ pub(super) fn unit_dashpot() -> Result<Viscous, RheologyError> {
     Viscous::new(1.0)
 }
 
-fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+pub(super) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }
@@ -196,8 +196,23 @@ pub(super) fn boundary_elements(
         parts: [depth_parts, force_parts],
         elements,
     } = resolve(&goal, solve, quantities, gaps)?;
-    let answer = Answer {
+    let (normal_force, errors, parts) = match control {
+        Control::NormalForce(force) => (force, [Some(error[0]), None], depth_parts),
+        Control::IndentationDepth(_) => {
+            let stiffness = stiffness(material, duration)?;
+            let force_error = stiffness * error[1];
+            let parts = force_parts.times(stiffness);
+            (
+                stiffness * value.normal_force,
+                [None, Some(force_error)],
+                parts,
+            )
+        }
+    };
+    Ok(Answer {
+        normal_force_error: errors[1],
         indentation_depth: Some(value.indentation_depth),
+        indentation_depth_error: errors[0],
         contact_area: Some(value.contact_area),
         unknowns: value.n_contact,
         iterations: 1,
@@ -205,22 +220,7 @@ pub(super) fn boundary_elements(
             spacing: spacing(elements),
             factorised: false,
         }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, value.normal_force)
-    };
-    Ok(match control {
-        Control::NormalForce(normal_force) => Answer {
-            indentation_depth_error: Some(error[0]),
-            normal_force,
-            ..answer.with_parts(depth_parts)
-        },
-        Control::IndentationDepth(_) => {
-            let stiffness = stiffness(material, duration)?;
-            Answer {
-                normal_force: stiffness * value.normal_force,
-                normal_force_error: Some(stiffness * error[1]),
-                ..answer.with_parts(force_parts.times(stiffness))
-            }
-        }
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force).with_parts(parts)
     })
 }
 

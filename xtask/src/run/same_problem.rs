@@ -54,7 +54,7 @@ impl<'a> SameProblem<'a> {
         match &self.question.body {
             Body::Revolution(body) => self.solve_for(body, kept),
             Body::HeightMap(map) => self.solve_for(map, kept),
-            Body::Cylinder => bail!("no method answers for a line contact"),
+            Body::Cylinder(_) => bail!("nothing of a line contact is measured"),
         }
     }
 

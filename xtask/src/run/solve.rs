@@ -10,7 +10,7 @@ use super::offer::choose;
 use super::omission::plan;
 use super::question::{Motion, Question};
 use super::shape::{Drive, Shape};
-use super::{analytic, bem, march, mdr, pressing};
+use super::{analytic, bem, line_contact, march, mdr, pressing};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -28,7 +28,7 @@ pub(super) fn solve_by(question: &Question, method: Method, accuracy: Accuracy) 
         }
         (Body::Revolution(body), _) => of_revolution(question, body, way),
         (Body::HeightMap(map), _) => by_elements(question, map, way),
-        (Body::Cylinder, _) => bail!("no method answers for a line contact"),
+        (Body::Cylinder(cylinder), _) => line_contact::answer(question, cylinder, accuracy),
     }?;
     let left_out = plan(question, &answer);
     let answer = Answer { left_out, ..answer };
@@ -129,7 +129,7 @@ fn closed(
     }
 }
 
-fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
+pub(super) fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
     match control {
         Control::NormalForce(force) => Ok(SlidingLoad::new(force, velocity)?),
         Control::IndentationDepth(_) => bail!("the method slides under a force, not at a depth"),

@@ -6,17 +6,42 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 use indenters::HeightMap;
 
 use super::table_file::problem;
+use crate::npy::{NpyTable, from_npy};
 use crate::output::line_of_record;
 
-/// A surface from the contents of a CSV file without names: one line of heights per x, one column per y.
+/// A surface from the contents of a file, of NumPy if its name ends with `.npy`, of CSV otherwise.
 ///
 /// # Errors
-/// File, line, column and what is wrong there.
+/// File, place and what is wrong there.
 pub(crate) fn height_map(
     file: &Path,
     contents: &[u8],
     spacing: [f64; 2],
 ) -> Result<HeightMap, String> {
+    let extension = file.extension();
+    if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("npy")) {
+        of_numpy(contents, spacing).map_err(|problem| format!("{}: {problem}", file.display()))
+    } else {
+        of_csv(file, contents, spacing)
+    }
+}
+
+/// An array of heights, the first index along x.
+fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
+    let NpyTable { shape, values } = from_npy(contents).map_err(|error| error.to_string())?;
+    let wrong = values.iter().position(|height| !height.is_finite());
+    if let Some(index) = wrong {
+        let [row, column] = [index / shape[1], index % shape[1]];
+        return Err(format!(
+            "[{row}, {column}]: a finite height in m is needed, and not {}",
+            values[index]
+        ));
+    }
+    HeightMap::new(shape, spacing, values).map_err(|error| error.to_string())
+}
+
+/// One line of heights per x, one column per y, without names.
+fn of_csv(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
     let wrong = |line: usize, problem: &str| format!("{}:{line}: {problem}", file.display());
     let mut reader = ReaderBuilder::new()
         .has_headers(false)

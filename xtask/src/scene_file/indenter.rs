@@ -29,7 +29,7 @@ pub(crate) enum Indenter {
     Hyperboloid(RoundAndSlope),
     /// A paraboloid whose tip is cut off.
     TruncatedParaboloid(RoundAndCurvature),
-    /// A cylinder, infinite along y; loads and areas are per length.
+    /// The parabola of a cylinder, infinite along y; loads and areas are per length.
     Cylinder(Round),
     /// A body of revolution from a table of radii and heights, straight between its rows.
     Table(TableFile),
@@ -121,8 +121,8 @@ pub(crate) struct TableFile {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HeightMapFile {
-    /// CSV file without names, beside the scene file: one line of heights \[m] per x, from rear to front, and one column
-    /// per y.
+    /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column
+    /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x.
     pub(crate) file: PathBuf,
     /// Distances of neighbouring heights along x and y, > 0, \[m].
     pub(crate) spacing: [f64; 2],

@@ -11,7 +11,7 @@ use proptest::sample::Index;
 use proptest::test_runner::{RngSeed, TestRunner};
 use xtask::{InputKind, check_input};
 
-use crate::support::example;
+use crate::support::{example, npy};
 
 /// What happens to a file.
 #[derive(Debug, Clone)]
@@ -153,7 +153,15 @@ fn numbers(text: &[u8]) -> Vec<std::ops::Range<usize>> {
     numbers
 }
 
-/// What a refusal must say first: the file and a line that it has, or the one behind its end.
+/// What a refusal must say first: the file and a line that it has, or the one behind its end; of an array the file.
+fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
+    if file.extension().is_some_and(|extension| extension == "npy") {
+        let start = format!("{}: ", file.display());
+        return message.starts_with(&start) && !message.contains(['\n', '\r']);
+    }
+    names_file_and_line(message, file, contents)
+}
+
 fn names_file_and_line(message: &str, file: &Path, contents: &[u8]) -> bool {
     let lines = 1 + contents.split(|byte| *byte == b'\n').count();
     let rest = message.strip_prefix(&file.display().to_string());
@@ -187,7 +195,7 @@ fn fuzz(kind: InputKind, files: &[(PathBuf, Vec<u8>)], cases: u32) -> u32 {
         match check_input(kind, path, &contents) {
             Ok(()) => accepted.set(accepted.get() + 1),
             Err(error) => prop_assert!(
-                names_file_and_line(&error.to_string(), path, &contents),
+                names_place(&error.to_string(), path, &contents),
                 "{error}\n--- of\n{}",
                 String::from_utf8_lossy(&contents)
             ),
@@ -257,6 +265,22 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
             "{kind:?}: {accepted} of 4 000 were accepted"
         );
     }
+}
+
+/// A file without lines is refused by its name.
+#[test]
+fn mutilated_arrays_are_accepted_or_refused_with_their_file() {
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (12, 16), }";
+    let heights: Vec<u8> = (0..192_i32)
+        .flat_map(|index| f64::from(index).to_le_bytes())
+        .collect();
+    let files = [(PathBuf::from("map.npy"), npy(header, &heights))];
+    let accepted = fuzz(InputKind::HeightMap, &files, 4_000);
+    // Whatever changes more than a bit changes the length, too.
+    assert!(
+        (50..500).contains(&accepted),
+        "{accepted} of 4 000 were accepted"
+    );
 }
 
 /// Depth that a reader without limits would follow until its stack ends.

@@ -8,6 +8,8 @@ mod explained_omissions;
 mod fit_material;
 mod fuzzed_inputs;
 mod half_space_scenes;
+mod height_maps_of_numpy;
+mod line_contacts;
 mod malformed_numbers;
 mod malformed_scenes;
 mod malformed_tables;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{argument, complaint, folder};
+use crate::support::{argument, complaint, folder, npy};
 
 const SCENE: &str = "[indenter.table]\nfile = \"profile.csv\"\n[material.viscous]\nviscosity = 1e4\n\
                      [load]\nnormal_force = 1\nvelocity = 1\n";
@@ -153,6 +153,70 @@ const MAPS: [(&[u8], usize, &str); 11] = [
     ),
 ];
 
+/// Headers and lengths of the numbers of NPY files, and what is said.
+const ARRAYS: [(&str, usize, &str); 12] = [
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }",
+        47,
+        "2 x 3 numbers of 8 bytes are needed, but there are 47 bytes",
+    ),
+    (
+        "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }",
+        25,
+        "2 x 3 numbers of 4 bytes are needed, but there are 25 bytes",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967296), }",
+        0,
+        "4294967296 x 4294967296 numbers of 8 bytes are needed, but there are 0 bytes",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (6,), }",
+        48,
+        "an array of 2 dimensions is needed, and not of 1",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (), }",
+        8,
+        "an array of 2 dimensions is needed, and not of 0",
+    ),
+    (
+        "{'descr': '>f8', 'fortran_order': False, 'shape': (2, 3), }",
+        48,
+        "little-endian floats are needed, '<f8' or '<f4', and not '>f8'",
+    ),
+    (
+        "{'descr': '<i8', 'fortran_order': False, 'shape': (2, 3), }",
+        48,
+        "little-endian floats are needed, '<f8' or '<f4', and not '<i8'",
+    ),
+    (
+        "{'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (2, 3), }",
+        48,
+        "little-endian floats are needed, '<f8' or '<f4', and not [('x'",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, }",
+        48,
+        "the header does not say its shape",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, -3), }",
+        48,
+        "the header does not say its shape",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': None, 'shape': (2, 3), }",
+        48,
+        "the header does not say the order of its numbers",
+    ),
+    (
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 6), }",
+        48,
+        "rows of heights must have at least 2 entries, but has 1",
+    ),
+];
+
 const HEADER: &str = "sweep,point,points,load.velocity,failure\n";
 
 /// Rows of a sweep, the line that is named, and what is said.
@@ -209,6 +273,50 @@ fn every_malformed_height_map_names_scene_and_line_and_the_line_of_the_map() {
         &place,
         "on the edge of the map",
     ));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn every_malformed_array_of_heights_names_scene_and_line_and_the_array() {
+    let folder = folder("malformed-arrays");
+    let [scene, map] = ["scene.toml", "map.NPY"].map(|name| folder.join(name));
+    fs::write(&scene, MAP_SCENE.replace("map.csv", "map.NPY")).expect("a scene");
+    let place = format!(
+        "{}:2: indenter.height-map.file: {}",
+        scene.display(),
+        map.display()
+    );
+    let whole = npy(
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }",
+        &[],
+    );
+    let mut nan = whole.clone();
+    nan.extend(
+        [1.0, 1.0, 0.0, 1.0, 1.0, f64::NAN]
+            .map(f64::to_le_bytes)
+            .concat(),
+    );
+    let mut files: Vec<(Vec<u8>, &str)> = vec![
+        (Vec::new(), "an array of NumPy in the format 1.0"),
+        (
+            b"1,0\n0,1\n".to_vec(),
+            "an array of NumPy in the format 1.0",
+        ),
+        (whole[..9].to_vec(), "an array of NumPy in the format 1.0"),
+        (
+            whole[..60].to_vec(),
+            "the header ends after 128 bytes, but the file has 60",
+        ),
+        (nan, "[2, 1]: a finite height in m is needed, and not NaN"),
+    ];
+    files.extend(ARRAYS.map(|(header, length, needed)| (npy(header, &vec![0; length]), needed)));
+    let mut wrong = Vec::new();
+    for (array, needed) in files {
+        fs::write(&map, &array).expect("a map");
+        let complaint = complaint(&["run", argument(&scene)], &place, needed);
+        let array = String::from_utf8_lossy(&array);
+        wrong.extend(complaint.map(|complaint| format!("{array}--- {complaint}")));
+    }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 

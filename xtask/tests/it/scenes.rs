@@ -24,7 +24,7 @@ fn every_committed_scene_is_answered() {
         {
             let result = run_json(&[argument(&path)]);
             assert!(number(&result, "normal_force") > 0.0, "{path:?}: {result}");
-            let answered = ["friction_coefficient", "indentation_depth"];
+            let answered = ["friction_coefficient", "indentation_depth", "contact_area"];
             assert!(
                 answered.iter().any(|field| result[*field].is_number()),
                 "{path:?}: {result}"

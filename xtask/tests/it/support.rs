@@ -60,3 +60,13 @@ pub(crate) fn run_json(arguments: &[&str]) -> serde_json::Value {
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
+
+/// A file of NumPy in the format 1.0, of a header and numbers.
+pub(crate) fn npy(header: &str, numbers: &[u8]) -> Vec<u8> {
+    // Up to a line feed in front of a multiple of 64 bytes.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    let counted = u16::try_from(length).expect("a short header");
+    let line = format!("{header:<padded$}\n", padded = length - 1);
+    let start = b"\x93NUMPY\x01\x00";
+    [start, &counted.to_le_bytes()[..], line.as_bytes(), numbers].concat()
+}

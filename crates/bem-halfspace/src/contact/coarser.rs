@@ -15,7 +15,12 @@ pub(super) fn start_from_coarser(
     let grid = convolution.grid();
     let [rows, columns] = grid.shape();
     let halves = rows.is_multiple_of(2) && columns.is_multiple_of(2);
-    if rows.min(columns) < SMALLEST_EDGE
+    if grid
+        .unfolded(convolution.mirrors())
+        .shape()
+        .into_iter()
+        .min()
+        < Some(SMALLEST_EDGE)
         || (convolution.surroundings() == Surroundings::Periodic && !halves)
     {
         return;

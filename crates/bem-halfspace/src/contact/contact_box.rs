@@ -18,14 +18,24 @@ impl ContactBox {
     /// A box of elements with the given edges.
     pub(crate) fn new(bounds: Bounds, spacing: [f64; 2]) -> Result<Self, BemError> {
         let convolution = Convolution::new(&Grid::new(bounds.shape(), spacing)?);
+        Ok(Self::with(convolution, bounds))
+    }
+
+    /// A box of elements of the grid of a convolution, at the same mirrors.
+    pub(super) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
+        let grid = Grid::new(bounds.shape(), convolution.grid().spacing())?;
+        Ok(Self::with(convolution.on_grid(&grid), bounds))
+    }
+
+    fn with(convolution: Convolution, bounds: Bounds) -> Self {
         let state = ContactState::new(&convolution);
         let separation = vec![0.0; convolution.grid().n_elements()];
-        Ok(Self {
+        Self {
             bounds,
             convolution,
             state,
             separation,
-        })
+        }
     }
 
     /// A box that is solved as a whole, also where the contact is much smaller.

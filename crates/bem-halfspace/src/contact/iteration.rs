@@ -12,7 +12,7 @@ use crate::contact::contact_set::ContactSet;
 use crate::contact::preconditioner::Preconditioner;
 use crate::contact::violations::{Surface, Violations};
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
-use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
+use crate::{BemError, Convolution, ConvolutionWorkspace};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
 const PATIENCE: usize = 10;
@@ -33,10 +33,11 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    fn new(grid: &Grid) -> Self {
+    fn new(convolution: &Convolution) -> Self {
+        let grid = convolution.grid();
         let n = grid.n_elements();
         Self {
-            preconditioner: Preconditioner::new(grid),
+            preconditioner: Preconditioner::new(convolution),
             contact: ContactSet::new(grid.shape()),
             residual: vec![0.0; n],
             direction: vec![0.0; n],
@@ -77,10 +78,12 @@ impl<'a> Iteration<'a> {
             tolerance: 0.0,
             load: &mut state.load,
             displacement: &mut state.displacement,
-            workspace: &mut state.workspace,
+            workspace: state
+                .workspace
+                .get_or_insert_with(|| convolution.workspace()),
             fields: state
                 .fields
-                .get_or_insert_with(|| Box::new(Fields::new(convolution.grid()))),
+                .get_or_insert_with(|| Box::new(Fields::new(convolution))),
             indentation_depth: 0.0,
             previous_product: 0.0,
             fresh: false,
@@ -332,6 +335,10 @@ impl<'a> Iteration<'a> {
             direction,
             image: preconditioned,
         } = &mut *self.fields;
+        if !self.improved {
+            // The first direction on a contact is not conjugate to any before.
+            preconditioner.prepare(contact, [direction, preconditioned]);
+        }
         preconditioner.apply(contact, residual, preconditioned);
         let (residual, preconditioned) = (&*residual, &*preconditioned);
         let mean = match self.control {

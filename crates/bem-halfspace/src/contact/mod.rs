@@ -9,9 +9,12 @@
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
 mod accuracy;
+mod blocks;
 mod coarser;
 mod contact_box;
 mod contact_set;
+mod far_loads;
+mod folded;
 mod iteration;
 mod preconditioner;
 mod solve;
@@ -24,6 +27,7 @@ use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
+use folded::solve_in_front_of_mirrors;
 pub(crate) use solve::{Outcome, Question, solve_normalised};
 pub use state::ContactState;
 
@@ -92,7 +96,8 @@ const MAX_TOLERANCE: f64 = 1e-2;
 /// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
 ///
 /// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact where that
-/// is much smaller than the grid. How it iterates is in `docs/theory/contact.md`.
+/// is much smaller than the grid, and on one half or one quarter of a grid with an even number of elements where
+/// separation and first guess are their own mirror images about its middle, to the last bit. How it iterates is in `docs/theory/contact.md`.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and
@@ -116,7 +121,7 @@ pub fn solve_contact(
     };
     state.scale_load(grid, load_per_pressure);
     let question = (problem.convolution, problem.separation, control);
-    let outcome = solve_normalised(question, state, &options.into());
+    let outcome = solve_in_front_of_mirrors(question, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);
     state.list_contact();
     let outcome = outcome?;

@@ -10,9 +10,10 @@
 //! and on blocks of two by two elements, where a convolution costs a quarter and needs no padding, what is missing to
 //! `|q|` for the long waves. Restricted to the contact it remains positive definite, as conjugate gradients need it.
 
-use crate::bands::fold_parts;
+use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
-use crate::{Convolution, ConvolutionWorkspace, Grid};
+use crate::contact::far_loads::FarLoads;
+use crate::{Convolution, ConvolutionWorkspace};
 
 /// The weight w; π/4 would be right for the shortest wave along an edge, but what counts is the whole spectrum.
 const WEIGHT: f64 = 0.7;
@@ -22,17 +23,21 @@ pub(super) struct Preconditioner {
     /// Differences along x and along y, \[1/m].
     weights: [f64; 2],
     shape: [usize; 2],
+    /// Whether the grid has a mirror at its rear along x and y.
+    mirrors: [bool; 2],
     blocks: Convolution,
     workspace: ConvolutionWorkspace,
     /// Means of the residual over the blocks, and what the convolution makes of them.
     means: Vec<f64>,
     images: Vec<f64>,
+    far_loads: FarLoads,
 }
 
 impl Preconditioner {
-    pub(super) fn new(grid: &Grid) -> Self {
+    pub(super) fn new(convolution: &Convolution) -> Self {
+        let grid = convolution.grid();
         let weights = grid.spacing().map(|edge| WEIGHT / edge);
-        let blocks = Convolution::on_blocks(grid, |q| {
+        let blocks = convolution.on_blocks(|q| {
             let difference =
                 |axis: usize| weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
             q[0].hypot(q[1]) - difference(0) - difference(1)
@@ -41,16 +46,37 @@ impl Preconditioner {
         Self {
             weights,
             shape: grid.shape(),
+            mirrors: convolution.mirrors(),
             workspace: blocks.workspace(),
             blocks,
             means: vec![0.0; n_blocks],
             images: vec![0.0; n_blocks],
+            far_loads: FarLoads::new(grid),
         }
+    }
+
+    /// Prepares for another contact; overwrites the fields, of which the first must vanish outside the contact.
+    pub(super) fn prepare(&mut self, contact: &ContactSet, [one, answer]: [&mut [f64]; 2]) {
+        let bands = contact.bands();
+        bands.for_each([&mut *one], |band, [one]| {
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                one[run.start - first..run.end - first].fill(1.0);
+            }
+        });
+        self.invert(contact, one, answer);
+        self.far_loads.weigh(contact, answer);
     }
 
     /// Applies the inverse to a residual that vanishes outside the contact; the result is set in the contact only.
     pub(super) fn apply(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
-        self.find_means(contact, residual);
+        self.invert(contact, residual, result);
+        self.far_loads.take_from(contact, residual, result);
+    }
+
+    fn invert(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
+        let mean = |element: usize| 0.25 * residual[element];
+        sum_blocks(contact, self.shape[1], mean, &mut self.means);
         let [block_rows, block_columns] = self.blocks.grid().shape();
         self.blocks.apply(
             &mut self.workspace,
@@ -72,32 +98,25 @@ impl Preconditioner {
         });
     }
 
-    fn find_means(&mut self, contact: &ContactSet, residual: &[f64]) {
-        let (bands, columns) = (contact.bands(), self.shape[1]);
-        let block_columns = self.blocks.grid().shape()[1];
-        let blocks_per_band = bands.rows_per_band() / 2 * block_columns;
-        let in_band = |band, [means]: [&mut [f64]; 1]| {
-            means.fill(0.0);
-            for run in contact.runs(band) {
-                let (row, column) = (run.start / columns, run.start % columns);
-                let means = &mut means[(row - bands.rows(band).start) / 2 * block_columns..];
-                for (column, value) in (column..).zip(&residual[run.clone()]) {
-                    means[column / 2] += 0.25 * value;
-                }
-            }
-        };
-        let means = [(&mut self.means[..], blocks_per_band)];
-        fold_parts(0..bands.n_bands(), means, &in_band, &|(), ()| ());
-    }
-
     fn differences(&self, residual: &[f64], element: usize, [row, column]: [usize; 2]) -> f64 {
         let [rows, columns] = self.shape;
-        let neighbour = |exists: bool, index: usize| if exists { residual[index] } else { 0.0 };
-        let above = neighbour(row > 0, element.wrapping_sub(columns));
-        let below = neighbour(row + 1 < rows, element + columns);
-        let left = neighbour(column > 0, element.wrapping_sub(1));
-        let right = neighbour(column + 1 < columns, element + 1);
-        let twice = 2.0 * residual[element];
+        let here = residual[element];
+        // Behind a mirror stands the element itself.
+        let before = |axis: usize, position: usize, step: usize| match position {
+            0 if self.mirrors[axis] => here,
+            0 => 0.0,
+            _ => residual[element - step],
+        };
+        let behind = |exists: bool, step: usize| {
+            if exists {
+                residual[element + step]
+            } else {
+                0.0
+            }
+        };
+        let [above, below] = [before(0, row, columns), behind(row + 1 < rows, columns)];
+        let [left, right] = [before(1, column, 1), behind(column + 1 < columns, 1)];
+        let twice = 2.0 * here;
         self.weights[0] * (twice - above - below) + self.weights[1] * (twice - left - right)
     }
 }

@@ -55,13 +55,14 @@ fn solve_around(
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
         in_parts && part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
     };
-    let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape()));
+    let with_margin =
+        bounds.map(|bounds| bounds.with_margin_from(grid.shape(), convolution.mirrors()));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(pays)) else {
         return Iteration::new(question, state).run(accuracy);
     };
     let mut inner = match state.inner.take() {
         Some(inner) if suits(&inner, &bounds, &outer) => inner,
-        _ => Box::new(ContactBox::new(outer, grid.spacing())?),
+        _ => Box::new(ContactBox::of(convolution, outer)?),
     };
     inner.take_from((question.1, &state.load), grid.shape()[1]);
     let outcome = inner.solve_to(question.2, accuracy);
@@ -85,8 +86,11 @@ fn check_around(
 ) -> Result<Outcome, BemError> {
     let (convolution, separation, _) = question;
     let [rows, columns] = convolution.grid().shape();
+    let workspace = state
+        .workspace
+        .get_or_insert_with(|| convolution.workspace());
     convolution.apply(
-        &mut state.workspace,
+        workspace,
         (&state.load, solved.rows()),
         (&mut state.displacement, 0..rows),
     );

@@ -2,6 +2,7 @@
 
 use crate::bands::Bands;
 use crate::contact::contact_box::ContactBox;
+use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
@@ -12,13 +13,16 @@ pub struct ContactState {
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     pub(super) contact: Vec<usize>,
-    pub(super) workspace: ConvolutionWorkspace,
-    /// Buffers of the iteration, made when it first runs on the whole grid.
+    /// Whether the iteration may run on a box around the contact.
+    pub(super) in_parts: bool,
+    /// Made when it is first needed, like everything below.
+    pub(super) workspace: Option<ConvolutionWorkspace>,
+    /// Buffers of the iteration on the whole grid.
     pub(super) fields: Option<Box<Fields>>,
     /// The part of the grid on which the iteration last ran instead.
     pub(super) inner: Option<Box<ContactBox>>,
-    /// Whether the iteration may run on a part of the grid at all.
-    pub(super) in_parts: bool,
+    /// The part of the grid in front of the mirrors that the last problem had.
+    pub(super) folded: Option<Box<Folded>>,
 }
 
 impl ContactState {
@@ -30,10 +34,11 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
-            workspace: convolution.workspace(),
+            in_parts: true,
+            workspace: None,
             fields: None,
             inner: None,
-            in_parts: true,
+            folded: None,
         }
     }
 

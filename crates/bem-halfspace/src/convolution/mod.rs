@@ -9,8 +9,7 @@
 mod spectrum;
 
 use std::ops::Range;
-
-use rustfft::num_complex::Complex;
+use std::sync::Arc;
 
 use crate::Grid;
 use crate::fast_length::fast_length;
@@ -28,11 +27,15 @@ pub(crate) enum Surroundings {
 /// What the convolution on one grid needs and no pressure changes; may be shared between threads.
 #[derive(Debug, Clone)]
 pub struct Convolution {
+    /// Of the elements, or of those in front of the mirrors.
     grid: Grid,
+    /// Whether pressure and result are their own mirror images along x and y; the mirror lies at the rear of the grid.
+    mirrors: [bool; 2],
     surroundings: Surroundings,
     transform: PlaneTransform,
-    /// Real spectrum, [column][0..=padded_x / 2], with the normalisation of the transforms folded in.
-    spectrum: Vec<f64>,
+    /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
+    /// in.
+    spectrum: Arc<[f64]>,
     /// Displacement of an element under its own unit load, [m].
     self_influence: f64,
 }
@@ -49,7 +52,7 @@ impl Convolution {
     pub fn new(grid: &Grid) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
         let mut convolution = Self::planned(grid, Surroundings::Free, padded);
-        convolution.spectrum = convolution.free_spectrum();
+        convolution.spectrum = convolution.free_spectrum().into();
         convolution.self_influence = crate::influence([0.0, 0.0], grid.spacing());
         convolution
     }
@@ -62,35 +65,53 @@ impl Convolution {
     #[must_use]
     pub fn periodic(grid: &Grid) -> Self {
         let mut convolution = Self::planned(grid, Surroundings::Periodic, grid.shape());
-        convolution.spectrum = convolution.periodic_spectrum();
+        convolution.spectrum = convolution.periodic_spectrum().into();
         convolution.self_influence = convolution.sum_of_spectrum();
         convolution
     }
 
-    /// A convolution on the blocks of two by two elements of a grid that multiplies a wave by the `symbol` of its wave
-    /// vector \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
-    pub(crate) fn on_blocks(grid: &Grid, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
-        let blocks = grid.blocks();
+    /// A convolution on the blocks of two by two elements that multiplies a wave by the `symbol` of its wave vector
+    /// \[rad/m], and the mean and all waves with a symbol below zero like the longest wave or not at all.
+    pub(crate) fn on_blocks(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Self {
+        let blocks = self.grid.blocks().unfolded(self.mirrors);
         let padded = blocks.shape().map(fast_length);
         let mut convolution = Self::planned(&blocks, Surroundings::Periodic, padded);
-        convolution.spectrum = convolution.positive_spectrum(symbol);
-        convolution
+        convolution.spectrum = convolution.positive_spectrum(symbol).into();
+        convolution.folded(self.mirrors)
     }
 
-    /// The same influence between elements of another grid.
+    /// The same influence between elements of another grid, which ends at the same mirrors.
     pub(crate) fn on_grid(&self, grid: &Grid) -> Self {
-        match self.surroundings {
-            Surroundings::Free => Self::new(grid),
-            Surroundings::Periodic => Self::periodic(grid),
+        let whole = grid.unfolded(self.mirrors);
+        let convolution = match self.surroundings {
+            Surroundings::Free => Self::new(&whole),
+            Surroundings::Periodic => Self::periodic(&whole),
+        };
+        convolution.folded(self.mirrors)
+    }
+
+    /// The same influence between pressures that are their own mirror images along the axes of `mirrors`, where the
+    /// number of elements is even; the fields are those of the part of the grid in front of the mirrors.
+    pub(crate) fn folded(&self, mirrors: [bool; 2]) -> Self {
+        if mirrors == self.mirrors {
+            return self.clone();
+        }
+        Self {
+            grid: self.grid.folded(mirrors),
+            mirrors,
+            transform: PlaneTransform::folded(self.transform.padded(), mirrors),
+            spectrum: Arc::clone(&self.spectrum),
+            ..*self
         }
     }
 
     fn planned(grid: &Grid, surroundings: Surroundings, padded: [usize; 2]) -> Self {
         Self {
             grid: *grid,
+            mirrors: [false; 2],
             surroundings,
             transform: PlaneTransform::new(padded),
-            spectrum: Vec::new(),
+            spectrum: Arc::new([]),
             self_influence: 0.0,
         }
     }
@@ -99,6 +120,10 @@ impl Convolution {
     #[must_use]
     pub const fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    pub(crate) const fn mirrors(&self) -> [bool; 2] {
+        self.mirrors
     }
 
     pub(crate) const fn surroundings(&self) -> Surroundings {
@@ -135,20 +160,75 @@ impl Convolution {
         let (transform, workspace) = (&self.transform, &mut workspace.0);
         transform.load(workspace, pressure, &loaded);
         transform.pass(workspace, (&loaded, &wanted), |column, values| {
-            self.multiply_column(values, column);
+            transform.multiply_even(&self.spectrum, column, values);
         });
         transform.read(workspace, result, &wanted);
     }
+}
 
-    fn multiply_column(&self, values: &mut [Complex<f64>], column: usize) {
-        let half = self.transform.padded()[0] / 2;
-        let spectrum = &self.spectrum[column * (half + 1)..][..=half];
-        let (lower, upper) = values.split_at_mut(half + 1);
-        for (value, factor) in lower.iter_mut().zip(spectrum) {
-            *value *= factor;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BemError;
+
+    /// A field that is its own mirror image along the axes of `mirrors`, and otherwise without symmetry.
+    fn mirrored([rows, columns]: [usize; 2], mirrors: [bool; 2]) -> Vec<f64> {
+        let fold = |index: usize, length: usize, mirror: bool| match mirror {
+            true if index < length / 2 => length - 1 - index,
+            _ => index,
+        };
+        let value = |index: usize| {
+            let row = fold(index / columns, rows, mirrors[0]);
+            let column = fold(index % columns, columns, mirrors[1]);
+            (1.7 * row as f64).cos() + (0.3 * (row * column) as f64).sin() + 0.1 * column as f64
+        };
+        (0..rows * columns).map(value).collect()
+    }
+
+    /// The last rows and columns.
+    fn part(field: &[f64], columns: usize, [part_rows, part_columns]: [usize; 2]) -> Vec<f64> {
+        let rows = field.chunks_exact(columns);
+        let first = rows.len() - part_rows;
+        rows.skip(first)
+            .flat_map(|row| &row[columns - part_columns..])
+            .copied()
+            .collect()
+    }
+
+    fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
+        let rows = convolution.grid().shape()[0];
+        let mut result = vec![0.0; pressure.len()];
+        convolution.apply(
+            &mut convolution.workspace(),
+            (pressure, 0..rows),
+            (&mut result, 0..rows),
+        );
+        result
+    }
+
+    #[test]
+    fn half_and_quarter_of_a_mirrored_field_convolve_like_all_of_it() -> Result<(), BemError> {
+        for shape in [[2, 6], [6, 10], [12, 14], [30, 18]] {
+            let grid = Grid::new(shape, [1.0, 0.6])?;
+            for whole in [Convolution::new(&grid), Convolution::periodic(&grid)] {
+                for mirrors in [[true, false], [false, true], [true, true]] {
+                    let folded = whole.folded(mirrors);
+                    let pressure = mirrored(shape, mirrors);
+                    let cut = |field: &[f64]| part(field, shape[1], folded.grid().shape());
+                    let expected = displacement(&whole, &pressure);
+                    let actual = displacement(&folded, &cut(&pressure));
+                    let largest = expected.iter().copied().fold(0.0, f64::max);
+                    for (actual, expected) in actual.iter().zip(cut(&expected)) {
+                        let error = (actual - expected).abs() / largest;
+                        // Rounding of transforms of a few hundred values.
+                        assert!(
+                            error < 1e-14,
+                            "{shape:?}, mirrors {mirrors:?}: {actual} instead of {expected}"
+                        );
+                    }
+                }
+            }
         }
-        for (value, factor) in upper.iter_mut().rev().zip(&spectrum[1..]) {
-            *value *= factor;
-        }
+        Ok(())
     }
 }

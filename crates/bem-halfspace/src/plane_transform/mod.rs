@@ -3,17 +3,23 @@
 //! Rows are transformed only where they carry something and back only where the result is wanted, and each column
 //! passes through forward transform, product and inverse transform while it is in the cache, so that the padded field
 //! never exists as a whole.
+//!
+//! Of a field that is its own mirror image, only the half beside the mirror is stored and transformed; see
+//! [`mirrored`].
 
+mod columns;
+mod even_product;
+mod mirrored;
+mod rows;
 mod workspace;
 
 use std::fmt;
 use std::ops::Range;
-use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
+use columns::ColumnTransform;
+use rows::RowTransform;
 pub(crate) use workspace::Workspace;
 use workspace::{Lane, for_each_lane};
 
@@ -25,10 +31,8 @@ pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 #[derive(Clone)]
 pub(crate) struct PlaneTransform {
     padded: [usize; 2],
-    row_forward: Arc<dyn RealToComplex<f64>>,
-    row_inverse: Arc<dyn ComplexToReal<f64>>,
-    column_forward: Arc<dyn Fft<f64>>,
-    column_inverse: Arc<dyn Fft<f64>>,
+    rows: RowTransform,
+    columns: ColumnTransform,
 }
 
 impl fmt::Debug for PlaneTransform {
@@ -41,16 +45,18 @@ impl fmt::Debug for PlaneTransform {
 }
 
 impl PlaneTransform {
-    /// Plans the transforms.
+    /// Plans the transforms of whole fields.
     pub(crate) fn new(padded: [usize; 2]) -> Self {
-        let mut real = RealFftPlanner::new();
-        let mut complex = FftPlanner::new();
+        Self::folded(padded, [false; 2])
+    }
+
+    /// Plans the transforms of the parts of fields that are their own mirror images along the axes of `mirrors`; the
+    /// period is even there, and the first element of the part lies beside the mirror.
+    pub(crate) fn folded(padded: [usize; 2], mirrors: [bool; 2]) -> Self {
         Self {
             padded,
-            row_forward: real.plan_fft_forward(padded[1]),
-            row_inverse: real.plan_fft_inverse(padded[1]),
-            column_forward: complex.plan_fft_forward(padded[0]),
-            column_inverse: complex.plan_fft_inverse(padded[0]),
+            columns: ColumnTransform::new(padded[0], mirrors[0]),
+            rows: RowTransform::new(padded[1], mirrors[1]),
         }
     }
 
@@ -63,46 +69,36 @@ impl PlaneTransform {
         1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
     }
 
-    /// Number of columns of a transformed field; the other half of the period follows from them.
-    pub(crate) const fn n_columns(&self) -> usize {
-        self.padded[1] / 2 + 1
+    /// Number of columns of a transformed field; the rest of the period follows from them.
+    pub(crate) fn n_columns(&self) -> usize {
+        self.rows.n_coefficients()
     }
 
-    const fn n_tiles(&self) -> usize {
+    fn n_tiles(&self) -> usize {
         self.n_columns().div_ceil(TILE)
     }
 
     /// Columns one beside the other at a distance of a power of two would compete for the same lines of the cache.
-    const fn column_stride(&self) -> usize {
-        self.padded[0] + TILE
+    fn column_stride(&self) -> usize {
+        self.columns.len() + TILE
     }
 
     /// Transforms a real row of the whole period; its values are overwritten.
     pub(crate) fn transform_row(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
-        let mut scratch = self.row_forward.make_scratch_vec();
-        self.row_forward_with(&mut scratch, row, transformed);
-    }
-
-    fn row_forward_with(
-        &self,
-        scratch: &mut [Complex<f64>],
-        row: &mut [f64],
-        transformed: &mut [Complex<f64>],
-    ) {
-        let done = self
-            .row_forward
-            .process_with_scratch(row, transformed, scratch);
-        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+        let mut scratch = vec![ZERO; self.rows.scratch_len()];
+        self.rows.forward_whole(&mut scratch, row, transformed);
     }
 
     /// Transforms columns of the whole period, without normalisation.
     pub(crate) fn column_forward(&self, columns: &mut [Complex<f64>]) {
-        self.column_forward.process(columns);
+        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+        self.columns.forward(&mut scratch, columns);
     }
 
     /// The way back of [`column_forward`](Self::column_forward).
     pub(crate) fn column_back(&self, columns: &mut [Complex<f64>]) {
-        self.column_inverse.process(columns);
+        let mut scratch = vec![ZERO; self.columns.scratch_len()];
+        self.columns.inverse(&mut scratch, columns);
     }
 
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
@@ -113,9 +109,8 @@ impl PlaneTransform {
         for_each_lane(lanes, (rows, n_columns), |first, lane, rows| {
             for (row, transformed) in (loaded.start + first..).zip(rows.chunks_exact_mut(n_columns))
             {
-                lane.row[..width].copy_from_slice(&field[row * width..(row + 1) * width]);
-                lane.row[width..].fill(0.0);
-                self.row_forward_with(&mut lane.scratch, &mut lane.row, transformed);
+                let values = &field[row * width..(row + 1) * width];
+                self.rows.forward(lane, values, transformed);
             }
         });
     }
@@ -138,7 +133,8 @@ impl PlaneTransform {
                 self.multiply_columns(lane, &columns, &multiply);
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
                     for (column, value) in piece[..columns.len()].iter_mut().enumerate() {
-                        *value = lane.columns[column * self.column_stride() + row];
+                        let place = self.columns.place(row);
+                        *value = lane.columns[column * self.column_stride() + place];
                     }
                 }
             }
@@ -153,13 +149,13 @@ impl PlaneTransform {
     ) {
         let stride = self.column_stride();
         for column in lane.columns.chunks_exact_mut(stride) {
-            column[..loaded.start].fill(ZERO);
-            column[loaded.end..].fill(ZERO);
+            self.columns.clear_beside(loaded, column);
         }
         for row in loaded.clone() {
             let values = &rows[row * self.n_columns()..][columns.clone()];
+            let place = self.columns.place(row);
             for (column, value) in values.iter().enumerate() {
-                lane.columns[column * stride + row] = *value;
+                lane.columns[column * stride + place] = *value;
             }
         }
     }
@@ -172,11 +168,10 @@ impl PlaneTransform {
     ) {
         let stored = lane.columns.chunks_exact_mut(self.column_stride());
         for (column, values) in columns.clone().zip(stored) {
-            let values = &mut values[..self.padded[0]];
-            let scratch = &mut lane.scratch;
-            self.column_forward.process_with_scratch(values, scratch);
+            let values = &mut values[..self.columns.len()];
+            self.columns.forward(&mut lane.scratch, values);
             multiply(column, values);
-            self.column_inverse.process_with_scratch(values, scratch);
+            self.columns.inverse(&mut lane.scratch, values);
         }
     }
 
@@ -193,29 +188,16 @@ impl PlaneTransform {
         for_each_lane(lanes, (result, width), |first, lane, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
                 let mut pieces = tiles[row..].iter().step_by(n_rows);
-                let (whole, rest) = lane.half_row.as_chunks_mut::<TILE>();
+                let coefficients = &mut lane.half_row[..self.n_columns()];
+                let (whole, rest) = coefficients.as_chunks_mut::<TILE>();
                 for (values, piece) in whole.iter_mut().zip(&mut pieces) {
                     *values = *piece;
                 }
                 for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
                     *value = *found;
                 }
-                self.transform_half_row(lane);
-                values.copy_from_slice(&lane.row[..width]);
+                self.rows.inverse(lane, values);
             }
         });
-    }
-
-    fn transform_half_row(&self, lane: &mut Lane) {
-        // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
-        lane.half_row[0].im = 0.0;
-        if self.padded[1].is_multiple_of(2) {
-            lane.half_row[self.n_columns() - 1].im = 0.0;
-        }
-        let scratch = &mut lane.scratch;
-        let done =
-            self.row_inverse
-                .process_with_scratch(&mut lane.half_row, &mut lane.row, scratch);
-        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
     }
 }

@@ -56,17 +56,12 @@ impl Workspace {
 
 impl Lane {
     fn new(transform: &PlaneTransform) -> Self {
-        let scratch = [
-            transform.row_forward.get_scratch_len(),
-            transform.row_inverse.get_scratch_len(),
-            transform.column_forward.get_inplace_scratch_len(),
-            transform.column_inverse.get_inplace_scratch_len(),
-        ];
+        let scratch = transform.rows.scratch_len();
         Self {
-            row: transform.row_forward.make_input_vec(),
-            half_row: transform.row_forward.make_output_vec(),
+            row: vec![0.0; transform.rows.len()],
+            half_row: vec![ZERO; transform.rows.len() / 2 + 1],
             columns: vec![ZERO; TILE * transform.column_stride()],
-            scratch: vec![ZERO; scratch.into_iter().fold(0, usize::max)],
+            scratch: vec![ZERO; scratch.max(transform.columns.scratch_len())],
         }
     }
 }

@@ -8,7 +8,15 @@
 //! ```
 //!
 //! which is F_N/(4ηv) for the dashpot, whatever the body, and has one solution for every body that rises, because
-//! J(t)/t never increases.
+//! J(t)/t never increases. A profile that is infinite along y presses with a force F' per length, and
+//!
+//! ```text
+//! D = h(a) = 2 (1 − ν) F' J(a/v)/(2π)
+//! ```
+//!
+//! where a is half the contact of a cylinder on an elastic half space.
+
+use std::f64::consts::TAU;
 
 use indenters::{Axisymmetric, SlidingLoad};
 use rheology::Material;
@@ -47,6 +55,30 @@ pub(super) fn depth_scale(
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(0.25 * normal_force * (creep.compliance(length)? / length))
     };
+    let length = length_of_contact(height, depth, largest)?;
+    positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)
+}
+
+/// D, and the length a, of a profile that is `height(a)` high at the distance a from its lowest point.
+pub(super) fn depth_scale_of_profile(
+    creep: &SlidingCreep,
+    force_per_length: f64,
+    height: impl Fn(f64) -> f64,
+) -> Result<[f64; 2], BemError> {
+    let depth = |length: f64| -> Result<f64, BemError> {
+        Ok(force_per_length / TAU * creep.compliance(length)?)
+    };
+    let length = length_of_contact(height, depth, f64::INFINITY)?;
+    let depth = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(length)?)?;
+    Ok([depth, length])
+}
+
+/// The length at which a body is as high as the load is deep.
+fn length_of_contact(
+    height: impl Fn(f64) -> f64,
+    depth: impl Fn(f64) -> Result<f64, BemError>,
+    largest: f64,
+) -> Result<f64, BemError> {
     let too_long = |length: f64| -> Result<bool, BemError> { Ok(height(length) >= depth(length)?) };
     let mut upper = if largest.is_finite() { largest } else { 1.0 };
     for _ in 0..DOUBLINGS {
@@ -70,5 +102,5 @@ pub(super) fn depth_scale(
             lower = middle;
         }
     }
-    positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(upper)?)
+    Ok(upper)
 }

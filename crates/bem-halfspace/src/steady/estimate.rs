@@ -23,8 +23,9 @@ const COARSEST: f64 = 5.0;
 const RESOLVED: f64 = 0.3;
 /// Refinements at most; the limit of unknowns ends most ladders before.
 const MAX_REFINEMENTS: i32 = 24;
-/// Shifts of the grid along x and y that keep the mirror symmetry in y.
+/// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
 const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+const PHASES_OF_STRIP: usize = 2;
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
 /// Refinements of which an error bar can come, at least.
@@ -40,6 +41,8 @@ const OTHER_GRIDS: [f64; 2] = [0.99, 0.98];
 /// Gaps left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
 const GAP_SHARE: f64 = 1e-4;
 const SMALLEST_GAP: f64 = 1e-12;
+/// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
+const GAP_SHARE_OF_STRIP: f64 = 1e-2;
 /// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
 const FIRST_PART: f64 = 1e-3;
 /// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
@@ -243,7 +246,7 @@ pub fn steady_friction_at_depth(
     climb(surface, loading, ladder, options)
 }
 
-fn climb(
+pub(super) fn climb(
     surface: &impl Surface,
     loading: Loading,
     ladder: &Ladder,
@@ -368,8 +371,22 @@ impl<S: Surface> Question<'_, S> {
     /// Elements of the footprint.
     fn n_elements(&self, refinement: i32) -> f64 {
         let Footprint { x, y } = self.ladder.footprint;
+        let [dx, dy] = self.edges(refinement);
+        (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
+    }
+
+    /// Edges of an element.
+    fn edges(&self, refinement: i32) -> [f64; 2] {
         let dx = self.ladder.spacing(refinement);
-        (x[1] - x[0]) / dx * ((y[1] - y[0]) / (self.options.aspect * dx))
+        let strip = self.loading.strip();
+        [dx, strip.unwrap_or(self.options.aspect * dx)]
+    }
+
+    fn phases(&self) -> &'static [[f64; 2]] {
+        match self.loading.strip() {
+            Some(_) => &PHASES[..PHASES_OF_STRIP],
+            None => &PHASES,
+        }
     }
 
     fn most_elements(&self) -> f64 {
@@ -378,21 +395,21 @@ impl<S: Surface> Question<'_, S> {
 
     /// The average over the shifts, each started from the contact of the one before.
     fn refine(&self, index: i32, reuse: &mut Reuse) -> Result<Refinement, BemError> {
-        let spacing = self.ladder.spacing(index);
-        let mut friction = [0.0; PHASES.len()];
-        let mut force = [0.0; PHASES.len()];
+        let edges = self.edges(index);
+        let [spacing, _] = edges;
+        let (mut friction, mut force) = (Vec::new(), Vec::new());
         let mut unknowns = 0;
-        for (shift, phase) in PHASES.into_iter().enumerate() {
+        for &phase in self.phases() {
             let options = SteadyOptions {
-                spacing: [spacing, self.options.aspect * spacing],
+                spacing: edges,
                 phase,
                 footprint: self.ladder.footprint(spacing),
                 tolerance: self.tolerance(reuse.solution.as_ref()),
                 max_iterations: MAX_ITERATIONS,
             };
             let solution = self.solve_near(&options, reuse)?;
-            friction[shift] = solution.friction_coefficient;
-            force[shift] = solution.normal_force;
+            friction.push(solution.friction_coefficient);
+            force.push(solution.normal_force);
             unknowns = unknowns.max(solution.unknowns);
             reuse.solution = Some(solution);
         }
@@ -420,7 +437,7 @@ impl<S: Surface> Question<'_, S> {
                 break;
             }
             let other = SteadyOptions {
-                spacing: options.spacing.map(|edge| finer * edge),
+                spacing: self.loading.scaled(options.spacing, finer),
                 ..*options
             };
             solution = solve(self.surface, &self.loading, (&other, None), reuse);
@@ -436,7 +453,11 @@ impl<S: Surface> Question<'_, S> {
             None if self.loading.creep.only_flows() => 1.0,
             None => FIRST_PART,
         };
-        (GAP_SHARE * self.options.relative_error * part).max(SMALLEST_GAP)
+        let share = match self.loading.strip() {
+            Some(_) => GAP_SHARE_OF_STRIP,
+            None => GAP_SHARE,
+        };
+        (share * self.options.relative_error * part).max(SMALLEST_GAP)
     }
 }
 

@@ -6,7 +6,7 @@ use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::error::positive;
-use crate::steady::contact_scale::depth_scale;
+use crate::steady::contact_scale::{depth_scale, depth_scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Footprint};
 
@@ -49,7 +49,13 @@ pub(super) struct Loading {
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
     control: Control,
+    /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
+    strip: Option<f64>,
 }
+
+/// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
+/// one.
+const STRIP: f64 = 1e5;
 
 /// Directions in which the height of a surface is averaged.
 const DIRECTIONS: u8 = 8;
@@ -76,7 +82,43 @@ impl Loading {
             depth_scale: depth_scale(&creep, load.normal_force(), height, largest)?,
             creep,
             control: Control::Force(load.normal_force()),
+            strip: None,
         })
+    }
+
+    /// Under a force per length \[N/m] on a profile in plane strain, and the length of the strip, \[m].
+    pub(super) fn per_length(
+        profile: &impl Surface,
+        (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+        [rear, front]: [f64; 2],
+    ) -> Result<(Self, f64), BemError> {
+        let creep = SlidingCreep::new(material, load.velocity())?;
+        let [depth_scale, _] = scale_of_profile(profile, &creep, load.normal_force())?;
+        let strip = STRIP * (front - rear + creep.memory());
+        let strip = positive("length of a strip", strip)?;
+        let force = positive("force on a strip", load.normal_force() * strip)?;
+        let loading = Self {
+            creep,
+            depth_scale,
+            control: Control::Force(force),
+            strip: Some(strip),
+        };
+        Ok((loading, strip))
+    }
+
+    /// The length of a strip \[m], where the scene is in plane strain.
+    pub(super) const fn strip(&self) -> Option<f64> {
+        self.strip
+    }
+
+    /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
+    pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
+        let width = if self.strip.is_some() {
+            dy
+        } else {
+            factor * dy
+        };
+        [factor * dx, width]
     }
 
     /// At a depth, D is that depth.
@@ -103,6 +145,7 @@ impl Loading {
             creep: SlidingCreep::new(material, velocity)?,
             depth_scale: depth,
             control: Control::Depth(sliding_distance),
+            strip: None,
         })
     }
 
@@ -139,8 +182,31 @@ impl Loading {
             depth_scale: self.depth_scale,
             force_scale,
             spacing,
+            is_strip: self.strip.is_some(),
         })
     }
+}
+
+/// D of a profile, and the distance from its lowest point at which it is as high, \[m].
+///
+/// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
+pub(super) fn scale_of_profile(
+    profile: &impl Surface,
+    creep: &SlidingCreep,
+    force_per_length: f64,
+) -> Result<[f64; 2], BemError> {
+    if creep.fluidity() > 0.0 {
+        return Err(BemError::InvalidParameter {
+            parameter: "fluidity",
+            value: creep.fluidity(),
+            allowed: "0 under a line load: a surface that flows sinks the faster the longer the line is",
+        });
+    }
+    let height = |distance: f64| {
+        let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
+        0.5 * (rear + front)
+    };
+    depth_scale_of_profile(creep, force_per_length, height)
 }
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
@@ -154,6 +220,8 @@ pub(super) struct GridLoading {
     /// 4 D Δx/(2 (1 − ν) J(Δx/v)), which is 4ηvD for the dashpot, \[N].
     force_scale: f64,
     spacing: [f64; 2],
+    /// Whether one element along y stands for infinitely many.
+    pub(super) is_strip: bool,
 }
 
 impl GridLoading {

@@ -24,6 +24,7 @@ mod extrapolation;
 mod filter;
 mod kernel;
 mod krylov;
+mod line;
 mod loading;
 mod mesh;
 mod neighbourhood;
@@ -50,6 +51,9 @@ pub use estimate::{
     steady_friction_at_depth, steady_friction_of_surface,
 };
 pub use kernel::wake_influence;
+pub use line::{
+    LineFriction, LineLadder, LineOptions, LineSliding, steady_line, steady_line_friction,
+};
 pub use loading::DepthControl;
 use loading::Loading;
 use mesh::Mesh;
@@ -187,7 +191,7 @@ fn solve(
     below_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, (loading, &mut reuse.plans), (options, kept))?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
-        let coarse = coarser(options);
+        let coarse = coarser(options, loading);
         // Only the kernel of a dashpot is the same on both grids.
         let mut other = Reuse::default();
         let coarse_reuse = if loading.creep.only_flows() {
@@ -207,9 +211,9 @@ fn solve(
 }
 
 /// A grid of twice the spacing, for a solution that is only a start.
-fn coarser(options: &SteadyOptions) -> SteadyOptions {
+fn coarser(options: &SteadyOptions, loading: &Loading) -> SteadyOptions {
     SteadyOptions {
-        spacing: options.spacing.map(|edge| COARSER * edge),
+        spacing: loading.scaled(options.spacing, COARSER),
         tolerance: options.tolerance.max(COARSE_TOLERANCE),
         ..*options
     }

@@ -73,6 +73,18 @@ impl SlidingCreep {
         self.spectrum.instantaneous_compliance() == 0.0 && self.spectrum.elements().is_empty()
     }
 
+    /// Fluidity 1/η_f, [1/(Pa s)].
+    pub(super) const fn fluidity(&self) -> f64 {
+        self.spectrum.fluidity()
+    }
+
+    /// Distance in which the slowest retardation element forgets, \[m].
+    pub(super) fn memory(&self) -> f64 {
+        let elements = self.spectrum.elements().iter();
+        let times = elements.map(|element| element.retardation_time);
+        self.velocity * times.fold(0.0, f64::max)
+    }
+
     /// Compliance 2 (1 − ν)/(η_f v) of the free flow, by which the surface sinks per length, [1/(Pa m)].
     pub(super) fn flow_per_length(&self) -> f64 {
         self.half_space_factor * self.spectrum.fluidity() / self.velocity

@@ -120,11 +120,12 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 
     if !mesh.holds(bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
-    let elements = bounds
-        .iter()
-        .map(|[first, last]| (last + 1).saturating_sub(*first))
-        .min()
-        .unwrap_or(0);
+    let lengths = bounds.map(|[first, last]| (last + 1).saturating_sub(first));
+    let elements = if mesh.loading.is_strip {
+        lengths[0]
+    } else {
+        lengths[0].min(lengths[1])
+    };
     if elements < MIN_CONTACT_ELEMENTS {
         return Err(BemError::GridTooCoarse {
             elements,

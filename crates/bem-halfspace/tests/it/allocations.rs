@@ -9,10 +9,13 @@ use bem_halfspace::{
 const EDGE: usize = 96;
 
 /// A paraboloid with ripples, under whose load the contact changes often before it is found.
-fn heights() -> Vec<f64> {
+fn heights(middle: [f64; 2]) -> Vec<f64> {
     let height = |index: usize| {
-        let [x, y] = [(index / EDGE) as f64 - 45.3, (index % EDGE) as f64 - 50.8];
-        0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).sin() * (0.7 * y).cos()
+        let [x, y] = [
+            (index / EDGE) as f64 - middle[0],
+            (index % EDGE) as f64 - middle[1],
+        ];
+        0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).cos() * (0.7 * y).cos()
     };
     (0..EDGE * EDGE).map(height).collect()
 }
@@ -24,7 +27,7 @@ fn solve(
     max_iterations: usize,
 ) -> Result<Contact, BemError> {
     state.pressure_mut().fill(0.0);
-    state.pressure_mut()[35 * EDGE..55 * EDGE].fill(1.0);
+    state.pressure_mut()[38 * EDGE..58 * EDGE].fill(1.0);
     let options = ContactOptions {
         tolerance: 1e-10,
         max_iterations,
@@ -34,11 +37,17 @@ fn solve(
 
 fn solves_without_allocation() {
     let grid = Grid::new([EDGE, EDGE], [1.0, 1.0]).expect("a valid grid");
-    for new in [Convolution::new, Convolution::periodic] {
+    let kinds = [Convolution::new, Convolution::periodic];
+    // The second has mirrors.
+    let bodies = [heights([45.3, 50.8]), heights([47.5; 2])];
+    for (new, heights) in kinds
+        .into_iter()
+        .flat_map(|new| bodies.iter().map(move |body| (new, body)))
+    {
         let convolution = new(&grid);
         let problem = ContactProblem {
             convolution: &convolution,
-            separation: &heights(),
+            separation: heights,
             compliance: 1.0,
             control: Control::NormalForce(2000.0),
         };

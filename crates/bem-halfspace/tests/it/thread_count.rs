@@ -14,19 +14,25 @@ use crate::support::{Scene, prony};
 #[test]
 fn one_two_and_three_threads_agree_to_the_last_bit() {
     let n = 200;
-    let height = |index: usize| {
-        let [x, y] = [(index / n) as f64 - 90.3, (index % n) as f64 - 110.8];
-        0.004 * (x * x + 1.3 * y * y) + (0.3 * x).sin() * (0.2 * y).cos()
+    let height = |index: usize, [middle_x, middle_y]: [f64; 2]| {
+        let [x, y] = [(index / n) as f64 - middle_x, (index % n) as f64 - middle_y];
+        0.004 * (x * x + 1.3 * y * y) + (0.3 * x).cos() * (0.2 * y).cos()
     };
-    let heights: Vec<f64> = (0..n * n).map(height).collect();
+    let heights = |middle| -> Vec<f64> { (0..n * n).map(|index| height(index, middle)).collect() };
     let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
-    for new in [Convolution::new, Convolution::periodic] {
+    // The second has mirrors.
+    let bodies = [heights([90.3, 110.8]), heights([99.5; 2])];
+    let kinds = [Convolution::new, Convolution::periodic];
+    for (new, heights) in kinds
+        .into_iter()
+        .flat_map(|new| bodies.iter().map(move |body| (new, body)))
+    {
         let solve = || {
             let convolution = new(&grid);
             let mut state = ContactState::new(&convolution);
             let problem = ContactProblem {
                 convolution: &convolution,
-                separation: &heights,
+                separation: heights,
                 compliance: 1.0,
                 control: Control::NormalForce(4000.0),
             };

@@ -1,0 +1,73 @@
+//! A cylinder across the direction of motion, without end.
+//!
+//! ```text
+//! h(x) = x²/(2R)
+//! ```
+
+use crate::error::positive;
+use crate::{IndenterError, Surface};
+
+/// The parabola of a cylinder that is infinite along y, as in the theory of line contacts (Hertz 1881; Hunter 1961).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Cylinder {
+    radius: f64,
+}
+
+impl Cylinder {
+    /// A cylinder of `radius` R > 0 \[m].
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the radius is not finite and greater than zero.
+    pub fn new(radius: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            radius: positive("radius", radius)?,
+        })
+    }
+
+    /// Radius R, \[m].
+    #[must_use]
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+}
+
+impl Surface for Cylinder {
+    fn height(&self, [x, _]: [f64; 2]) -> f64 {
+        0.5 * x * (x / self.radius)
+    }
+
+    fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
+        [x / self.radius, 0.0]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_and_slopes_are_those_of_the_parabola_at_every_scale() {
+        for scale in [1e-150, 1.0, 1e150] {
+            let cylinder = Cylinder::new(2.0 * scale).expect("a cylinder");
+            let [height, slope] = [
+                cylinder.height([scale, 7.0]) / scale,
+                cylinder.gradient([scale, 7.0])[0],
+            ];
+            assert!(
+                (height - 0.25).abs() < 1e-15 && (slope - 0.5).abs() < 1e-15,
+                "scale {scale:e}: height {height} instead of 0.25, slope {slope} instead of 0.5"
+            );
+        }
+    }
+
+    #[test]
+    fn a_radius_that_is_none_is_refused() {
+        for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(
+                Cylinder::new(radius).is_err(),
+                "accepted the radius {radius}"
+            );
+        }
+    }
+}

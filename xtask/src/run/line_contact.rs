@@ -1,0 +1,138 @@
+//! A cylinder that is infinite along y, in plane strain: all forces and areas are per length.
+
+use anyhow::{Context, Result, bail};
+use bem_halfspace::steady::{
+    LineLadder, LineOptions, LineSliding, steady_line, steady_line_friction,
+};
+use friction_analytic::cylinder_half_width_after_impulse;
+use indenters::{Cylinder, SlidingLoad};
+use rheology::Material;
+
+use super::answer::{Answer, ContactBox};
+use super::half_space::{Simple, simple};
+use super::pressing;
+use super::question::{Motion, Question};
+use super::resolution::{Resolved, resolve};
+use super::solve::load;
+use crate::scene_file::{Accuracy, Control, Method, Model};
+
+/// Gaps relative to the depth scale that disturb a small friction little, and those that do not show in the width.
+const FINE: f64 = 1e-9;
+const COARSE: f64 = 1e-6;
+const MAX_ITERATIONS: usize = 500;
+/// Coarsest elements along the contact of a cylinder on an elastic half space.
+const COARSEST_ELEMENTS: f64 = 8.0;
+
+/// What a method answers that takes the cylinder.
+pub(super) fn answer(
+    question: &Question,
+    cylinder: &Cylinder,
+    accuracy: Accuracy,
+) -> Result<Answer> {
+    let material = &*question.material;
+    match (question.motion, question.control) {
+        (Motion::Sliding { velocity, .. }, control) => {
+            let load = &load((control, velocity))?;
+            let ladder = LineLadder::of_profile(cylinder, material, load)?;
+            let sliding = Sliding {
+                cylinder,
+                material,
+                load,
+                ladder,
+            };
+            match accuracy {
+                Accuracy::RelativeError(error) => sliding.to_an_error(error),
+                Accuracy::Elements(_) => sliding.on_elements(accuracy),
+            }
+        }
+        (Motion::Pressing { duration }, Control::NormalForce(force)) => {
+            pressed(cylinder, material, (force, duration))
+        }
+        (_, Control::IndentationDepth(_)) => bail!("a line contact has no depth"),
+    }
+}
+
+/// A cylinder that slides in the stationary state.
+struct Sliding<'a> {
+    cylinder: &'a Cylinder,
+    material: &'a dyn Material,
+    load: &'a SlidingLoad,
+    ladder: LineLadder,
+}
+
+impl Sliding<'_> {
+    fn to_an_error(&self, relative_error: f64) -> Result<Answer> {
+        let scene = (self.material, self.load);
+        let estimate = steady_line_friction(self.cylinder, scene, &self.ladder, relative_error)?;
+        let last = estimate.refinements.last();
+        let spacing = last.context("no grid was refined")?.spacing;
+        let friction = [estimate.friction_coefficient, estimate.error];
+        Ok(self.answer(friction, self.on_grid(spacing, COARSE)?))
+    }
+
+    fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
+        let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
+        let solve = |elements: usize| self.on_grid(length / elements as f64, FINE);
+        let Resolved {
+            value,
+            error: [error],
+            ..
+        } = resolve(accuracy, usize::MAX, solve, |state| {
+            [state.friction_coefficient]
+        })?;
+        Ok(self.answer([value.friction_coefficient, error], value))
+    }
+
+    fn on_grid(&self, spacing: f64, tolerance: f64) -> Result<LineSliding> {
+        let options = LineOptions {
+            spacing,
+            phase: 0.0,
+            footprint: self.ladder.footprint,
+            tolerance,
+            max_iterations: MAX_ITERATIONS,
+        };
+        Ok(steady_line(
+            self.cylinder,
+            self.material,
+            self.load,
+            &options,
+        )?)
+    }
+
+    fn answer(&self, [friction, error]: [f64; 2], state: LineSliding) -> Answer {
+        let [rear, front] = state.contact;
+        let force = self.load.normal_force();
+        let mut answer = Answer {
+            is_per_length: true,
+            contact_area: Some(front - rear),
+            contact_box: Some(ContactBox::along(state.contact)),
+            unknowns: state.unknowns,
+            iterations: state.iterations,
+            ..Answer::new(Method::BemSteady, Model::HalfSpace, force).with_friction(friction, error)
+        };
+        answer.fields.line_pressure = state.pressure;
+        answer
+    }
+}
+
+/// Under a constant force, in closed form.
+fn pressed(
+    cylinder: &Cylinder,
+    material: &dyn Material,
+    (force, duration): (f64, f64),
+) -> Result<Answer> {
+    let impulse = pressing::impulse(material, force, duration)?;
+    let dashpot = pressing::unit_dashpot()?;
+    let half_width = cylinder_half_width_after_impulse(cylinder, &dashpot, impulse)?;
+    let peak_pressure = match simple(material)? {
+        Some(Simple::Elastic) => Some(2.0 * std::f64::consts::FRAC_1_PI * (force / half_width)),
+        _ => None,
+    };
+    Ok(Answer {
+        is_per_length: true,
+        contact_area: Some(2.0 * half_width),
+        contact_box: Some(ContactBox::along([-half_width, half_width])),
+        peak_pressure,
+        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+    })
+}
