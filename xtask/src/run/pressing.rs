@@ -14,7 +14,7 @@ use anyhow::{Result, bail};
 use bem_halfspace::ContactOptions;
 use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
 use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
-use indenters::{EquivalentLine, PowerProfile, contact_radius};
+use indenters::{Axisymmetric, EquivalentLine, PowerProfile, contact_radius};
 use rheology::{Material, RheologyError, Viscous};
 
 use super::answer::{Answer, ContactBox, Grid};
@@ -109,7 +109,7 @@ fn peak_of_power(
         return Ok(None);
     }
     let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
-    let height = indenters::Axisymmetric::line_height(profile, radius);
+    let height = profile.line_height(radius);
     Ok(Some(
         4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
     ))
@@ -292,5 +292,63 @@ fn last<R>(rows: Vec<R>) -> Result<R> {
     match rows.into_iter().next_back() {
         Some(row) => Ok(row),
         None => bail!("the march made no step"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::FlatCone;
+    use rheology::Elastic;
+
+    use super::*;
+
+    /// The flanks carry a little, and no element sees it: all resolutions agree, and are wrong.
+    #[test]
+    fn the_bar_of_a_flat_end_holds_where_no_element_sees_its_flanks() {
+        let material = Elastic::new(1.0).expect("a material");
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        for force in [1e-3, 1e-2, 1e-1, 1.0, 10.0] {
+            let control = (Control::NormalForce(force), 1.0);
+            let exact = analytic(&body, &material, control, None).expect("a depth");
+            for elements in [16, 64, 512] {
+                let accuracy = Accuracy::Elements(elements);
+                let got = chain(&body, &material, (force, 1.0), accuracy).expect("a depth");
+                let [value, expected] =
+                    [&got, &exact].map(|answer| answer.indentation_depth.expect("a depth"));
+                let bar = got.indentation_depth_error.expect("a bar");
+                assert!(
+                    (value - expected).abs() <= bar && bar < 0.2 * expected,
+                    "{force} N, {elements} elements: {value} ± {bar} instead of {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn smaller_gaps_change_a_pressed_depth_by_less_than_the_iteration() {
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        let dashpot = unit_dashpot().expect("a material");
+        let steps = in_steps(Control::NormalForce(3.0), 1);
+        let patch = body.patch(Control::NormalForce(3.0)).expect("a patch");
+        let press = |contact: ContactOptions| {
+            let options = IndentOptions {
+                spacing: [patch.length / 32.0; 2],
+                footprint: patch.footprint,
+                contact,
+            };
+            let rows = indent_history(&body, &dashpot, &steps, &options).expect("a history");
+            last(rows).expect("a row")
+        };
+        let row = press(ContactOptions::default());
+        let exact = press(ContactOptions {
+            tolerance: 1e-13,
+            max_iterations: 10_000,
+        });
+        let change = (row.indentation_depth - exact.indentation_depth).abs();
+        let [parts, _] = gaps(32, &row).expect("parts");
+        let part = parts.iteration.expect("a part");
+        assert!(change <= part, "{change:e}, and the part is {part:e}");
     }
 }

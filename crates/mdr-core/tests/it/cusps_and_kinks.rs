@@ -6,7 +6,7 @@ use indenters::{
     TruncatedParaboloid,
 };
 use mdr_core::{MdrError, SteadyOptions, SteadySliding, steady};
-use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Elastic, StandardSolid, StandardSolidParameters, Viscous};
 
 fn slid(body: &dyn Axisymmetric) -> Result<SteadySliding, MdrError> {
     let load = SlidingLoad::new(4.0, 1.0).expect("a load");
@@ -117,6 +117,22 @@ fn a_flat_end_on_a_solid_takes_few_polynomials_however_exact_it_is_wanted() {
             }
         }
     }
+}
+
+#[test]
+fn a_flat_end_on_springs_has_no_friction_not_even_by_rounding() {
+    let worn = TruncatedParaboloid::new(4.097_316_320_772_535, 0.119_169_830_372_470_1);
+    let spring = Elastic::new(2.7).expect("a material");
+    let load = SlidingLoad::new(0.3, 1.0).expect("a load");
+    let worn = worn.expect("a body");
+    let got = steady(
+        &EquivalentLine(&worn),
+        &spring,
+        &load,
+        &SteadyOptions::default(),
+    );
+    let friction = got.expect("a state").friction_coefficient;
+    assert!(friction.abs() <= 0.0, "{friction:e} instead of 0");
 }
 
 /// A line with more waves than can be followed.
