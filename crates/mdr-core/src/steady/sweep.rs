@@ -13,6 +13,8 @@ use crate::MdrError;
 const SAMPLES: usize = 12;
 /// A gap that is closed by less than this part of the depth is rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// A line that ends under load releases more than this part of the depth, whose energy is below 1e-12 of the whole.
+const LEFT_BY_ROUNDING: f64 = 1e-6;
 /// Layers thinner than this part of a segment are not looked into.
 const THINNEST: f64 = 1e-9;
 /// Most contact intervals of one line.
@@ -198,7 +200,13 @@ impl March<'_> {
             if let Some(piece) = last {
                 let segment = piece.segment(self.profile.lowest);
                 let stresses = stresses.clone();
-                self.close(segment.end(), &stresses, segment.ends[1]);
+                let end = segment.end();
+                let end = if end.abs() < LEFT_BY_ROUNDING {
+                    self.strain(end)
+                } else {
+                    end
+                };
+                self.close(end, &stresses, segment.ends[1]);
             }
         }
         Ok(self.sums)
