@@ -3,11 +3,13 @@
 #![expect(clippy::print_stdout, reason = "the errors stand beside the times")]
 
 mod contact_scene;
+mod random;
 mod rough;
 
 use std::error::Error;
 
 pub use contact_scene::{ContactScene, deviation};
+pub use random::Random;
 pub use rough::self_affine;
 
 /// Prints how far the result of the benchmark `name` is from the exact one.

@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
+use crate::Random;
+
 const HURST_EXPONENT: f64 = 0.8;
 /// Longest waves along the side.
 const LONGEST: f64 = 4.0;
@@ -49,19 +51,12 @@ fn transpose(field: &mut [Complex<f64>], n: usize) {
     }
 }
 
-/// Normally distributed numbers (Box & Muller 1958) from a generator of 64 bits (Steele, Lea & Flood 2014).
+/// Normally distributed numbers (Box & Muller 1958).
 fn white_noise(count: usize) -> Vec<Complex<f64>> {
-    let mut state = 0_u64;
-    let mut uniform = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = state;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random::new(0);
     let normal = |_| {
-        let radius = (-2.0 * (1.0 - uniform()).ln()).sqrt();
-        Complex::from(radius * (2.0 * PI * uniform()).cos())
+        let radius = (-2.0 * (1.0 - random.uniform()).ln()).sqrt();
+        Complex::from(radius * (2.0 * PI * random.uniform()).cos())
     };
     (0..count).map(normal).collect()
 }

@@ -7,6 +7,7 @@
     reason = "this crate talks to a person at a terminal"
 )]
 
+mod calibration;
 mod ci;
 mod figures;
 mod input;
@@ -63,6 +64,8 @@ enum Command {
     WorkPrecision(work_precision::WorkPrecision),
     /// Judge every method on stiff and extreme cases: CSV, SVG and PNG; fails when one is wrong.
     Stability(stability::Stability),
+    /// Compare the error bars of every method with its deviations on random scenes: CSV, SVG and PNG.
+    Calibrate(calibration::Calibrate),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -121,6 +124,7 @@ pub fn execute() -> ExitCode {
         Command::SpeedRange(options) => speed_range::speed_range(&options),
         Command::WorkPrecision(options) => work_precision::measure(&options),
         Command::Stability(options) => stability::stability(&options),
+        Command::Calibrate(options) => calibration::calibrate(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

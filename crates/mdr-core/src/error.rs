@@ -107,6 +107,19 @@ pub enum MdrError {
         /// Indentation depth at that instant, \[m].
         indentation_depth: f64,
     },
+    /// The line has more detail than can be followed.
+    #[error(
+        "more than {allowed} polynomials are needed to leave out less than {tolerance} of the depth, those at position \
+         {position} among them"
+    )]
+    TooManyPieces {
+        /// The most polynomials of one line.
+        allowed: usize,
+        /// Where there are too many, \[m].
+        position: f64,
+        /// Height that may be left out, relative to the depth.
+        tolerance: f64,
+    },
     /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
     #[error(
         "the friction integral does not converge at position {position}, where the line is too steep for a dashpot"

@@ -7,6 +7,7 @@ use bem_halfspace::slide::PressureField;
 use comfy_table::Table;
 use serde::Serialize;
 
+use super::error_parts::ErrorParts;
 use super::omission::Omission;
 use crate::scene_file::{Method, Model};
 
@@ -32,6 +33,9 @@ pub(crate) struct Answer {
     /// Absolute.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) indentation_depth_error: Option<f64>,
+    /// Of the friction coefficient; where nothing slides of the depth, or of the force where the depth is given.
+    #[serde(skip_serializing_if = "ErrorParts::is_none")]
+    pub(crate) error_parts: ErrorParts,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) contact_area: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,6 +113,7 @@ impl Answer {
             tangential_force: None,
             indentation_depth: None,
             indentation_depth_error: None,
+            error_parts: ErrorParts::NONE,
             contact_area: None,
             peak_pressure: None,
             contact_box: None,
@@ -137,6 +142,14 @@ impl Answer {
         }
     }
 
+    /// With what the error bar consists of.
+    pub(super) fn with_parts(self, parts: ErrorParts) -> Self {
+        Self {
+            error_parts: parts,
+            ..self
+        }
+    }
+
     /// With the time it took.
     pub(super) fn after(self, time: Duration) -> Self {
         Self {
@@ -146,8 +159,9 @@ impl Answer {
     }
 
     /// The quantities by their names in JSON and CSV.
-    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 13] {
+    pub(crate) fn numbers(&self) -> [(&'static str, Option<f64>); 17] {
         let edges = self.contact_box;
+        let parts = self.error_parts;
         [
             ("friction_coefficient", self.friction_coefficient),
             (
@@ -159,6 +173,10 @@ impl Answer {
             ("tangential_force", self.tangential_force),
             ("indentation_depth", self.indentation_depth),
             ("indentation_depth_error", self.indentation_depth_error),
+            ("error_discretisation", parts.discretisation),
+            ("error_iteration", parts.iteration),
+            ("error_time_stepping", parts.time_stepping),
+            ("error_truncation", parts.truncation),
             ("contact_area", self.contact_area),
             ("peak_pressure", self.peak_pressure),
             ("x_min", edges.map(|edges| edges.x_min)),

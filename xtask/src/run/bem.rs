@@ -11,7 +11,8 @@ use indenters::SlidingLoad;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, Grid};
-use super::resolution::{Resolved, resolve};
+use super::error_parts::ErrorParts;
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -73,7 +74,12 @@ impl<'a, S: Shape> Scene<'a, S> {
         let last = estimate.refinements.last();
         let spacing = last.context("no grid was refined")?.spacing;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, estimate.normal_force)
-            .with_friction(estimate.friction_coefficient, estimate.error);
+            .with_friction(estimate.friction_coefficient, estimate.error)
+            .with_parts(ErrorParts {
+                discretisation: Some(estimate.error - estimate.gap_error),
+                iteration: Some(estimate.gap_error),
+                ..ErrorParts::NONE
+            });
         self.with_state(
             self.with_force_error(answer, estimate.normal_force_error),
             self.on_grid(spacing)?,
@@ -83,15 +89,20 @@ impl<'a, S: Shape> Scene<'a, S> {
     fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
         let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
         let solve = |elements: usize| self.on_grid(length / elements as f64);
+        let goal = Goal {
+            accuracy,
+            largest: usize::MAX,
+            order: order_of_apex(self.ladder.apex_exponent),
+        };
         let Resolved {
             value,
             error: [friction_error, force_error],
+            parts: [parts, _],
             ..
-        } = resolve(accuracy, usize::MAX, solve, |state| {
-            [state.friction_coefficient, state.normal_force]
-        })?;
+        } = resolve(&goal, solve, on_one_grid, |_, state| Ok(gaps(state)))?;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
-            .with_friction(value.friction_coefficient, friction_error);
+            .with_friction(value.friction_coefficient, friction_error)
+            .with_parts(parts);
         self.with_state(self.with_force_error(answer, force_error), value)
     }
 
@@ -179,6 +190,19 @@ impl<'a, S: Shape> Scene<'a, S> {
     }
 }
 
+fn on_one_grid(state: &SteadySliding) -> [Quantity; 2] {
+    [state.friction_coefficient, state.normal_force].map(Quantity::from)
+}
+
+/// What the gaps that the solver leaves change of friction and force.
+fn gaps(state: &SteadySliding) -> [ErrorParts; 2] {
+    let friction = ErrorParts {
+        iteration: Some(state.residual * state.mean_slope),
+        ..ErrorParts::NONE
+    };
+    [friction, ErrorParts::NONE]
+}
+
 /// With room for elements at the boundary, where a steep body leaves none.
 pub(super) fn widened(footprint: &Footprint, spacing: f64) -> Footprint {
     let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
@@ -194,4 +218,51 @@ fn depth_after(depth: &SinkingDepth, distance: Option<f64>) -> Result<Option<f64
         return Ok(Some(depth.reference_depth));
     }
     Ok(distance.map(|distance| depth.after(distance)).transpose()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::PowerProfile;
+    use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+
+    use super::*;
+    use crate::run::Revolution;
+
+    /// Contacts that are large enough to be solved by iteration.
+    #[test]
+    fn smaller_gaps_change_the_friction_by_less_than_the_iteration() {
+        let solid = StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: 1.0,
+            maxwell_modulus: 3.0,
+            viscosity: 1.0,
+        })
+        .expect("a material");
+        let viscous = Viscous::new(1.0).expect("a material");
+        let materials: [&dyn Material; 2] = [&viscous, &solid];
+        for (exponent, material) in [1.0, 2.0].iter().flat_map(|p| materials.map(|m| (*p, m))) {
+            let body = Revolution::Power(PowerProfile::new(0.3, exponent).expect("a body"));
+            let drive = Drive {
+                control: Control::NormalForce(1.0),
+                velocity: 1.0,
+                distance: None,
+            };
+            let scene = Scene::new(&body, (material, &drive)).expect("a scene");
+            let spacing = COARSEST_ELEMENTS * scene.ladder.coarsest_spacing / 48.0;
+            let [coarse, exact] = [1e-4, 1e-12].map(|tolerance| {
+                let options = SteadyOptions {
+                    tolerance,
+                    ..scene.grid(spacing)
+                };
+                scene.solve(&options, None).expect("a state")
+            });
+            let change = (coarse.friction_coefficient - exact.friction_coefficient).abs();
+            let [parts, _] = gaps(&coarse);
+            let iteration = parts.iteration.expect("a part");
+            assert!(
+                change <= iteration && iteration > 0.0,
+                "p = {exponent} on {material:?}, {} unknowns: {change:e}, and the part is {iteration:e}",
+                coarse.unknowns
+            );
+        }
+    }
 }

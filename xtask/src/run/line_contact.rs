@@ -9,10 +9,11 @@ use indenters::{Cylinder, SlidingLoad};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox};
+use super::error_parts::ErrorParts;
 use super::half_space::{Simple, simple};
 use super::pressing;
 use super::question::{Motion, Question};
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::solve::load;
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -67,20 +68,27 @@ impl Sliding<'_> {
         let last = estimate.refinements.last();
         let spacing = last.context("no grid was refined")?.spacing;
         let friction = [estimate.friction_coefficient, estimate.error];
-        Ok(self.answer(friction, self.on_grid(spacing, COARSE)?))
+        let answer = self.answer(friction, self.on_grid(spacing, COARSE)?);
+        Ok(answer.with_parts(ErrorParts::of_elements(estimate.error)))
     }
 
     fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
         let length = COARSEST_ELEMENTS * self.ladder.coarsest_spacing;
         let solve = |elements: usize| self.on_grid(length / elements as f64, FINE);
+        let goal = Goal {
+            accuracy,
+            largest: usize::MAX,
+            order: order_of_apex(self.ladder.apex_exponent),
+        };
+        let friction = |state: &LineSliding| [Quantity::from(state.friction_coefficient)];
         let Resolved {
             value,
             error: [error],
+            parts: [parts],
             ..
-        } = resolve(accuracy, usize::MAX, solve, |state| {
-            [state.friction_coefficient]
-        })?;
-        Ok(self.answer([value.friction_coefficient, error], value))
+        } = resolve(&goal, solve, friction, |_, state| Ok([gaps(state)]))?;
+        let friction = [value.friction_coefficient, error];
+        Ok(self.answer(friction, value).with_parts(parts))
     }
 
     fn on_grid(&self, spacing: f64, tolerance: f64) -> Result<LineSliding> {
@@ -112,6 +120,14 @@ impl Sliding<'_> {
         };
         answer.fields.line_pressure = state.pressure;
         answer
+    }
+}
+
+/// What the gaps that the solver leaves change of the friction.
+fn gaps(state: &LineSliding) -> ErrorParts {
+    ErrorParts {
+        iteration: Some(state.residual * state.mean_slope),
+        ..ErrorParts::NONE
     }
 }
 

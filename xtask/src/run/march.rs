@@ -6,12 +6,13 @@ use bem_halfspace::slide::{
     StationaryOptions, Transient, slide, slide_to_stationary,
 };
 use bem_halfspace::{BemError, ContactOptions, Footprint, Resolution};
-use indenters::SlidingLoad;
+use indenters::{SlidingLoad, Surface};
 use rheology::{CreepSpectrum, Material};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::bem::widened;
-use super::resolution::{Resolved, resolve};
+use super::error_parts::ErrorParts;
+use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -20,6 +21,8 @@ const LARGEST_GRID: usize = 32;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
 const LENGTHS: f64 = 24.0;
 const DRIFT: f64 = 0.05;
+/// What counts as stationary where only the limit is asked for.
+const ANY_DRIFT: f64 = f64::INFINITY;
 /// Distances v λ of the slowest element until a solid counts as stationary.
 const MEMORIES: f64 = 12.0;
 /// Contact lengths after which a march to the stationary state is not begun.
@@ -33,8 +36,8 @@ const MOST_STEPS: f64 = 1e5;
 /// What one march ends with.
 struct End {
     friction: f64,
-    /// What the finite distance leaves open.
-    distance_error: f64,
+    /// What the finite distance leaves open of the stationary state, where that is asked for.
+    distance_error: Option<f64>,
     depth: f64,
     force: f64,
     contact_area: f64,
@@ -53,6 +56,7 @@ pub(super) struct Scene<'a, S> {
     footprint: Footprint,
     /// Contact length of the one-dimensional model, about, \[m].
     length: f64,
+    apex_exponent: f64,
     accuracy: Accuracy,
 }
 
@@ -64,9 +68,14 @@ pub(super) fn transient(
 ) -> Result<Answer> {
     let scene = Scene::new(body, (material, drive), accuracy)?;
     let solve = |elements: usize| scene.march(scene.length / elements as f64);
-    let Resolved { value, error, .. } =
-        resolve(accuracy, LARGEST_GRID, solve, |end| scene.quantities(end))?;
-    Ok(scene.answer(value, error))
+    let goal = Goal {
+        accuracy,
+        largest: LARGEST_GRID,
+        order: order_of_apex(scene.apex_exponent),
+    };
+    let others = |_, end: &End| Ok([scene.other_parts(end), ErrorParts::NONE]);
+    let resolved = resolve(&goal, solve, |end| scene.quantities(end), others)?;
+    Ok(scene.answer(resolved))
 }
 
 impl<'a, S: Shape> Scene<'a, S> {
@@ -83,6 +92,7 @@ impl<'a, S: Shape> Scene<'a, S> {
             creep: material.creep(),
             footprint: ladder.footprint,
             length: COARSEST_ELEMENTS * ladder.coarsest_spacing,
+            apex_exponent: ladder.apex_exponent,
             accuracy,
         })
     }
@@ -92,20 +102,36 @@ impl<'a, S: Shape> Scene<'a, S> {
     }
 
     /// Friction and force; nothing rubs on an elastic half space, where the depth stands for the friction.
-    fn quantities(&self, end: &End) -> [f64; 2] {
+    fn quantities(&self, end: &End) -> [Quantity; 2] {
         let first = if self.is_elastic() {
             end.depth
         } else {
             end.friction
         };
-        [first, end.force]
+        [first, end.force].map(Quantity::from)
     }
 
-    fn answer(&self, end: End, [error, force_error]: [f64; 2]) -> Answer {
-        let friction_error = if self.is_elastic() {
-            end.friction.abs()
+    /// What the contact solver and the finite distance leave open of the friction.
+    fn other_parts(&self, end: &End) -> ErrorParts {
+        if self.is_elastic() {
+            return ErrorParts::NONE;
+        }
+        ErrorParts {
+            iteration: Some(error_of_gaps(self.body, &end.pressure)),
+            truncation: end.distance_error,
+            ..ErrorParts::NONE
+        }
+    }
+
+    fn answer(&self, resolved: Resolved<End, 2>) -> Answer {
+        let (end, [error, force_error]) = (resolved.value, resolved.error);
+        // The friction of an elastic half space is what the elements leave of none.
+        let (friction_error, parts) = if self.is_elastic() {
+            let error = end.friction.abs();
+            (error, ErrorParts::of_elements(error))
         } else {
-            error
+            let [parts, _] = resolved.parts;
+            (error, parts)
         };
         let at_force = matches!(self.drive.control, Control::NormalForce(_));
         // Without a distance the depth on a material that flows has no meaning: it never stops to grow.
@@ -122,7 +148,8 @@ impl<'a, S: Shape> Scene<'a, S> {
                 factorised: false,
             }),
             ..Answer::new(Method::BemTransient, Model::HalfSpace, end.force)
-                .with_friction(end.friction, friction_error + end.distance_error)
+                .with_friction(end.friction, friction_error)
+                .with_parts(parts)
         };
         answer.fields.history = end.history;
         answer.fields.pressure = Some(end.pressure);
@@ -136,7 +163,7 @@ impl<'a, S: Shape> Scene<'a, S> {
                 let options = self.options(spacing, distance);
                 let transient = slide(self.body, self.material, &load, &options)?;
                 let friction = transient.last().friction_coefficient;
-                Ok(End::of(transient, force, [friction, 0.0]))
+                Ok(End::of(transient, force, (friction, None)))
             }
             (Control::NormalForce(force), None) => self.to_stationary(force, spacing),
             (Control::IndentationDepth(_), Some(distance)) => self.at_depth([spacing, distance]),
@@ -186,17 +213,25 @@ impl<'a, S: Shape> Scene<'a, S> {
         let load = SlidingLoad::new(force, self.drive.velocity)?;
         let memory = self.memory();
         if memory == 0.0 {
-            let options = self.options(spacing, LENGTHS * self.length);
-            let transient = slide(self.body, self.material, &load, &options)?;
-            if self.is_elastic() {
-                let friction = transient.last().friction_coefficient;
-                return Ok(End::of(transient, force, [friction, 0.0]));
-            }
-            let state = transient.stationary(DRIFT)?;
-            let reached = [state.friction_coefficient, state.distance_error];
-            return Ok(End::of(transient, force, reached));
+            return self.flow(&load, &self.options(spacing, LENGTHS * self.length));
         }
         self.settle(&load, memory, spacing)
+    }
+
+    /// Slides over the distance of the options, and beyond it by extrapolation.
+    fn flow(&self, load: &SlidingLoad, options: &SlideOptions) -> Result<End> {
+        let transient = slide(self.body, self.material, load, options)?;
+        let reached = if self.is_elastic() {
+            (transient.last().friction_coefficient, None)
+        } else {
+            let state = transient.stationary(DRIFT)?;
+            let scatter = scatter_of_limits(&transient)?;
+            (
+                state.friction_coefficient,
+                Some(state.distance_error.max(scatter)),
+            )
+        };
+        Ok(End::of(transient, load.normal_force(), reached))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
@@ -224,7 +259,7 @@ impl<'a, S: Shape> Scene<'a, S> {
         Ok(End::of(
             slide.transient,
             load.normal_force(),
-            [friction, left],
+            (friction, Some(left)),
         ))
     }
 
@@ -266,7 +301,11 @@ impl<'a, S: Shape> Scene<'a, S> {
 }
 
 impl End {
-    fn of(transient: Transient, force: f64, [friction, distance_error]: [f64; 2]) -> Self {
+    fn of(
+        transient: Transient,
+        force: f64,
+        (friction, distance_error): (f64, Option<f64>),
+    ) -> Self {
         let last = transient.last();
         Self {
             friction,
@@ -295,7 +334,7 @@ impl End {
         };
         Ok(Self {
             friction: last.tangential_force / last.normal_force,
-            distance_error: 0.0,
+            distance_error: None,
             depth: last.indentation_depth,
             force: last.normal_force,
             contact_area: last.contact_area,
@@ -305,6 +344,39 @@ impl End {
             pressure,
         })
     }
+}
+
+/// How far apart the limits are that were foretold on the last quarter of the way; which elements touch changes from step
+/// to step, and an extrapolation widens that.
+fn scatter_of_limits(transient: &Transient) -> Result<f64> {
+    let mut shorter = transient.clone();
+    let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
+    for _ in 0..=transient.rows.len() / 4 {
+        let limit = shorter.stationary(ANY_DRIFT)?.friction_coefficient;
+        lowest = limit.min(lowest);
+        highest = limit.max(highest);
+        shorter.rows.pop();
+    }
+    Ok(highest - lowest)
+}
+
+/// What gaps of the size of the tolerance change of the friction.
+///
+/// A gap that alternates from element to element changes the pressure by as many times its part of the displacement as
+/// there are elements along the contact, and the friction by as much of the mean modulus of the slope.
+fn error_of_gaps(surface: &impl Surface, field: &PressureField) -> f64 {
+    let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
+    let [mut load, mut climb] = [0.0; 2];
+    for (index, pressure) in field.pressure.iter().enumerate() {
+        let x = field.origin[0] + (index / columns) as f64 * dx;
+        let y = field.origin[1] + (index % columns) as f64 * dy;
+        let rise = surface.height([x + 0.5 * dx, y]) - surface.height([x - 0.5 * dx, y]);
+        load += pressure;
+        if *pressure > 0.0 {
+            climb += pressure * (rise / dx).abs();
+        }
+    }
+    ContactOptions::default().tolerance * rows as f64 * (climb / load)
 }
 
 fn sliding(row: &SlideRow) -> HistoryRow {
@@ -324,4 +396,80 @@ fn moving(row: &MotionRow) -> Option<HistoryRow> {
         indentation_depth_m: row.indentation_depth,
         friction_coefficient: row.tangential_force / row.normal_force,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::PowerProfile;
+    use rheology::Viscous;
+
+    use super::*;
+    use crate::run::Revolution;
+
+    const ELEMENTS: f64 = 10.0;
+    const FORCE: f64 = 1.0;
+
+    fn on_dashpot<T>(exponent: f64, ask: impl Fn(&Scene<'_, Revolution>, &SlideOptions) -> T) -> T {
+        let body = PowerProfile::new(0.3, exponent).expect("a body");
+        let material = Viscous::new(1.0).expect("a material");
+        let drive = Drive {
+            control: Control::NormalForce(FORCE),
+            velocity: 1.0,
+            distance: None,
+        };
+        let body = Revolution::Power(body);
+        let accuracy = Accuracy::Elements(10);
+        let scene = Scene::new(&body, (&material, &drive), accuracy).expect("a scene");
+        let options = scene.options(scene.length / ELEMENTS, LENGTHS * scene.length);
+        ask(&scene, &options)
+    }
+
+    fn flow(scene: &Scene<'_, Revolution>, options: &SlideOptions) -> End {
+        let load = SlidingLoad::new(FORCE, 1.0).expect("a load");
+        scene.flow(&load, options).expect("a march")
+    }
+
+    #[test]
+    fn twice_the_distance_changes_the_friction_by_less_than_the_truncation() {
+        for exponent in [0.75, 1.0, 2.0] {
+            on_dashpot(exponent, |scene, options| {
+                let end = flow(scene, options);
+                let farther = SlideOptions {
+                    sliding_distance: 2.0 * options.sliding_distance,
+                    ..*options
+                };
+                let end_farther = flow(scene, &farther);
+                let change = (end_farther.friction - end.friction).abs();
+                let [part, other] = [&end, &end_farther]
+                    .map(|end| scene.other_parts(end).truncation.expect("a part"));
+                // What is left after twice the distance is not nothing.
+                assert!(
+                    change <= part + other && part < 0.02 * end.friction,
+                    "p = {exponent}: {change:e}, and the parts are {part:e} and {other:e}"
+                );
+            });
+        }
+    }
+
+    #[test]
+    fn smaller_gaps_change_the_friction_by_less_than_the_iteration() {
+        for exponent in [0.75, 1.0, 2.0] {
+            on_dashpot(exponent, |scene, options| {
+                let end = flow(scene, options);
+                let exact = SlideOptions {
+                    contact: ContactOptions {
+                        tolerance: 1e-13,
+                        max_iterations: 10_000,
+                    },
+                    ..*options
+                };
+                let change = (flow(scene, &exact).friction - end.friction).abs();
+                let iteration = scene.other_parts(&end).iteration.expect("a part");
+                assert!(
+                    change <= iteration && iteration < 1e-6 * end.friction,
+                    "p = {exponent}: {change:e}, and the part is {iteration:e}"
+                );
+            });
+        }
+    }
 }

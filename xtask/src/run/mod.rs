@@ -4,12 +4,14 @@ mod analytic;
 mod answer;
 mod bem;
 mod body;
+mod error_parts;
 mod explain;
 mod files;
 mod half_space;
 mod line_contact;
 mod march;
 mod mdr;
+mod memory;
 mod offer;
 mod omission;
 mod pictures;
@@ -27,6 +29,7 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 pub(crate) use answer::Answer;
+pub(crate) use body::{Body, Revolution};
 pub(crate) use offer::{NotOffered, choose};
 use omission::Omission;
 pub(crate) use question::Question;
@@ -132,6 +135,9 @@ fn print(answer: &Answer, options: &Run, chosen: bool) -> Result<()> {
             };
             print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
             print_line(&answer.table())?;
+            if let Some(parts) = answer.error_parts.in_words() {
+                print_line(&format!("error bar: {parts}"))?;
+            }
         }
     }
     Ok(())

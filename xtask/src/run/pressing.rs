@@ -14,13 +14,14 @@ use anyhow::{Result, bail};
 use bem_halfspace::ContactOptions;
 use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
 use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
-use indenters::{EquivalentLine, PowerProfile, contact_radius};
+use indenters::{Axisymmetric, EquivalentLine, PowerProfile, contact_radius};
 use rheology::{Material, RheologyError, Viscous};
 
 use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
+use super::error_parts::ErrorParts;
 use super::half_space::Simple;
-use super::resolution::{Resolved, resolve};
+use super::resolution::{Goal, Quantity, Resolved, nothing_else, resolve};
 use super::shape::{Patch, Shape};
 use crate::scene_file::{Accuracy, Control, Method, Model};
 
@@ -108,7 +109,7 @@ fn peak_of_power(
         return Ok(None);
     }
     let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
-    let height = indenters::Axisymmetric::line_height(profile, radius);
+    let height = profile.line_height(radius);
     Ok(Some(
         4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
     ))
@@ -132,24 +133,37 @@ pub(super) fn chain(
         let rows = mdr_core::indent(&line, material, force, &times, &options)?;
         last(rows)
     };
+    let goal = goal(accuracy, LARGEST_CHAIN);
+    let depth = |row: &mdr_core::IndentRow| {
+        [Quantity {
+            least: error_of_outline(body, row),
+            ..Quantity::from(row.indentation_depth)
+        }]
+    };
     let Resolved {
         value: row,
         error: [error],
+        parts: [parts],
         elements,
-    } = resolve(
-        accuracy,
-        LARGEST_CHAIN,
-        solve,
-        |row| [row.indentation_depth],
-    )?;
+    } = resolve(&goal, solve, depth, nothing_else)?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
         contact_box: row.contact.map(ContactBox::along),
         unknowns: row.n_contact,
         iterations: elements,
-        ..Answer::new(Method::MdrTransient, Model::Line, force)
+        ..Answer::new(Method::MdrTransient, Model::Line, force).with_parts(parts)
     })
+}
+
+/// The outermost elements are loaded as wholes, whatever part of them touches: at the edge of a flat end they carry as much
+/// as any, at every resolution.
+fn error_of_outline(body: &Revolution, row: &mdr_core::IndentRow) -> f64 {
+    let depth = row.indentation_depth;
+    let carried = row.contact.map_or(depth, |[_, front]| {
+        (depth - body.line_height(front)).clamp(0.0, depth)
+    });
+    carried / row.n_contact as f64
 }
 
 /// Boundary elements, in one step on a dashpot of unit viscosity: the steps that lead to a constant force or depth do not
@@ -173,18 +187,26 @@ pub(super) fn boundary_elements(
         last(indent_history(body, &unit_dashpot()?, &steps, &options)?)
     };
     // What is given has no error.
-    let quantities = |row: &IndentRow| [row.indentation_depth, row.normal_force];
+    let quantities =
+        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
+    let goal = goal(accuracy, LARGEST_GRID);
     let Resolved {
         value,
         error,
+        parts: [depth_parts, force_parts],
         elements,
-    } = resolve(accuracy, LARGEST_GRID, solve, quantities)?;
-    let (normal_force, errors) = match control {
-        Control::NormalForce(force) => (force, [Some(error[0]), None]),
+    } = resolve(&goal, solve, quantities, gaps)?;
+    let (normal_force, errors, parts) = match control {
+        Control::NormalForce(force) => (force, [Some(error[0]), None], depth_parts),
         Control::IndentationDepth(_) => {
             let stiffness = stiffness(material, duration)?;
             let force_error = stiffness * error[1];
-            (stiffness * value.normal_force, [None, Some(force_error)])
+            let parts = force_parts.times(stiffness);
+            (
+                stiffness * value.normal_force,
+                [None, Some(force_error)],
+                parts,
+            )
         }
     };
     Ok(Answer {
@@ -198,8 +220,37 @@ pub(super) fn boundary_elements(
             spacing: spacing(elements),
             factorised: false,
         }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force)
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force).with_parts(parts)
     })
+}
+
+/// What gaps of the size of the tolerance change: the depth by as much, and the force by as many times that part as there
+/// are elements along the contact.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "stands where marches are asked, which may fail"
+)]
+fn gaps(elements: usize, row: &IndentRow) -> Result<[ErrorParts; 2]> {
+    let tolerance = ContactOptions::default().tolerance;
+    let part = |error: f64| ErrorParts {
+        iteration: Some(tolerance * error),
+        ..ErrorParts::NONE
+    };
+    Ok([
+        part(row.indentation_depth),
+        part(elements as f64 * row.normal_force),
+    ])
+}
+
+/// Depth and force converge faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+
+fn goal(accuracy: Accuracy, largest: usize) -> Goal {
+    Goal {
+        accuracy,
+        largest,
+        order: ORDER,
+    }
 }
 
 /// What does in a second on the dashpot of unit viscosity what the control does to the material.
@@ -241,5 +292,63 @@ fn last<R>(rows: Vec<R>) -> Result<R> {
     match rows.into_iter().next_back() {
         Some(row) => Ok(row),
         None => bail!("the march made no step"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::FlatCone;
+    use rheology::Elastic;
+
+    use super::*;
+
+    /// The flanks carry a little, and no element sees it: all resolutions agree, and are wrong.
+    #[test]
+    fn the_bar_of_a_flat_end_holds_where_no_element_sees_its_flanks() {
+        let material = Elastic::new(1.0).expect("a material");
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        for force in [1e-3, 1e-2, 1e-1, 1.0, 10.0] {
+            let control = (Control::NormalForce(force), 1.0);
+            let exact = analytic(&body, &material, control, None).expect("a depth");
+            for elements in [16, 64, 512] {
+                let accuracy = Accuracy::Elements(elements);
+                let got = chain(&body, &material, (force, 1.0), accuracy).expect("a depth");
+                let [value, expected] =
+                    [&got, &exact].map(|answer| answer.indentation_depth.expect("a depth"));
+                let bar = got.indentation_depth_error.expect("a bar");
+                assert!(
+                    (value - expected).abs() <= bar && bar < 0.2 * expected,
+                    "{force} N, {elements} elements: {value} ± {bar} instead of {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn smaller_gaps_change_a_pressed_depth_by_less_than_the_iteration() {
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        let dashpot = unit_dashpot().expect("a material");
+        let steps = in_steps(Control::NormalForce(3.0), 1);
+        let patch = body.patch(Control::NormalForce(3.0)).expect("a patch");
+        let press = |contact: ContactOptions| {
+            let options = IndentOptions {
+                spacing: [patch.length / 32.0; 2],
+                footprint: patch.footprint,
+                contact,
+            };
+            let rows = indent_history(&body, &dashpot, &steps, &options).expect("a history");
+            last(rows).expect("a row")
+        };
+        let row = press(ContactOptions::default());
+        let exact = press(ContactOptions {
+            tolerance: 1e-13,
+            max_iterations: 10_000,
+        });
+        let change = (row.indentation_depth - exact.indentation_depth).abs();
+        let [parts, _] = gaps(32, &row).expect("parts");
+        let part = parts.iteration.expect("a part");
+        assert!(change <= part, "{change:e}, and the part is {part:e}");
     }
 }

@@ -7,7 +7,7 @@ use crate::run::Answer;
 
 /// The columns before and after the keys that vary.
 const BEFORE: [&str; 3] = ["sweep", "point", "points"];
-const AFTER: [&str; 17] = [
+const AFTER: [&str; 21] = [
     "method",
     "model",
     "friction_coefficient",
@@ -17,6 +17,10 @@ const AFTER: [&str; 17] = [
     "tangential_force",
     "indentation_depth",
     "indentation_depth_error",
+    "error_discretisation",
+    "error_iteration",
+    "error_time_stepping",
+    "error_truncation",
     "contact_area",
     "peak_pressure",
     "x_min",

@@ -1,6 +1,7 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
 mod any_scene_is_answered;
+mod calibration;
 mod commands;
 mod documented_commands;
 mod explained_omissions;

@@ -109,6 +109,8 @@ pub struct FrictionEstimate {
     pub friction_coefficient: f64,
     /// Estimated absolute error.
     pub error: f64,
+    /// The part of it that comes from the gaps that the solver leaves in the contact.
+    pub gap_error: f64,
     /// Normal force F_N, \[N].
     pub normal_force: f64,
     /// Estimated absolute error of the normal force, 0 where it is given, \[N].
@@ -269,9 +271,11 @@ pub(super) fn climb(
             let rounding = ROUNDING * last.mean_slope;
             let is_known = friction.holds(relative_error) || friction.error <= rounding;
             if is_known && force.holds(relative_error) {
+                let gap_error = error_of_gaps(last);
                 return Ok(FrictionEstimate {
                     friction_coefficient: friction.value,
-                    error: friction.error + error_of_gaps(last),
+                    error: friction.error + gap_error,
+                    gap_error,
                     normal_force: force.value,
                     normal_force_error: force.error,
                     depth: last.depth,

@@ -88,7 +88,7 @@ pub struct SteadySliding {
 /// - [`MdrError::NoStationaryState`] when the line ends in front before it carries the force (Remark 4).
 /// - [`MdrError::FrictionDiverges`] when a lone dashpot is under a line with p ≤ 1/2 or a kink that rises (16).
 /// - [`MdrError::NotConverged`] when the estimated error stays above the one asked for.
-/// - [`MdrError::NotRising`], [`MdrError::TooManyContacts`], [`MdrError::InvalidHeight`],
+/// - [`MdrError::NotRising`], [`MdrError::TooManyContacts`], [`MdrError::TooManyPieces`], [`MdrError::InvalidHeight`],
 ///   [`MdrError::InvalidParameter`], [`MdrError::NonFinite`].
 pub fn steady(
     line: &(impl RigidLine + ?Sized),

@@ -21,6 +21,11 @@ const SLOPE_SAMPLES: usize = 24;
 /// A piece this many times shorter than every distance of relaxation acts through the heights of its ends alone.
 const SHORT: f64 = 0.125;
 
+/// Most polynomials of one line; more take seconds for every depth that is tried.
+const MAX_PIECES: usize = 1 << 18;
+/// What the rounding of heights and positions does to the last terms of a polynomial, as a multiple of both.
+const NOISE: f64 = 8.0;
+
 /// A piece this short at its distance from zero has nodes at the rounding of positions.
 const SMALLEST: f64 = 1024.0 * f64::EPSILON;
 
@@ -115,6 +120,16 @@ impl Piece {
         self.ends[0] - self.ends[1]
     }
 
+    /// Whether what is left out is what rounding does to heights and, where the line is steep, to positions.
+    ///
+    /// Halving such a piece leaves out no less: next to a flat end pieces would be halved as often as there are numbers.
+    fn is_rounding(&self) -> bool {
+        let rise: f64 = self.heights[1..].iter().map(|c| c.abs()).sum();
+        let farthest = self.ends[0].abs().max(self.ends[1].abs());
+        let moved = rise * (farthest / self.length());
+        self.tail <= NOISE * f64::EPSILON * (self.heights[0].abs() + rise + moved)
+    }
+
     /// Where the line turns inside the piece.
     fn turning_point(&self) -> Option<f64> {
         let monotone: f64 = (2..=self.degree)
@@ -150,16 +165,28 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
             let farthest = ends[0].abs().max(ends[1].abs());
             let smallest = (SMALLEST * farthest).max(f64::MIN_POSITIVE);
             let indivisible = piece.length() <= smallest || ends.contains(&middle);
-            if self.is_resolved(&piece)? {
+            if piece.is_rounding() || self.is_resolved(&piece)? {
                 self.split_at_turning_point(piece, pieces)?;
             } else if indivisible {
                 pieces.push(piece.straightened());
             } else {
+                self.check_count(pieces.len() + waiting.len(), middle)?;
                 waiting.push([middle, ends[1]]);
                 waiting.push([ends[0], middle]);
             }
         }
         Ok(())
+    }
+
+    fn check_count(&self, pieces: usize, position: f64) -> Result<(), MdrError> {
+        if pieces < MAX_PIECES {
+            return Ok(());
+        }
+        Err(MdrError::TooManyPieces {
+            allowed: MAX_PIECES,
+            position,
+            tolerance: self.resolution.tolerance,
+        })
     }
 
     fn split_at_turning_point(

@@ -13,6 +13,8 @@ use crate::MdrError;
 const SAMPLES: usize = 12;
 /// A gap that is closed by less than this part of the depth is rounding.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// A line that ends under load releases more than this part of the depth, whose energy is below 1e-12 of the whole.
+const LEFT_BY_ROUNDING: f64 = 1e-6;
 /// Layers thinner than this part of a segment are not looked into.
 const THINNEST: f64 = 1e-9;
 /// Most contact intervals of one line.
@@ -124,7 +126,7 @@ impl March<'_> {
             self.foundation.free_stresses(&recovery, distance)
         };
         let position = segment.position(t);
-        let displacement = self.foundation.free_displacement(&recovery, distance);
+        let displacement = self.strain(self.foundation.free_displacement(&recovery, distance));
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         self.sums.contacts.push([position; 2]);
         self.surface = Surface::Loaded {
@@ -152,6 +154,15 @@ impl March<'_> {
         None
     }
 
+    /// A spring that is touched or let go is not strained; rounding must not count as friction.
+    fn strain(&self, displacement: f64) -> f64 {
+        if self.foundation.is_elastic() {
+            0.0
+        } else {
+            displacement
+        }
+    }
+
     fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
         if t > -1.0 {
@@ -160,12 +171,7 @@ impl March<'_> {
             self.add(&passage, &loaded, tail);
             stresses = passage.stresses;
         }
-        // A spring that is let go is not strained; rounding must not count as friction.
-        let displacement = if self.foundation.is_elastic() {
-            0.0
-        } else {
-            segment.displacement(t)
-        };
+        let displacement = self.strain(segment.displacement(t));
         self.close(displacement, &stresses, segment.position(t));
         self.surface = Surface::Free(self.foundation.release(displacement, &stresses));
     }
@@ -194,7 +200,13 @@ impl March<'_> {
             if let Some(piece) = last {
                 let segment = piece.segment(self.profile.lowest);
                 let stresses = stresses.clone();
-                self.close(segment.end(), &stresses, segment.ends[1]);
+                let end = segment.end();
+                let end = if end.abs() < LEFT_BY_ROUNDING {
+                    self.strain(end)
+                } else {
+                    end
+                };
+                self.close(end, &stresses, segment.ends[1]);
             }
         }
         Ok(self.sums)

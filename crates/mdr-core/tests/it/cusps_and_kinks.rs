@@ -2,11 +2,11 @@
 
 use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, EquivalentLine, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad,
+    Axisymmetric, EquivalentLine, FlatCone, PowerProfile, RigidLine, RoundTippedCone, SlidingLoad,
     TruncatedParaboloid,
 };
 use mdr_core::{MdrError, SteadyOptions, SteadySliding, steady};
-use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Elastic, StandardSolid, StandardSolidParameters, Viscous};
 
 fn slid(body: &dyn Axisymmetric) -> Result<SteadySliding, MdrError> {
     let load = SlidingLoad::new(4.0, 1.0).expect("a load");
@@ -78,4 +78,87 @@ fn the_error_of_sharp_cusps_stays_within_its_bar() {
             Err(error) => panic!("p = {exponent}: {error}"),
         }
     }
+}
+
+/// Behind a flat end the line is as steep as an inverse root, so that the rounding of positions moves heights by more
+/// than the tolerance: halving pieces there gains nothing, and must end.
+///
+/// Two hundred polynomials are 13 to an octave of the distance from the kink; the contact at the largest radius is so
+/// flat that the rounding of its depth is above 1e-10.
+#[test]
+fn a_flat_end_on_a_solid_takes_few_polynomials_however_exact_it_is_wanted() {
+    let solid = StandardSolid::new(StandardSolidParameters {
+        equilibrium_modulus: 1.0,
+        maxwell_modulus: 1.0,
+        viscosity: 1.0,
+    })
+    .expect("a solid");
+    let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+    let slid = |body: &dyn Axisymmetric, relative_error: f64| {
+        let options = SteadyOptions { relative_error };
+        let got = steady(&EquivalentLine(body), &solid, &load, &options);
+        got.unwrap_or_else(|error| panic!("to {relative_error:e}: {error}"))
+    };
+    for exponent in [-6, -3, -1, 0, 1] {
+        let radius = 10_f64.powi(exponent);
+        let cone = FlatCone::new(radius, 1.0).expect("a body");
+        let worn = TruncatedParaboloid::new(radius, 1.0).expect("a body");
+        for body in [&cone as &dyn Axisymmetric, &worn] {
+            let exact = slid(body, 1e-13);
+            for relative_error in [1e-6, 1e-9, 1e-11, 1e-12, 1e-13] {
+                let got = slid(body, relative_error);
+                let deviation = (got.friction_coefficient - exact.friction_coefficient).abs();
+                let bar = got.friction_coefficient_error + exact.friction_coefficient_error;
+                assert!(
+                    deviation <= bar && got.n_pieces < 200,
+                    "radius {radius} to {relative_error:e}: off by {deviation:e} with a bar of {bar:e}, {} polynomials",
+                    got.n_pieces
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flat_end_on_springs_has_no_friction_not_even_by_rounding() {
+    let worn = TruncatedParaboloid::new(4.097_316_320_772_535, 0.119_169_830_372_470_1);
+    let spring = Elastic::new(2.7).expect("a material");
+    let load = SlidingLoad::new(0.3, 1.0).expect("a load");
+    let worn = worn.expect("a body");
+    let got = steady(
+        &EquivalentLine(&worn),
+        &spring,
+        &load,
+        &SteadyOptions::default(),
+    );
+    let friction = got.expect("a state").friction_coefficient;
+    assert!(friction.abs() <= 0.0, "{friction:e} instead of 0");
+}
+
+/// A line with more waves than can be followed.
+struct Corrugated;
+
+impl RigidLine for Corrugated {
+    fn height(&self, x: f64) -> f64 {
+        0.5 * x * x - 0.1 * (1e6 * x).cos()
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        x + 1e5 * (1e6 * x).sin()
+    }
+
+    fn domain(&self) -> [f64; 2] {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    }
+}
+
+#[test]
+fn a_line_with_too_much_detail_is_refused_with_where_and_how_many() {
+    let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+    let material = Viscous::new(1.0).expect("a material");
+    let got = steady(&Corrugated, &material, &load, &SteadyOptions::default());
+    assert!(
+        matches!(got, Err(MdrError::TooManyPieces { allowed, position, .. }) if allowed > 1000 && position.is_finite()),
+        "expected TooManyPieces, got {got:?}"
+    );
 }
