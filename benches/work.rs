@@ -2,8 +2,9 @@
 //! there and back of the padded grid, measured between the solves.
 //!
 //! `cargo bench -p benches --bench work -- hertz 256 512` · `… -- hertz-aside 256` · `… -- rough 512 1024`; with
-//! `--features rayon` also the time on the wall on two threads. The first has two mirrors, the others have none. Instead of a number of elements along the edge, `rough` takes a file with the
-//! heights of a square grid on a side of length 1 as little-endian numbers of eight bytes.
+//! `--features rayon` also the time on the wall on two threads. The first has two mirrors, the others have none. Instead
+//! of a number of elements along the edge, `rough` takes a file with the heights of a square grid on a side of length 1
+//! as little-endian numbers of eight bytes.
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
 

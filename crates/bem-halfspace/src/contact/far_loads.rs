@@ -16,12 +16,16 @@
 //! v = (W k g + v') / (1 + W k),        g' = Σ t' / W',        t' = W g / (1 + W k),        W' = Σ W / (1 + W k),
 //! ```
 //!
-//! with a dash for the block of twice the edges. The load w v is taken from what S gives. What remains is positive: the
-//! work of S on a load is at least Σ w x², as the influences in S between different elements are negative, and the
-//! work that is taken away is at most Σ (Σ w x)² / W, which is not more (Cauchy–Schwarz).
+//! with a dash for the block of twice the edges. The load w v is taken from what S gives.
+//!
+//! What remains is positive where the influences in S between different elements are negative: the work of S on x is
+//! then at least Σ w x², and what is taken away is at most Σ (Σ w x)² / W, which is not more (Cauchy–Schwarz). The
+//! inverse of two parts has small positive ones between diagonal neighbours; a test finds what remains positive on
+//! contacts that have many of them.
 
 use std::f64::consts::PI;
 
+use crate::bands::Bands;
 use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
 use crate::{Grid, influence};
@@ -38,8 +42,10 @@ pub(super) struct FarLoads {
     columns: usize,
     /// w, for the elements in contact.
     weights: Vec<f64>,
-    /// Blocks of two by two elements, of four by four, and so on to one.
-    levels: Vec<Level>,
+    /// Blocks of two by two elements.
+    smallest: Level,
+    /// Blocks of twice the edges, and so on to one block.
+    larger: Vec<Level>,
 }
 
 /// Blocks of one size.
@@ -58,19 +64,18 @@ struct Level {
 
 impl FarLoads {
     pub(super) fn new(grid: &Grid) -> Self {
-        let mut levels = Vec::new();
         let (mut blocks, mut edge) = (grid.blocks(), 2);
-        loop {
-            levels.push(Level::new(&blocks, edge, grid));
-            if blocks.n_elements() == 1 {
-                break;
-            }
+        let smallest = Level::new(&blocks, edge, grid);
+        let mut larger = Vec::new();
+        while blocks.n_elements() > 1 {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
+            larger.push(Level::new(&blocks, edge, grid));
         }
         Self {
             columns: grid.shape()[1],
             weights: vec![0.0; grid.n_elements()],
-            levels,
+            smallest,
+            larger,
         }
     }
 
@@ -88,24 +93,20 @@ impl FarLoads {
                 }
             }
         });
-        let weights = &self.weights;
-        let [first, others @ ..] = &mut self.levels[..] else {
-            return;
-        };
-        sum_blocks(
-            contact,
-            self.columns,
-            |element| weights[element],
-            &mut first.sums,
-        );
-        first.find_own();
-        let mut smaller = first;
-        for larger in others {
-            let loads = smaller.sums.iter().zip(&smaller.own);
-            let loads = loads.map(|(sum, own)| sum * (1.0 - own));
-            add_blocks(smaller.shape, loads, &mut larger.sums);
-            larger.find_own();
-            smaller = larger;
+        self.find_sums(contact);
+    }
+
+    fn find_sums(&mut self, contact: &ContactSet) {
+        let (columns, weights) = (self.columns, &self.weights);
+        let weight = |element: usize| weights[element];
+        sum_blocks(contact, columns, weight, &mut self.smallest.sums);
+        self.smallest.find_own();
+        let mut smaller = &self.smallest;
+        for level in &mut self.larger {
+            let load = |block: usize| smaller.sums[block] * (1.0 - smaller.own[block]);
+            add_blocks((smaller.shape, load), (level.shape, &mut level.sums));
+            level.find_own();
+            smaller = level;
         }
     }
 
@@ -113,15 +114,13 @@ impl FarLoads {
     pub(super) fn take_from(&mut self, contact: &ContactSet, residual: &[f64], answer: &mut [f64]) {
         self.find_gaps(contact, residual);
         self.find_displacements();
-        let Some(first) = self.levels.first() else {
-            return;
-        };
+        let blocks = &self.smallest;
         let (bands, columns, weights) = (contact.bands(), self.columns, &self.weights);
         bands.for_each([answer], |band, [answer]| {
             let start = bands.elements(band).start;
             for run in contact.runs(band) {
                 let (row, column) = (run.start / columns, run.start % columns);
-                let displacements = &first.values[row / 2 * first.shape[1]..];
+                let displacements = &blocks.values[row / 2 * blocks.shape[1]..];
                 for (column, element) in (column..).zip(run.clone()) {
                     answer[element - start] -= weights[element] * displacements[column / 2];
                 }
@@ -132,35 +131,28 @@ impl FarLoads {
     /// From small blocks to large ones.
     fn find_gaps(&mut self, contact: &ContactSet, residual: &[f64]) {
         let (columns, weights) = (self.columns, &self.weights);
-        let [first, others @ ..] = &mut self.levels[..] else {
-            return;
-        };
         let load = |element: usize| weights[element] * residual[element];
-        sum_blocks(contact, columns, load, &mut first.values);
-        first.divide_by_sums();
-        let mut smaller = first;
-        for larger in others {
-            let blocks = smaller.sums.iter().zip(&smaller.own).zip(&smaller.values);
-            let loads = blocks.map(|((sum, own), gap)| sum * (1.0 - own) * gap);
-            add_blocks(smaller.shape, loads, &mut larger.values);
-            larger.divide_by_sums();
-            smaller = larger;
+        sum_blocks(contact, columns, load, &mut self.smallest.values);
+        self.smallest.divide_by_sums();
+        let mut smaller = &self.smallest;
+        for level in &mut self.larger {
+            let load = |block: usize| {
+                smaller.sums[block] * (1.0 - smaller.own[block]) * smaller.values[block]
+            };
+            add_blocks((smaller.shape, load), (level.shape, &mut level.values));
+            level.divide_by_sums();
+            smaller = level;
         }
     }
 
     /// From large blocks to small ones.
     fn find_displacements(&mut self) {
-        let mut larger: Option<&Level> = None;
-        for level in self.levels.iter_mut().rev() {
-            let columns = level.shape[1];
-            for (block, (value, own)) in level.values.iter_mut().zip(&level.own).enumerate() {
-                let around = larger.map_or(0.0, |larger| {
-                    larger.values[block / columns / 2 * larger.shape[1] + block % columns / 2]
-                });
-                *value = own * *value + (1.0 - own) * around;
-            }
-            larger = Some(level);
+        let mut larger = None;
+        for level in self.larger.iter_mut().rev() {
+            level.find_displacements_in(larger);
+            larger = Some(&*level);
         }
+        self.smallest.find_displacements_in(larger);
     }
 }
 
@@ -191,17 +183,46 @@ impl Level {
     }
 
     fn divide_by_sums(&mut self) {
-        for (value, sum) in self.values.iter_mut().zip(&self.sums) {
-            *value = if *sum > 0.0 { *value / sum } else { 0.0 };
-        }
+        let (bands, sums) = (Bands::new(self.shape), &self.sums);
+        bands.for_each([&mut self.values], |band, [values]| {
+            for (value, sum) in values.iter_mut().zip(&sums[bands.elements(band)]) {
+                *value = if *sum > 0.0 { *value / sum } else { 0.0 };
+            }
+        });
+    }
+
+    /// Under the displacement of the blocks of twice the edges; beyond the largest block there is no load.
+    fn find_displacements_in(&mut self, larger: Option<&Self>) {
+        let (bands, columns, own) = (Bands::new(self.shape), self.shape[1], &self.own);
+        bands.for_each([&mut self.values], |band, [values]| {
+            for (row, values) in bands.rows(band).zip(values.chunks_exact_mut(columns)) {
+                let own = &own[row * columns..][..columns];
+                let around = larger.map(|larger| &larger.values[row / 2 * larger.shape[1]..]);
+                for (column, (value, own)) in values.iter_mut().zip(own).enumerate() {
+                    let around = around.map_or(0.0, |around| around[column / 2]);
+                    *value = own * *value + (1.0 - own) * around;
+                }
+            }
+        });
     }
 }
 
-/// Sums over two by two values of a field of the given shape.
-fn add_blocks(shape: [usize; 2], values: impl Iterator<Item = f64>, sums: &mut [f64]) {
-    sums.fill(0.0);
-    let columns = shape[1].div_ceil(2);
-    for (index, value) in values.enumerate() {
-        sums[index / shape[1] / 2 * columns + index % shape[1] / 2] += value;
-    }
+/// Sums of the loads of two by two blocks of a field, told by their number.
+fn add_blocks(
+    ([rows, columns], load): ([usize; 2], impl Fn(usize) -> f64 + Sync),
+    (shape, sums): ([usize; 2], &mut [f64]),
+) {
+    let bands = Bands::new(shape);
+    bands.for_each([sums], |band, [sums]| {
+        for (row, sums) in bands.rows(band).zip(sums.chunks_exact_mut(shape[1])) {
+            for (column, sum) in sums.iter_mut().enumerate() {
+                *sum = 0.0;
+                for row in 2 * row..(2 * row + 2).min(rows) {
+                    for column in 2 * column..(2 * column + 2).min(columns) {
+                        *sum += load(row * columns + column);
+                    }
+                }
+            }
+        }
+    });
 }

@@ -5,6 +5,7 @@
 
 use crate::bands::Bands;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
+use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 
 /// The part of a grid in front of mirrors, and its contact.
@@ -22,7 +23,7 @@ pub(super) fn solve_in_front_of_mirrors(
     accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     let (convolution, separation, control) = question;
-    let mirrors = find_mirrors(convolution.grid().shape(), [separation, &state.load]);
+    let mirrors = find_mirrors(convolution, [separation, &state.load]);
     if mirrors == [false; 2] {
         return solve_normalised(question, state, accuracy);
     }
@@ -37,12 +38,18 @@ pub(super) fn solve_in_front_of_mirrors(
     outcome
 }
 
-/// Along which axes fields of an even number of elements are their own mirror images, to the last bit.
-fn find_mirrors([rows, columns]: [usize; 2], fields: [&[f64]; 2]) -> [bool; 2] {
+/// Along which axes fields are their own mirror images, to the last bit, and their parts have a coarser grid.
+fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [bool; 2] {
+    let [rows, columns] = convolution.grid().shape();
+    let unit = match convolution.surroundings() {
+        Surroundings::Free => 2,
+        // The blocks of the coarser grid fill the period.
+        Surroundings::Periodic => 4,
+    };
     let mut lines = fields.into_iter().map(|field| field.chunks_exact(columns));
     let along_y =
-        columns.is_multiple_of(2) && lines.clone().all(|mut lines| lines.all(is_palindrome));
-    let along_x = rows.is_multiple_of(2)
+        columns.is_multiple_of(unit) && lines.clone().all(|mut lines| lines.all(is_palindrome));
+    let along_x = rows.is_multiple_of(unit)
         && lines.all(|lines| {
             let behind = lines.clone().take(rows / 2);
             behind.eq(lines.rev().take(rows / 2))

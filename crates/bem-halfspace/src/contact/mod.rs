@@ -96,8 +96,9 @@ const MAX_TOLERANCE: f64 = 1e-2;
 /// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
 ///
 /// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact where that
-/// is much smaller than the grid, and on one half or one quarter of a grid with an even number of elements where
-/// separation and first guess are their own mirror images about its middle, to the last bit. How it iterates is in `docs/theory/contact.md`.
+/// is much smaller than the grid, and on one half or one quarter of a grid with an even number of elements (a multiple
+/// of four where it is periodic) where separation and first guess are their own mirror images about its middle, to the
+/// last bit. How it iterates is in `docs/theory/contact.md`.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and
@@ -119,6 +120,7 @@ pub fn solve_contact(
         Control::NormalForce(force) => Control::NormalForce(force * load_per_pressure / area),
         depth @ Control::IndentationDepth(_) => depth,
     };
+    state.serve(problem.convolution);
     state.scale_load(grid, load_per_pressure);
     let question = (problem.convolution, problem.separation, control);
     let outcome = solve_in_front_of_mirrors(question, state, &options.into());

@@ -9,6 +9,7 @@
 //!
 //! and on blocks of two by two elements, where a convolution costs a quarter and needs no padding, what is missing to
 //! `|q|` for the long waves. Restricted to the contact it remains positive definite, as conjugate gradients need it.
+//! Of its answer, [`far_loads`](super::far_loads) takes away what belongs to the load of other patches.
 
 use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
@@ -118,5 +119,77 @@ impl Preconditioner {
         let [left, right] = [before(1, column, 1), behind(column + 1 < columns, 1)];
         let twice = 2.0 * here;
         self.weights[0] * (twice - above - below) + self.weights[1] * (twice - left - right)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::{Mat, Side};
+
+    use super::*;
+    use crate::{BemError, Grid};
+
+    /// Contacts with many diagonal neighbours, ends and gaps: every other element, corners that touch, stripes, crosses,
+    /// blocks at a distance, and one by chance.
+    fn patterns([rows, columns]: [usize; 2]) -> Vec<Vec<bool>> {
+        let at = |is: fn(usize, usize) -> bool| -> Vec<bool> {
+            (0..rows * columns)
+                .map(|index| is(index / columns, index % columns))
+                .collect()
+        };
+        vec![
+            at(|row, column| (row + column) % 2 == 0),
+            at(|row, column| (row / 2 + column / 2) % 2 == 0),
+            at(|row, column| (row + 2 * column) % 5 < 2),
+            at(|row, column| row % 6 == 2 || column % 6 == 3),
+            at(|row, column| row % 9 < 3 && column % 9 < 3),
+            at(|row, column| (row * row * 7 + column * 13 + row * column * 5) % 11 < 4),
+        ]
+    }
+
+    /// The matrix of the preconditioner on a contact.
+    fn matrix(preconditioner: &mut Preconditioner, contact: &ContactSet, n: usize) -> Mat<f64> {
+        let (mut one, mut answer) = (vec![0.0; n], vec![0.0; n]);
+        preconditioner.prepare(contact, [&mut one, &mut answer]);
+        let inside: Vec<usize> = (0..n)
+            .filter(|&element| contact.contains(element))
+            .collect();
+        let mut matrix = Mat::zeros(inside.len(), inside.len());
+        for (column, &element) in inside.iter().enumerate() {
+            one.fill(0.0);
+            one[element] = 1.0;
+            preconditioner.apply(contact, &one, &mut answer);
+            for (row, &element) in inside.iter().enumerate() {
+                matrix[(row, column)] = answer[element];
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn on_any_contact_it_is_symmetric_and_positive() -> Result<(), BemError> {
+        let grid = Grid::new([26, 24], [1.0, 0.7])?;
+        for whole in [Convolution::new(&grid), Convolution::periodic(&grid)] {
+            for mirrors in [[false, false], [false, true], [true, true]] {
+                let convolution = whole.folded(mirrors);
+                let shape = convolution.grid().shape();
+                for (number, pattern) in patterns(shape).into_iter().enumerate() {
+                    let mut contact = ContactSet::new(shape);
+                    contact.assign(|element| pattern[element]);
+                    let mut preconditioner = Preconditioner::new(&convolution);
+                    let matrix = matrix(&mut preconditioner, &contact, pattern.len());
+                    let largest = matrix.norm_max();
+                    let asymmetry = (&matrix - matrix.transpose()).norm_max() / largest;
+                    assert!(asymmetry < 1e-13, "pattern {number}: {asymmetry:e}");
+                    let eigenvalues = matrix.self_adjoint_eigenvalues(Side::Lower);
+                    let smallest = eigenvalues.map(|values| values[0] / largest);
+                    assert!(
+                        smallest.is_ok_and(|smallest| smallest > 1e-3),
+                        "pattern {number}, mirrors {mirrors:?}: eigenvalue {smallest:?} of the largest entry"
+                    );
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -4,6 +4,7 @@ use crate::bands::Bands;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
+use crate::convolution::Surroundings;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next.
@@ -15,7 +16,8 @@ pub struct ContactState {
     pub(super) contact: Vec<usize>,
     /// Whether the iteration may run on a box around the contact.
     pub(super) in_parts: bool,
-    /// Made when it is first needed, like everything below.
+    /// The grid, and what surrounds it, for which everything below was made when it was first needed.
+    kind: Option<(Grid, Surroundings)>,
     pub(super) workspace: Option<ConvolutionWorkspace>,
     /// Buffers of the iteration on the whole grid.
     pub(super) fields: Option<Box<Fields>>,
@@ -35,6 +37,7 @@ impl ContactState {
             displacement: vec![0.0; n],
             contact: Vec::new(),
             in_parts: true,
+            kind: None,
             workspace: None,
             fields: None,
             inner: None,
@@ -64,6 +67,18 @@ impl ContactState {
     #[must_use]
     pub fn displacement(&self) -> &[f64] {
         &self.displacement
+    }
+
+    /// Forgets what was made for another convolution.
+    pub(super) fn serve(&mut self, convolution: &Convolution) {
+        let kind = Some((*convolution.grid(), convolution.surroundings()));
+        if self.kind != kind {
+            self.kind = kind;
+            self.workspace = None;
+            self.fields = None;
+            self.inner = None;
+            self.folded = None;
+        }
     }
 
     pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {

@@ -91,9 +91,11 @@ impl Convolution {
     }
 
     /// The same influence between pressures that are their own mirror images along the axes of `mirrors`, where the
-    /// number of elements is even; the fields are those of the part of the grid in front of the mirrors.
+    /// number of elements is even; the fields are those of the part of the grid in front of the mirrors. Only of a whole
+    /// grid.
     pub(crate) fn folded(&self, mirrors: [bool; 2]) -> Self {
-        if mirrors == self.mirrors {
+        debug_assert_eq!(self.mirrors, [false; 2], "a whole grid");
+        if mirrors == [false; 2] {
             return self.clone();
         }
         Self {

@@ -132,8 +132,8 @@ impl PlaneTransform {
                 self.gather_columns(lane, rows, (&columns, loaded));
                 self.multiply_columns(lane, &columns, &multiply);
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
+                    let place = self.columns.place(row);
                     for (column, value) in piece[..columns.len()].iter_mut().enumerate() {
-                        let place = self.columns.place(row);
                         *value = lane.columns[column * self.column_stride() + place];
                     }
                 }

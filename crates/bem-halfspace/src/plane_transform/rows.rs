@@ -79,7 +79,7 @@ impl RowTransform {
             return self.forward_whole(&mut lane.scratch, &mut lane.row, coefficients);
         };
         lane.row.fill(0.0);
-        let odd = values.get(1..).unwrap_or_default().iter().step_by(2);
+        let odd = values.iter().skip(1).step_by(2);
         let even = values.iter().step_by(2);
         for (place, value) in lane.row.iter_mut().zip(even) {
             *place = *value;
@@ -96,8 +96,11 @@ impl RowTransform {
             }
             lane.row[k] = turned.re;
         }
-        for (pair, reals) in coefficients.iter_mut().zip(lane.row.chunks(2)) {
-            *pair = Complex::new(reals[0], reals.get(1).copied().unwrap_or_default());
+        let (pairs, last) = lane.row.as_chunks::<2>();
+        let alone = last.iter().map(|&real| Complex::new(real, 0.0));
+        let pairs = pairs.iter().map(|&[re, im]| Complex::new(re, im));
+        for (coefficient, pair) in coefficients.iter_mut().zip(pairs.chain(alone)) {
+            *coefficient = pair;
         }
     }
 
