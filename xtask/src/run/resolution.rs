@@ -1,11 +1,11 @@
-//! An error bar from three resolutions, and doubling until it is small enough.
+//! An error bar from four resolutions, of few elements from three, and doubling until it is small enough.
 
 use anyhow::{Result, bail};
 
 use super::error_parts::ErrorParts;
 use crate::scene_file::Accuracy;
 
-/// The finest result, and how it differs from those with three quarters and half of its elements.
+/// The finest result, and how those with three quarters, half and, of 16 elements and more, three eighths of them differ.
 ///
 /// An error C/n^q differs by (2^q − 1) C/n^q from half the elements and by ((4/3)^q − 1) C/n^q from three quarters; what
 /// half the elements differ by from three eighths is the same 2^q times. The largest error of the three, tripled, because
@@ -77,7 +77,7 @@ pub(super) fn order_of_apex(exponent: f64) -> f64 {
 
 /// Solves with the elements asked for, or with more and more until all quantities have the relative error.
 ///
-/// `others` are the parts of the error that three resolutions do not show, because they are alike on all of them; they
+/// `others` are the parts of the error that the resolutions do not show, because they are alike on all of them; they
 /// are asked for where the rest is small enough.
 pub(super) fn resolve<T, const N: usize>(
     goal: &Goal,
