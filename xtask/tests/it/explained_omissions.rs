@@ -52,7 +52,7 @@ fn the_stationary_half_space_needs_no_mirror_half_no_surroundings_and_no_time() 
     let paraboloid = scene
         .replace("indenter.cone", "indenter.paraboloid")
         .replace("slope = 0.1", "curvature = 50.0");
-    for (body, part) in [(paraboloid, "transforms"), (scene, "outside of contact box")] {
+    for (body, part) in [(paraboloid, "transforms"), (scene, "outside contact")] {
         let file = folder(&format!("explained-{part}")).join("scene.toml");
         let resolved = body.replace("relative_error = 1e-2", "elements = 8");
         fs::write(&file, resolved).expect("a scene");
@@ -81,7 +81,7 @@ fn under_a_height_map_no_surroundings_and_no_time_are_needed() {
     )
     .expect("a scene");
     let rows = explained(&[argument(&file)]);
-    let parts = ["outside of contact box", "time steps"];
+    let parts = ["outside contact", "time steps"];
     assert_explains(&rows, &parts);
     assert_same(&rows, &parts[..1]);
 }
@@ -95,7 +95,7 @@ fn a_march_needs_no_surroundings_and_nothing_behind() {
     fs::write(&at_depth, scene).expect("a scene");
     for scene in [example("half-space-run-in.toml"), at_depth] {
         let rows = explained(&[argument(&scene)]);
-        let parts = ["outside of contact box", "history behind"];
+        let parts = ["outside contact", "rows behind"];
         assert_explains(&rows, &parts);
         assert_same(&rows, &parts);
     }
