@@ -88,7 +88,7 @@ fn mean_cost<T>(work: impl Fn() -> T, batch: f64) -> Cost {
     }
 }
 
-/// The middle value, or the mean of the two in the middle.
+/// The middle value, or the mean of the two in the middle, of at least one.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;

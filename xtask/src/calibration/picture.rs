@@ -53,3 +53,15 @@ fn point(row: &Row) -> Option<(Method, [f64; 2])> {
     let drawn = value > row.error_bar && point.iter().all(|error| error.is_finite());
     drawn.then_some((row.solver, point))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::render_svg;
+
+    #[test]
+    fn where_every_answer_is_refused_the_picture_has_no_points() {
+        let svg = render_svg(&figure(&[])).expect("a picture");
+        assert!(svg.contains("0 error bars"), "the title in {svg}");
+    }
+}

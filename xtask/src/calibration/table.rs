@@ -53,18 +53,27 @@ fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 8] {
     let held = rows.iter().filter(|row| row.holds).count();
     let sharp: Vec<_> = rows.iter().filter(|row| row.is_sharply_judged()).collect();
     let held_alone = sharp.iter().filter(|row| row.holds_alone).count();
-    let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
-    let worst = parts.iter().copied().fold(0.0, f64::max);
+    let [middle, worst] = deviations(rows);
     [
         method.to_owned(),
         rows.len().to_string(),
         part(held, rows.len()),
         sharp.len().to_string(),
         part(held_alone, sharp.len()),
-        short(1.0 / median(parts)),
-        short(worst),
+        middle,
+        worst,
         refused.to_string(),
     ]
+}
+
+/// The median of bar/deviation and the worst of deviation/bar; empty without rows.
+fn deviations(rows: &[&Row]) -> [String; 2] {
+    if rows.is_empty() {
+        return [String::new(), String::new()];
+    }
+    let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
+    let worst = parts.iter().copied().fold(0.0, f64::max);
+    [short(1.0 / median(parts)), short(worst)]
 }
 
 fn part(held: usize, all: usize) -> String {
@@ -83,4 +92,31 @@ fn short(value: f64) -> String {
         return format!("{value:.2}");
     }
     "∞".to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::judged::Refusal;
+    use super::*;
+
+    #[test]
+    fn where_every_answer_is_refused_the_cells_are_empty() {
+        let refusal = Refusal {
+            scene: 1,
+            indenter: String::new(),
+            material: String::new(),
+            load: String::new(),
+            method: "bem-steady".to_owned(),
+            reason: "not reached".to_owned(),
+        };
+        let refused = Judged {
+            refusals: vec![refusal],
+            ..Judged::default()
+        };
+        let printed = table(&refused).to_string();
+        let cells = printed.lines().last().map(|line| line.split('|'));
+        let cells: Vec<&str> = cells.into_iter().flatten().map(str::trim).collect();
+        let expected = ["", "all", "0", "", "0", "", "", "", "1", ""];
+        assert_eq!(cells, expected, "the line of all in\n{printed}");
+    }
 }

@@ -77,13 +77,37 @@ impl ErrorParts {
         }
     }
 
-    /// All parts of both; no part is in both.
+    /// All parts of both; what both have is added.
     pub(super) fn and(self, other: Self) -> Self {
+        let both = |part: Option<f64>, other: Option<f64>| match (part, other) {
+            (Some(part), Some(other)) => Some(part + other),
+            (part, other) => part.or(other),
+        };
         Self {
-            discretisation: self.discretisation.or(other.discretisation),
-            iteration: self.iteration.or(other.iteration),
-            time_stepping: self.time_stepping.or(other.time_stepping),
-            truncation: self.truncation.or(other.truncation),
+            discretisation: both(self.discretisation, other.discretisation),
+            iteration: both(self.iteration, other.iteration),
+            time_stepping: both(self.time_stepping, other.time_stepping),
+            truncation: both(self.truncation, other.truncation),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_part_is_lost_when_two_bars_are_joined() {
+        let truncated = ErrorParts {
+            discretisation: Some(2.0),
+            truncation: Some(4.0),
+            ..ErrorParts::NONE
+        };
+        let got = ErrorParts::of_elements(1.0).and(truncated);
+        let expected = ErrorParts {
+            discretisation: Some(3.0),
+            ..truncated
+        };
+        assert_eq!(got, expected, "1, and {truncated:?}");
     }
 }

@@ -153,15 +153,17 @@ impl Ride<'_> {
 
     /// What is left of an exponential approach, by its change over the last contact length and over the one before; on
     /// the way to the stationary state nothing is left out.
+    ///
+    /// A march may end after little more than one contact length; then the change before it is that since the first step.
     fn rest_of_the_way(&self, rows: &[SlideRow]) -> Option<f64> {
         let (last, None) = (rows.last()?, self.distance) else {
             return None;
         };
         let back = |lengths: usize| {
-            let row = rows.len().checked_sub(1 + lengths * last.n_contact)?;
-            Some(rows.get(row)?.friction_coefficient)
+            let row = (rows.len() - 1).saturating_sub(lengths * last.n_contact);
+            rows[row].friction_coefficient
         };
-        let [now, before, earlier] = [back(0)?, back(1)?, back(2)?];
+        let [now, before, earlier] = [0, 1, 2].map(back);
         let [change, change_before] = [now - before, before - earlier].map(f64::abs);
         let ratio = (change / change_before).min(SLOWEST_RATIO);
         Some(change * ratio / (1.0 - ratio)).filter(|rest| rest.is_finite())
@@ -201,7 +203,7 @@ fn history(row: &SlideRow) -> HistoryRow {
 #[cfg(test)]
 mod tests {
     use indenters::PowerProfile;
-    use rheology::{Maxwell, StandardSolid, StandardSolidParameters};
+    use rheology::{Elastic, Maxwell, StandardSolid, StandardSolidParameters};
 
     use super::*;
 
@@ -281,5 +283,26 @@ mod tests {
                 "{times} s: {change:e}, and the part is {part:e}"
             );
         }
+    }
+    /// The friction of an elastic chain is rounding from the first step on, so that its march ends at once.
+    #[test]
+    fn a_march_of_one_contact_length_has_a_truncation_too() {
+        let load = SlidingLoad::new(4.0, 1.0).expect("a load");
+        let (body, material) = (body(2.0), Elastic::new(1.0).expect("a material"));
+        let ride = Ride {
+            body: &body,
+            load: &load,
+            distance: None,
+        };
+        let options = ride.options(&material, 32).expect("options");
+        let rows = ride.march(&material, &options).expect("a march");
+        let lengths = rows.len() as f64 / rows[rows.len() - 1].n_contact as f64;
+        assert!(lengths < 2.0, "a march of {lengths} contact lengths");
+        let part = ride.rest_of_the_way(&rows).expect("a part");
+        let rounding = ride.friction(&rows).rounding;
+        assert!(
+            part <= rounding,
+            "{part:e} is more than the rounding {rounding:e}"
+        );
     }
 }

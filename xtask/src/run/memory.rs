@@ -6,6 +6,7 @@
 //! ```text
 //! J(t) → J₀ + [J(t + s Δt/2) − J₀],     s = J₀/α
 //! ```
+//!
 //! with α the compliance of the step, so that s is the share of the load that belongs to its end and not to the motion
 //! during it. That is a creep compliance again. A chain of this material is ahead twice, and differs from the chain of the
 //! material itself by what the step does, to first order in the step.

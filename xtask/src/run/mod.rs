@@ -7,6 +7,7 @@ mod body;
 mod error_parts;
 mod explain;
 mod files;
+mod fresh_folder;
 mod half_space;
 mod line_contact;
 mod march;

@@ -26,15 +26,16 @@ pub(crate) enum Omission {
 }
 
 impl Omission {
+    /// The name in JSON with spaces for hyphens.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::NumericalSolution => "numerical solution",
             Self::TimeSteps => "time steps",
             Self::HalfSpace => "half space",
             Self::MirrorHalf => "mirror half",
-            Self::OutsideContact => "outside of contact box",
+            Self::OutsideContact => "outside contact",
             Self::Transforms => "transforms",
-            Self::RowsBehind => "history behind",
+            Self::RowsBehind => "rows behind",
             Self::HistoryFields => "history fields",
             Self::Gradients => "gradients",
             Self::Files => "files",
@@ -141,4 +142,33 @@ fn outside_or_transforms(answer: &Answer) -> Omission {
 /// Values that an element of the half space remembers; the dashpot in its place remembers one.
 fn n_fields(creep: &CreepSpectrum) -> usize {
     creep.elements().len() + usize::from(creep.fluidity() > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Programs read these names.
+    const NAMES: [(Omission, &str); 10] = [
+        (Omission::NumericalSolution, "numerical-solution"),
+        (Omission::TimeSteps, "time-steps"),
+        (Omission::HalfSpace, "half-space"),
+        (Omission::MirrorHalf, "mirror-half"),
+        (Omission::OutsideContact, "outside-contact"),
+        (Omission::Transforms, "transforms"),
+        (Omission::RowsBehind, "rows-behind"),
+        (Omission::HistoryFields, "history-fields"),
+        (Omission::Gradients, "gradients"),
+        (Omission::Files, "files"),
+    ];
+
+    #[test]
+    fn json_and_the_table_name_what_is_left_out_alike() {
+        for (omission, expected) in NAMES {
+            let json = serde_json::to_value(omission).expect("a name");
+            assert_eq!(json, expected, "{omission:?} in JSON");
+            let in_table = omission.name().replace(' ', "-");
+            assert_eq!(in_table, expected, "{omission:?} in the table");
+        }
+    }
 }

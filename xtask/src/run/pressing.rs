@@ -190,37 +190,47 @@ pub(super) fn boundary_elements(
     let quantities =
         |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
     let goal = goal(accuracy, LARGEST_GRID);
+    let resolved = resolve(&goal, solve, quantities, gaps)?;
+    let spacing = spacing(resolved.elements);
+    pressed_answer(resolved, spacing, material, (control, duration))
+}
+
+/// What the dashpot says of the material: the same depth, or a force that is the stiffness times its own.
+fn pressed_answer(
+    resolved: Resolved<IndentRow, 2>,
+    spacing: f64,
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+) -> Result<Answer> {
     let Resolved {
         value,
-        error,
+        error: [depth_error, force_error],
         parts: [depth_parts, force_parts],
-        elements,
-    } = resolve(&goal, solve, quantities, gaps)?;
-    let (normal_force, errors, parts) = match control {
-        Control::NormalForce(force) => (force, [Some(error[0]), None], depth_parts),
-        Control::IndentationDepth(_) => {
-            let stiffness = stiffness(material, duration)?;
-            let force_error = stiffness * error[1];
-            let parts = force_parts.times(stiffness);
-            (
-                stiffness * value.normal_force,
-                [None, Some(force_error)],
-                parts,
-            )
-        }
-    };
-    Ok(Answer {
-        normal_force_error: errors[1],
+        ..
+    } = resolved;
+    let answer = |force: f64| Answer {
         indentation_depth: Some(value.indentation_depth),
-        indentation_depth_error: errors[0],
         contact_area: Some(value.contact_area),
         unknowns: value.n_contact,
         iterations: 1,
         grid: Some(Grid {
-            spacing: spacing(elements),
+            spacing,
             factorised: false,
         }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force).with_parts(parts)
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
+    };
+    Ok(match control {
+        Control::NormalForce(force) => Answer {
+            indentation_depth_error: Some(depth_error),
+            ..answer(force).with_parts(depth_parts)
+        },
+        Control::IndentationDepth(_) => {
+            let stiffness = stiffness(material, duration)?;
+            Answer {
+                normal_force_error: Some(stiffness * force_error),
+                ..answer(stiffness * value.normal_force).with_parts(force_parts.times(stiffness))
+            }
+        }
     })
 }
 

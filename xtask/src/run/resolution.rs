@@ -1,11 +1,11 @@
-//! An error bar from three resolutions, and doubling until it is small enough.
+//! An error bar from four resolutions, of few elements from three, and doubling until it is small enough.
 
 use anyhow::{Result, bail};
 
 use super::error_parts::ErrorParts;
 use crate::scene_file::Accuracy;
 
-/// The finest result, and how it differs from those with three quarters and half of its elements.
+/// The finest result, and how those with three quarters, half and, of 16 elements and more, three eighths of them differ.
 ///
 /// An error C/n^q differs by (2^q − 1) C/n^q from half the elements and by ((4/3)^q − 1) C/n^q from three quarters; what
 /// half the elements differ by from three eighths is the same 2^q times. The largest error of the three, tripled, because
@@ -77,7 +77,7 @@ pub(super) fn order_of_apex(exponent: f64) -> f64 {
 
 /// Solves with the elements asked for, or with more and more until all quantities have the relative error.
 ///
-/// `others` are the parts of the error that three resolutions do not show, because they are alike on all of them; they
+/// `others` are the parts of the error that the resolutions do not show, because they are alike on all of them; they
 /// are asked for where the rest is small enough.
 pub(super) fn resolve<T, const N: usize>(
     goal: &Goal,
@@ -86,8 +86,8 @@ pub(super) fn resolve<T, const N: usize>(
     others: impl Fn(usize, &T) -> Result<[ErrorParts; N]>,
 ) -> Result<Resolved<T, N>> {
     let (mut elements, asked) = match goal.accuracy {
-        Accuracy::Elements(elements) => (elements, f64::INFINITY),
-        Accuracy::RelativeError(error) => (FIRST, error),
+        Accuracy::Elements(elements) => (elements, None),
+        Accuracy::RelativeError(error) => (FIRST, Some(error)),
     };
     let mut half = quantities(&solve(elements.div_ceil(2))?);
     let mut three_eighths = None;
@@ -116,7 +116,7 @@ pub(super) fn resolve<T, const N: usize>(
         }
         match outcome.missed(asked) {
             None => return Ok(outcome.resolved(value, elements)),
-            Some(missed) if is_last => bail!("{}", not_reached(asked, elements, missed)),
+            Some(missed) if is_last => bail!("{}", missed.in_words(elements)),
             Some(_) => {}
         }
         elements *= 2;
@@ -125,11 +125,25 @@ pub(super) fn resolve<T, const N: usize>(
     }
 }
 
-fn not_reached(asked: f64, elements: usize, (value, error): (f64, f64)) -> String {
-    format!(
-        "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is {value} \
-         with an error of {error:.1e}"
-    )
+/// A quantity that is not known well enough.
+struct Missed {
+    asked: f64,
+    value: f64,
+    error: f64,
+}
+
+impl Missed {
+    fn in_words(&self, elements: usize) -> String {
+        let Self {
+            asked,
+            value,
+            error,
+        } = self;
+        format!(
+            "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is \
+             {value} with an error of {error:.1e}"
+        )
+    }
 }
 
 /// What one resolution and those before it say.
@@ -161,14 +175,19 @@ impl<'a, const N: usize> Outcome<'a, N> {
         })
     }
 
-    /// Value and error of the first quantity that is not known well enough.
-    fn missed(&self, asked: f64) -> Option<(f64, f64)> {
+    /// The first quantity that is not known well enough; none where no relative error is asked.
+    fn missed(&self, asked: Option<f64>) -> Option<Missed> {
+        let asked = asked?;
         let errors = self.errors().into_iter();
         let mut known = self.fine.iter().zip(errors);
-        let missed = known.find(|(quantity, error)| {
+        let (quantity, error) = known.find(|(quantity, error)| {
             *error > (asked * quantity.value.abs()).max(2.0 * quantity.rounding)
-        });
-        missed.map(|(quantity, error)| (quantity.value, error))
+        })?;
+        Some(Missed {
+            asked,
+            value: quantity.value,
+            error,
+        })
     }
 
     fn resolved<T>(self, value: T, elements: usize) -> Resolved<T, N> {
@@ -211,7 +230,7 @@ mod tests {
     fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Resolved<f64, 1> {
         let goal = Goal {
             accuracy: Accuracy::Elements(64),
-            largest: 64,
+            largest: 128,
             order,
         };
         let quantities = |value: &f64| [Quantity::from(*value)];
@@ -247,6 +266,16 @@ mod tests {
         assert!(
             (got.error[0] - SAFETY * 0.1).abs() < 1e-9,
             "half of the elements differ by 0.1: {got:?}"
+        );
+    }
+    #[test]
+    fn a_value_of_zero_on_given_elements_needs_no_more_elements() {
+        let got = resolved(1.0, |n| if n > 60.0 { 0.0 } else { 0.1 });
+        let expected = SAFETY * 0.1 / (4.0_f64 / 3.0 - 1.0);
+        assert_eq!(got.elements, 64, "elements asked for and used: {got:?}");
+        assert!(
+            (got.error[0] - expected).abs() < 1e-9 * expected,
+            "a bar of {expected} was expected: {got:?}"
         );
     }
 }

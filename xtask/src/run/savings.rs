@@ -1,9 +1,12 @@
 //! What each omission saves: the work is done once with it and once without, and the answers are compared.
 
+use std::path::Path;
+
 use anyhow::{Context, Result, bail};
 
 use super::answer::Answer;
 use super::files;
+use super::fresh_folder::FreshFolder;
 use super::omission::Omission;
 use super::question::Question;
 use super::same_problem::SameProblem;
@@ -18,6 +21,8 @@ const LONGEST: f64 = 10.0;
 /// Elements along the contact of the marches in time that a stationary answer is compared with.
 const CHAIN: usize = 64;
 const GRID: usize = 12;
+/// Where files are written whose cost is measured.
+const MEASURED_FILES: &str = "target/explain";
 
 /// Work on one thread.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,12 +97,10 @@ fn saving(question: &Question, answer: &Answer, omission: Omission) -> Result<Sa
 }
 
 fn of_files(answer: &Answer) -> Result<Saving> {
-    let name = format!("explain-{}", std::process::id());
-    let folder = std::env::temp_dir().join(name);
-    let written = metered(|| files::write(answer, &folder));
-    let removed = std::fs::remove_dir_all(&folder);
+    let folder = FreshFolder::within(Path::new(MEASURED_FILES))?;
+    let written = metered(|| files::write(answer, folder.path()));
+    folder.remove()?;
     let ((), done) = written?;
-    removed.context("removing what was written for the measurement")?;
     Ok(Saving {
         left_out: Cost::default(),
         done,

@@ -1,12 +1,20 @@
 //! `run --explain` measures everything that a scene did not need, and nothing of it changes the answer.
 
 use std::fs;
+use std::path::Path;
 
-use crate::support::{argument, example, folder, text, xtask};
+use crate::support::{argument, command, example, folder, text};
 
 /// The rows of the printed table, each as its cells; the command has succeeded.
 fn explained(arguments: &[&str]) -> Vec<Vec<String>> {
-    let output = xtask(&[&["run", "--explain"], arguments].concat());
+    explained_in(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments)
+}
+
+/// The same of a command that is run in this folder.
+fn explained_in(folder: &Path, arguments: &[&str]) -> Vec<Vec<String>> {
+    let mut command = command(&[&["run", "--explain"], arguments].concat());
+    let output = command.current_dir(folder).output();
+    let output = output.expect("the command runs");
     let printed = text(&output.stdout);
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
@@ -44,10 +52,7 @@ fn the_stationary_half_space_needs_no_mirror_half_no_surroundings_and_no_time() 
     let paraboloid = scene
         .replace("indenter.cone", "indenter.paraboloid")
         .replace("slope = 0.1", "curvature = 50.0");
-    for (body, part) in [
-        (paraboloid, "transforms"),
-        (scene, "outside of contact box"),
-    ] {
+    for (body, part) in [(paraboloid, "transforms"), (scene, "outside contact")] {
         let file = folder(&format!("explained-{part}")).join("scene.toml");
         let resolved = body.replace("relative_error = 1e-2", "elements = 8");
         fs::write(&file, resolved).expect("a scene");
@@ -76,7 +81,7 @@ fn under_a_height_map_no_surroundings_and_no_time_are_needed() {
     )
     .expect("a scene");
     let rows = explained(&[argument(&file)]);
-    let parts = ["outside of contact box", "time steps"];
+    let parts = ["outside contact", "time steps"];
     assert_explains(&rows, &parts);
     assert_same(&rows, &parts[..1]);
 }
@@ -90,7 +95,7 @@ fn a_march_needs_no_surroundings_and_nothing_behind() {
     fs::write(&at_depth, scene).expect("a scene");
     for scene in [example("half-space-run-in.toml"), at_depth] {
         let rows = explained(&[argument(&scene)]);
-        let parts = ["outside of contact box", "history behind"];
+        let parts = ["outside contact", "rows behind"];
         assert_explains(&rows, &parts);
         assert_same(&rows, &parts);
     }
@@ -151,4 +156,14 @@ fn a_closed_form_is_compared_with_the_methods_that_it_saves() {
             assert!(row[7].contains("error bars"), "{scene}: {row:?}");
         }
     }
+}
+
+#[test]
+fn files_that_are_written_to_be_measured_do_not_stay() {
+    let folder = folder("explained-files");
+    let rows = explained_in(&folder, &[argument(&example("cone-viscous.toml"))]);
+    assert_explains(&rows, &["numerical solution", "time steps"]);
+    let left = fs::read_dir(folder.join("target/explain")).expect("the folder of the files");
+    let left: Vec<_> = left.map(|entry| entry.expect("an entry").path()).collect();
+    assert!(left.is_empty(), "{left:?} stayed");
 }
