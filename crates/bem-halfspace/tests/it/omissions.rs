@@ -3,12 +3,12 @@
 //! Both are the same discrete problem, so that answers differ by what the tolerance of 1e-11 leaves open only.
 
 use allocation_counter::measure;
-use bem_halfspace::Footprint;
 use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission, SlideOptions};
 use bem_halfspace::steady::{
     DepthControl, SteadyOmission, SteadyOptions, SteadySliding, steady, steady_at_depth,
     steady_at_depth_without_omission, steady_without_omission,
 };
+use bem_halfspace::{BemError, Footprint};
 use rheology::Material;
 
 use crate::support::{Scene, TIGHT, prony};
@@ -239,5 +239,29 @@ fn a_march_on_the_whole_footprint_makes_the_same_steps() {
             costs_memory,
             "{omission:?}: {bytes} bytes without, {other_bytes} with it"
         );
+    }
+}
+
+#[test]
+fn a_march_leaves_out_less_from_its_first_step_only() {
+    let scene = Scene::unit(2.0);
+    let options = scene.options(8.0, 3.0);
+    let new =
+        || March::sliding(&scene.body, &scene.material, &scene.load, &options).expect("a march");
+    for omission in [SlideOmission::OutsideContact, SlideOmission::RowsBehind] {
+        let mut march = new();
+        march.step().expect("a step").expect("a row");
+        let state = march.state();
+        let mut resumed = new();
+        resumed.resume(&state).expect("a state of the same scene");
+        for late in [march, resumed] {
+            let refused = late.without_omission(omission).err();
+            let expected = BemError::InvalidParameter {
+                parameter: "steps done",
+                value: 1.0,
+                allowed: "zero for a march that leaves out less",
+            };
+            assert_eq!(refused, Some(expected), "{omission:?}");
+        }
     }
 }
