@@ -69,7 +69,11 @@ impl Sliding<'_> {
         let spacing = last.context("no grid was refined")?.spacing;
         let friction = [estimate.friction_coefficient, estimate.error];
         let answer = self.answer(friction, self.on_grid(spacing, COARSE)?);
-        Ok(answer.with_parts(ErrorParts::of_elements(estimate.error)))
+        Ok(answer.with_parts(ErrorParts {
+            discretisation: Some(estimate.error - estimate.gap_error),
+            iteration: Some(estimate.gap_error),
+            ..ErrorParts::NONE
+        }))
     }
 
     fn on_elements(&self, accuracy: Accuracy) -> Result<Answer> {
@@ -151,4 +155,41 @@ fn pressed(
         peak_pressure,
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use rheology::{StandardSolid, StandardSolidParameters};
+
+    use super::*;
+
+    #[test]
+    fn the_gaps_of_a_cylinder_are_iteration_and_the_rest_of_its_error_is_elements() {
+        let material = StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: 1.0,
+            maxwell_modulus: 1.0,
+            viscosity: 1.0,
+        })
+        .expect("a material");
+        let cylinder = &Cylinder::new(1.0).expect("a body");
+        let load = &SlidingLoad::new(1.0, 0.01).expect("a load");
+        let ladder = LineLadder::of_profile(cylinder, &material, load).expect("a ladder");
+        let expected = steady_line_friction(cylinder, (&material, load), &ladder, 1e-3);
+        let expected = expected.expect("a friction");
+        let sliding = Sliding {
+            cylinder,
+            material: &material,
+            load,
+            ladder,
+        };
+        let parts = sliding.to_an_error(1e-3).expect("an answer").error_parts;
+        assert_eq!(parts.iteration, Some(expected.gap_error), "{expected:?}");
+        // The difference is rounded once, and so is its sum.
+        let sum = parts.sum();
+        assert!(
+            expected.gap_error > 0.0 && (sum / expected.error - 1.0).abs() <= 2.0 * f64::EPSILON,
+            "{parts:?} sum up to {sum:e} instead of {:e}",
+            expected.error
+        );
+    }
 }

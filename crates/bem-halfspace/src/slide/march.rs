@@ -101,7 +101,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
     /// tolerance, and cost more.
     ///
     /// # Errors
-    /// [`BemError::GridTooLarge`] when all of the footprint is too large to be solved at once.
+    /// [`BemError::InvalidParameter`] after a step; [`BemError::GridTooLarge`] when all of the footprint is too large
+    /// to be solved at once.
     pub fn without_omission(mut self, omission: SlideOmission) -> Result<Self, BemError> {
         self.stepping.keep(omission)?;
         Ok(self)

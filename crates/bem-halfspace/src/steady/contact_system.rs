@@ -29,6 +29,8 @@ const LARGEST_MATRIX: usize = 4000;
 pub(super) struct Closure {
     pub(super) loads: Vec<f64>,
     pub(super) depth: f64,
+    /// Whether the equations were factorised; if not, they were solved by iteration.
+    pub(super) factorised: bool,
 }
 
 /// Closes the gaps of `contact` up to `tolerance`, the root of their mean square in units of the depth scale; `start`
@@ -52,7 +54,7 @@ pub(super) fn close_gaps(
 }
 
 /// Whether so many unknowns in a box of so many elements are factorised.
-pub(super) fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
+fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
     let work = (n_unknowns as f64).powi(3);
     n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
 }
@@ -77,6 +79,7 @@ fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {
     Closure {
         loads: (0..n).map(|row| solution[(row, 0)]).collect(),
         depth: solution[(n, 0)],
+        factorised: true,
     }
 }
 
@@ -123,7 +126,11 @@ impl<'mesh> ContactSystem<'mesh> {
             *load += step;
         }
         depth += depth_step;
-        Closure { loads, depth }
+        Closure {
+            loads,
+            depth,
+            factorised: false,
+        }
     }
 
     /// Loads and depth that satisfy the control, near the guess.

@@ -78,6 +78,8 @@ pub struct LineFriction {
     pub friction_coefficient: f64,
     /// Estimated absolute error.
     pub error: f64,
+    /// The part of it that comes from the gaps that the solver leaves in the contact.
+    pub gap_error: f64,
     /// The refinements that led there, from coarse to fine; their forces are per length, \[N/m].
     pub refinements: Vec<Refinement>,
 }
@@ -173,6 +175,7 @@ pub fn steady_line_friction(
     Ok(LineFriction {
         friction_coefficient: estimate.friction_coefficient,
         error: estimate.error,
+        gap_error: estimate.gap_error,
         refinements: estimate.refinements.into_iter().map(per_length).collect(),
     })
 }

@@ -38,6 +38,8 @@ pub(super) struct Solution {
     pub(super) loads: Vec<(usize, f64)>,
     pub(super) depth: f64,
     pub(super) iterations: usize,
+    /// Whether the equations of the last contact were factorised.
+    pub(super) factorised: bool,
     /// Largest |gap| in the contact, in units of the depth scale.
     pub(super) residual: f64,
 }
@@ -163,6 +165,7 @@ struct Search<'mesh> {
     inside: Vec<bool>,
     loads: Vec<f64>,
     depth: f64,
+    factorised: bool,
     tolerance: f64,
     /// Whether flat parts may not join yet.
     flat_parts_wait: bool,
@@ -192,6 +195,7 @@ impl<'mesh> Search<'mesh> {
             inside: vec![false; mesh.n_elements()],
             loads: vec![0.0; mesh.n_elements()],
             depth: 0.0,
+            factorised: false,
             tolerance: first_tolerance(guess.len()).max(LAST * mesh.options.tolerance),
             flat_parts_wait,
             product: Product::new(plans, &all),
@@ -211,7 +215,11 @@ impl<'mesh> Search<'mesh> {
             .filter(|&element| self.inside[element])
             .collect();
         let start = contact.iter().map(|&element| self.loads[element]).collect();
-        let Closure { loads, depth, .. } = close_gaps(
+        let Closure {
+            loads,
+            depth,
+            factorised,
+        } = close_gaps(
             (self.mesh, self.plans),
             &contact,
             start,
@@ -221,7 +229,7 @@ impl<'mesh> Search<'mesh> {
         for (&element, load) in contact.iter().zip(loads) {
             self.loads[element] = load;
         }
-        self.depth = depth;
+        (self.depth, self.factorised) = (depth, factorised);
         self.drop_slight_pulls();
         self.state()
     }
@@ -312,6 +320,7 @@ impl<'mesh> Search<'mesh> {
             loads: loads.collect(),
             depth: self.depth,
             iterations,
+            factorised: self.factorised,
             residual,
         }
     }

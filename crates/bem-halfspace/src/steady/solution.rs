@@ -1,7 +1,6 @@
 //! What the stationary solver returns.
 
 use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField};
-use crate::steady::contact_system::is_factorised;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
@@ -35,13 +34,14 @@ pub struct SteadySliding {
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
+    factorised: bool,
 }
 
 impl SteadySliding {
     /// Whether the equations of this contact were factorised; if not, they were solved by iteration with transforms.
     #[must_use]
-    pub fn is_factorised(&self) -> bool {
-        is_factorised(self.unknowns, self.pressure.grid.n_elements())
+    pub const fn is_factorised(&self) -> bool {
+        self.factorised
     }
 
     /// Turns a solution in the units of the mesh into one in SI.
@@ -85,6 +85,7 @@ impl SteadySliding {
             iterations: solution.iterations,
             residual: solution.residual,
             pressure,
+            factorised: solution.factorised,
         })
     }
 }

@@ -15,10 +15,20 @@ pub enum SlideOmission {
 }
 
 impl<S: Surface + ?Sized> Stepping<'_, S> {
-    /// Does the work of an omission too; before the first step.
+    /// Does the work of an omission too. After a step that is refused: rows are left behind already, and the loads of
+    /// the box would be lost.
     pub(crate) fn keep(&mut self, omission: SlideOmission) -> Result<(), BemError> {
+        if self.steps_done > 0 {
+            return Err(BemError::InvalidParameter {
+                parameter: "steps done",
+                value: self.steps_done as f64,
+                allowed: "zero for a march that leaves out less",
+            });
+        }
         self.kept = Some(omission);
-        self.contact_box = self.box_at_lowest(&self.heights)?;
+        if omission == SlideOmission::OutsideContact {
+            self.contact_box = self.box_at_lowest(&self.heights)?;
+        }
         Ok(())
     }
 }

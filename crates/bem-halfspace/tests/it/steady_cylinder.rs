@@ -97,6 +97,25 @@ fn slow_and_fast_cylinders_and_stiff_solids_are_hunters_too() {
     }
 }
 
+/// A load that acts only on slopes that meet it has their mean as friction, whatever the gaps; a slow cylinder is met on
+/// both sides.
+#[test]
+fn gaps_are_a_part_of_the_error_where_slopes_of_both_signs_are_loaded() {
+    for (scene, has_gaps) in [
+        (hunter([0.1, 2.0, 6.612]), false),
+        (hunter([1.0, 100.0, 1.0]), true),
+    ] {
+        let LineFriction {
+            error, gap_error, ..
+        } = scene.friction(1e-2).expect("a friction");
+        assert_eq!(gap_error > 0.0, has_gaps, "part of the gaps: {gap_error:e}");
+        assert!(
+            gap_error < error,
+            "{gap_error:e} of gaps in an error of {error:e}"
+        );
+    }
+}
+
 #[test]
 fn a_cylinder_on_three_branches_is_that_of_the_spectral_reference() {
     for case in group("VIS-05") {
