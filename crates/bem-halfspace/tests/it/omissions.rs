@@ -234,8 +234,9 @@ fn a_march_on_the_whole_footprint_makes_the_same_steps() {
                 assert_same(&place, got, [expected, expected]);
             }
         }
+        // Rows behind are in the memory anyway; what else differs are a few lists.
         assert_eq!(
-            other_bytes > bytes,
+            10 * other_bytes > 11 * bytes,
             costs_memory,
             "{omission:?}: {bytes} bytes without, {other_bytes} with it"
         );
