@@ -39,11 +39,12 @@ impl SteepKink {
             .collect()
     }
 
-    /// Whether the steep side is in one of the contacts `[rear, front]`.
+    /// Whether the steep side is in one of the contacts `[rear, front]`, or begins where that ends: what reaches beyond a
+    /// kink by less than the rounding of its position reaches beyond it all the same.
     pub(super) fn is_in(&self, contacts: &[[f64; 2]]) -> bool {
         let [first, last] = self.side;
         let mut contacts = contacts.iter();
-        contacts.any(|[rear, front]| *rear < last && *front > first)
+        contacts.any(|[rear, front]| *rear <= last && *front >= first)
     }
 }
 
