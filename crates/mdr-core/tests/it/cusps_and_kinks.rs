@@ -35,6 +35,18 @@ fn a_flat_end_of_any_size_has_no_finite_friction_on_a_dashpot() {
     }
 }
 
+/// The contact reaches beyond the kink by less than the rounding of its position.
+#[test]
+fn a_flat_end_much_larger_than_the_depth_has_none_either() {
+    for radius in [1e4, 1e6, 1e7, 1e8] {
+        let got = slid(&FlatCone::new(radius, 1.0).expect("a body"));
+        assert!(
+            matches!(got, Err(MdrError::FrictionDiverges { .. })),
+            "radius {radius}: expected FrictionDiverges, got {got:?}"
+        );
+    }
+}
+
 /// The kink of the curvature is none of the slope, and a solid has finite friction on a flat end as well.
 #[test]
 fn kinks_that_do_no_harm_are_not_refused() {
