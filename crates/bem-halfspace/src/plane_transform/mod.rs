@@ -25,6 +25,8 @@ use workspace::{Lane, for_each_lane};
 
 /// Columns that pass together: eight complex numbers fill two cache lines.
 const TILE: usize = 8;
+/// Rows of which the pieces of a tile lie one after the other, so that columns are gathered from few places of memory.
+const STRIP: usize = 8;
 pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
@@ -103,14 +105,26 @@ impl PlaneTransform {
 
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
     pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
-        let (width, n_columns) = (workspace.shape[1], self.n_columns());
-        let Workspace { rows, lanes, .. } = workspace;
-        let rows = &mut rows[loaded.start * n_columns..loaded.end * n_columns];
-        for_each_lane(lanes, (rows, n_columns), |first, lane, rows| {
-            for (row, transformed) in (loaded.start + first..).zip(rows.chunks_exact_mut(n_columns))
-            {
-                let values = &field[row * width..(row + 1) * width];
-                self.rows.forward(lane, values, transformed);
+        let width = workspace.shape[1];
+        let Workspace { strips, lanes, .. } = workspace;
+        let unit = self.n_tiles() * STRIP;
+        let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
+        let strips = &mut strips[used.start * unit..used.end * unit];
+        for_each_lane(lanes, (strips, unit), |first, lane, strips| {
+            for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
+                for row in rows_of_strip(strip, loaded) {
+                    self.rows
+                        .forward(lane, &field[row * width..(row + 1) * width]);
+                    let coefficients = &lane.half_row[..self.n_columns()];
+                    let mut pieces = pieces[row % STRIP..].iter_mut().step_by(STRIP);
+                    let (whole, rest) = coefficients.as_chunks::<TILE>();
+                    for (values, piece) in whole.iter().zip(&mut pieces) {
+                        *piece = *values;
+                    }
+                    for (value, place) in rest.iter().zip(pieces.flatten()) {
+                        *place = *value;
+                    }
+                }
             }
         });
     }
@@ -124,17 +138,21 @@ impl PlaneTransform {
     ) {
         let n_rows = workspace.shape[0];
         let Workspace {
-            rows, tiles, lanes, ..
+            strips,
+            tiles,
+            lanes,
+            ..
         } = workspace;
         for_each_lane(lanes, (tiles, n_rows), |first, lane, tiles| {
             for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(n_rows)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
-                self.gather_columns(lane, rows, (&columns, loaded));
+                self.gather_columns(lane, strips, (tile, loaded));
                 self.multiply_columns(lane, &columns, &multiply);
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
                     let place = self.columns.place(row);
-                    for (column, value) in piece[..columns.len()].iter_mut().enumerate() {
-                        *value = lane.columns[column * self.column_stride() + place];
+                    let columns = lane.columns.chunks_exact(self.column_stride());
+                    for (value, column) in piece.iter_mut().zip(columns) {
+                        *value = column[place];
                     }
                 }
             }
@@ -144,18 +162,21 @@ impl PlaneTransform {
     fn gather_columns(
         &self,
         lane: &mut Lane,
-        rows: &[Complex<f64>],
-        (columns, loaded): (&Range<usize>, &Range<usize>),
+        strips: &[[Complex<f64>; TILE]],
+        (tile, loaded): (usize, &Range<usize>),
     ) {
         let stride = self.column_stride();
         for column in lane.columns.chunks_exact_mut(stride) {
             self.columns.clear_beside(loaded, column);
         }
-        for row in loaded.clone() {
-            let values = &rows[row * self.n_columns()..][columns.clone()];
-            let place = self.columns.place(row);
-            for (column, value) in values.iter().enumerate() {
-                lane.columns[column * stride + place] = *value;
+        for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
+            let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
+            for row in rows_of_strip(strip, loaded) {
+                let place = self.columns.place(row);
+                let columns = lane.columns.chunks_exact_mut(stride);
+                for (column, value) in columns.zip(&pieces[row % STRIP]) {
+                    column[place] = *value;
+                }
             }
         }
     }
@@ -200,4 +221,9 @@ impl PlaneTransform {
             }
         });
     }
+}
+
+/// Those of the rows that lie in a strip.
+fn rows_of_strip(strip: usize, rows: &Range<usize>) -> Range<usize> {
+    rows.start.max(strip * STRIP)..rows.end.min((strip + 1) * STRIP)
 }

@@ -66,17 +66,13 @@ impl RowTransform {
         debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
     }
 
-    /// Transforms the values at the beginning of a row that is zero behind them.
-    pub(super) fn forward(
-        &self,
-        lane: &mut Lane,
-        values: &[f64],
-        coefficients: &mut [Complex<f64>],
-    ) {
+    /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
+    /// the lane.
+    pub(super) fn forward(&self, lane: &mut Lane, values: &[f64]) {
         let Some(turns) = &self.turns else {
             lane.row[..values.len()].copy_from_slice(values);
             lane.row[values.len()..].fill(0.0);
-            return self.forward_whole(&mut lane.scratch, &mut lane.row, coefficients);
+            return self.forward_whole(&mut lane.scratch, &mut lane.row, &mut lane.half_row);
         };
         lane.row.fill(0.0);
         let odd = values.iter().skip(1).step_by(2);
@@ -99,7 +95,7 @@ impl RowTransform {
         let (pairs, last) = lane.row.as_chunks::<2>();
         let alone = last.iter().map(|&real| Complex::new(real, 0.0));
         let pairs = pairs.iter().map(|&[re, im]| Complex::new(re, im));
-        for (coefficient, pair) in coefficients.iter_mut().zip(pairs.chain(alone)) {
+        for (coefficient, pair) in lane.half_row.iter_mut().zip(pairs.chain(alone)) {
             *coefficient = pair;
         }
     }

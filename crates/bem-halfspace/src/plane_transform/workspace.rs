@@ -7,7 +7,7 @@ use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
-use crate::plane_transform::{PlaneTransform, TILE, ZERO};
+use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 
 /// Below this many elements threads cost more than they gain.
 #[cfg(feature = "rayon")]
@@ -19,8 +19,8 @@ const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
 pub(crate) struct Workspace {
     /// Rows and columns of the fields.
     pub(super) shape: [usize; 2],
-    /// Transformed rows, [row][column].
-    pub(super) rows: Vec<Complex<f64>>,
+    /// Transformed rows, [strip][tile][row of the strip].
+    pub(super) strips: Vec<[Complex<f64>; TILE]>,
     /// Columns after the product, [tile][row].
     pub(super) tiles: Vec<[Complex<f64>; TILE]>,
     pub(super) lanes: Vec<Lane>,
@@ -40,7 +40,10 @@ impl Workspace {
     pub(crate) fn new(transform: &PlaneTransform, shape: [usize; 2]) -> Self {
         Self {
             shape,
-            rows: copies(ZERO, shape[0] * transform.n_columns()),
+            strips: copies(
+                [ZERO; TILE],
+                shape[0].next_multiple_of(STRIP) * transform.n_tiles(),
+            ),
             tiles: copies([ZERO; TILE], shape[0] * transform.n_tiles()),
             lanes: (0..n_lanes(shape[0] * shape[1]))
                 .map(|_| Lane::new(transform))
