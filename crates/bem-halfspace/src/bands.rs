@@ -9,20 +9,30 @@ const MIN_ELEMENTS: usize = 1 << 13;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bands {
     shape: [usize; 2],
-    /// Even, so that blocks of two by two elements lie in one band.
+    /// A multiple of [`LARGEST_BLOCK`](Self::LARGEST_BLOCK).
     rows_per_band: usize,
 }
 
 impl Bands {
+    /// Blocks of so many elements along an edge, or of a half of them and so on, lie in one band.
+    pub(crate) const LARGEST_BLOCK: usize = 8;
+
     pub(crate) const fn new(shape: [usize; 2]) -> Self {
+        let blocks = MIN_ELEMENTS.div_ceil(Self::LARGEST_BLOCK * shape[1]);
         Self {
             shape,
-            rows_per_band: 2 * MIN_ELEMENTS.div_ceil(2 * shape[1]),
+            rows_per_band: Self::LARGEST_BLOCK * blocks,
         }
     }
 
-    pub(crate) const fn rows_per_band(&self) -> usize {
-        self.rows_per_band
+    /// How a field with one value per element is divided.
+    pub(crate) const fn starts(&self) -> Starts<'static> {
+        Starts::Every(self.rows_per_band * self.shape[1])
+    }
+
+    /// How a field with one value per block of so many elements along an edge is divided.
+    pub(crate) const fn starts_of_blocks(&self, edge: usize) -> Starts<'static> {
+        Starts::Every(self.rows_per_band / edge * self.shape[1].div_ceil(edge))
     }
 
     pub(crate) const fn n_bands(&self) -> usize {
@@ -48,8 +58,7 @@ impl Bands {
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        let unit = self.rows_per_band * self.shape[1];
-        let fields = fields.map(|field| (field, unit));
+        let fields = fields.map(|field| (field, self.starts()));
         fold_parts(0..self.n_bands(), fields, &work, &combine)
     }
 
@@ -77,7 +86,29 @@ impl Bands {
     }
 }
 
-/// Does the work of every part of a range on its part of the fields, of which each has so many values per part.
+/// Where the parts of a field begin.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Starts<'a> {
+    /// After so many values each.
+    Every(usize),
+    /// One number per part, and the end.
+    Listed(&'a [usize]),
+}
+
+impl Starts<'_> {
+    /// Where a part begins.
+    pub(crate) fn of(self, part: usize) -> usize {
+        match self {
+            Self::Every(unit) => part * unit,
+            Self::Listed(starts) => starts[part],
+        }
+    }
+}
+
+/// Fields, and where the parts of each begin.
+pub(crate) type Fields<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
+
+/// Does the work of every part of a range on its part of the fields.
 ///
 /// The halves of the range are combined, and those are of their halves: the order is always the same.
 pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
@@ -90,7 +121,7 @@ pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
         return work(parts.start, fields.map(|(field, _)| field));
     }
     let middle = parts.start + parts.len() / 2;
-    let (lower, upper) = split(fields, middle - parts.start);
+    let (lower, upper) = split(fields, parts.start, middle);
     let (left, right) = join(
         || fold_parts(parts.start..middle, lower, work, combine),
         || fold_parts(middle..parts.end, upper, work, combine),
@@ -98,19 +129,20 @@ pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
     combine(left, right)
 }
 
-/// Fields, and how many values of each belong to a part.
-type Fields<'a, T, const N: usize> = [(&'a mut [T], usize); N];
-
-/// The fields before and behind so many parts.
-fn split<T, const N: usize>(fields: Fields<T, N>, parts: usize) -> (Fields<T, N>, Fields<T, N>) {
-    let mut behind = [(); N].map(|()| (<&mut [T]>::default(), 0));
+/// The fields, which begin with the part `first`, before and behind the beginning of a part in the `middle`.
+fn split<'a, T, const N: usize>(
+    fields: Fields<'a, T, N>,
+    first: usize,
+    middle: usize,
+) -> (Fields<'a, T, N>, Fields<'a, T, N>) {
+    let mut behind = [(); N].map(|()| (<&mut [T]>::default(), Starts::Every(0)));
     let mut slots = behind.iter_mut();
-    let before = fields.map(|(field, unit)| {
-        let (lower, upper) = field.split_at_mut(parts * unit);
+    let before = fields.map(|(field, starts)| {
+        let (lower, upper) = field.split_at_mut(starts.of(middle) - starts.of(first));
         if let Some(slot) = slots.next() {
-            *slot = (upper, unit);
+            *slot = (upper, starts);
         }
-        (lower, unit)
+        (lower, starts)
     });
     (before, behind)
 }

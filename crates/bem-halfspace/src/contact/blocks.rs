@@ -1,28 +1,44 @@
-//! Blocks of two by two elements.
+//! Blocks of so many by so many elements.
 
-use crate::bands::fold_parts;
+use std::ops::Range;
+
 use crate::contact::contact_set::ContactSet;
 
-/// Sums over the elements of each block that are in contact, on a grid with so many columns.
-pub(super) fn sum_blocks(
+/// Visits the parts of the runs of a band that lie in one block each, with the number of the block, counted from the
+/// first of the band, and the places of the elements in the part of a list that belongs to the band.
+pub(super) fn for_each_part<const EDGE: usize>(
     contact: &ContactSet,
-    columns: usize,
-    value: impl Fn(usize) -> f64 + Sync,
+    band: usize,
+    mut visit: impl FnMut(usize, Range<usize>),
+) {
+    let columns = contact.columns();
+    let first_row = contact.bands().rows(band).start;
+    for run in contact.runs(band) {
+        let Range { start, end } = run.elements();
+        let row = start / columns;
+        let before = (row - first_row) / EDGE * columns.div_ceil(EDGE);
+        let (mut column, end) = (start - row * columns, end - row * columns);
+        let mut place = run.places().start;
+        while column < end {
+            let block = column / EDGE;
+            let length = ((block + 1) * EDGE).min(end) - column;
+            visit(before + block, place..place + length);
+            (column, place) = (column + length, place + length);
+        }
+    }
+}
+
+/// Sums over the elements of each block that are in contact, of the terms that the places in lists have.
+pub(super) fn sum_blocks<const EDGE: usize>(
+    contact: &ContactSet,
+    term: impl Fn(usize) -> f64 + Sync,
     sums: &mut [f64],
 ) {
-    let bands = contact.bands();
-    let block_columns = columns.div_ceil(2);
-    let in_band = |band, [sums]: [&mut [f64]; 1]| {
+    contact.for_each([contact.blocks(EDGE, sums)], |band, [sums]| {
         sums.fill(0.0);
-        for run in contact.runs(band) {
-            let (row, column) = (run.start / columns, run.start % columns);
-            let sums = &mut sums[(row - bands.rows(band).start) / 2 * block_columns..];
-            for (column, element) in (column..).zip(run.clone()) {
-                sums[column / 2] += value(element);
-            }
-        }
-    };
-    let blocks_per_band = bands.rows_per_band() / 2 * block_columns;
-    let sums = [(sums, blocks_per_band)];
-    fold_parts(0..bands.n_bands(), sums, &in_band, &|(), ()| ());
+        let first = contact.places(band).start;
+        for_each_part::<EDGE>(contact, band, |block, places| {
+            sums[block] += places.map(|place| term(first + place)).sum::<f64>();
+        });
+    });
 }

@@ -1,39 +1,69 @@
 //! The elements in contact.
+//!
+//! What is known of each of them stands in lists, in the order of the field, so that work on the contact costs as much as
+//! the contact is large, however porous it is.
 
 use std::ops::Range;
 
-use crate::bands::Bands;
+use crate::bands::{Bands, Fields, Starts, fold_parts};
 
-/// Elements in contact, as runs of neighbours, so that what concerns the contact costs as much as the contact is large.
+/// Neighbours in contact, in one row and not continued in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    /// The first element.
+    element: usize,
+    /// Its place in the part of a list that belongs to the band.
+    place: usize,
+    length: usize,
+}
+
+impl Run {
+    pub(super) fn elements(&self) -> Range<usize> {
+        self.element..self.element + self.length
+    }
+
+    /// Counted from the element `first`.
+    pub(super) fn elements_from(&self, first: usize) -> Range<usize> {
+        self.element - first..self.element - first + self.length
+    }
+
+    pub(super) fn places(&self) -> Range<usize> {
+        self.place..self.place + self.length
+    }
+}
+
+/// Elements in contact, as runs of neighbours.
 #[derive(Debug, Clone)]
 pub(super) struct ContactSet {
     in_contact: Vec<bool>,
     columns: usize,
     bands: Bands,
-    /// Each in one row; with room for as many as there can be, so that a change does not allocate.
-    runs: Vec<Range<usize>>,
-    /// Number of runs before each row, and of all.
-    runs_before: Vec<usize>,
-    n_elements: usize,
+    /// Of each band, with room for as many as there can be, so that a change does not allocate.
+    runs: Vec<Vec<Run>>,
+    /// Number of elements in contact before each band, and of all.
+    starts: Vec<usize>,
 }
 
 impl ContactSet {
     /// The empty contact on a grid of the given shape.
-    pub(super) fn new([rows, columns]: [usize; 2]) -> Self {
+    pub(super) fn new(shape: [usize; 2]) -> Self {
+        let bands = Bands::new(shape);
+        let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
+        let runs = (0..bands.n_bands()).map(|band| Vec::with_capacity(most_runs(band)));
         Self {
-            in_contact: vec![false; rows * columns],
-            columns,
-            bands: Bands::new([rows, columns]),
-            runs: Vec::with_capacity(rows * columns.div_ceil(2)),
-            runs_before: vec![0; rows + 1],
-            n_elements: 0,
+            in_contact: vec![false; shape[0] * shape[1]],
+            columns: shape[1],
+            bands,
+            runs: runs.collect(),
+            starts: vec![0; bands.n_bands() + 1],
         }
     }
 
     /// Takes the elements for which `in_contact` says so.
+    ///
+    /// [`find_runs`](Self::find_runs) must follow.
     pub(super) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
         self.change(|element, is| in_contact(element) != is);
-        self.find_runs();
     }
 
     /// Moves elements into the contact or out of it; `changes` is asked whether, and told where the element is.
@@ -50,49 +80,122 @@ impl ContactSet {
 
     /// Finds the runs after changes.
     pub(super) fn find_runs(&mut self) {
-        self.runs.clear();
-        let mut end = 0;
-        let rows = self.in_contact.chunks_exact(self.columns);
-        for (row, runs_before) in rows.zip(&mut self.runs_before[1..]) {
-            for run in row.chunk_by(|left, right| left == right) {
-                if run[0] {
-                    self.runs.push(end..end + run.len());
-                }
-                end += run.len();
-            }
-            *runs_before = self.runs.len();
+        let (bands, columns, in_contact) = (self.bands, self.columns, &self.in_contact);
+        let in_band = |band, [runs]: [&mut [Vec<Run>]; 1]| {
+            let elements = bands.elements(band);
+            let rows = in_contact[elements.clone()].chunks_exact(columns);
+            find_runs_in(rows, elements.start, &mut runs[0]);
+        };
+        let runs = [(&mut self.runs[..], Starts::Every(1))];
+        fold_parts(0..bands.n_bands(), runs, &in_band, &|(), ()| ());
+        let mut before = 0;
+        for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
+            before += runs.last().map_or(0, |run| run.places().end);
+            *start = before;
         }
-        self.n_elements = self.runs.iter().map(ExactSizeIterator::len).sum();
     }
 
-    pub(super) const fn len(&self) -> usize {
-        self.n_elements
+    pub(super) fn len(&self) -> usize {
+        self.starts[self.bands.n_bands()]
+    }
+
+    pub(super) const fn columns(&self) -> usize {
+        self.columns
     }
 
     pub(super) const fn bands(&self) -> Bands {
         self.bands
     }
 
-    /// The elements of a band in contact as ranges of neighbours in one row, increasing.
-    pub(super) fn runs(&self, band: usize) -> &[Range<usize>] {
-        let rows = self.bands.rows(band);
-        &self.runs[self.runs_before[rows.start]..self.runs_before[rows.end]]
+    /// The neighbours in contact in a band, increasing.
+    pub(super) fn runs(&self, band: usize) -> &[Run] {
+        &self.runs[band]
+    }
+
+    /// The part of a list that belongs to a band.
+    pub(super) fn places(&self, band: usize) -> Range<usize> {
+        self.starts[band]..self.starts[band + 1]
     }
 
     /// The elements of a band outside the contact as ranges, increasing.
     pub(super) fn gaps(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = self.bands.elements(band);
-        let runs = self.runs(band);
-        let starts = std::iter::once(start).chain(runs.iter().map(|run| run.end));
-        let ends = runs.iter().map(|run| run.start);
-        let ends = ends.chain(std::iter::once(end));
+        let runs = self.runs(band).iter().map(Run::elements);
+        let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
+        let ends = runs.map(|run| run.start).chain(std::iter::once(end));
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// Sum over the elements in contact of what a run of them contributes.
-    pub(super) fn sum(&self, of_run: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-        self.bands
-            .sum(|band| self.runs(band).iter().cloned().map(&of_run).sum())
+    /// A list, for [`fold`](Self::fold).
+    pub(super) fn list<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+        (list, Starts::Listed(&self.starts))
+    }
+
+    /// A field with one value per element, for [`fold`](Self::fold).
+    pub(super) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+        (field, self.bands.starts())
+    }
+
+    /// A field with one value per block of so many elements along an edge, for [`fold`](Self::fold).
+    pub(super) fn blocks<'a, T>(
+        &self,
+        edge: usize,
+        field: &'a mut [T],
+    ) -> (&'a mut [T], Starts<'a>) {
+        (field, self.bands.starts_of_blocks(edge))
+    }
+
+    /// Does the work of every band on its part of fields and lists.
+    pub(super) fn fold<const N: usize, T: Send, R: Send>(
+        &self,
+        fields: Fields<T, N>,
+        work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
+        combine: impl Fn(R, R) -> R + Sync,
+    ) -> R {
+        fold_parts(0..self.bands.n_bands(), fields, &work, &combine)
+    }
+
+    /// Does the work of every band on its part of fields and lists.
+    pub(super) fn for_each<const N: usize, T: Send>(
+        &self,
+        fields: Fields<T, N>,
+        work: impl Fn(usize, [&mut [T]; N]) + Sync,
+    ) {
+        self.fold(fields, work, |(), ()| ());
+    }
+
+    /// Sum of what the parts of lists contribute that belong to a band.
+    pub(super) fn sum(&self, of_places: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+        self.bands.sum(|band| of_places(self.places(band)))
+    }
+
+    /// Lists the values of a field.
+    pub(super) fn gather(&self, field: &[f64], list: &mut [f64]) {
+        self.for_each([self.list(list)], |band, [list]| {
+            self.gather_in(band, field, list);
+        });
+    }
+
+    /// Lists the values of a field in a band.
+    pub(super) fn gather_in(&self, band: usize, field: &[f64], list: &mut [f64]) {
+        for run in self.runs(band) {
+            list[run.places()].copy_from_slice(&field[run.elements()]);
+        }
+    }
+
+    /// Writes the values of a list into a field.
+    pub(super) fn scatter(&self, list: &[f64], field: &mut [f64]) {
+        self.for_each([self.field(field)], |band, [field]| {
+            self.scatter_in(band, &list[self.places(band)], field);
+        });
+    }
+
+    /// Writes the part of a list that belongs to a band into the same part of a field.
+    pub(super) fn scatter_in(&self, band: usize, list: &[f64], field: &mut [f64]) {
+        let first = self.bands.elements(band).start;
+        for run in self.runs(band) {
+            field[run.elements_from(first)].copy_from_slice(&list[run.places()]);
+        }
     }
 
     /// Number of elements for which `is` says so, told where they are, and the last of them.
@@ -109,5 +212,23 @@ impl ContactSet {
 
     pub(super) fn contains(&self, element: usize) -> bool {
         self.in_contact[element]
+    }
+}
+
+/// Finds the runs in rows of which the first begins with the element `end`.
+fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs: &mut Vec<Run>) {
+    runs.clear();
+    let mut place = 0;
+    for equal in rows.flat_map(|row| row.chunk_by(|left, right| left == right)) {
+        let (element, length) = (end, equal.len());
+        end += length;
+        if equal[0] {
+            runs.push(Run {
+                element,
+                place,
+                length,
+            });
+            place += length;
+        }
     }
 }

@@ -26,23 +26,22 @@
 use std::f64::consts::PI;
 
 use crate::bands::Bands;
-use crate::contact::blocks::sum_blocks;
+use crate::contact::blocks::{for_each_part, sum_blocks};
 use crate::contact::contact_set::ContactSet;
+use crate::contact::lanes::add;
 use crate::{Grid, influence};
 
 /// Part of the displacement under the own load of a block that counts as k. A half is what the block of twice the edges
 /// leaves; its neighbours take a part of that.
 const SHARE: f64 = 0.3;
 
-/// In smaller blocks, edges in elements, the inverse is right without their neighbours.
-const SMALLEST: usize = 8;
+/// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.
+const SMALLEST: usize = Bands::LARGEST_BLOCK;
 
 #[derive(Debug, Clone)]
 pub(super) struct FarLoads {
-    columns: usize,
-    /// w, for the elements in contact.
+    /// w, a list.
     weights: Vec<f64>,
-    /// Blocks of two by two elements.
     smallest: Level,
     /// Blocks of twice the edges, and so on to one block.
     larger: Vec<Level>,
@@ -64,7 +63,7 @@ struct Level {
 
 impl FarLoads {
     pub(super) fn new(grid: &Grid) -> Self {
-        let (mut blocks, mut edge) = (grid.blocks(), 2);
+        let (mut blocks, mut edge) = (grid.blocks().blocks().blocks(), SMALLEST);
         let smallest = Level::new(&blocks, edge, grid);
         let mut larger = Vec::new();
         while blocks.n_elements() > 1 {
@@ -72,37 +71,34 @@ impl FarLoads {
             larger.push(Level::new(&blocks, edge, grid));
         }
         Self {
-            columns: grid.shape()[1],
-            weights: vec![0.0; grid.n_elements()],
+            weights: Vec::with_capacity(grid.n_elements()),
             smallest,
             larger,
         }
     }
 
-    /// Takes another contact, with the `answer` of the inverse to the gap one.
+    /// Takes another contact, with the list of the `answer` of the inverse to the gap one.
     pub(super) fn weigh(&mut self, contact: &ContactSet, answer: &[f64]) {
-        let bands = contact.bands();
-        bands.for_each([&mut self.weights], |band, [weights]| {
-            let first = bands.elements(band).start;
-            for run in contact.runs(band) {
-                for (weight, value) in weights[run.start - first..]
-                    .iter_mut()
-                    .zip(&answer[run.clone()])
-                {
-                    *weight = value.max(0.0);
-                }
+        self.weights.resize(contact.len(), 0.0);
+        contact.for_each([contact.list(&mut self.weights)], |band, [weights]| {
+            for (weight, value) in weights.iter_mut().zip(&answer[contact.places(band)]) {
+                *weight = value.max(0.0);
             }
         });
         self.find_sums(contact);
     }
 
     fn find_sums(&mut self, contact: &ContactSet) {
-        let (columns, weights) = (self.columns, &self.weights);
-        let weight = |element: usize| weights[element];
-        sum_blocks(contact, columns, weight, &mut self.smallest.sums);
-        self.smallest.find_own();
-        let mut smaller = &self.smallest;
-        for level in &mut self.larger {
+        let Self {
+            weights,
+            smallest,
+            larger,
+        } = self;
+        let weight = |place: usize| weights[place];
+        sum_blocks::<SMALLEST>(contact, weight, &mut smallest.sums);
+        smallest.find_own();
+        let mut smaller = &*smallest;
+        for level in larger {
             let load = |block: usize| smaller.sums[block] * (1.0 - smaller.own[block]);
             add_blocks((smaller.shape, load), (level.shape, &mut level.sums));
             level.find_own();
@@ -110,32 +106,34 @@ impl FarLoads {
         }
     }
 
-    /// Takes away from the answer of the inverse to a residual what belongs to the load of other blocks.
+    /// Takes away from the list of answers of the inverse to a residual what belongs to the load of other blocks.
     pub(super) fn take_from(&mut self, contact: &ContactSet, residual: &[f64], answer: &mut [f64]) {
         self.find_gaps(contact, residual);
         self.find_displacements();
-        let blocks = &self.smallest;
-        let (bands, columns, weights) = (contact.bands(), self.columns, &self.weights);
-        bands.for_each([answer], |band, [answer]| {
-            let start = bands.elements(band).start;
-            for run in contact.runs(band) {
-                let (row, column) = (run.start / columns, run.start % columns);
-                let displacements = &blocks.values[row / 2 * blocks.shape[1]..];
-                for (column, element) in (column..).zip(run.clone()) {
-                    answer[element - start] -= weights[element] * displacements[column / 2];
-                }
-            }
+        let (weights, displacements) = (&self.weights, &self.smallest.values);
+        let starts = contact.bands().starts_of_blocks(SMALLEST);
+        contact.for_each([contact.list(answer)], |band, [answer]| {
+            let weights = &weights[contact.places(band)];
+            let displacements = &displacements[starts.of(band)..];
+            for_each_part::<SMALLEST>(contact, band, |block, places| {
+                let (answer, weights) = (&mut answer[places.clone()], &weights[places]);
+                add(answer, -displacements[block], weights);
+            });
         });
     }
 
     /// From small blocks to large ones.
     fn find_gaps(&mut self, contact: &ContactSet, residual: &[f64]) {
-        let (columns, weights) = (self.columns, &self.weights);
-        let load = |element: usize| weights[element] * residual[element];
-        sum_blocks(contact, columns, load, &mut self.smallest.values);
-        self.smallest.divide_by_sums();
-        let mut smaller = &self.smallest;
-        for level in &mut self.larger {
+        let Self {
+            weights,
+            smallest,
+            larger,
+        } = self;
+        let load = |place: usize| weights[place] * residual[place];
+        sum_blocks::<SMALLEST>(contact, load, &mut smallest.values);
+        smallest.divide_by_sums();
+        let mut smaller = &*smallest;
+        for level in larger {
             let load = |block: usize| {
                 smaller.sums[block] * (1.0 - smaller.own[block]) * smaller.values[block]
             };
@@ -164,11 +162,10 @@ impl Level {
             length * elements.spacing()[axis]
         });
         let of_own = influence([0.0; 2], edges) / (edges[0] * edges[1]);
-        let share = if edge < SMALLEST { 0.0 } else { SHARE };
         Self {
             shape: blocks.shape(),
             // The inverse answers waves with |q|, of which 2π/|q| is the influence.
-            added: share * of_own * elements.element_area() / (2.0 * PI),
+            added: SHARE * of_own * elements.element_area() / (2.0 * PI),
             own: vec![0.0; n],
             sums: vec![0.0; n],
             values: vec![0.0; n],

@@ -8,9 +8,13 @@
 //! number of violations does not fall, only the last of them changes sides, after an accurate solution, which ends
 //! always (Júdice & Pires 1994, DOI 10.1016/0305-0548(94)90106-6).
 
-use crate::contact::contact_set::ContactSet;
+use std::ops::Range;
+
+use crate::contact::contact_set::{ContactSet, Run};
+use crate::contact::lanes::{add, lower, reduce, sum};
+use crate::contact::listed::Listed;
 use crate::contact::preconditioner::Preconditioner;
-use crate::contact::violations::{Surface, Violations};
+use crate::contact::violations::Violations;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 
@@ -25,10 +29,10 @@ const PRIORITY: f64 = 2.0;
 pub(super) struct Fields {
     preconditioner: Preconditioner,
     contact: ContactSet,
-    /// Minus the gap in the contact, zero outside.
-    residual: Vec<f64>,
-    /// Zero outside the contact.
-    direction: Vec<f64>,
+    listed: Listed,
+    /// Values of one list or another; zero outside the contact.
+    spread: Vec<f64>,
+    /// What the influence makes of the direction.
     image: Vec<f64>,
 }
 
@@ -39,8 +43,8 @@ impl Fields {
         Self {
             preconditioner: Preconditioner::new(convolution),
             contact: ContactSet::new(grid.shape()),
-            residual: vec![0.0; n],
-            direction: vec![0.0; n],
+            listed: Listed::new(n),
+            spread: vec![0.0; n],
             image: vec![0.0; n],
         }
     }
@@ -51,11 +55,14 @@ pub(super) struct Iteration<'a> {
     separation: &'a [f64],
     control: Control,
     tolerance: f64,
+    /// That of the last contact or, if that is as old, of the last [`refresh`](Self::refresh).
     load: &'a mut [f64],
     displacement: &'a mut [f64],
     workspace: &'a mut ConvolutionWorkspace,
     fields: &'a mut Fields,
     indentation_depth: f64,
+    /// Lowest height of the deformed surface outside the contact.
+    lowest_outside: f64,
     /// Residual times preconditioned residual in the previous iteration; 0 starts a new set of directions.
     previous_product: f64,
     /// Whether the displacement was computed from the load, and not updated along a direction.
@@ -85,6 +92,7 @@ impl<'a> Iteration<'a> {
                 .fields
                 .get_or_insert_with(|| Box::new(Fields::new(convolution))),
             indentation_depth: 0.0,
+            lowest_outside: f64::INFINITY,
             previous_product: 0.0,
             fresh: false,
             improved: false,
@@ -112,6 +120,7 @@ impl<'a> Iteration<'a> {
             }
             // Where numbers overflow there is no way on.
             if iterations >= accuracy.max_iterations || residual.is_nan() {
+                self.write_load();
                 let residual = Some(residual).filter(|residual| !residual.is_nan());
                 return Err(BemError::ContactNotConverged {
                     iterations,
@@ -146,29 +155,37 @@ impl<'a> Iteration<'a> {
             Control::IndentationDepth(depth) => (depth, 0.0),
         };
         let vanishes = self.control == Control::NormalForce(0.0);
-        let fields = &mut *self.fields;
-        let (separation, bands) = (self.separation, fields.contact.bands());
-        let cleared = [&mut *self.load, &mut fields.residual, &mut fields.direction];
-        bands.for_each(cleared, |band, [load, residual, direction]| {
-            residual.fill(0.0);
-            direction.fill(0.0);
-            for (load, separation) in load.iter_mut().zip(&separation[bands.elements(band)]) {
-                let guessed = *load > 0.0 && separation.is_finite();
-                *load = if guessed { *load } else { 0.0 };
-            }
-        });
+        let separation = self.separation;
+        let Fields {
+            contact, spread, ..
+        } = &mut *self.fields;
         let load = &*self.load;
-        fields.contact.assign(|element| {
-            !vanishes && (load[element] > 0.0 || (!loaded && separation[element] < below))
+        contact.assign(|element| {
+            let guessed = load[element] > 0.0 && separation[element].is_finite();
+            !vanishes && (guessed || (!loaded && separation[element] < below))
         });
-        if !loaded {
-            for (element, load) in self.load.iter_mut().enumerate() {
-                let inside = fields.contact.contains(element);
-                *load = if inside { uniform } else { 0.0 };
+        let bands = contact.bands();
+        bands.for_each([&mut *self.load, spread], |band, [load, spread]| {
+            spread.fill(0.0);
+            for (load, element) in load.iter_mut().zip(bands.elements(band)) {
+                *load = match (contact.contains(element), loaded) {
+                    (true, true) => *load,
+                    (true, false) => uniform,
+                    (false, _) => 0.0,
+                };
             }
-        }
+        });
+        self.list_contact();
         self.match_force();
         self.refresh();
+    }
+
+    fn list_contact(&mut self) {
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        contact.find_runs();
+        listed.take(contact, [self.separation, self.load]);
     }
 
     /// Scales the load to the prescribed force.
@@ -177,33 +194,60 @@ impl<'a> Iteration<'a> {
             return;
         };
         let sum = self.total_load();
-        let bands = self.fields.contact.bands();
-        bands.for_each([&mut *self.load], |_, [load]| {
-            for load in load {
-                // Multiplied last, because the quotient of extreme forces may overflow.
-                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-            }
-        });
+        for load in &mut self.fields.listed.load {
+            // Multiplied last, because the quotient of extreme forces may overflow.
+            *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+        }
     }
 
     fn total_load(&self) -> f64 {
-        let bands = self.fields.contact.bands();
-        bands.sum(|band| self.load[bands.elements(band)].iter().sum())
+        let Fields {
+            contact, listed, ..
+        } = &*self.fields;
+        contact.sum(|places| sum([&listed.load[places]], |[load]| load))
+    }
+
+    fn write_load(&mut self) {
+        let Fields {
+            contact, listed, ..
+        } = &*self.fields;
+        contact.scatter(&listed.load, self.load);
     }
 
     /// Computes the displacement from the load.
     fn refresh(&mut self) {
+        self.write_load();
         let rows = self.convolution.grid().shape()[0];
         let (load, displacement) = (&self.load[..], &mut self.displacement[..]);
         self.convolution
             .apply(self.workspace, (load, 0..rows), (displacement, 0..rows));
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        let (separation, displacement) = (self.separation, &*self.displacement);
+        let bands = contact.bands();
+        self.lowest_outside = contact.fold(
+            [contact.list(&mut listed.displacement)],
+            |band, [listed]| {
+                contact.gather_in(band, displacement, listed);
+                let elements = bands.elements(band);
+                lowest_outside(
+                    contact,
+                    band,
+                    [separation, displacement].map(|field| &field[elements.clone()]),
+                )
+            },
+            lower,
+        );
         self.fresh = true;
         self.previous_product = 0.0;
     }
 
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
     fn find_depth(&mut self) {
-        let contact = &self.fields.contact;
+        let Fields {
+            contact, listed, ..
+        } = &*self.fields;
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) if contact.len() == 0 => {
@@ -211,27 +255,38 @@ impl<'a> Iteration<'a> {
                 heights.fold(f64::INFINITY, f64::min)
             }
             Control::NormalForce(_) => {
-                let height = |element: usize| self.separation[element] + self.displacement[element];
-                let mean_above = |level: f64| {
-                    let sum = contact.sum(|run| run.map(|element| height(element) - level).sum());
-                    sum / contact.len() as f64
-                };
+                let mean = listed.mean_height_above(contact, 0.0);
                 // Again from the first mean, because no direction removes what the long sum has rounded.
-                let mean = mean_above(0.0);
-                mean + mean_above(mean)
+                mean + listed.mean_height_above(contact, mean)
             }
         };
     }
 
+    /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
     fn measure(&mut self) -> Violations {
-        let surface = Surface {
-            separation: self.separation,
-            displacement: self.displacement,
-            load: self.load,
-            indentation_depth: self.indentation_depth,
-            self_influence: self.convolution.self_influence(),
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        let (separation, displacement, load) =
+            (&listed.separation, &listed.displacement, &listed.load);
+        let own_influence = self.convolution.self_influence();
+        let depth = self.indentation_depth;
+        let in_band = |band, [residual]: [&mut [f64]; 1]| {
+            let [separation, displacement, load] =
+                [separation, displacement, load].map(|list| &list[contact.places(band)]);
+            for (residual, (separation, displacement)) in
+                residual.iter_mut().zip(separation.iter().zip(displacement))
+            {
+                *residual = depth - (separation + displacement);
+            }
+            Violations::inside(residual, [load, displacement], own_influence)
         };
-        surface.measure(&self.fields.contact, &mut self.fields.residual)
+        let residual = [contact.list(&mut listed.residual)];
+        let inside = contact.fold(residual, in_band, Violations::worst);
+        Violations {
+            penetration: (depth - self.lowest_outside).max(0.0),
+            ..inside
+        }
     }
 
     fn set_is_due(&self, violations: &Violations) -> bool {
@@ -245,6 +300,7 @@ impl<'a> Iteration<'a> {
     }
 
     fn change_contact(&mut self, violations: &Violations) {
+        self.write_load();
         let lowest = self.indentation_depth - self.tolerance * violations.deflection;
         let (load, separation, displacement) = (&*self.load, self.separation, &*self.displacement);
         // Under tension, or outside and below the height at which it penetrates.
@@ -265,26 +321,23 @@ impl<'a> Iteration<'a> {
         }
         let first = if self.patience == 0 { last } else { 0 };
         contact.change(|element, inside| element >= first && is_wrong(element, inside));
-        self.unload_left();
-        self.fields.contact.find_runs();
+        self.clear_left();
+        self.list_contact();
         self.improved = false;
         self.match_force();
         self.refresh();
     }
 
     /// Clears what has just left the contact, while the runs are still those before.
-    fn unload_left(&mut self) {
+    fn clear_left(&mut self) {
         let Fields {
-            contact,
-            residual,
-            direction,
-            ..
+            contact, spread, ..
         } = &mut *self.fields;
         let bands = contact.bands();
-        bands.for_each([&mut *self.load, residual, direction], |band, fields| {
+        bands.for_each([&mut *self.load, spread], |band, fields| {
             let first = bands.elements(band).start;
             for field in fields {
-                for element in contact.runs(band).iter().flat_map(Clone::clone) {
+                for element in contact.runs(band).iter().flat_map(Run::elements) {
                     if !contact.contains(element) {
                         field[element - first] = 0.0;
                     }
@@ -299,30 +352,60 @@ impl<'a> Iteration<'a> {
         let rows = self.convolution.grid().shape()[0];
         let Fields {
             contact,
-            direction,
+            listed,
+            spread,
             image,
             ..
         } = &mut *self.fields;
         self.convolution
-            .apply(self.workspace, (direction, 0..rows), (image, 0..rows));
-        let (direction, image) = (&*direction, &*image);
-        let energy = contact.sum(|run| dot(&direction[run.clone()], &image[run]));
+            .apply(self.workspace, (spread, 0..rows), (image, 0..rows));
+        let direction = &listed.direction;
+        let energy = contact.fold(
+            [contact.list(&mut listed.image)],
+            |band, [listed]| {
+                contact.gather_in(band, image, listed);
+                sum([&direction[contact.places(band)], listed], |[a, b]| a * b)
+            },
+            |left, right| left + right,
+        );
         // The load of a single element has nowhere to go.
         let length = if energy == 0.0 {
             0.0
         } else {
             self.previous_product / energy
         };
-        let bands = contact.bands();
-        let fields = [&mut *self.load, &mut *self.displacement];
-        bands.for_each(fields, |band, [load, displacement]| {
-            let elements = bands.elements(band);
-            for run in contact.runs(band) {
-                let local = run.start - elements.start..run.end - elements.start;
-                add(&mut load[local], length, &direction[run.clone()]);
-            }
-            add(displacement, length, &image[elements]);
-        });
+        self.advance(length);
+    }
+
+    /// Moves load and displacement by so many directions.
+    fn advance(&mut self, length: f64) {
+        let Fields {
+            contact,
+            listed,
+            image,
+            ..
+        } = &mut *self.fields;
+        let Listed {
+            load,
+            displacement,
+            direction,
+            image: listed_image,
+            ..
+        } = listed;
+        let (separation, bands) = (self.separation, contact.bands());
+        let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
+            let (elements, places) = (bands.elements(band), contact.places(band));
+            add(field, length, &image[elements.clone()]);
+            add(displacement, length, &listed_image[places.clone()]);
+            add(load, length, &direction[places]);
+            lowest_outside(contact, band, [&separation[elements], field])
+        };
+        let moved = [
+            contact.field(self.displacement),
+            contact.list(displacement),
+            contact.list(load),
+        ];
+        self.lowest_outside = contact.fold(moved, in_band, lower);
         self.fresh = false;
         self.improved = true;
     }
@@ -331,53 +414,61 @@ impl<'a> Iteration<'a> {
         let Fields {
             preconditioner,
             contact,
+            listed,
+            spread,
+            ..
+        } = &mut *self.fields;
+        let Listed {
             residual,
             direction,
             image: preconditioned,
-        } = &mut *self.fields;
+            ..
+        } = listed;
         if !self.improved {
             // The first direction on a contact is not conjugate to any before.
-            preconditioner.prepare(contact, [direction, preconditioned]);
+            preconditioner.prepare(contact, spread, [direction, preconditioned]);
         }
-        preconditioner.apply(contact, residual, preconditioned);
+        preconditioner.apply(contact, (residual, spread), preconditioned);
         let (residual, preconditioned) = (&*residual, &*preconditioned);
         let mean = match self.control {
             Control::NormalForce(_) => {
-                contact.sum(|run| preconditioned[run].iter().sum()) / contact.len() as f64
+                let of_places = |places| sum([&preconditioned[places]], |[value]| value);
+                contact.sum(of_places) / contact.len() as f64
             }
             Control::IndentationDepth(_) => 0.0,
         };
-        let work = |k: usize| residual[k] * (preconditioned[k] - mean);
-        let product = contact.sum(|run| run.map(work).sum());
+        let product = contact.sum(|places| {
+            let lists = [residual, preconditioned].map(|list| &list[places.clone()]);
+            sum(lists, |[residual, value]| residual * (value - mean))
+        });
         let conjugation = if self.previous_product > 0.0 {
             product / self.previous_product
         } else {
             0.0
         };
-        let bands = contact.bands();
-        bands.for_each([direction], |band, [direction]| {
-            let first = bands.elements(band).start;
-            for run in contact.runs(band) {
-                let local = run.start - first..run.end - first;
-                for (direction, value) in direction[local]
-                    .iter_mut()
-                    .zip(&preconditioned[run.clone()])
-                {
-                    *direction = value - mean + conjugation * *direction;
-                }
+        let fields = [contact.field(spread), contact.list(direction)];
+        contact.for_each(fields, |band, [spread, direction]| {
+            let values = &preconditioned[contact.places(band)];
+            for (direction, value) in direction.iter_mut().zip(values) {
+                *direction = value - mean + conjugation * *direction;
             }
+            contact.scatter_in(band, direction, spread);
         });
         self.previous_product = product;
     }
 }
 
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    left.iter().zip(right).map(|(a, b)| a * b).sum()
-}
-
-/// Adds a multiple.
-fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
+/// The lowest height of the deformed surface outside the contact, from separation and displacement in a band.
+fn lowest_outside(contact: &ContactSet, band: usize, fields: [&[f64]; 2]) -> f64 {
+    let first = contact.bands().elements(band).start;
+    let lowest_in = |gap: Range<usize>| {
+        let fields = fields.map(|field| &field[gap.start - first..gap.end - first]);
+        reduce(
+            fields,
+            f64::INFINITY,
+            |[separation, displacement]| separation + displacement,
+            lower,
+        )
+    };
+    contact.gaps(band).map(lowest_in).fold(f64::INFINITY, lower)
 }

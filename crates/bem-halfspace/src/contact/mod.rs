@@ -16,6 +16,8 @@ mod contact_set;
 mod far_loads;
 mod folded;
 mod iteration;
+mod lanes;
+mod listed;
 mod preconditioner;
 mod solve;
 mod state;

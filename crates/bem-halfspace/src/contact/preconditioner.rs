@@ -11,13 +11,19 @@
 //! `|q|` for the long waves. Restricted to the contact it remains positive definite, as conjugate gradients need it.
 //! Of its answer, [`far_loads`](super::far_loads) takes away what belongs to the load of other patches.
 
+use std::ops::Range;
+
 use crate::contact::blocks::sum_blocks;
-use crate::contact::contact_set::ContactSet;
+use crate::contact::contact_set::{ContactSet, Run};
 use crate::contact::far_loads::FarLoads;
+use crate::contact::lanes::add;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// The weight w; π/4 would be right for the shortest wave along an edge, but what counts is the whole spectrum.
 const WEIGHT: f64 = 0.7;
+
+/// Edge in elements of the blocks on which long waves are inverted.
+const BLOCK: usize = 2;
 
 #[derive(Debug, Clone)]
 pub(super) struct Preconditioner {
@@ -56,69 +62,86 @@ impl Preconditioner {
         }
     }
 
-    /// Prepares for another contact; overwrites the fields, of which the first must vanish outside the contact.
-    pub(super) fn prepare(&mut self, contact: &ContactSet, [one, answer]: [&mut [f64]; 2]) {
-        let bands = contact.bands();
-        bands.for_each([&mut *one], |band, [one]| {
-            let first = bands.elements(band).start;
-            for run in contact.runs(band) {
-                one[run.start - first..run.end - first].fill(1.0);
-            }
-        });
-        self.invert(contact, one, answer);
+    /// Prepares for another contact; overwrites the field, which must vanish outside it, and both lists.
+    pub(super) fn prepare(
+        &mut self,
+        contact: &ContactSet,
+        field: &mut [f64],
+        [one, answer]: [&mut [f64]; 2],
+    ) {
+        one.fill(1.0);
+        self.invert(contact, (one, field), answer);
         self.far_loads.weigh(contact, answer);
     }
 
-    /// Applies the inverse to a residual that vanishes outside the contact; the result is set in the contact only.
-    pub(super) fn apply(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
-        self.invert(contact, residual, result);
+    /// Lists what the inverse makes of a list of residuals; writes these into a field that vanishes outside the contact.
+    pub(super) fn apply(
+        &mut self,
+        contact: &ContactSet,
+        (residual, field): (&[f64], &mut [f64]),
+        result: &mut [f64],
+    ) {
+        self.invert(contact, (residual, field), result);
         self.far_loads.take_from(contact, residual, result);
     }
 
-    fn invert(&mut self, contact: &ContactSet, residual: &[f64], result: &mut [f64]) {
-        let mean = |element: usize| 0.25 * residual[element];
-        sum_blocks(contact, self.shape[1], mean, &mut self.means);
-        let [block_rows, block_columns] = self.blocks.grid().shape();
+    fn invert(
+        &mut self,
+        contact: &ContactSet,
+        (residual, field): (&[f64], &mut [f64]),
+        result: &mut [f64],
+    ) {
+        contact.scatter(residual, field);
+        let quarter = |place: usize| 0.25 * residual[place];
+        sum_blocks::<BLOCK>(contact, quarter, &mut self.means);
+        let block_rows = self.blocks.grid().shape()[0];
         self.blocks.apply(
             &mut self.workspace,
             (&self.means, 0..block_rows),
             (&mut self.images, 0..block_rows),
         );
-        let bands = contact.bands();
-        let this = &*self;
-        bands.for_each([result], |band, [result]| {
-            let first = bands.elements(band).start;
+        let (this, field) = (&*self, &*field);
+        contact.for_each([contact.list(result)], |band, [result]| {
+            let residual = &residual[contact.places(band)];
             for run in contact.runs(band) {
-                let (row, column) = (run.start / this.shape[1], run.start % this.shape[1]);
-                let images = &this.images[row / 2 * block_columns..];
-                for (column, element) in (column..).zip(run.clone()) {
-                    let differences = this.differences(residual, element, [row, column]);
-                    result[element - first] = images[column / 2] + differences;
-                }
+                let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
+                this.take_long_waves(run, result);
+                this.add_differences((run, residual, field), result);
             }
         });
     }
 
-    fn differences(&self, residual: &[f64], element: usize, [row, column]: [usize; 2]) -> f64 {
+    fn take_long_waves(&self, run: &Run, result: &mut [f64]) {
+        let columns = self.shape[1];
+        let Range { start, .. } = run.elements();
+        let (row, column) = (start / columns, start % columns);
+        let images = &self.images[row / BLOCK * columns.div_ceil(BLOCK)..];
+        for (column, value) in (column..).zip(result) {
+            *value = images[column / BLOCK];
+        }
+    }
+
+    /// Adds the differences between elements of a run, and between them and those of the rows before and behind.
+    fn add_differences(&self, (run, residual, field): (&Run, &[f64], &[f64]), result: &mut [f64]) {
         let [rows, columns] = self.shape;
-        let here = residual[element];
-        // Behind a mirror stands the element itself.
-        let before = |axis: usize, position: usize, step: usize| match position {
-            0 if self.mirrors[axis] => here,
-            0 => 0.0,
-            _ => residual[element - step],
-        };
-        let behind = |exists: bool, step: usize| {
-            if exists {
-                residual[element + step]
-            } else {
-                0.0
-            }
-        };
-        let [above, below] = [before(0, row, columns), behind(row + 1 < rows, columns)];
-        let [left, right] = [before(1, column, 1), behind(column + 1 < columns, 1)];
-        let twice = 2.0 * here;
-        self.weights[0] * (twice - above - below) + self.weights[1] * (twice - left - right)
+        let [along_x, along_y] = self.weights;
+        let Range { start, end } = run.elements();
+        let row = start / columns;
+        add(result, 2.0 * (along_x + along_y), residual);
+        // Beside a run there is no residual, and behind a mirror stands the element itself.
+        add(&mut result[1..], -along_y, residual);
+        add(result, -along_y, &residual[1..]);
+        if self.mirrors[1] && start == row * columns {
+            result[0] -= along_y * residual[0];
+        }
+        if row > 0 {
+            add(result, -along_x, &field[start - columns..end - columns]);
+        } else if self.mirrors[0] {
+            add(result, -along_x, residual);
+        }
+        if row + 1 < rows {
+            add(result, -along_x, &field[start + columns..end + columns]);
+        }
     }
 }
 
@@ -149,18 +172,16 @@ mod tests {
 
     /// The matrix of the preconditioner on a contact.
     fn matrix(preconditioner: &mut Preconditioner, contact: &ContactSet, n: usize) -> Mat<f64> {
-        let (mut one, mut answer) = (vec![0.0; n], vec![0.0; n]);
-        preconditioner.prepare(contact, [&mut one, &mut answer]);
-        let inside: Vec<usize> = (0..n)
-            .filter(|&element| contact.contains(element))
-            .collect();
-        let mut matrix = Mat::zeros(inside.len(), inside.len());
-        for (column, &element) in inside.iter().enumerate() {
+        let [mut one, mut answer] = [0, 1].map(|_| vec![0.0; contact.len()]);
+        let mut field = vec![0.0; n];
+        preconditioner.prepare(contact, &mut field, [&mut one, &mut answer]);
+        let mut matrix = Mat::zeros(one.len(), one.len());
+        for column in 0..one.len() {
             one.fill(0.0);
-            one[element] = 1.0;
-            preconditioner.apply(contact, &one, &mut answer);
-            for (row, &element) in inside.iter().enumerate() {
-                matrix[(row, column)] = answer[element];
+            one[column] = 1.0;
+            preconditioner.apply(contact, (&one, &mut field), &mut answer);
+            for (row, value) in answer.iter().enumerate() {
+                matrix[(row, column)] = *value;
             }
         }
         matrix
@@ -176,6 +197,7 @@ mod tests {
                 for (number, pattern) in patterns(shape).into_iter().enumerate() {
                     let mut contact = ContactSet::new(shape);
                     contact.assign(|element| pattern[element]);
+                    contact.find_runs();
                     let mut preconditioner = Preconditioner::new(&convolution);
                     let matrix = matrix(&mut preconditioner, &contact, pattern.len());
                     let largest = matrix.norm_max();

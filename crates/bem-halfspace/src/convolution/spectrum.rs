@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::bands::fold_parts;
+use crate::bands::{Starts, fold_parts};
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 
@@ -152,5 +152,6 @@ const GROUP: usize = 16;
 fn for_each_group(values: &mut [f64], length: usize, work: impl Fn(usize, &mut [f64]) + Sync) {
     let groups = 0..values.len().div_ceil(GROUP * length);
     let in_group = |group, [values]: [&mut [f64]; 1]| work(group * GROUP, values);
-    fold_parts(groups, [(values, GROUP * length)], &in_group, &|(), ()| ());
+    let values = [(values, Starts::Every(GROUP * length))];
+    fold_parts(groups, values, &in_group, &|(), ()| ());
 }

@@ -1,0 +1,55 @@
+//! Sums and extremes of long lists, several numbers at a time, because one operation would wait for the other.
+
+const LANES: usize = 8;
+
+/// What `pick` makes of `start` and the terms of all numbers of equally long lists; the order, and with it the rounding
+/// of a sum, depends on their length alone.
+pub(super) fn reduce<const N: usize>(
+    lists: [&[f64]; N],
+    start: f64,
+    term: impl Fn([f64; N]) -> f64,
+    pick: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    let length = lists.first().map_or(0, |list| list.len());
+    let lists = lists.map(|list| list[..length].as_chunks::<LANES>());
+    let mut lanes = [start; LANES];
+    for chunk in 0..length / LANES {
+        let chunks = lists.map(|(whole, _)| &whole[chunk]);
+        for (lane, picked) in lanes.iter_mut().enumerate() {
+            *picked = pick(*picked, term(chunks.map(|chunk| chunk[lane])));
+        }
+    }
+    let rest = (0..length % LANES).map(|index| term(lists.map(|(_, rest)| rest[index])));
+    lanes.into_iter().chain(rest).fold(start, pick)
+}
+
+/// Sum of the terms of all numbers of equally long lists.
+pub(super) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
+    reduce(lists, 0.0, term, |sum, term| sum + term)
+}
+
+/// The largest term of all numbers of equally long lists, but at least `start`; none may be NaN.
+pub(super) fn largest<const N: usize>(
+    lists: [&[f64]; N],
+    start: f64,
+    term: impl Fn([f64; N]) -> f64,
+) -> f64 {
+    reduce(lists, start, term, larger)
+}
+
+/// The larger of two numbers of which none is NaN; faster than `f64::max`.
+pub(super) fn larger(left: f64, right: f64) -> f64 {
+    if left > right { left } else { right }
+}
+
+/// The lower of two numbers; the first where the second is NaN.
+pub(super) fn lower(left: f64, right: f64) -> f64 {
+    if right < left { right } else { left }
+}
+
+/// Adds a multiple.
+pub(super) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}
