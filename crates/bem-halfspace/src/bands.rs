@@ -27,7 +27,12 @@ impl Bands {
 
     /// How a field with one value per element is divided.
     pub(crate) const fn starts(&self) -> Starts<'static> {
-        Starts::Every(self.rows_per_band * self.shape[1])
+        self.starts_of_rows(self.shape[1])
+    }
+
+    /// How a field with so many values per row is divided.
+    pub(crate) const fn starts_of_rows(&self, values: usize) -> Starts<'static> {
+        Starts::Every(self.rows_per_band * values)
     }
 
     /// How a field with one value per block of so many elements along an edge is divided.
@@ -97,7 +102,7 @@ pub(crate) enum Starts<'a> {
 
 impl Starts<'_> {
     /// Where a part begins.
-    pub(crate) fn of(self, part: usize) -> usize {
+    fn of(self, part: usize) -> usize {
         match self {
             Self::Every(unit) => part * unit,
             Self::Listed(starts) => starts[part],
@@ -163,15 +168,17 @@ pub(crate) fn copies<T: Copy>(value: T, count: usize) -> Vec<T> {
     vec![value; count]
 }
 
+/// Does both works, side by side where there are threads.
 #[cfg(feature = "rayon")]
-fn join<L: Send, R: Send>(
+pub(crate) fn join<L: Send, R: Send>(
     left: impl FnOnce() -> L + Send,
     right: impl FnOnce() -> R + Send,
 ) -> (L, R) {
     rayon::join(left, right)
 }
 
+/// Does both works.
 #[cfg(not(feature = "rayon"))]
-fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
+pub(crate) fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
     (left(), right())
 }

@@ -6,7 +6,7 @@ use crate::contact::contact_set::ContactSet;
 
 /// Visits the parts of the runs of a band that lie in one block each, with the number of the block, counted from the
 /// first of the band, and the places of the elements in the part of a list that belongs to the band.
-pub(super) fn for_each_part<const EDGE: usize>(
+fn for_each_part<const EDGE: usize>(
     contact: &ContactSet,
     band: usize,
     mut visit: impl FnMut(usize, Range<usize>),
@@ -28,17 +28,15 @@ pub(super) fn for_each_part<const EDGE: usize>(
     }
 }
 
-/// Sums over the elements of each block that are in contact, of the terms that the places in lists have.
+/// Sums over the elements of each block of a band that are in contact, of the terms that their places have.
 pub(super) fn sum_blocks<const EDGE: usize>(
     contact: &ContactSet,
-    term: impl Fn(usize) -> f64 + Sync,
+    band: usize,
+    term: impl Fn(usize) -> f64,
     sums: &mut [f64],
 ) {
-    contact.for_each([contact.blocks(EDGE, sums)], |band, [sums]| {
-        sums.fill(0.0);
-        let first = contact.places(band).start;
-        for_each_part::<EDGE>(contact, band, |block, places| {
-            sums[block] += places.map(|place| term(first + place)).sum::<f64>();
-        });
+    sums.fill(0.0);
+    for_each_part::<EDGE>(contact, band, |block, places| {
+        sums[block] += places.map(&term).sum::<f64>();
     });
 }

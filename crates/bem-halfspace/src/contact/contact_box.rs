@@ -1,6 +1,6 @@
 //! A part of a grid on which the contact is solved.
 
-use crate::bands::Bands;
+use crate::bands::{Bands, fold_parts};
 use crate::bounds::Bounds;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
 use crate::{BemError, ContactOptions, Convolution, Grid};
@@ -74,10 +74,18 @@ impl ContactBox {
 
     /// Copies the load back.
     pub(super) fn give_to(&self, load: &mut [f64], columns: usize) {
-        let pieces = self.state.load.chunks_exact(self.bounds.shape()[1]);
-        for (row, box_load) in pieces.enumerate() {
-            load[self.bounds.row_range(row, columns)].copy_from_slice(box_load);
-        }
+        let (bounds, shape) = (self.bounds, self.bounds.shape());
+        let bands = Bands::new(shape);
+        let rows = bounds.rows();
+        let load = &mut load[rows.start * columns..rows.end * columns];
+        let copy = |band, [load]: [&mut [f64]; 1]| {
+            let pieces = self.state.load[bands.elements(band)].chunks_exact(shape[1]);
+            for (piece, row) in pieces.zip(load.chunks_exact_mut(columns)) {
+                row[bounds.lower[1]..bounds.upper[1]].copy_from_slice(piece);
+            }
+        };
+        let load = [(load, bands.starts_of_rows(columns))];
+        fold_parts(0..bands.n_bands(), load, &copy, &|(), ()| ());
     }
 
     /// Solves for the separation set before; the load has the unit of a length, see [`solve_normalised`].

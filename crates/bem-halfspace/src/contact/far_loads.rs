@@ -26,9 +26,8 @@
 use std::f64::consts::PI;
 
 use crate::bands::Bands;
-use crate::contact::blocks::{for_each_part, sum_blocks};
+use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
-use crate::contact::lanes::add;
 use crate::{Grid, influence};
 
 /// Part of the displacement under the own load of a block that counts as k. A half is what the block of twice the edges
@@ -36,7 +35,7 @@ use crate::{Grid, influence};
 const SHARE: f64 = 0.3;
 
 /// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.
-const SMALLEST: usize = Bands::LARGEST_BLOCK;
+pub(super) const SMALLEST: usize = Bands::LARGEST_BLOCK;
 
 #[derive(Debug, Clone)]
 pub(super) struct FarLoads {
@@ -57,7 +56,7 @@ struct Level {
     own: Vec<f64>,
     /// W.
     sums: Vec<f64>,
-    /// The mean gap, then the displacement v.
+    /// Σ w r, then the mean gap, then the displacement v.
     values: Vec<f64>,
 }
 
@@ -77,9 +76,15 @@ impl FarLoads {
         }
     }
 
-    /// Takes another contact, with the list of the `answer` of the inverse to the gap one.
-    pub(super) fn weigh(&mut self, contact: &ContactSet, answer: &[f64]) {
+    /// Takes another contact, of which nothing is known yet: all loads count as nothing.
+    pub(super) fn forget(&mut self, contact: &ContactSet) {
+        self.weights.clear();
         self.weights.resize(contact.len(), 0.0);
+        self.find_sums(contact);
+    }
+
+    /// Takes the list of the `answer` of the inverse to the gap one.
+    pub(super) fn weigh(&mut self, contact: &ContactSet, answer: &[f64]) {
         contact.for_each([contact.list(&mut self.weights)], |band, [weights]| {
             for (weight, value) in weights.iter_mut().zip(&answer[contact.places(band)]) {
                 *weight = value.max(0.0);
@@ -94,8 +99,11 @@ impl FarLoads {
             smallest,
             larger,
         } = self;
-        let weight = |place: usize| weights[place];
-        sum_blocks::<SMALLEST>(contact, weight, &mut smallest.sums);
+        let sums = [contact.blocks(SMALLEST, &mut smallest.sums)];
+        contact.for_each(sums, |band, [sums]| {
+            let weights = &weights[contact.places(band)];
+            sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
+        });
         smallest.find_own();
         let mut smaller = &*smallest;
         for level in larger {
@@ -106,31 +114,27 @@ impl FarLoads {
         }
     }
 
-    /// Takes away from the list of answers of the inverse to a residual what belongs to the load of other blocks.
-    pub(super) fn take_from(&mut self, contact: &ContactSet, residual: &[f64], answer: &mut [f64]) {
-        self.find_gaps(contact, residual);
+    /// The list w, and where the sums of w r over the smallest blocks go for a residual r.
+    pub(super) fn weights_and_loads(&mut self) -> (&[f64], &mut [f64]) {
+        (&self.weights, &mut self.smallest.values)
+    }
+
+    /// Finds the displacements from the loads.
+    pub(super) fn move_blocks(&mut self) {
+        self.find_gaps();
         self.find_displacements();
-        let (weights, displacements) = (&self.weights, &self.smallest.values);
-        let starts = contact.bands().starts_of_blocks(SMALLEST);
-        contact.for_each([contact.list(answer)], |band, [answer]| {
-            let weights = &weights[contact.places(band)];
-            let displacements = &displacements[starts.of(band)..];
-            for_each_part::<SMALLEST>(contact, band, |block, places| {
-                let (answer, weights) = (&mut answer[places.clone()], &weights[places]);
-                add(answer, -displacements[block], weights);
-            });
-        });
+    }
+
+    /// The list w, and the displacements v of the smallest blocks.
+    pub(super) fn weights_and_displacements(&self) -> (&[f64], &[f64]) {
+        (&self.weights, &self.smallest.values)
     }
 
     /// From small blocks to large ones.
-    fn find_gaps(&mut self, contact: &ContactSet, residual: &[f64]) {
+    fn find_gaps(&mut self) {
         let Self {
-            weights,
-            smallest,
-            larger,
+            smallest, larger, ..
         } = self;
-        let load = |place: usize| weights[place] * residual[place];
-        sum_blocks::<SMALLEST>(contact, load, &mut smallest.values);
         smallest.divide_by_sums();
         let mut smaller = &*smallest;
         for level in larger {

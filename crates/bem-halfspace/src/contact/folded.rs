@@ -46,15 +46,20 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [bool; 2] {
         // The blocks of the coarser grid fill the period.
         Surroundings::Periodic => 4,
     };
-    let mut lines = fields.into_iter().map(|field| field.chunks_exact(columns));
-    let along_y =
-        columns.is_multiple_of(unit) && lines.clone().all(|mut lines| lines.all(is_palindrome));
-    let along_x = rows.is_multiple_of(unit)
-        && lines.all(|lines| {
-            let behind = lines.clone().take(rows / 2);
-            behind.eq(lines.rev().take(rows / 2))
-        });
-    [along_x, along_y]
+    let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
+    let bands = Bands::new([rows, columns]);
+    let in_band = |band| {
+        let mut rows_of_band = bands.rows(band);
+        let behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
+        let along_x = behind
+            .into_iter()
+            .all(|row| lines(row) == lines(rows - 1 - row));
+        let along_y = rows_of_band.all(|row| lines(row).into_iter().all(is_palindrome));
+        [along_x, along_y]
+    };
+    let both = |left: [bool; 2], right: [bool; 2]| [0, 1].map(|axis| left[axis] && right[axis]);
+    let equal = bands.gather(in_band, both);
+    [0, 1].map(|axis| [rows, columns][axis].is_multiple_of(unit) && equal[axis])
 }
 
 fn is_palindrome(line: &[f64]) -> bool {

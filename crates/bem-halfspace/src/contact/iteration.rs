@@ -8,15 +8,17 @@
 //! number of violations does not fall, only the last of them changes sides, after an accurate solution, which ends
 //! always (Júdice & Pires 1994, DOI 10.1016/0305-0548(94)90106-6).
 
-use std::ops::Range;
+mod direction;
+mod heights;
 
 use crate::contact::contact_set::{ContactSet, Run};
-use crate::contact::lanes::{add, lower, reduce, sum};
+use crate::contact::lanes::sum;
 use crate::contact::listed::Listed;
 use crate::contact::preconditioner::Preconditioner;
 use crate::contact::violations::Violations;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
 use crate::{BemError, Convolution, ConvolutionWorkspace};
+use heights::Heights;
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
 const PATIENCE: usize = 10;
@@ -61,8 +63,7 @@ pub(super) struct Iteration<'a> {
     workspace: &'a mut ConvolutionWorkspace,
     fields: &'a mut Fields,
     indentation_depth: f64,
-    /// Lowest height of the deformed surface outside the contact.
-    lowest_outside: f64,
+    heights: Heights,
     /// Residual times preconditioned residual in the previous iteration; 0 starts a new set of directions.
     previous_product: f64,
     /// Whether the displacement was computed from the load, and not updated along a direction.
@@ -92,7 +93,7 @@ impl<'a> Iteration<'a> {
                 .fields
                 .get_or_insert_with(|| Box::new(Fields::new(convolution))),
             indentation_depth: 0.0,
-            lowest_outside: f64::INFINITY,
+            heights: Heights::default(),
             previous_product: 0.0,
             fresh: false,
             improved: false,
@@ -194,10 +195,15 @@ impl<'a> Iteration<'a> {
             return;
         };
         let sum = self.total_load();
-        for load in &mut self.fields.listed.load {
-            // Multiplied last, because the quotient of extreme forces may overflow.
-            *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-        }
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        contact.for_each([contact.list(&mut listed.load)], |_, [load]| {
+            for load in load {
+                // Multiplied last, because the quotient of extreme forces may overflow.
+                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+            }
+        });
     }
 
     fn total_load(&self) -> f64 {
@@ -212,81 +218,6 @@ impl<'a> Iteration<'a> {
             contact, listed, ..
         } = &*self.fields;
         contact.scatter(&listed.load, self.load);
-    }
-
-    /// Computes the displacement from the load.
-    fn refresh(&mut self) {
-        self.write_load();
-        let rows = self.convolution.grid().shape()[0];
-        let (load, displacement) = (&self.load[..], &mut self.displacement[..]);
-        self.convolution
-            .apply(self.workspace, (load, 0..rows), (displacement, 0..rows));
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
-        let (separation, displacement) = (self.separation, &*self.displacement);
-        let bands = contact.bands();
-        self.lowest_outside = contact.fold(
-            [contact.list(&mut listed.displacement)],
-            |band, [listed]| {
-                contact.gather_in(band, displacement, listed);
-                let elements = bands.elements(band);
-                lowest_outside(
-                    contact,
-                    band,
-                    [separation, displacement].map(|field| &field[elements.clone()]),
-                )
-            },
-            lower,
-        );
-        self.fresh = true;
-        self.previous_product = 0.0;
-    }
-
-    /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
-    fn find_depth(&mut self) {
-        let Fields {
-            contact, listed, ..
-        } = &*self.fields;
-        self.indentation_depth = match self.control {
-            Control::IndentationDepth(depth) => depth,
-            Control::NormalForce(_) if contact.len() == 0 => {
-                let heights = self.separation.iter().copied();
-                heights.fold(f64::INFINITY, f64::min)
-            }
-            Control::NormalForce(_) => {
-                let mean = listed.mean_height_above(contact, 0.0);
-                // Again from the first mean, because no direction removes what the long sum has rounded.
-                mean + listed.mean_height_above(contact, mean)
-            }
-        };
-    }
-
-    /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
-    fn measure(&mut self) -> Violations {
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
-        let (separation, displacement, load) =
-            (&listed.separation, &listed.displacement, &listed.load);
-        let own_influence = self.convolution.self_influence();
-        let depth = self.indentation_depth;
-        let in_band = |band, [residual]: [&mut [f64]; 1]| {
-            let [separation, displacement, load] =
-                [separation, displacement, load].map(|list| &list[contact.places(band)]);
-            for (residual, (separation, displacement)) in
-                residual.iter_mut().zip(separation.iter().zip(displacement))
-            {
-                *residual = depth - (separation + displacement);
-            }
-            Violations::inside(residual, [load, displacement], own_influence)
-        };
-        let residual = [contact.list(&mut listed.residual)];
-        let inside = contact.fold(residual, in_band, Violations::worst);
-        Violations {
-            penetration: (depth - self.lowest_outside).max(0.0),
-            ..inside
-        }
     }
 
     fn set_is_due(&self, violations: &Violations) -> bool {
@@ -345,130 +276,4 @@ impl<'a> Iteration<'a> {
             }
         });
     }
-
-    /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.
-    fn step(&mut self) {
-        self.find_direction();
-        let rows = self.convolution.grid().shape()[0];
-        let Fields {
-            contact,
-            listed,
-            spread,
-            image,
-            ..
-        } = &mut *self.fields;
-        self.convolution
-            .apply(self.workspace, (spread, 0..rows), (image, 0..rows));
-        let direction = &listed.direction;
-        let energy = contact.fold(
-            [contact.list(&mut listed.image)],
-            |band, [listed]| {
-                contact.gather_in(band, image, listed);
-                sum([&direction[contact.places(band)], listed], |[a, b]| a * b)
-            },
-            |left, right| left + right,
-        );
-        // The load of a single element has nowhere to go.
-        let length = if energy == 0.0 {
-            0.0
-        } else {
-            self.previous_product / energy
-        };
-        self.advance(length);
-    }
-
-    /// Moves load and displacement by so many directions.
-    fn advance(&mut self, length: f64) {
-        let Fields {
-            contact,
-            listed,
-            image,
-            ..
-        } = &mut *self.fields;
-        let Listed {
-            load,
-            displacement,
-            direction,
-            image: listed_image,
-            ..
-        } = listed;
-        let (separation, bands) = (self.separation, contact.bands());
-        let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
-            let (elements, places) = (bands.elements(band), contact.places(band));
-            add(field, length, &image[elements.clone()]);
-            add(displacement, length, &listed_image[places.clone()]);
-            add(load, length, &direction[places]);
-            lowest_outside(contact, band, [&separation[elements], field])
-        };
-        let moved = [
-            contact.field(self.displacement),
-            contact.list(displacement),
-            contact.list(load),
-        ];
-        self.lowest_outside = contact.fold(moved, in_band, lower);
-        self.fresh = false;
-        self.improved = true;
-    }
-
-    fn find_direction(&mut self) {
-        let Fields {
-            preconditioner,
-            contact,
-            listed,
-            spread,
-            ..
-        } = &mut *self.fields;
-        let Listed {
-            residual,
-            direction,
-            image: preconditioned,
-            ..
-        } = listed;
-        if !self.improved {
-            // The first direction on a contact is not conjugate to any before.
-            preconditioner.prepare(contact, spread, [direction, preconditioned]);
-        }
-        preconditioner.apply(contact, (residual, spread), preconditioned);
-        let (residual, preconditioned) = (&*residual, &*preconditioned);
-        let mean = match self.control {
-            Control::NormalForce(_) => {
-                let of_places = |places| sum([&preconditioned[places]], |[value]| value);
-                contact.sum(of_places) / contact.len() as f64
-            }
-            Control::IndentationDepth(_) => 0.0,
-        };
-        let product = contact.sum(|places| {
-            let lists = [residual, preconditioned].map(|list| &list[places.clone()]);
-            sum(lists, |[residual, value]| residual * (value - mean))
-        });
-        let conjugation = if self.previous_product > 0.0 {
-            product / self.previous_product
-        } else {
-            0.0
-        };
-        let fields = [contact.field(spread), contact.list(direction)];
-        contact.for_each(fields, |band, [spread, direction]| {
-            let values = &preconditioned[contact.places(band)];
-            for (direction, value) in direction.iter_mut().zip(values) {
-                *direction = value - mean + conjugation * *direction;
-            }
-            contact.scatter_in(band, direction, spread);
-        });
-        self.previous_product = product;
-    }
-}
-
-/// The lowest height of the deformed surface outside the contact, from separation and displacement in a band.
-fn lowest_outside(contact: &ContactSet, band: usize, fields: [&[f64]; 2]) -> f64 {
-    let first = contact.bands().elements(band).start;
-    let lowest_in = |gap: Range<usize>| {
-        let fields = fields.map(|field| &field[gap.start - first..gap.end - first]);
-        reduce(
-            fields,
-            f64::INFINITY,
-            |[separation, displacement]| separation + displacement,
-            lower,
-        )
-    };
-    contact.gaps(band).map(lowest_in).fold(f64::INFINITY, lower)
 }

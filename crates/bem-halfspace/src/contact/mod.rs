@@ -25,6 +25,7 @@ mod violations;
 
 use std::f64::consts::PI;
 
+use crate::bands::Bands;
 use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 use accuracy::Accuracy;
@@ -168,8 +169,14 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
             });
         }
     }
-    let invalid = |&height: &f64| height.is_nan() || height == f64::NEG_INFINITY;
-    if let Some(index) = problem.separation.iter().position(invalid) {
+    let invalid = |height: f64| height.is_nan() || height == f64::NEG_INFINITY;
+    let bands = Bands::new(grid.shape());
+    let in_band = |band| {
+        bands
+            .elements(band)
+            .find(|&element| invalid(problem.separation[element]))
+    };
+    if let Some(index) = bands.gather(in_band, Option::or) {
         let n_y = grid.shape()[1];
         let value = problem.separation[index];
         return Err(BemError::InvalidHeight {

@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::{ContactSet, Run};
-use crate::contact::far_loads::FarLoads;
+use crate::contact::far_loads::{FarLoads, SMALLEST};
 use crate::contact::lanes::add;
 use crate::{Convolution, ConvolutionWorkspace};
 
@@ -69,8 +69,9 @@ impl Preconditioner {
         field: &mut [f64],
         [one, answer]: [&mut [f64]; 2],
     ) {
+        self.far_loads.forget(contact);
         one.fill(1.0);
-        self.invert(contact, (one, field), answer);
+        self.apply(contact, (one, field), answer);
         self.far_loads.weigh(contact, answer);
     }
 
@@ -81,43 +82,56 @@ impl Preconditioner {
         (residual, field): (&[f64], &mut [f64]),
         result: &mut [f64],
     ) {
-        self.invert(contact, (residual, field), result);
-        self.far_loads.take_from(contact, residual, result);
-    }
-
-    fn invert(
-        &mut self,
-        contact: &ContactSet,
-        (residual, field): (&[f64], &mut [f64]),
-        result: &mut [f64],
-    ) {
-        contact.scatter(residual, field);
-        let quarter = |place: usize| 0.25 * residual[place];
-        sum_blocks::<BLOCK>(contact, quarter, &mut self.means);
+        self.spread(contact, residual, field);
         let block_rows = self.blocks.grid().shape()[0];
         self.blocks.apply(
             &mut self.workspace,
             (&self.means, 0..block_rows),
             (&mut self.images, 0..block_rows),
         );
+        self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
         contact.for_each([contact.list(result)], |band, [result]| {
             let residual = &residual[contact.places(band)];
+            this.take_blocks((contact, band), result);
             for run in contact.runs(band) {
                 let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
-                this.take_long_waves(run, result);
                 this.add_differences((run, residual, field), result);
             }
         });
     }
 
-    fn take_long_waves(&self, run: &Run, result: &mut [f64]) {
+    /// Spreads a residual over the field, the blocks of long waves and those of far loads.
+    fn spread(&mut self, contact: &ContactSet, residual: &[f64], field: &mut [f64]) {
+        let (weights, loads) = self.far_loads.weights_and_loads();
+        let fields = [
+            contact.field(field),
+            contact.blocks(BLOCK, &mut self.means),
+            contact.blocks(SMALLEST, loads),
+        ];
+        contact.for_each(fields, |band, [field, means, loads]| {
+            let [residual, weights] = [residual, weights].map(|list| &list[contact.places(band)]);
+            contact.scatter_in(band, residual, field);
+            sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
+            let load = |place: usize| weights[place] * residual[place];
+            sum_blocks::<SMALLEST>(contact, band, load, loads);
+        });
+    }
+
+    /// Takes the answer to long waves, less what belongs to far loads.
+    fn take_blocks(&self, (contact, band): (&ContactSet, usize), result: &mut [f64]) {
         let columns = self.shape[1];
-        let Range { start, .. } = run.elements();
-        let (row, column) = (start / columns, start % columns);
-        let images = &self.images[row / BLOCK * columns.div_ceil(BLOCK)..];
-        for (column, value) in (column..).zip(result) {
-            *value = images[column / BLOCK];
+        let (weights, displacements) = self.far_loads.weights_and_displacements();
+        let weights = &weights[contact.places(band)];
+        for run in contact.runs(band) {
+            let start = run.elements().start;
+            let (row, column) = (start / columns, start % columns);
+            let images = &self.images[row / BLOCK * columns.div_ceil(BLOCK)..];
+            let displacements = &displacements[row / SMALLEST * columns.div_ceil(SMALLEST)..];
+            let (result, weights) = (&mut result[run.places()], &weights[run.places()]);
+            for (column, (value, weight)) in (column..).zip(result.iter_mut().zip(weights)) {
+                *value = images[column / BLOCK] - weight * displacements[column / SMALLEST];
+            }
         }
     }
 

@@ -32,12 +32,14 @@ pub(crate) fn solve_normalised(
     state: &mut ContactState,
     accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
-    if state.load.iter().all(|load| *load <= 0.0) {
-        start_from_coarser(question, state);
-    }
-    let load = &state.load;
     let shape = question.0.grid().shape();
-    let bounds = Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
+    let loaded =
+        |load: &[f64]| Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
+    let mut bounds = loaded(&state.load);
+    if bounds.is_none() {
+        start_from_coarser(question, state);
+        bounds = loaded(&state.load);
+    }
     solve_around(bounds, question, state, accuracy)
 }
 

@@ -136,7 +136,7 @@ impl Convolution {
         self.self_influence
     }
 
-    /// Buffers for [`apply`](Self::apply). With the feature `rayon`, one set per thread of the current pool.
+    /// Buffers for [`apply`](Self::apply). With the feature `rayon`, for the threads of the current pool.
     #[must_use]
     pub fn workspace(&self) -> ConvolutionWorkspace {
         ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))

@@ -18,6 +18,7 @@ use std::ops::Range;
 
 use rustfft::num_complex::Complex;
 
+use crate::bands::join;
 use columns::ColumnTransform;
 use rows::RowTransform;
 pub(crate) use workspace::Workspace;
@@ -55,10 +56,14 @@ impl PlaneTransform {
     /// Plans the transforms of the parts of fields that are their own mirror images along the axes of `mirrors`; the
     /// period is even there, and the first element of the part lies beside the mirror.
     pub(crate) fn folded(padded: [usize; 2], mirrors: [bool; 2]) -> Self {
+        let (columns, rows) = join(
+            || ColumnTransform::new(padded[0], mirrors[0]),
+            || RowTransform::new(padded[1], mirrors[1]),
+        );
         Self {
             padded,
-            columns: ColumnTransform::new(padded[0], mirrors[0]),
-            rows: RowTransform::new(padded[1], mirrors[1]),
+            rows,
+            columns,
         }
     }
 

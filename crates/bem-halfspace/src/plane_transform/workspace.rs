@@ -13,8 +13,8 @@ use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 #[cfg(feature = "rayon")]
 const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
 
-/// What a filter of fields of one shape overwrites. With the feature `rayon`, one set of buffers per thread of the pool
-/// in which it was made.
+/// What a filter of fields of one shape overwrites. With the feature `rayon`, buffers for the threads of the pool in
+/// which it was made.
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace {
     /// Rows and columns of the fields.
@@ -69,9 +69,16 @@ impl Lane {
     }
 }
 
+/// Lanes for each of several threads, of which one may be slower than another.
+#[cfg(feature = "rayon")]
+const LANES_PER_THREAD: usize = 4;
+
 #[cfg(feature = "rayon")]
 fn n_lanes(elements: usize) -> usize {
-    rayon::current_num_threads().clamp(1, 1 + elements / MIN_ELEMENTS_PER_LANE)
+    match rayon::current_num_threads() {
+        1 => 1,
+        threads => (LANES_PER_THREAD * threads).min(1 + elements / MIN_ELEMENTS_PER_LANE),
+    }
 }
 
 #[cfg(not(feature = "rayon"))]

@@ -1,0 +1,91 @@
+//! Directions of the conjugate gradients.
+
+use crate::contact::Control;
+use crate::contact::iteration::{Fields, Iteration};
+use crate::contact::lanes::sum;
+use crate::contact::listed::Listed;
+
+impl Iteration<'_> {
+    /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.
+    pub(super) fn step(&mut self) {
+        self.find_direction();
+        let rows = self.convolution.grid().shape()[0];
+        let Fields {
+            contact,
+            listed,
+            spread,
+            image,
+            ..
+        } = &mut *self.fields;
+        self.convolution
+            .apply(self.workspace, (spread, 0..rows), (image, 0..rows));
+        let direction = &listed.direction;
+        let energy = contact.fold(
+            [contact.list(&mut listed.image)],
+            |band, [listed]| {
+                contact.gather_in(band, image, listed);
+                sum([&direction[contact.places(band)], listed], |[a, b]| a * b)
+            },
+            |left, right| left + right,
+        );
+        // The load of a single element has nowhere to go.
+        let length = if energy == 0.0 {
+            0.0
+        } else {
+            self.previous_product / energy
+        };
+        self.advance(length);
+    }
+
+    fn find_direction(&mut self) {
+        let Fields {
+            preconditioner,
+            contact,
+            listed,
+            spread,
+            ..
+        } = &mut *self.fields;
+        let Listed {
+            residual,
+            direction,
+            image: preconditioned,
+            ..
+        } = listed;
+        if !self.improved {
+            // The first direction on a contact is not conjugate to any before.
+            preconditioner.prepare(contact, spread, [direction, preconditioned]);
+        }
+        preconditioner.apply(contact, (residual, spread), preconditioned);
+        let (residual, preconditioned) = (&*residual, &*preconditioned);
+        let by_band = |band| {
+            let [r, z] = [residual, preconditioned].map(|list| &list[contact.places(band)]);
+            [
+                sum([r], |[r]| r),
+                sum([z], |[z]| z),
+                sum([r, z], |[r, z]| r * z),
+            ]
+        };
+        let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
+        let [sum_r, sum_z, sum_rz] = contact.bands().gather(by_band, both);
+        let mean = match self.control {
+            Control::NormalForce(_) => sum_z / contact.len() as f64,
+            Control::IndentationDepth(_) => 0.0,
+        };
+        // Of the residual and what remains of its image without the mean.
+        let product = sum_rz - mean * sum_r;
+        let conjugation = if self.previous_product > 0.0 {
+            product / self.previous_product
+        } else {
+            0.0
+        };
+        let fields = [contact.field(spread), contact.list(direction)];
+        contact.for_each(fields, |band, [spread, direction]| {
+            let values = &preconditioned[contact.places(band)];
+            for (direction, value) in direction.iter_mut().zip(values) {
+                *direction = value - mean + conjugation * *direction;
+            }
+            contact.scatter_in(band, direction, spread);
+        });
+        self.previous_product = product;
+    }
+}

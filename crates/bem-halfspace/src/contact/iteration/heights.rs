@@ -1,0 +1,172 @@
+//! Heights of the deformed surface, and what they violate.
+
+use std::ops::Range;
+
+use crate::contact::Control;
+use crate::contact::contact_set::ContactSet;
+use crate::contact::iteration::{Fields, Iteration};
+use crate::contact::lanes::{add, lower, reduce, sum};
+use crate::contact::listed::Listed;
+use crate::contact::violations::Violations;
+
+/// Heights of the deformed surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heights {
+    /// The lowest outside the contact.
+    lowest_outside: f64,
+    /// The sum of those in the contact, measured from the indentation depth.
+    sum_inside: f64,
+}
+
+impl Default for Heights {
+    fn default() -> Self {
+        Self {
+            lowest_outside: f64::INFINITY,
+            sum_inside: 0.0,
+        }
+    }
+}
+
+impl Heights {
+    /// Those of a band, from separation and displacement of its elements and of those in the contact.
+    fn of_band(
+        (contact, band): (&ContactSet, usize),
+        outside: [&[f64]; 2],
+        inside: [&[f64]; 2],
+        depth: f64,
+    ) -> Self {
+        let first = contact.bands().elements(band).start;
+        let height = |[separation, displacement]: [f64; 2]| separation + displacement;
+        let lowest_in = |gap: Range<usize>| {
+            let fields = outside.map(|field| &field[gap.start - first..gap.end - first]);
+            reduce(fields, f64::INFINITY, height, lower)
+        };
+        Self {
+            lowest_outside: contact.gaps(band).map(lowest_in).fold(f64::INFINITY, lower),
+            sum_inside: sum(inside, |heights| height(heights) - depth),
+        }
+    }
+
+    fn both(self, other: Self) -> Self {
+        Self {
+            lowest_outside: lower(self.lowest_outside, other.lowest_outside),
+            sum_inside: self.sum_inside + other.sum_inside,
+        }
+    }
+}
+
+impl Iteration<'_> {
+    /// Computes the displacement from the load.
+    pub(super) fn refresh(&mut self) {
+        self.write_load();
+        let rows = self.convolution.grid().shape()[0];
+        let (load, displacement) = (&self.load[..], &mut self.displacement[..]);
+        self.convolution
+            .apply(self.workspace, (load, 0..rows), (displacement, 0..rows));
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
+        let separation = &listed.separation;
+        let in_band = |band, [displacement]: [&mut [f64]; 1]| {
+            contact.gather_in(band, fields[1], displacement);
+            let outside = fields.map(|field| &field[contact.bands().elements(band)]);
+            let inside = [&separation[contact.places(band)], displacement];
+            Heights::of_band((contact, band), outside, inside, depth)
+        };
+        let displacement = [contact.list(&mut listed.displacement)];
+        self.heights = contact.fold(displacement, in_band, Heights::both);
+        self.fresh = true;
+        self.previous_product = 0.0;
+    }
+
+    /// Moves load and displacement by so many directions.
+    pub(super) fn advance(&mut self, length: f64) {
+        let Fields {
+            contact,
+            listed,
+            image,
+            ..
+        } = &mut *self.fields;
+        let Listed {
+            separation,
+            load,
+            displacement,
+            direction,
+            image: listed_image,
+            ..
+        } = listed;
+        let (heights, depth) = (self.separation, self.indentation_depth);
+        let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
+            let (elements, places) = (contact.bands().elements(band), contact.places(band));
+            add(field, length, &image[elements.clone()]);
+            add(displacement, length, &listed_image[places.clone()]);
+            add(load, length, &direction[places.clone()]);
+            let (outside, inside) = (
+                [&heights[elements], field],
+                [&separation[places], displacement],
+            );
+            Heights::of_band((contact, band), outside, inside, depth)
+        };
+        let moved = [
+            contact.field(self.displacement),
+            contact.list(displacement),
+            contact.list(load),
+        ];
+        self.heights = contact.fold(moved, in_band, Heights::both);
+        self.fresh = false;
+        self.improved = true;
+    }
+
+    /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
+    pub(super) fn find_depth(&mut self) {
+        let Fields {
+            contact, listed, ..
+        } = &*self.fields;
+        self.indentation_depth = match self.control {
+            Control::IndentationDepth(depth) => depth,
+            Control::NormalForce(_) if contact.len() == 0 => {
+                let heights = self.separation.iter().copied();
+                heights.fold(f64::INFINITY, f64::min)
+            }
+            Control::NormalForce(_) => {
+                let mean = self.indentation_depth + self.heights.sum_inside / contact.len() as f64;
+                // Again where the depth before was another one, because no direction removes what the long sum has
+                // rounded.
+                let rest = if self.fresh {
+                    listed.mean_height_above(contact, mean)
+                } else {
+                    0.0
+                };
+                mean + rest
+            }
+        };
+    }
+
+    /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
+    pub(super) fn measure(&mut self) -> Violations {
+        let Fields {
+            contact, listed, ..
+        } = &mut *self.fields;
+        let (separation, displacement, load) =
+            (&listed.separation, &listed.displacement, &listed.load);
+        let own_influence = self.convolution.self_influence();
+        let depth = self.indentation_depth;
+        let in_band = |band, [residual]: [&mut [f64]; 1]| {
+            let [separation, displacement, load] =
+                [separation, displacement, load].map(|list| &list[contact.places(band)]);
+            for (residual, (separation, displacement)) in
+                residual.iter_mut().zip(separation.iter().zip(displacement))
+            {
+                *residual = depth - (separation + displacement);
+            }
+            Violations::inside(residual, [load, displacement], own_influence)
+        };
+        let residual = [contact.list(&mut listed.residual)];
+        let inside = contact.fold(residual, in_band, Violations::worst);
+        Violations {
+            penetration: (depth - self.heights.lowest_outside).max(0.0),
+            ..inside
+        }
+    }
+}
