@@ -153,19 +153,30 @@ fn split<'a, T, const N: usize>(
 }
 
 /// Copies of a value, first touched by the threads that share the memory from then on.
-#[cfg(feature = "rayon")]
 pub(crate) fn copies<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
-    use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
     let mut values = Vec::new();
-    let numbers = (0..count).into_par_iter().with_min_len(MIN_ELEMENTS);
-    numbers.map(|_| value).collect_into_vec(&mut values);
+    resize(&mut values, value, count);
     values
 }
 
-/// Copies of a value.
+/// Removes values from the end, or adds copies of a value, first touched by the threads that share the memory from then
+/// on.
+#[cfg(feature = "rayon")]
+pub(crate) fn resize<T: Copy + Send + Sync>(values: &mut Vec<T>, value: T, count: usize) {
+    use rayon::prelude::{
+        IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
+    };
+    values.truncate(count);
+    let missing = (values.len()..count)
+        .into_par_iter()
+        .with_min_len(MIN_ELEMENTS);
+    values.par_extend(missing.map(|_| value));
+}
+
+/// Removes values from the end, or adds copies of a value.
 #[cfg(not(feature = "rayon"))]
-pub(crate) fn copies<T: Copy>(value: T, count: usize) -> Vec<T> {
-    vec![value; count]
+pub(crate) fn resize<T: Copy>(values: &mut Vec<T>, value: T, count: usize) {
+    values.resize(count, value);
 }
 
 /// Does both works, side by side where there are threads.

@@ -25,7 +25,7 @@
 
 use std::f64::consts::PI;
 
-use crate::bands::Bands;
+use crate::bands::{Bands, resize};
 use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::ContactSet;
 use crate::{Grid, influence};
@@ -79,7 +79,7 @@ impl FarLoads {
     /// Takes another contact, of which nothing is known yet: all loads count as nothing.
     pub(super) fn forget(&mut self, contact: &ContactSet) {
         self.weights.clear();
-        self.weights.resize(contact.len(), 0.0);
+        resize(&mut self.weights, 0.0, contact.len());
         self.find_sums(contact);
     }
 

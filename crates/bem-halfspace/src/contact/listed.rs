@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::bands::resize;
 use crate::contact::contact_set::ContactSet;
 use crate::contact::lanes::sum;
 
@@ -43,7 +44,7 @@ impl Listed {
             &mut self.image,
         ];
         for list in lists {
-            list.resize(contact.len(), 0.0);
+            resize(list, 0.0, contact.len());
         }
         contact.gather(separation, &mut self.separation);
         contact.gather(load, &mut self.load);

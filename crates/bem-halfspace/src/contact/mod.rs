@@ -128,7 +128,7 @@ pub fn solve_contact(
     let question = (problem.convolution, problem.separation, control);
     let outcome = solve_in_front_of_mirrors(question, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);
-    state.list_contact();
+    state.list_contact(grid);
     let outcome = outcome?;
     Ok(Contact {
         indentation_depth: outcome.indentation_depth,

@@ -1,6 +1,6 @@
 //! What a contact solve overwrites.
 
-use crate::bands::Bands;
+use crate::bands::{Bands, Starts, fold_parts, resize};
 use crate::contact::contact_box::ContactBox;
 use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
@@ -13,7 +13,9 @@ pub struct ContactState {
     pub(super) load: Vec<f64>,
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
-    pub(super) contact: Vec<usize>,
+    contact: Vec<usize>,
+    /// How many of them there are before each band, and in all.
+    starts: Vec<usize>,
     /// Whether the iteration may run on a box around the contact.
     pub(super) in_parts: bool,
     /// The grid, and what surrounds it, for which everything below was made when it was first needed.
@@ -36,6 +38,7 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
+            starts: vec![0],
             in_parts: true,
             kind: None,
             workspace: None,
@@ -89,9 +92,29 @@ impl ContactState {
         });
     }
 
-    pub(super) fn list_contact(&mut self) {
-        self.contact.clear();
-        let loaded = |&element: &usize| self.load[element] > 0.0;
-        self.contact.extend((0..self.load.len()).filter(loaded));
+    pub(super) fn list_contact(&mut self, grid: &Grid) {
+        let bands = Bands::new(grid.shape());
+        let (load, parts) = (&self.load, 0..bands.n_bands());
+        let loaded = |band| {
+            let elements = bands.elements(band);
+            elements.filter(|&element| load[element] > 0.0)
+        };
+        self.starts.resize(parts.len() + 1, 0);
+        let count = |band, [count]: [&mut [usize]; 1]| count[0] = loaded(band).count();
+        let counts = [(&mut self.starts[1..], Starts::Every(1))];
+        fold_parts(parts.clone(), counts, &count, &|(), ()| ());
+        let mut n_contact = 0;
+        for start in &mut self.starts {
+            n_contact += *start;
+            *start = n_contact;
+        }
+        resize(&mut self.contact, 0, n_contact);
+        let list = |band, [places]: [&mut [usize]; 1]| {
+            for (place, element) in places.iter_mut().zip(loaded(band)) {
+                *place = element;
+            }
+        };
+        let contact = [(&mut self.contact[..], Starts::Listed(&self.starts))];
+        fold_parts(parts, contact, &list, &|(), ()| ());
     }
 }
