@@ -141,15 +141,15 @@ impl PlaneTransform {
         (loaded, wanted): (&Range<usize>, &Range<usize>),
         multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
     ) {
-        let n_rows = workspace.shape[0];
+        let stride = workspace.tile_stride();
         let Workspace {
             strips,
             tiles,
             lanes,
             ..
         } = workspace;
-        for_each_lane(lanes, (tiles, n_rows), |first, lane, tiles| {
-            for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(n_rows)) {
+        for_each_lane(lanes, (tiles, stride), |first, lane, tiles| {
+            for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
                 self.gather_columns(lane, strips, (tile, loaded));
                 self.multiply_columns(lane, &columns, &multiply);
@@ -208,12 +208,12 @@ impl PlaneTransform {
         result: &mut [f64],
         wanted: &Range<usize>,
     ) {
-        let [n_rows, width] = workspace.shape;
+        let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
         let Workspace { tiles, lanes, .. } = workspace;
         let result = &mut result[wanted.start * width..wanted.end * width];
         for_each_lane(lanes, (result, width), |first, lane, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
-                let mut pieces = tiles[row..].iter().step_by(n_rows);
+                let mut pieces = tiles[row..].iter().step_by(stride);
                 let coefficients = &mut lane.half_row[..self.n_columns()];
                 let (whole, rest) = coefficients.as_chunks_mut::<TILE>();
                 for (values, piece) in whole.iter_mut().zip(&mut pieces) {

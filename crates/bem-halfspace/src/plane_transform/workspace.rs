@@ -44,17 +44,27 @@ impl Workspace {
                 [ZERO; TILE],
                 shape[0].next_multiple_of(STRIP) * transform.n_tiles(),
             ),
-            tiles: copies([ZERO; TILE], shape[0] * transform.n_tiles()),
+            tiles: copies([ZERO; TILE], tile_stride(shape) * transform.n_tiles()),
             lanes: (0..n_lanes(shape[0] * shape[1]))
                 .map(|_| Lane::new(transform))
                 .collect(),
         }
     }
 
+    /// Number of pieces from one tile to the next.
+    pub(super) const fn tile_stride(&self) -> usize {
+        tile_stride(self.shape)
+    }
+
     /// Rows and columns of the fields.
     pub(crate) const fn shape(&self) -> [usize; 2] {
         self.shape
     }
+}
+
+/// Pieces of a row at a distance of a power of two would compete for the same lines of the cache.
+const fn tile_stride(shape: [usize; 2]) -> usize {
+    shape[0] + 1
 }
 
 impl Lane {
