@@ -35,7 +35,7 @@ pub struct Convolution {
     transform: PlaneTransform,
     /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
     /// in.
-    spectrum: Arc<[f64]>,
+    spectrum: Arc<Vec<f64>>,
     /// Displacement of an element under its own unit load, [m].
     self_influence: f64,
 }
@@ -52,7 +52,7 @@ impl Convolution {
     pub fn new(grid: &Grid) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
         let mut convolution = Self::planned(grid, Surroundings::Free, padded);
-        convolution.spectrum = convolution.free_spectrum().into();
+        convolution.spectrum = Arc::new(convolution.free_spectrum());
         convolution.self_influence = crate::influence([0.0, 0.0], grid.spacing());
         convolution
     }
@@ -65,7 +65,7 @@ impl Convolution {
     #[must_use]
     pub fn periodic(grid: &Grid) -> Self {
         let mut convolution = Self::planned(grid, Surroundings::Periodic, grid.shape());
-        convolution.spectrum = convolution.periodic_spectrum().into();
+        convolution.spectrum = Arc::new(convolution.periodic_spectrum());
         convolution.self_influence = convolution.sum_of_spectrum();
         convolution
     }
@@ -76,7 +76,7 @@ impl Convolution {
         let blocks = self.grid.blocks().unfolded(self.mirrors);
         let padded = blocks.shape().map(fast_length);
         let mut convolution = Self::planned(&blocks, Surroundings::Periodic, padded);
-        convolution.spectrum = convolution.positive_spectrum(symbol).into();
+        convolution.spectrum = Arc::new(convolution.positive_spectrum(symbol));
         convolution.folded(self.mirrors)
     }
 
@@ -113,7 +113,7 @@ impl Convolution {
             mirrors: [false; 2],
             surroundings,
             transform: PlaneTransform::new(padded),
-            spectrum: Arc::new([]),
+            spectrum: Arc::new(Vec::new()),
             self_influence: 0.0,
         }
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::bands::{Starts, fold_parts};
+use crate::bands::{Starts, copies, fold_parts};
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 
@@ -13,7 +13,7 @@ impl Convolution {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
         let length = self.transform.padded()[0] / 2 + 1;
-        let mut spectrum = vec![0.0; self.transform.n_columns() * length];
+        let mut spectrum = copies(0.0, self.transform.n_columns() * length);
         for_each_group(&mut spectrum, length, |first, group| {
             for (column, values) in (first..).zip(group.chunks_exact_mut(length)) {
                 let q_y = column as f64 * unit_y;
@@ -81,7 +81,7 @@ impl Convolution {
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
         let rows = self.transformed_kernel_rows();
         let length = self.transform.padded()[0] / 2 + 1;
-        let mut spectrum = vec![0.0; self.transform.n_columns() * length];
+        let mut spectrum = copies(0.0, self.transform.n_columns() * length);
         for_each_group(&mut spectrum, length, |first, group| {
             let mut values = vec![ZERO; self.transform.padded()[0]];
             for (pair, spectrum) in group.chunks_mut(2 * length).enumerate() {
@@ -118,7 +118,7 @@ impl Convolution {
     /// Transforms of the kernel along y, [offset along x][column]; the kernel is even, so they are real.
     fn transformed_kernel_rows(&self) -> Vec<f64> {
         let n_columns = self.transform.n_columns();
-        let mut rows = vec![0.0; self.grid.shape()[0] * n_columns];
+        let mut rows = copies(0.0, self.grid.shape()[0] * n_columns);
         for_each_group(&mut rows, n_columns, |first, group| {
             let mut values = vec![0.0; self.transform.padded()[1]];
             let mut transformed = vec![ZERO; n_columns];
