@@ -56,24 +56,32 @@ impl Bands {
         rows.start * self.shape[1]..rows.end * self.shape[1]
     }
 
-    /// Does the work of every band on its part of the fields, which have one value per element.
+    /// Does the work of every band on its part of fields that may be divided in different ways.
     pub(crate) fn fold<const N: usize, T: Send, R: Send>(
         &self,
-        fields: [&mut [T]; N],
+        fields: Parts<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        let fields = fields.map(|field| (field, self.starts()));
         fold_parts(0..self.n_bands(), fields, &work, &combine)
     }
 
-    /// Does the work of every band on its part of the fields.
+    /// Does the work of every band on its part of fields that may be divided in different ways.
+    pub(crate) fn for_each_part<const N: usize, T: Send>(
+        &self,
+        fields: Parts<T, N>,
+        work: impl Fn(usize, [&mut [T]; N]) + Sync,
+    ) {
+        self.fold(fields, work, |(), ()| ());
+    }
+
+    /// Does the work of every band on its part of the fields, which have one value per element.
     pub(crate) fn for_each<const N: usize, T: Send>(
         &self,
         fields: [&mut [T]; N],
         work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
-        self.fold(fields, work, |(), ()| ());
+        self.for_each_part(fields.map(|field| (field, self.starts())), work);
     }
 
     /// What the bands contribute, combined pairwise.
@@ -111,14 +119,14 @@ impl Starts<'_> {
 }
 
 /// Fields, and where the parts of each begin.
-pub(crate) type Fields<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
+pub(crate) type Parts<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
 
 /// Does the work of every part of a range on its part of the fields.
 ///
 /// The halves of the range are combined, and those are of their halves: the order is always the same.
 pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
     parts: Range<usize>,
-    fields: Fields<T, N>,
+    fields: Parts<T, N>,
     work: &(impl Fn(usize, [&mut [T]; N]) -> R + Sync),
     combine: &(impl Fn(R, R) -> R + Sync),
 ) -> R {
@@ -136,10 +144,10 @@ pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
 
 /// The fields, which begin with the part `first`, before and behind the beginning of a part in the `middle`.
 fn split<'a, T, const N: usize>(
-    fields: Fields<'a, T, N>,
+    fields: Parts<'a, T, N>,
     first: usize,
     middle: usize,
-) -> (Fields<'a, T, N>, Fields<'a, T, N>) {
+) -> (Parts<'a, T, N>, Parts<'a, T, N>) {
     let mut behind = [(); N].map(|()| (<&mut [T]>::default(), Starts::Every(0)));
     let mut slots = behind.iter_mut();
     let before = fields.map(|(field, starts)| {

@@ -1,6 +1,6 @@
 //! A part of a grid on which the contact is solved.
 
-use crate::bands::{Bands, fold_parts};
+use crate::bands::Bands;
 use crate::bounds::Bounds;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
 use crate::{BemError, ContactOptions, Convolution, Grid};
@@ -85,7 +85,7 @@ impl ContactBox {
             }
         };
         let load = [(load, bands.starts_of_rows(columns))];
-        fold_parts(0..bands.n_bands(), load, &copy, &|(), ()| ());
+        bands.for_each_part(load, copy);
     }
 
     /// Solves for the separation set before; the load has the unit of a length, see [`solve_normalised`].

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::bands::{Bands, Fields, Starts, fold_parts};
+use crate::bands::{Bands, Parts, Starts};
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]
@@ -87,7 +87,7 @@ impl ContactSet {
             find_runs_in(rows, elements.start, &mut runs[0]);
         };
         let runs = [(&mut self.runs[..], Starts::Every(1))];
-        fold_parts(0..bands.n_bands(), runs, &in_band, &|(), ()| ());
+        bands.for_each_part(runs, in_band);
         let mut before = 0;
         for (runs, start) in self.runs.iter().zip(&mut self.starts[1..]) {
             before += runs.last().map_or(0, |run| run.places().end);
@@ -148,20 +148,20 @@ impl ContactSet {
     /// Does the work of every band on its part of fields and lists.
     pub(super) fn fold<const N: usize, T: Send, R: Send>(
         &self,
-        fields: Fields<T, N>,
+        fields: Parts<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        fold_parts(0..self.bands.n_bands(), fields, &work, &combine)
+        self.bands.fold(fields, work, combine)
     }
 
     /// Does the work of every band on its part of fields and lists.
     pub(super) fn for_each<const N: usize, T: Send>(
         &self,
-        fields: Fields<T, N>,
+        fields: Parts<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
-        self.fold(fields, work, |(), ()| ());
+        self.bands.for_each_part(fields, work);
     }
 
     /// Sum of what the parts of lists contribute that belong to a band.

@@ -62,7 +62,10 @@ struct Level {
 
 impl FarLoads {
     pub(super) fn new(grid: &Grid) -> Self {
-        let (mut blocks, mut edge) = (grid.blocks().blocks().blocks(), SMALLEST);
+        let (mut blocks, mut edge) = (*grid, 1);
+        while edge < SMALLEST {
+            (blocks, edge) = (blocks.blocks(), 2 * edge);
+        }
         let smallest = Level::new(&blocks, edge, grid);
         let mut larger = Vec::new();
         while blocks.n_elements() > 1 {

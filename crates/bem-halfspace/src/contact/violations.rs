@@ -49,7 +49,7 @@ impl Violations {
         [load, displacement]: [&[f64]; 2],
         own_influence: f64,
     ) -> Self {
-        // Zero where all numbers are finite.
+        // Zero where all numbers are finite, else NaN; the extremes do not matter then.
         let spoiled = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, lower);
         let largest_load = largest([load], 0.0, |[load]| load);

@@ -34,7 +34,7 @@ pub struct Convolution {
     surroundings: Surroundings,
     transform: PlaneTransform,
     /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
-    /// in.
+    /// in; not a slice, into which it would have to be copied.
     spectrum: Arc<Vec<f64>>,
     /// Displacement of an element under its own unit load, [m].
     self_influence: f64,

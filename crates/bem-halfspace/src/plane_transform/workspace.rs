@@ -26,7 +26,7 @@ pub(crate) struct Workspace {
     pub(super) lanes: Vec<Lane>,
 }
 
-/// The buffers of one thread.
+/// The buffers of one lane.
 #[derive(Debug, Clone)]
 pub(super) struct Lane {
     pub(super) row: Vec<f64>,

@@ -131,8 +131,8 @@ impl Iteration<'_> {
             }
             Control::NormalForce(_) => {
                 let mean = self.indentation_depth + self.heights.sum_inside / contact.len() as f64;
-                // Again where the depth before was another one, because no direction removes what the long sum has
-                // rounded.
+                // After a refresh again, because the depth before may have been far off, and no direction removes what
+                // the long sum has rounded.
                 let rest = if self.fresh {
                     listed.mean_height_above(contact, mean)
                 } else {
