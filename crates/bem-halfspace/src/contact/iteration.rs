@@ -32,7 +32,7 @@ pub(super) struct Fields {
     preconditioner: Preconditioner,
     contact: ContactSet,
     listed: Listed,
-    /// Values of one list or another; zero outside the contact.
+    /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
     spread: Vec<f64>,
     /// What the influence makes of the direction.
     image: Vec<f64>,
@@ -57,7 +57,7 @@ pub(super) struct Iteration<'a> {
     separation: &'a [f64],
     control: Control,
     tolerance: f64,
-    /// That of the last contact or, if that is as old, of the last [`refresh`](Self::refresh).
+    /// That of the list when it was last [written](Self::write_load); zero outside the contact.
     load: &'a mut [f64],
     displacement: &'a mut [f64],
     workspace: &'a mut ConvolutionWorkspace,
@@ -150,7 +150,8 @@ impl<'a> Iteration<'a> {
 
     /// Takes the contact from the first guess; without one, from what lies below the given depth, or everywhere.
     fn start(&mut self) {
-        let loaded = self.load.iter().any(|load| *load > 0.0);
+        let mut elements = self.load.iter().zip(self.separation);
+        let loaded = elements.any(|(load, separation)| *load > 0.0 && separation.is_finite());
         let (below, uniform) = match self.control {
             Control::NormalForce(_) => (f64::INFINITY, 1.0),
             Control::IndentationDepth(depth) => (depth, 0.0),

@@ -124,7 +124,7 @@ pub fn solve_contact(
         depth @ Control::IndentationDepth(_) => depth,
     };
     state.serve(problem.convolution);
-    state.scale_load(grid, load_per_pressure);
+    state.take_guess(grid, load_per_pressure);
     let question = (problem.convolution, problem.separation, control);
     let outcome = solve_in_front_of_mirrors(question, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);

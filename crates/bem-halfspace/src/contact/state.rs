@@ -1,6 +1,6 @@
 //! What a contact solve overwrites.
 
-use crate::bands::{Bands, Starts, fold_parts, resize};
+use crate::bands::{Bands, Starts, resize};
 use crate::contact::contact_box::ContactBox;
 use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
@@ -54,8 +54,8 @@ impl ContactState {
         &self.load
     }
 
-    /// The pressure to start from, \[Pa], row-major. Negative values count as zero; without any pressure the solver
-    /// starts from solutions on coarser grids.
+    /// The pressure to start from, \[Pa], row-major. What is not a positive number counts as zero; without any
+    /// pressure the solver starts from solutions on coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
         &mut self.load
     }
@@ -84,6 +84,20 @@ impl ContactState {
         }
     }
 
+    /// Takes what the caller left as a first guess, times a factor; what is no positive number counts as zero.
+    pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
+        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
+            for load in load {
+                let guess = *load * factor;
+                *load = if guess > 0.0 && guess.is_finite() {
+                    guess
+                } else {
+                    0.0
+                };
+            }
+        });
+    }
+
     pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
         Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
             for load in load {
@@ -94,15 +108,15 @@ impl ContactState {
 
     pub(super) fn list_contact(&mut self, grid: &Grid) {
         let bands = Bands::new(grid.shape());
-        let (load, parts) = (&self.load, 0..bands.n_bands());
+        let load = &self.load;
         let loaded = |band| {
             let elements = bands.elements(band);
             elements.filter(|&element| load[element] > 0.0)
         };
-        self.starts.resize(parts.len() + 1, 0);
+        self.starts.resize(bands.n_bands() + 1, 0);
         let count = |band, [count]: [&mut [usize]; 1]| count[0] = loaded(band).count();
         let counts = [(&mut self.starts[1..], Starts::Every(1))];
-        fold_parts(parts.clone(), counts, &count, &|(), ()| ());
+        bands.for_each_part(counts, count);
         let mut n_contact = 0;
         for start in &mut self.starts {
             n_contact += *start;
@@ -115,6 +129,6 @@ impl ContactState {
             }
         };
         let contact = [(&mut self.contact[..], Starts::Listed(&self.starts))];
-        fold_parts(parts, contact, &list, &|(), ()| ());
+        bands.for_each_part(contact, list);
     }
 }

@@ -71,26 +71,58 @@ fn the_residual_falls_to_rounding() {
     assert!(contact.residual <= 1e-13, "{contact:?}");
 }
 
-/// A guess that is wrong, and lies elsewhere, leads to the same answer.
+/// Guesses that are wrong: one that lies elsewhere, numbers that are no pressures beside the contact, and one where
+/// there is no body.
 #[test]
 fn the_guess_does_not_matter() {
-    let (convolution, heights) = hertz(96);
+    let (convolution, mut heights) = hertz(96);
+    heights[3] = f64::INFINITY;
     let problem = (&convolution, &heights[..]);
+    let elsewhere = |pressure: &mut [f64]| pressure[..700].fill(1.0);
+    let no_pressures = |pressure: &mut [f64]| {
+        pressure[96 * 48 + 48] = 1.0;
+        (pressure[96 * 47 + 2], pressure[5]) = (-1.0, f64::NAN);
+        pressure[7] = f64::INFINITY;
+    };
+    let no_body = |pressure: &mut [f64]| pressure[3] = 1.0;
     for control in [Control::NormalForce(0.036), Control::IndentationDepth(0.09)] {
-        let mut cold = ContactState::new(&convolution);
-        let expected = solve(problem, &mut cold, control);
-        let mut warm = ContactState::new(&convolution);
-        warm.pressure_mut()[..700].fill(1.0);
-        let actual = solve(problem, &mut warm, control);
-        assert_eq!(actual.n_contact, expected.n_contact, "{control:?}");
-        let scale = expected.normal_force / 0.3;
-        for (actual, expected) in warm.pressure().iter().zip(cold.pressure()) {
-            let error = (actual - expected).abs() / scale;
-            assert!(error < 1e-7, "{control:?}: {actual} instead of {expected}");
-        }
-        let again = solve(problem, &mut warm, control);
-        assert!(again.iterations <= 1, "solved already: {again:?}");
+        check_guess(problem, control, elsewhere);
+        check_guess(problem, control, no_pressures);
+        check_guess(problem, control, no_body);
     }
+}
+
+fn check_guess(problem: (&Convolution, &[f64]), control: Control, guess: impl Fn(&mut [f64])) {
+    let mut cold = ContactState::new(problem.0);
+    let expected = solve(problem, &mut cold, control);
+    let mut warm = ContactState::new(problem.0);
+    guess(warm.pressure_mut());
+    let actual = solve(problem, &mut warm, control);
+    assert_eq!(actual.n_contact, expected.n_contact, "{control:?}");
+    let scale = expected.normal_force / 0.3;
+    for (actual, expected) in warm.pressure().iter().zip(cold.pressure()) {
+        let error = (actual - expected).abs() / scale;
+        assert!(error < 1e-7, "{control:?}: {actual} instead of {expected}");
+    }
+    let again = solve(problem, &mut warm, control);
+    assert!(again.iterations <= 1, "solved already: {again:?}");
+}
+
+/// A guess with load only where there is no body, on a grid too small for a box.
+#[test]
+fn a_guess_without_a_body_counts_as_none() {
+    let mut heights = [0.0; 16];
+    heights[0] = f64::INFINITY;
+    let convolution = Convolution::new(&Grid::new([4; 2], [1.0; 2]).expect("a valid grid"));
+    let mut state = ContactState::new(&convolution);
+    state.pressure_mut()[0] = 1.0;
+    let contact = solve(
+        (&convolution, &heights),
+        &mut state,
+        Control::NormalForce(1.0),
+    );
+    assert_eq!(contact.n_contact, 15, "{contact:?}");
+    assert!((contact.normal_force - 1.0).abs() < 1e-14, "{contact:?}");
 }
 
 /// The displacement is that of the pressure on the whole grid, and nothing penetrates outside the box either.
