@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use crate::bands::{Bands, Parts, Starts};
+use crate::bands::{Bands, Starts};
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]
@@ -126,42 +126,23 @@ impl ContactSet {
         starts.zip(ends).map(|(start, end)| start..end)
     }
 
-    /// A list, for [`fold`](Self::fold).
+    /// A list, for [`Bands::fold`].
     pub(super) fn list<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (list, Starts::Listed(&self.starts))
     }
 
-    /// A field with one value per element, for [`fold`](Self::fold).
+    /// A field with one value per element, for [`Bands::fold`].
     pub(super) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (field, self.bands.starts())
     }
 
-    /// A field with one value per block of so many elements along an edge, for [`fold`](Self::fold).
+    /// A field with one value per block of so many elements along an edge, for [`Bands::fold`].
     pub(super) fn blocks<'a, T>(
         &self,
         edge: usize,
         field: &'a mut [T],
     ) -> (&'a mut [T], Starts<'a>) {
         (field, self.bands.starts_of_blocks(edge))
-    }
-
-    /// Does the work of every band on its part of fields and lists.
-    pub(super) fn fold<const N: usize, T: Send, R: Send>(
-        &self,
-        fields: Parts<T, N>,
-        work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
-        combine: impl Fn(R, R) -> R + Sync,
-    ) -> R {
-        self.bands.fold(fields, work, combine)
-    }
-
-    /// Does the work of every band on its part of fields and lists.
-    pub(super) fn for_each<const N: usize, T: Send>(
-        &self,
-        fields: Parts<T, N>,
-        work: impl Fn(usize, [&mut [T]; N]) + Sync,
-    ) {
-        self.bands.for_each_part(fields, work);
     }
 
     /// Sum of what the parts of lists contribute that belong to a band.
@@ -171,7 +152,7 @@ impl ContactSet {
 
     /// Lists the values of a field.
     pub(super) fn gather(&self, field: &[f64], list: &mut [f64]) {
-        self.for_each([self.list(list)], |band, [list]| {
+        self.bands.for_each_part([self.list(list)], |band, [list]| {
             self.gather_in(band, field, list);
         });
     }
@@ -185,9 +166,10 @@ impl ContactSet {
 
     /// Writes the values of a list into a field.
     pub(super) fn scatter(&self, list: &[f64], field: &mut [f64]) {
-        self.for_each([self.field(field)], |band, [field]| {
-            self.scatter_in(band, &list[self.places(band)], field);
-        });
+        self.bands
+            .for_each_part([self.field(field)], |band, [field]| {
+                self.scatter_in(band, &list[self.places(band)], field);
+            });
     }
 
     /// Writes the part of a list that belongs to a band into the same part of a field.

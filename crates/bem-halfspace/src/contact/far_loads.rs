@@ -88,11 +88,13 @@ impl FarLoads {
 
     /// Takes the list of the `answer` of the inverse to the gap one.
     pub(super) fn weigh(&mut self, contact: &ContactSet, answer: &[f64]) {
-        contact.for_each([contact.list(&mut self.weights)], |band, [weights]| {
-            for (weight, value) in weights.iter_mut().zip(&answer[contact.places(band)]) {
-                *weight = value.max(0.0);
-            }
-        });
+        contact
+            .bands()
+            .for_each_part([contact.list(&mut self.weights)], |band, [weights]| {
+                for (weight, value) in weights.iter_mut().zip(&answer[contact.places(band)]) {
+                    *weight = value.max(0.0);
+                }
+            });
         self.find_sums(contact);
     }
 
@@ -103,7 +105,7 @@ impl FarLoads {
             larger,
         } = self;
         let sums = [contact.blocks(SMALLEST, &mut smallest.sums)];
-        contact.for_each(sums, |band, [sums]| {
+        contact.bands().for_each_part(sums, |band, [sums]| {
             let weights = &weights[contact.places(band)];
             sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
         });

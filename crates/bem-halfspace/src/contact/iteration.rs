@@ -199,12 +199,14 @@ impl<'a> Iteration<'a> {
         let Fields {
             contact, listed, ..
         } = &mut *self.fields;
-        contact.for_each([contact.list(&mut listed.load)], |_, [load]| {
-            for load in load {
-                // Multiplied last, because the quotient of extreme forces may overflow.
-                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-            }
-        });
+        contact
+            .bands()
+            .for_each_part([contact.list(&mut listed.load)], |_, [load]| {
+                for load in load {
+                    // Multiplied last, because the quotient of extreme forces may overflow.
+                    *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+                }
+            });
     }
 
     fn total_load(&self) -> f64 {

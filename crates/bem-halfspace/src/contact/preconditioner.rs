@@ -91,14 +91,16 @@ impl Preconditioner {
         );
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
-        contact.for_each([contact.list(result)], |band, [result]| {
-            let residual = &residual[contact.places(band)];
-            this.take_blocks((contact, band), result);
-            for run in contact.runs(band) {
-                let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
-                this.add_differences((run, residual, field), result);
-            }
-        });
+        contact
+            .bands()
+            .for_each_part([contact.list(result)], |band, [result]| {
+                let residual = &residual[contact.places(band)];
+                this.take_blocks((contact, band), result);
+                for run in contact.runs(band) {
+                    let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
+                    this.add_differences((run, residual, field), result);
+                }
+            });
     }
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
@@ -109,13 +111,16 @@ impl Preconditioner {
             contact.blocks(BLOCK, &mut self.means),
             contact.blocks(SMALLEST, loads),
         ];
-        contact.for_each(fields, |band, [field, means, loads]| {
-            let [residual, weights] = [residual, weights].map(|list| &list[contact.places(band)]);
-            contact.scatter_in(band, residual, field);
-            sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
-            let load = |place: usize| weights[place] * residual[place];
-            sum_blocks::<SMALLEST>(contact, band, load, loads);
-        });
+        contact
+            .bands()
+            .for_each_part(fields, |band, [field, means, loads]| {
+                let [residual, weights] =
+                    [residual, weights].map(|list| &list[contact.places(band)]);
+                contact.scatter_in(band, residual, field);
+                sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
+                let load = |place: usize| weights[place] * residual[place];
+                sum_blocks::<SMALLEST>(contact, band, load, loads);
+            });
     }
 
     /// Takes the answer to long waves, less what belongs to far loads.

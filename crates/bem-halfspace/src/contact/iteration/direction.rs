@@ -20,7 +20,7 @@ impl Iteration<'_> {
         self.convolution
             .apply(self.workspace, (spread, 0..rows), (image, 0..rows));
         let direction = &listed.direction;
-        let energy = contact.fold(
+        let energy = contact.bands().fold(
             [contact.list(&mut listed.image)],
             |band, [listed]| {
                 contact.gather_in(band, image, listed);
@@ -79,13 +79,15 @@ impl Iteration<'_> {
             0.0
         };
         let fields = [contact.field(spread), contact.list(direction)];
-        contact.for_each(fields, |band, [spread, direction]| {
-            let values = &preconditioned[contact.places(band)];
-            for (direction, value) in direction.iter_mut().zip(values) {
-                *direction = value - mean + conjugation * *direction;
-            }
-            contact.scatter_in(band, direction, spread);
-        });
+        contact
+            .bands()
+            .for_each_part(fields, |band, [spread, direction]| {
+                let values = &preconditioned[contact.places(band)];
+                for (direction, value) in direction.iter_mut().zip(values) {
+                    *direction = value - mean + conjugation * *direction;
+                }
+                contact.scatter_in(band, direction, spread);
+            });
         self.previous_product = product;
     }
 }

@@ -75,7 +75,7 @@ impl Iteration<'_> {
             Heights::of_band((contact, band), outside, inside, depth)
         };
         let displacement = [contact.list(&mut listed.displacement)];
-        self.heights = contact.fold(displacement, in_band, Heights::both);
+        self.heights = contact.bands().fold(displacement, in_band, Heights::both);
         self.fresh = true;
         self.previous_product = 0.0;
     }
@@ -113,7 +113,7 @@ impl Iteration<'_> {
             contact.list(displacement),
             contact.list(load),
         ];
-        self.heights = contact.fold(moved, in_band, Heights::both);
+        self.heights = contact.bands().fold(moved, in_band, Heights::both);
         self.fresh = false;
         self.improved = true;
     }
@@ -163,7 +163,7 @@ impl Iteration<'_> {
             Violations::inside(residual, [load, displacement], own_influence)
         };
         let residual = [contact.list(&mut listed.residual)];
-        let inside = contact.fold(residual, in_band, Violations::worst);
+        let inside = contact.bands().fold(residual, in_band, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),
             ..inside
