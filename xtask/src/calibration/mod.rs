@@ -15,7 +15,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use crate::output::{WrongInput, print_line, write_atomically, write_table};
-use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::plot::{PNG_WIDTH, draw, render_png};
 use crate::progress;
 use judged::{Examination, Judged};
 use ways::{FULL, QUICK};
@@ -49,9 +49,12 @@ pub(crate) fn calibrate(options: &Calibrate) -> Result<()> {
     let judged = judge(&examinations(options)?)?;
     write_table(&out.join("calibration.csv"), &judged.rows)?;
     write_table(&out.join("calibration_refused.csv"), &judged.refusals)?;
-    let svg = render_svg(&picture::figure(&judged.rows))?;
-    write_atomically(&out.join("calibration.svg"), svg.as_bytes())?;
-    write_atomically(&out.join("calibration.png"), &render_png(&svg, PNG_WIDTH)?)?;
+    let drawing = draw(&picture::figure(&judged.rows))?;
+    write_atomically(&out.join("calibration.svg"), drawing.svg.as_bytes())?;
+    write_atomically(
+        &out.join("calibration.png"),
+        &render_png(&drawing, PNG_WIDTH)?,
+    )?;
     print_line(&table::table(&judged))?;
     print_line(&table::left_out(&judged.left_out))
 }

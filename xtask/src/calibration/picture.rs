@@ -57,11 +57,12 @@ fn point(row: &Row) -> Option<(Method, [f64; 2])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::render_svg;
+    use crate::plot::draw;
 
     #[test]
     fn where_every_answer_is_refused_the_picture_has_no_points() {
-        let svg = render_svg(&figure(&[])).expect("a picture");
+        let drawing = draw(&figure(&[])).expect("a picture");
+        let svg = drawing.svg;
         assert!(svg.contains("0 error bars"), "the title in {svg}");
     }
 }

@@ -54,12 +54,12 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
     };
     write_data(&data, out)?;
     let pictures = pictures::all(&data)?;
-    for Picture { name, svg, .. } in &pictures {
+    for Picture { name, drawing, .. } in &pictures {
         write_atomically(
             &out.join(format!("{name}.png")),
-            &render_png(svg, PNG_WIDTH)?,
+            &render_png(drawing, PNG_WIDTH)?,
         )?;
-        write_atomically(&out.join(format!("{name}.svg")), svg.as_bytes())?;
+        write_atomically(&out.join(format!("{name}.svg")), drawing.svg.as_bytes())?;
     }
     write_atomically(
         &out.join("report.html"),

@@ -6,8 +6,8 @@ use crate::figures::approach::{self, Approach};
 use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
 use crate::plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Series, Shape,
-    render_svg,
+    Axis, Chart, Colour, ColourScale, Dash, Drawing, Figure, LegendPlace, Line, Map, Marker,
+    Series, Shape, draw,
 };
 
 /// One picture of the report.
@@ -15,7 +15,7 @@ use crate::plot::{
 pub(super) struct Picture {
     pub(super) name: &'static str,
     pub(super) caption: String,
-    pub(super) svg: String,
+    pub(super) drawing: Drawing,
 }
 
 pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
@@ -23,7 +23,7 @@ pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
         Ok::<_, anyhow::Error>(Picture {
             name,
             caption: caption.to_owned(),
-            svg: render_svg(figure)?,
+            drawing: draw(figure)?,
         })
     };
     let [cone, paraboloid] = &data.approach;

@@ -206,7 +206,7 @@ fn write_picture(page: &mut String, pictures: &[Picture], name: &str) -> Result<
         write!(
             page,
             "<figure>{}<figcaption>{}</figcaption></figure>",
-            picture.svg, picture.caption
+            picture.drawing.svg, picture.caption
         )?;
     }
     Ok(())

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::table::{Measurements, Table};
 use super::{Fitted, picture};
 use crate::output::{WrongInput, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::plot::{PNG_WIDTH, draw, render_png};
 
 /// Measured and fitted moduli at one frequency.
 #[derive(Debug, Serialize)]
@@ -53,10 +53,10 @@ pub(super) fn write(table: &Table, fitted: &Fitted<'_>) -> Result<()> {
         Comparison::Oscillation(rows) => to_csv(rows)?,
         Comparison::Relaxation(rows) => to_csv(rows)?,
     };
-    let svg = render_svg(&picture::figure(&comparison))?;
+    let drawing = draw(&picture::figure(&comparison))?;
     write_atomically(&out.join("fit.csv"), rows.as_bytes())?;
-    write_atomically(&out.join("fit.svg"), svg.as_bytes())?;
-    write_atomically(&out.join("fit.png"), &render_png(&svg, PNG_WIDTH)?)?;
+    write_atomically(&out.join("fit.svg"), drawing.svg.as_bytes())?;
+    write_atomically(&out.join("fit.png"), &render_png(&drawing, PNG_WIDTH)?)?;
     if let Some(shifted) = &fitted.shifted {
         let shifts = shifted.master.log10_factors.iter();
         let shifts: Vec<ShiftRow> = shifts

@@ -101,6 +101,9 @@ pub(crate) enum PlotError {
         /// Width at hand, \[px\].
         available: f64,
     },
+    /// The bundled font could not be read.
+    #[error("the bundled font cannot be read: {0}")]
+    Font(String),
     /// The SVG could not be read.
     #[error("the SVG cannot be read: {0}")]
     Svg(String),

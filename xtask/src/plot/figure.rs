@@ -1,6 +1,6 @@
 //! Figures: one panel or several, side by side and in rows.
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Drawing};
 use super::chart::Chart;
 use super::error::PlotError;
 use super::map::Map;
@@ -58,11 +58,11 @@ impl Figure {
     }
 }
 
-/// SVG text of a figure, 480 px wide per column, or 960 px with a matrix in it.
+/// Drawing of a figure, 480 px wide per column, or 960 px with a matrix in it.
 ///
 /// # Errors
 /// Whatever could not be drawn faithfully: see [`PlotError`].
-pub(crate) fn render_svg(figure: &Figure) -> Result<String, PlotError> {
+pub(crate) fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     figure.validate()?;
     let margins = figure.left_margins()?;
     let rows: Vec<&[Panel]> = figure.panels.chunks(figure.columns).collect();
@@ -81,7 +81,7 @@ pub(crate) fn render_svg(figure: &Figure) -> Result<String, PlotError> {
         }
         top += height;
     }
-    Ok(canvas.finish())
+    canvas.finish()
 }
 
 fn row_height(row: &[Panel], margins: &[f64]) -> Result<f64, PlotError> {
@@ -220,19 +220,20 @@ mod tests {
     }
 
     fn svg(panel: impl Into<Panel>) -> String {
-        render_svg(&Figure::single(panel)).expect("the figure is sound")
+        let drawing = draw(&Figure::single(panel)).expect("the figure is sound");
+        drawing.svg
     }
 
     #[test]
     fn a_figure_is_the_same_text_every_time() {
-        let [first, second] = [render_svg(&page()), render_svg(&page())];
+        let [first, second] = [draw(&page()), draw(&page())];
         assert!(first.is_ok(), "expected a picture, got {first:?}");
         assert_eq!(first, second, "two pictures of one figure");
     }
 
     #[test]
     fn all_texts_stand_in_the_svg() {
-        let text = render_svg(&page()).expect("the figure is sound");
+        let text = draw(&page()).expect("the figure is sound").svg;
         for label in [
             "velocity v [m/s]",
             "coefficient of friction μ [1]",
@@ -253,14 +254,14 @@ mod tests {
 
     #[test]
     fn panels_share_the_width_and_line_up() {
-        let text = render_svg(&page()).expect("the figure is sound");
+        let text = draw(&page()).expect("the figure is sound").svg;
         assert!(
             text.contains(r#"width="960""#),
             "expected two columns of 480 px in {text}"
         );
         let single = svg(chart());
         assert!(
-            single.contains(r#"viewBox="0 0 480.00 "#),
+            single.contains(r#"viewBox="0 0 480 "#),
             "expected a view box 480 px wide in {single}"
         );
     }
@@ -418,7 +419,7 @@ mod tests {
             },
         ];
         for case in cases {
-            let got = render_svg(&Figure::single(case.clone()));
+            let got = draw(&Figure::single(case.clone()));
             assert!(got.is_err(), "expected {case:?} to be refused");
         }
     }
@@ -458,7 +459,7 @@ mod tests {
             vec![Cell::Value(f64::NAN)],
             Vec::new(),
         ] {
-            let got = render_svg(&Figure::single(matrix(cells.clone())));
+            let got = draw(&Figure::single(matrix(cells.clone())));
             assert!(got.is_err(), "expected {cells:?} to be refused");
         }
     }
@@ -489,7 +490,7 @@ mod tests {
             Figure::single(bare),
             Figure::single(outside),
         ] {
-            let got = render_svg(&figure);
+            let got = draw(&figure);
             assert!(got.is_err(), "expected a refusal, got {got:?}");
         }
     }

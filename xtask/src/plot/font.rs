@@ -1,50 +1,117 @@
-//! The bundled font: the renderer of the PNG also measures the texts, so that both agree.
+//! The bundled font: what measures the texts also draws them into the PNG, so that both agree.
 
-use std::sync::{Arc, LazyLock};
+use std::fmt::Write as _;
+use std::sync::LazyLock;
 
-use resvg::usvg::{Node, Options, Tree, fontdb};
+use ttf_parser::{Face, FaceParsingError, GlyphId, OutlineBuilder};
 
+use super::canvas::Pixel;
 use super::error::PlotError;
 
 /// Family name of the bundled font.
 pub(super) const FAMILY: &str = "DejaVu Sans";
 
-static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
-    let mut fonts = fontdb::Database::new();
-    fonts.load_font_data(include_bytes!("../../assets/DejaVuSans.ttf").to_vec());
-    fonts.set_sans_serif_family(FAMILY);
-    Arc::new(fonts)
-});
+static FACE: LazyLock<Result<Face<'static>, FaceParsingError>> =
+    LazyLock::new(|| Face::parse(include_bytes!("../../assets/DejaVuSans.ttf"), 0));
 
-/// Reader options that know the bundled font and no other.
-pub(super) fn svg_options() -> Options<'static> {
-    Options {
-        fontdb: Arc::clone(&FONTS),
-        font_family: FAMILY.into(),
-        ..Options::default()
+fn face() -> Result<&'static Face<'static>, PlotError> {
+    let face = FACE.as_ref();
+    face.map_err(|error| PlotError::Font(error.to_string()))
+}
+
+/// Pixels per unit of the font.
+fn scale(face: &Face, size: u32) -> f64 {
+    f64::from(size) / f64::from(face.units_per_em())
+}
+
+/// The glyphs of a text and where each begins in units of the font, and where the last ends.
+fn layout(face: &Face, text: &str) -> Result<(Vec<(GlyphId, f64)>, f64), PlotError> {
+    let refuse = || PlotError::Glyph { text: text.into() };
+    let mut end = 0.0;
+    let mut glyphs = Vec::new();
+    for character in text.chars() {
+        let glyph = face.glyph_index(character).ok_or_else(refuse)?;
+        glyphs.push((glyph, end));
+        end += f64::from(face.glyph_hor_advance(glyph).ok_or_else(refuse)?);
     }
+    if glyphs.is_empty() {
+        return Err(refuse());
+    }
+    Ok((glyphs, end))
 }
 
 /// Width of a text, \[px\]; refuses characters that the font cannot draw.
 pub(super) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
-    let refuse = || PlotError::Glyph { text: text.into() };
-    let content = text.replace('&', "&amp;").replace('<', "&lt;");
-    let svg = format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><text y="9" font-size="{size}">{content}</text></svg>"#
-    );
-    let tree =
-        Tree::from_str(&svg, &svg_options()).map_err(|error| PlotError::Svg(error.to_string()))?;
-    let Some(Node::Text(node)) = tree.root().children().first() else {
-        return Err(refuse());
+    let face = face()?;
+    let (_, end) = layout(face, text)?;
+    Ok(end * scale(face, size))
+}
+
+/// Path data of a text with a `part` of it to the left of the point, through which its baseline passes; refuses characters
+/// that the font cannot draw.
+pub(super) fn outline(
+    text: &str,
+    size: u32,
+    ([x, y], part): (Pixel, f64),
+) -> Result<String, PlotError> {
+    let face = face()?;
+    let (glyphs, end) = layout(face, text)?;
+    let scale = scale(face, size);
+    let mut path = GlyphPath {
+        data: String::new(),
+        origin: [x, y],
+        scale,
     };
-    let mut glyphs = node
-        .layouted()
-        .iter()
-        .flat_map(|span| &span.positioned_glyphs);
-    if glyphs.any(|glyph| glyph.id.0 == 0) {
-        return Err(refuse());
+    for (glyph, start) in glyphs {
+        path.origin[0] = x + (start - part * end) * scale;
+        // A blank has no outline.
+        face.outline_glyph(glyph, &mut path);
     }
-    Ok(f64::from(node.bounding_box().width()))
+    Ok(path.data)
+}
+
+/// Path data of the glyph that begins at the origin, in pixels.
+struct GlyphPath {
+    data: String,
+    origin: Pixel,
+    scale: f64,
+}
+
+impl GlyphPath {
+    /// Adds a step through points in units of the font, whose y is upwards.
+    fn push(&mut self, step: char, points: &[[f32; 2]]) {
+        self.data.push(step);
+        for [x, y] in points {
+            let [x, y] = [
+                self.origin[0] + f64::from(*x) * self.scale,
+                self.origin[1] - f64::from(*y) * self.scale,
+            ];
+            // A text takes all that is written to it.
+            let _always = write!(self.data, "{x:.3} {y:.3} ");
+        }
+    }
+}
+
+impl OutlineBuilder for GlyphPath {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.push('M', &[[x, y]]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.push('L', &[[x, y]]);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.push('Q', &[[x1, y1], [x, y]]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.push('C', &[[x1, y1], [x2, y2], [x, y]]);
+    }
+
+    fn close(&mut self) {
+        self.data.push('Z');
+    }
 }
 
 /// Refuses a text that is wider than its place, \[px\].

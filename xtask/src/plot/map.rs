@@ -150,7 +150,7 @@ impl Map {
         }
         canvas.start_mosaic(frame.area, size);
         for (level, path) in paths {
-            canvas.shape(path, &level_colour(level), &Pen::solid("none", 0.0));
+            canvas.shape(&path, &level_colour(level), &Pen::solid("none", 0.0));
         }
         canvas.end_group();
     }
@@ -178,7 +178,7 @@ pub(super) fn draw_colour_bar(
     canvas.start_mosaic(bar, [bar.width, bar.height / f64::from(LEVELS)]);
     for level in 0..LEVELS {
         canvas.shape(
-            format!("M0 {level}h1v1h-1z"),
+            &format!("M0 {level}h1v1h-1z"),
             &level_colour(level),
             &Pen::solid("none", 0.0),
         );

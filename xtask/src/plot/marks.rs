@@ -16,7 +16,7 @@ pub(super) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
         .map(|&point| frame.pixel(point))
         .collect();
     if let Some(line) = series.line {
-        canvas.polyline(pixels.clone(), &line_pen(line, series));
+        canvas.polyline(&pixels, &line_pen(line, series));
     }
     if let Some(errors) = &series.errors {
         for (&point, &error) in series.points.iter().zip(errors) {
@@ -80,12 +80,12 @@ pub(super) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, co
         Shape::Square => {
             let half = 0.9 * radius;
             let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
-            canvas.shape(polygon([x, y], &corners), fill, &pen);
+            canvas.shape(&polygon([x, y], &corners), fill, &pen);
         }
         Shape::Diamond => {
             let half = 1.25 * radius;
             let corners = [[0.0, -half], [half, 0.0], [0.0, half], [-half, 0.0]];
-            canvas.shape(polygon([x, y], &corners), fill, &pen);
+            canvas.shape(&polygon([x, y], &corners), fill, &pen);
         }
         Shape::Plus => draw_plus(canvas, [x, y], 1.2 * radius, colour),
     }

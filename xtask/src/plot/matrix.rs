@@ -154,7 +154,7 @@ impl Matrix {
         }
         canvas.start_mosaic(area, STRIDE);
         for (colour, path) in paths {
-            canvas.shape(path, &colour, &Pen::solid("none", 0.0));
+            canvas.shape(&path, &colour, &Pen::solid("none", 0.0));
         }
         canvas.end_group();
     }

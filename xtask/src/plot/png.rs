@@ -1,21 +1,21 @@
-//! From SVG to PNG with the bundled font.
+//! From the outlines of a drawing to PNG.
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::Tree;
+use resvg::usvg::{Options, Tree};
 
+use super::canvas::Drawing;
 use super::error::PlotError;
-use super::font::svg_options;
 
 /// Usual width of a picture, \[px\].
 pub(crate) const PNG_WIDTH: u32 = 1600;
 
-/// PNG file of an SVG text on white, `width` pixels wide.
+/// PNG file of a drawing on white, `width` pixels wide.
 ///
 /// # Errors
-/// An SVG that cannot be read, or a size that cannot be allocated.
-pub(crate) fn render_png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
-    let tree =
-        Tree::from_str(svg, &svg_options()).map_err(|error| PlotError::Svg(error.to_string()))?;
+/// A drawing that cannot be read, or a size that cannot be allocated.
+pub(crate) fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
+    let tree = Tree::from_str(&drawing.outlined, &Options::default());
+    let tree = tree.map_err(|error| PlotError::Svg(error.to_string()))?;
     let refuse = |reason: String| PlotError::Png { width, reason };
     let size = tree.size().to_int_size();
     let scaled = size
@@ -42,17 +42,22 @@ pub(crate) fn render_png(svg: &str, width: u32) -> Result<Vec<u8>, PlotError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::canvas::{Anchor, Canvas};
 
-    const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20"><text x="0" y="18" font-family="DejaVu Sans" font-size="20" fill="#000000">μ⁻¹</text></svg>"##;
+    fn drawing() -> Drawing {
+        let mut canvas = Canvas::new(40.0, 20.0);
+        canvas.text([0.0, 18.0], "μ⁻¹", 20, Anchor::Start);
+        canvas.finish().expect("a drawing")
+    }
 
-    fn pixels(svg: &str, width: u32) -> Pixmap {
-        let png = render_png(svg, width).expect("the picture is sound");
+    fn pixels(width: u32) -> Pixmap {
+        let png = render_png(&drawing(), width).expect("the picture is sound");
         Pixmap::decode_png(&png).expect("a PNG file")
     }
 
     #[test]
     fn the_picture_has_the_width_asked_for_and_a_white_ground() {
-        let got = pixels(SVG, 400);
+        let got = pixels(400);
         assert_eq!(
             (got.width(), got.height()),
             (400, 200),
@@ -68,7 +73,7 @@ mod tests {
 
     #[test]
     fn text_is_drawn_with_the_bundled_font() {
-        let got = pixels(SVG, 400);
+        let got = pixels(400);
         let dark = got
             .pixels()
             .iter()
@@ -84,20 +89,24 @@ mod tests {
     #[test]
     fn a_picture_is_the_same_file_every_time() {
         assert_eq!(
-            render_png(SVG, 300),
-            render_png(SVG, 300),
+            render_png(&drawing(), 300),
+            render_png(&drawing(), 300),
             "two pictures of one text"
         );
     }
 
     #[test]
     fn broken_texts_and_empty_sizes_are_refused() {
-        let broken = render_png("<svg", 100);
+        let broken = Drawing {
+            outlined: "<svg".into(),
+            ..drawing()
+        };
+        let broken = render_png(&broken, 100);
         assert!(
             matches!(broken, Err(PlotError::Svg(_))),
             "expected a reading error, got {broken:?}"
         );
-        let empty = render_png(SVG, 0);
+        let empty = render_png(&drawing(), 0);
         assert!(
             matches!(empty, Err(PlotError::Png { width: 0, .. })),
             "expected a size error, got {empty:?}"

@@ -9,7 +9,7 @@ use super::answer::Answer;
 use super::pictures;
 use crate::npy::to_npy;
 use crate::output::{WrongInput, to_csv, write_atomically};
-use crate::plot::{Figure, PNG_WIDTH, render_png, render_svg};
+use crate::plot::{Figure, PNG_WIDTH, draw, render_png};
 
 #[derive(Debug, Serialize)]
 struct PressureRow {
@@ -60,7 +60,7 @@ fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
         let places: Vec<f64> = (0..shape[axis]).map(|index| place(axis, index)).collect();
         write_atomically(&out.join(name), &to_npy(&places, &[places.len()]))?;
     }
-    draw(&pictures::pressure(field)?, out, "pressure")
+    write_picture(&pictures::pressure(field)?, out, "pressure")
 }
 
 fn write_line(answer: &Answer, out: &Path) -> Result<()> {
@@ -92,7 +92,7 @@ fn write_along<R: Serialize>(
     let path = |extension: &str| out.join(format!("{name}.{extension}"));
     write_atomically(&path("csv"), to_csv(&rows)?.as_bytes())?;
     write_atomically(&path("npy"), &to_npy(&points.concat(), &[points.len(), 2]))?;
-    draw(&figure(points), out, name)
+    write_picture(&figure(points), out, name)
 }
 
 fn write_history(answer: &Answer, out: &Path) -> Result<()> {
@@ -101,13 +101,13 @@ fn write_history(answer: &Answer, out: &Path) -> Result<()> {
         return Ok(());
     }
     write_atomically(&out.join("history.csv"), to_csv(rows)?.as_bytes())?;
-    draw(&pictures::history(rows), out, "history")
+    write_picture(&pictures::history(rows), out, "history")
 }
 
-fn draw(figure: &Figure, out: &Path, name: &str) -> Result<()> {
+fn write_picture(figure: &Figure, out: &Path, name: &str) -> Result<()> {
     let say = || format!("drawing {name}");
-    let svg = render_svg(figure).with_context(say)?;
-    write_atomically(&out.join(format!("{name}.svg")), svg.as_bytes())?;
-    let png = render_png(&svg, PNG_WIDTH).with_context(say)?;
+    let drawing = draw(figure).with_context(say)?;
+    write_atomically(&out.join(format!("{name}.svg")), drawing.svg.as_bytes())?;
+    let png = render_png(&drawing, PNG_WIDTH).with_context(say)?;
     write_atomically(&out.join(format!("{name}.png")), &png)
 }

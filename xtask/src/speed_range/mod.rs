@@ -13,7 +13,7 @@ use anyhow::Result;
 use clap::Args;
 
 use crate::output::{WrongInput, print_line, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::plot::{PNG_WIDTH, draw, render_png};
 
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
@@ -114,9 +114,12 @@ pub(crate) fn speed_range(options: &SpeedRange) -> Result<()> {
         write_atomically(&out.join(name), table.as_bytes())?;
     }
     for (name, figure) in pictures::all((&curves, &validity, &borders), &extent)? {
-        let svg = render_svg(&figure)?;
-        let png = render_png(&svg, PNG_WIDTH)?;
-        write_atomically(&out.join(name).with_extension("svg"), svg.as_bytes())?;
+        let drawing = draw(&figure)?;
+        let png = render_png(&drawing, PNG_WIDTH)?;
+        write_atomically(
+            &out.join(name).with_extension("svg"),
+            drawing.svg.as_bytes(),
+        )?;
         write_atomically(&out.join(name).with_extension("png"), &png)?;
     }
     print_line(&border::printed(&borders))?;

@@ -21,7 +21,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 
 use crate::output::{WrongInput, markdown_table, print_line, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::plot::{PNG_WIDTH, draw, render_png};
 use case::Family;
 use judge::{Row, Verdict};
 
@@ -53,9 +53,12 @@ pub(crate) fn stability(options: &Stability) -> Result<()> {
         |one: &Row, other: &Row| one.family == other.family && one.parameter == other.parameter;
     let families: Vec<&[Row]> = rows.chunk_by(of_one_family).collect();
     write_atomically(&out.join("stability.csv"), to_csv(&rows)?.as_bytes())?;
-    let svg = render_svg(&picture::picture(&families))?;
-    write_atomically(&out.join("stability.svg"), svg.as_bytes())?;
-    write_atomically(&out.join("stability.png"), &render_png(&svg, PNG_WIDTH)?)?;
+    let drawing = draw(&picture::picture(&families))?;
+    write_atomically(&out.join("stability.svg"), drawing.svg.as_bytes())?;
+    write_atomically(
+        &out.join("stability.png"),
+        &render_png(&drawing, PNG_WIDTH)?,
+    )?;
     print_line(&summary(&families))?;
     let seconds = start.elapsed().as_secs_f64();
     print_line(&format!("{} in {seconds:.1} s", out.display()))?;

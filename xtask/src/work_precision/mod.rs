@@ -15,7 +15,7 @@ use anyhow::Result;
 use clap::Args;
 
 use crate::output::{WrongInput, print_line, write_atomically, write_table};
-use crate::plot::{PNG_WIDTH, render_png, render_svg};
+use crate::plot::{PNG_WIDTH, draw, render_png};
 use crate::progress;
 use fit::{Fit, fit};
 use measured::{Row, Timing};
@@ -140,10 +140,10 @@ fn write(measured: &Measured, out: &Path) -> Result<()> {
         ("work_precision_sliding", sliding),
         ("work_precision_at_rest", at_rest),
     ] {
-        let svg = render_svg(&picture::figure(&rows))?;
-        let png = render_png(&svg, PNG_WIDTH)?;
+        let drawing = draw(&picture::figure(&rows))?;
+        let png = render_png(&drawing, PNG_WIDTH)?;
         let path = out.join(name);
-        write_atomically(&path.with_extension("svg"), svg.as_bytes())?;
+        write_atomically(&path.with_extension("svg"), drawing.svg.as_bytes())?;
         write_atomically(&path.with_extension("png"), &png)?;
         print_line(&path.with_extension("svg").display())?;
     }
