@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rustfft::FftPlanner;
+use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
 use crate::Random;
@@ -18,7 +18,7 @@ const SHORTEST: f64 = 8.0;
 /// White noise of fixed seed, whose waves are weighted with `q^(−1−H)` from the longest to the shortest.
 #[must_use]
 pub fn self_affine(n: usize) -> Vec<f64> {
-    let mut planner = FftPlanner::new();
+    let mut planner = FftPlannerScalar::new();
     let mut field = white_noise(n * n);
     planner.plan_fft_forward(n).process(&mut field);
     transpose(&mut field, n);
