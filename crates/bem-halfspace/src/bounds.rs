@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::bands::Bands;
 use crate::fast_length::fast_length;
+use crate::mirror::Mirror;
 
 /// Half-open ranges of rows and columns of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,16 +100,16 @@ impl Bounds {
         start + self.lower[1]..start + self.upper[1]
     }
 
-    /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast.
-    pub(crate) fn with_margin(&self, field: [usize; 2]) -> Self {
-        self.with_margin_from(field, [false; 2])
-    }
-
-    /// The same, but from the rear of the field on along the axes with mirrors there.
-    pub(crate) fn with_margin_from(&self, field: [usize; 2], mirrors: [bool; 2]) -> Self {
+    /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast; from the rear
+    /// of the field on along the axes with mirrors there.
+    pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
-            let rear = if mirrors[axis] { 0 } else { self.lower[axis] };
+            let rear = if mirrors[axis].is_none() {
+                self.lower[axis]
+            } else {
+                0
+            };
             let needed = self.upper[axis] - rear;
             let wanted = needed + (needed / 16).max(2) * 2;
             let length = (fast_length(2 * wanted) / 2).min(available);

@@ -2,6 +2,7 @@
 
 use crate::BemError;
 use crate::error::positive;
+use crate::mirror::Mirror;
 
 /// More elements than this would not fit into the memory of a large machine.
 const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
@@ -43,20 +44,18 @@ impl Grid {
         }
     }
 
-    /// The part in front of mirrors through the middle of the grid, where the number of elements is even.
-    pub(crate) fn folded(&self, mirrors: [bool; 2]) -> Self {
-        let part = |axis: usize| self.shape[axis] >> usize::from(mirrors[axis]);
+    /// The part in front of mirrors through the middle of the grid.
+    pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
-            shape: [0, 1].map(part),
+            shape: [0, 1].map(|axis| mirrors[axis].part_of(self.shape[axis])),
             ..*self
         }
     }
 
     /// The grid of which this is the part in front of mirrors.
-    pub(crate) fn unfolded(&self, mirrors: [bool; 2]) -> Self {
-        let whole = |axis: usize| self.shape[axis] << usize::from(mirrors[axis]);
+    pub(crate) fn unfolded(&self, mirrors: [Mirror; 2]) -> Self {
         Self {
-            shape: [0, 1].map(whole),
+            shape: [0, 1].map(|axis| mirrors[axis].whole_of(self.shape[axis])),
             ..*self
         }
     }

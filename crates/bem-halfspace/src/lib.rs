@@ -44,6 +44,7 @@ mod footprint;
 mod grid;
 pub mod indent;
 mod influence;
+mod mirror;
 mod plane_transform;
 mod rectangle;
 mod resolution;

@@ -40,6 +40,10 @@ impl Surface for Cylinder {
     fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
         [x / self.radius, 0.0]
     }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true; 2]
+    }
 }
 
 #[cfg(test)]

@@ -167,4 +167,14 @@ impl Surface for HeightMap {
             mix([behind[1] - behind[0], ahead[1] - ahead[0]], s) / self.spacing[1],
         ]
     }
+
+    fn mirrors(&self) -> [bool; 2] {
+        let rows = || self.heights.chunks_exact(self.shape[1]);
+        let same = [
+            rows().eq(rows().rev()),
+            rows().all(|row| row.iter().eq(row.iter().rev())),
+        ];
+        // The mirror passes through the lowest point, and the surface ends as far from it on both sides.
+        [0, 1].map(|axis| same[axis] && 2 * self.lowest[axis] + 1 == self.shape[axis])
+    }
 }

@@ -80,5 +80,5 @@ pub use sampled_line::SampledLine;
 pub use sphere::Sphere;
 pub use stretch::stretch;
 pub use superposition::{PowerTerm, Superposition};
-pub use surface::Surface;
+pub use surface::{Surface, Unmirrored};
 pub use truncated_paraboloid::TruncatedParaboloid;

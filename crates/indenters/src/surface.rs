@@ -22,6 +22,10 @@ use crate::Axisymmetric;
 ///     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
 ///         [2.0 * self.curvatures[0] * x, 2.0 * self.curvatures[1] * y]
 ///     }
+///
+///     fn mirrors(&self) -> [bool; 2] {
+///         [true; 2]
+///     }
 /// }
 ///
 /// # fn main() -> Result<(), indenters::IndenterError> {
@@ -39,6 +43,12 @@ pub trait Surface {
     /// Gradient [∂h/∂x, ∂h/∂y]; zero at the apex of a body of revolution, whatever its exponent, and
     /// where there is no body.
     fn gradient(&self, position: [f64; 2]) -> [f64; 2];
+
+    /// Whether h(−x, y) = h(x, y), and whether h(x, −y) = h(x, y), everywhere and up to rounding. Solvers then do without
+    /// one side of the mirror; a surface that does not say so is computed on both.
+    fn mirrors(&self) -> [bool; 2] {
+        [false; 2]
+    }
 }
 
 impl<P: Axisymmetric> Surface for P {
@@ -64,5 +74,25 @@ impl<P: Axisymmetric> Surface for P {
                 slope * (along / radius)
             }
         })
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true; 2]
+    }
+}
+
+/// A surface that does not tell of its mirrors, so that solvers compute both sides of them.
+///
+/// The answers are the same up to rounding: this is for those who want to see that, or what a mirror saves.
+#[derive(Debug, Clone, Copy)]
+pub struct Unmirrored<'a, S: ?Sized>(pub &'a S);
+
+impl<S: Surface + ?Sized> Surface for Unmirrored<'_, S> {
+    fn height(&self, position: [f64; 2]) -> f64 {
+        self.0.height(position)
+    }
+
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        self.0.gradient(position)
     }
 }

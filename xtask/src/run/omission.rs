@@ -1,5 +1,6 @@
 //! What a scene does not need, decided here and nowhere else.
 
+use indenters::Surface;
 use rheology::CreepSpectrum;
 use serde::Serialize;
 
@@ -47,7 +48,7 @@ impl Omission {
             Self::NumericalSolution => "there is a closed form or a quadrature",
             Self::TimeSteps => "only the state at the end is asked for",
             Self::HalfSpace => "without sliding the line has the same depth",
-            Self::MirrorHalf => "body and motion are mirror symmetric in y",
+            Self::MirrorHalf => "body and motion are mirror symmetric",
             Self::OutsideContact => "pressure is in the contact only",
             Self::Transforms => "the contact is small enough to be factorised",
             Self::RowsBehind => "what the footprint has left does not come back",
@@ -102,7 +103,7 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         (Method::MdrTransient, Motion::Sliding { .. }) => Vec::new(),
         (Method::BemSteady, Motion::Sliding { distance, .. }) => {
             let mut left_out = Vec::new();
-            left_out.extend(is_mirror_symmetric(&question.body).then_some(Omission::MirrorHalf));
+            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
             left_out.push(outside_or_transforms(answer));
             // After a distance the friction is not yet that of the stationary state.
             left_out.extend(distance.is_none().then_some(Omission::TimeSteps));
@@ -110,10 +111,15 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         }
         (Method::BemSteady, Motion::Pressing { .. }) => Vec::new(),
         (Method::BemTransient, Motion::Sliding { .. }) => {
-            vec![Omission::OutsideContact, Omission::RowsBehind]
+            let mut left_out = Vec::new();
+            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
+            left_out.extend([Omission::OutsideContact, Omission::RowsBehind]);
+            left_out
         }
         (Method::BemTransient, Motion::Pressing { .. }) => {
-            let mut left_out = vec![Omission::TimeSteps, Omission::Gradients];
+            let mut left_out = vec![Omission::TimeSteps];
+            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
+            left_out.push(Omission::Gradients);
             // A depth that is held needs another force at every time.
             let constant = matches!(question.control, Control::NormalForce(_));
             let remembers = n_fields(&question.material.creep()) > 1;
@@ -123,12 +129,14 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
     }
 }
 
-/// Whether one half of a body in y is the mirror image of the other; of heights from a file it is not known.
-const fn is_mirror_symmetric(body: &Body) -> bool {
-    match body {
-        Body::Revolution(_) => true,
-        Body::Cylinder(_) | Body::HeightMap(_) => false,
-    }
+/// Whether one half of a body in y is the mirror image of the other.
+fn is_even(body: &Body) -> bool {
+    let [_, in_y] = match body {
+        Body::Revolution(body) => body.mirrors(),
+        Body::Cylinder(cylinder) => cylinder.mirrors(),
+        Body::HeightMap(map) => map.mirrors(),
+    };
+    in_y
 }
 
 /// A box is transformed unless its contact is factorised.

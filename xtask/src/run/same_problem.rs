@@ -8,6 +8,7 @@ use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent, indent
 use bem_halfspace::slide::{Motion as Step, MotionRow, SlideOmission, follow};
 use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding};
 use bem_halfspace::{BemError, ContactOptions};
+use indenters::Unmirrored;
 
 use super::answer::{Answer, Grid};
 use super::body::Body;
@@ -52,9 +53,20 @@ impl<'a> SameProblem<'a> {
     /// What the grid answers when the work of an omission is done too.
     pub(super) fn solve(&self, kept: Option<Omission>) -> Result<Vec<Number>> {
         match &self.question.body {
-            Body::Revolution(body) => self.solve_for(body, kept),
-            Body::HeightMap(map) => self.solve_for(map, kept),
+            Body::Revolution(body) => self.with_or_without_mirrors(body, kept),
+            Body::HeightMap(map) => self.with_or_without_mirrors(map, kept),
             Body::Cylinder(_) => bail!("nothing of a line contact is measured"),
+        }
+    }
+
+    fn with_or_without_mirrors(
+        &self,
+        body: &impl Shape,
+        kept: Option<Omission>,
+    ) -> Result<Vec<Number>> {
+        match kept {
+            Some(Omission::MirrorHalf) => self.solve_for(&Unmirrored(body), None),
+            _ => self.solve_for(body, kept),
         }
     }
 
@@ -88,7 +100,6 @@ impl<'a> SameProblem<'a> {
         };
         let kept = match kept {
             None => None,
-            Some(Omission::MirrorHalf) => Some(SteadyOmission::MirrorHalf),
             Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
             Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
             Some(other) => bail!("the stationary solver does not leave out {}", other.name()),

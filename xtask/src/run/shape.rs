@@ -4,7 +4,7 @@ use anyhow::Result;
 use bem_halfspace::Footprint;
 use bem_halfspace::steady::{Ladder, depth_scale};
 use friction_analytic::indentation_after_impulse;
-use indenters::{HeightMap, SlidingLoad, Surface, contact_radius};
+use indenters::{HeightMap, SlidingLoad, Surface, Unmirrored, contact_radius};
 use rheology::{Elastic, Material, Viscous};
 
 use super::body::Revolution;
@@ -61,6 +61,16 @@ impl Shape for Revolution {
             footprint: Footprint::square(1.3 * radius),
             length: 2.0 * radius,
         })
+    }
+}
+
+impl<S: Shape> Shape for Unmirrored<'_, S> {
+    fn ladder(&self, material: &dyn Material, drive: &Drive) -> Result<Ladder> {
+        self.0.ladder(material, drive)
+    }
+
+    fn patch(&self, control: Control) -> Result<Patch> {
+        self.0.patch(control)
     }
 }
 

@@ -229,6 +229,10 @@ impl Surface for SlenderParaboloid {
     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [2.0 * x, 2.0 * y / self.aspect / self.aspect]
     }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true; 2]
+    }
 }
 
 /// Under this force the contact is about as long as one, however wide; the same by elements of another shape.

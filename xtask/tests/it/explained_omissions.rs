@@ -68,7 +68,7 @@ fn the_stationary_half_space_needs_no_mirror_half_no_surroundings_and_no_time() 
     }
 }
 
-/// Of heights from a file no symmetry is known.
+/// The tread is not its own mirror image.
 #[test]
 fn under_a_height_map_no_surroundings_and_no_time_are_needed() {
     let file = folder("explained-map").join("scene.toml");
@@ -87,7 +87,7 @@ fn under_a_height_map_no_surroundings_and_no_time_are_needed() {
 }
 
 #[test]
-fn a_march_needs_no_surroundings_and_nothing_behind() {
+fn a_march_needs_no_mirror_half_no_surroundings_and_nothing_behind() {
     let at_depth = folder("explained-march").join("scene.toml");
     let scene = "[indenter.paraboloid]\ncurvature = 50.0\n[material.viscous]\nviscosity = 1.0e4\n\
         [load]\nindentation_depth = 1.0e-4\nvelocity = 0.01\n\
@@ -95,14 +95,14 @@ fn a_march_needs_no_surroundings_and_nothing_behind() {
     fs::write(&at_depth, scene).expect("a scene");
     for scene in [example("half-space-run-in.toml"), at_depth] {
         let rows = explained(&[argument(&scene)]);
-        let parts = ["outside contact", "rows behind"];
+        let parts = ["mirror half", "outside contact", "rows behind"];
         assert_explains(&rows, &parts);
         assert_same(&rows, &parts);
     }
 }
 
 #[test]
-fn a_constant_force_needs_no_steps_no_slopes_and_one_field() {
+fn a_constant_force_needs_no_steps_no_mirror_half_no_slopes_and_one_field() {
     let file = folder("explained-pressing").join("scene.toml");
     let scene = "[indenter.paraboloid]\ncurvature = 50.0\n\
         [material.prony]\nequilibrium_modulus = 1.0e5\nviscosity = 0.0\nbranches = [\n\
@@ -111,14 +111,14 @@ fn a_constant_force_needs_no_steps_no_slopes_and_one_field() {
         [solve]\nmethod = \"bem-transient\"\nduration = 0.5\nelements = 24\n";
     fs::write(&file, scene).expect("a scene");
     let rows = explained(&[argument(&file)]);
-    let parts = ["time steps", "gradients", "history fields"];
+    let parts = ["time steps", "mirror half", "gradients", "history fields"];
     assert_explains(&rows, &parts);
     assert_same(&rows, &parts);
 }
 
 /// A depth of 0.1 mm in eight steps takes the same impulse as in one.
 #[test]
-fn a_depth_needs_no_steps_and_no_slopes() {
+fn a_depth_needs_no_steps_no_mirror_half_and_no_slopes() {
     let file = folder("explained-depth").join("scene.toml");
     let scene = "[indenter.cone]\nslope = 0.1\n\
         [material.maxwell]\nshear_modulus = 1.0e6\nviscosity = 1.0e4\n\
@@ -126,7 +126,7 @@ fn a_depth_needs_no_steps_and_no_slopes() {
         [solve]\nmethod = \"bem-transient\"\nduration = 1.0e-3\nelements = 24\n";
     fs::write(&file, scene).expect("a scene");
     let rows = explained(&[argument(&file)]);
-    let parts = ["time steps", "gradients"];
+    let parts = ["time steps", "mirror half", "gradients"];
     assert_explains(&rows, &parts);
     assert_same(&rows, &parts);
 }

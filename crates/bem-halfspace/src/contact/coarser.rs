@@ -30,7 +30,7 @@ pub(super) fn start_from_coarser(
         depth @ Control::IndentationDepth(_) => depth,
     };
     let coarse_separation = mean_of_four(separation, [rows, columns]);
-    let coarse_convolution = convolution.on_grid(&grid.blocks());
+    let coarse_convolution = convolution.between_blocks();
     let mut coarse = ContactState::new(&coarse_convolution);
     let question = (&coarse_convolution, &coarse_separation[..], control);
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.

@@ -15,39 +15,28 @@ pub(crate) struct ContactBox {
 }
 
 impl ContactBox {
-    /// A box of elements with the given edges.
-    pub(crate) fn new(bounds: Bounds, spacing: [f64; 2]) -> Result<Self, BemError> {
-        let convolution = Convolution::new(&Grid::new(bounds.shape(), spacing)?);
-        Ok(Self::with(convolution, bounds))
-    }
-
     /// A box of elements of the grid of a convolution, at the same mirrors.
-    pub(super) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
+    pub(crate) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
         let grid = Grid::new(bounds.shape(), convolution.grid().spacing())?;
-        Ok(Self::with(convolution.on_grid(&grid), bounds))
-    }
-
-    fn with(convolution: Convolution, bounds: Bounds) -> Self {
-        let state = ContactState::new(&convolution);
-        let separation = vec![0.0; convolution.grid().n_elements()];
-        Self {
+        let convolution = convolution.on_grid(&grid);
+        Ok(Self {
             bounds,
+            state: ContactState::new(&convolution),
+            separation: vec![0.0; grid.n_elements()],
             convolution,
-            state,
-            separation,
-        }
+        })
     }
 
     /// A box that is solved as a whole, also where the contact is much smaller.
-    pub(crate) fn undivided(bounds: Bounds, spacing: [f64; 2]) -> Result<Self, BemError> {
-        let mut contact_box = Self::new(bounds, spacing)?;
+    pub(crate) fn undivided(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
+        let mut contact_box = Self::of(convolution, bounds)?;
         contact_box.state.in_parts = false;
         Ok(contact_box)
     }
 
     /// A box of other bounds that starts from the load of this one.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
-        let mut moved = Self::new(bounds, self.convolution.grid().spacing())?;
+        let mut moved = Self::of(&self.convolution, bounds)?;
         let columns = bounds.shape()[1];
         for (element, load) in self.loaded_elements() {
             if bounds.contains(element) {

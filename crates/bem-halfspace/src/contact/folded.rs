@@ -1,11 +1,12 @@
 //! Contacts that are their own mirror images.
 //!
-//! Where the separation is the same on both sides of a plane between two rows or columns of elements, so are load and
-//! displacement, and the part of the grid in front of the plane tells them all.
+//! Where the separation is the same on both sides of a plane, so are load and displacement, and the part of the grid in
+//! front of the plane tells them all. Of an element through whose centre the plane passes, half the load is in front.
 
 use crate::bands::Bands;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
 use crate::convolution::Surroundings;
+use crate::mirror::{Mirror, NO_MIRRORS};
 use crate::{BemError, Convolution};
 
 /// The part of a grid in front of mirrors, and its contact.
@@ -24,7 +25,7 @@ pub(super) fn solve_in_front_of_mirrors(
 ) -> Result<Outcome, BemError> {
     let (convolution, separation, control) = question;
     let mirrors = find_mirrors(convolution, [separation, &state.load]);
-    if mirrors == [false; 2] {
+    if mirrors == NO_MIRRORS {
         return solve_normalised(question, state, accuracy);
     }
     let mut folded = match state.folded.take() {
@@ -38,16 +39,12 @@ pub(super) fn solve_in_front_of_mirrors(
     outcome
 }
 
-/// Along which axes fields are their own mirror images, to the last bit, and their parts have a coarser grid.
-fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [bool; 2] {
-    let [rows, columns] = convolution.grid().shape();
-    let unit = match convolution.surroundings() {
-        Surroundings::Free => 2,
-        // The blocks of the coarser grid fill the period.
-        Surroundings::Periodic => 4,
-    };
+/// The mirrors in the middle of the grid about which fields are their own images, to the last bit.
+fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
+    let shape = convolution.grid().shape();
+    let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
-    let bands = Bands::new([rows, columns]);
+    let bands = Bands::new(shape);
     let in_band = |band| {
         let mut rows_of_band = bands.rows(band);
         let behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
@@ -59,7 +56,14 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [bool; 2] {
     };
     let both = |left: [bool; 2], right: [bool; 2]| [0, 1].map(|axis| left[axis] && right[axis]);
     let equal = bands.gather(in_band, both);
-    [0, 1].map(|axis| [rows, columns][axis].is_multiple_of(unit) && equal[axis])
+    [0, 1].map(|axis| match convolution.surroundings() {
+        _ if !equal[axis] || shape[axis] == 1 => Mirror::None,
+        Surroundings::Free if shape[axis].is_multiple_of(2) => Mirror::Edge,
+        Surroundings::Free => Mirror::Centre,
+        // The blocks of the coarser grid fill the period.
+        Surroundings::Periodic if shape[axis].is_multiple_of(4) => Mirror::Edge,
+        Surroundings::Periodic => Mirror::None,
+    })
 }
 
 fn is_palindrome(line: &[f64]) -> bool {
@@ -77,11 +81,12 @@ impl Folded {
     }
 
     fn solve(&mut self, control: Control, accuracy: &Accuracy) -> Result<Outcome, BemError> {
-        let images = self
+        let images: f64 = self
             .convolution
             .mirrors()
-            .map(|mirror| if mirror { 2.0 } else { 1.0 });
-        let images = images[0] * images[1];
+            .map(Mirror::images)
+            .iter()
+            .product();
         let control = match control {
             Control::NormalForce(total) => Control::NormalForce(total / images),
             depth @ Control::IndentationDepth(_) => depth,
@@ -95,18 +100,20 @@ impl Folded {
     }
 
     /// Copies what lies in front of the mirrors from separation and load of the whole grid.
-    fn take_from(&mut self, fields: [&[f64]; 2]) {
+    fn take_from(&mut self, [separation, load]: [&[f64]; 2]) {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
         let first = [0, 1].map(|axis| whole[axis] - shape[axis]);
         let bands = Bands::new(shape);
         let parts = [&mut self.separation[..], &mut self.state.load];
-        bands.for_each(parts, |band, parts| {
-            for (part, field) in parts.into_iter().zip(fields) {
-                for (row, part) in bands.rows(band).zip(part.chunks_exact_mut(shape[1])) {
-                    let start = (first[0] + row) * whole[1] + first[1];
-                    part.copy_from_slice(&field[start..start + shape[1]]);
-                }
+        bands.for_each(parts, |band, [separations, loads]| {
+            let separations = separations.chunks_exact_mut(shape[1]);
+            let loads = loads.chunks_exact_mut(shape[1]);
+            for (row, (separations, loads)) in bands.rows(band).zip(separations.zip(loads)) {
+                let start = (first[0] + row) * whole[1] + first[1];
+                separations.copy_from_slice(&separation[start..start + shape[1]]);
+                loads.copy_from_slice(&load[start..start + shape[1]]);
+                scale_loads(loads, (row, mirrors), 0.5);
             }
         });
     }
@@ -115,34 +122,59 @@ impl Folded {
     fn give_to(&self, fields: [&mut [f64]; 2]) {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
-        let parts = [&self.state.load, &self.state.displacement];
         let bands = Bands::new(whole);
-        bands.for_each(fields, |band, fields| {
-            for (field, part) in fields.into_iter().zip(parts) {
-                for (row, values) in bands.rows(band).zip(field.chunks_exact_mut(whole[1])) {
-                    let row = in_front(row, whole[0], mirrors[0]);
-                    unfold(&part[row * shape[1]..][..shape[1]], values);
-                }
+        bands.for_each(fields, |band, [loads, displacements]| {
+            let loads = loads.chunks_exact_mut(whole[1]);
+            let displacements = displacements.chunks_exact_mut(whole[1]);
+            for (row, (loads, displacements)) in bands.rows(band).zip(loads.zip(displacements)) {
+                let row = in_front(row, whole[0], mirrors[0]);
+                let part = row * shape[1]..(row + 1) * shape[1];
+                unfold(&self.state.displacement[part.clone()], displacements);
+                let front = whole[1] - shape[1];
+                loads[front..].copy_from_slice(&self.state.load[part]);
+                scale_loads(&mut loads[front..], (row, mirrors), 2.0);
+                mirror_behind(loads, shape[1]);
             }
         });
     }
 }
 
-/// The row of the part that shows a row of the whole.
-const fn in_front(row: usize, rows: usize, mirror: bool) -> usize {
-    let half = rows / 2;
-    match mirror {
-        true if row < half => half - 1 - row,
-        true => row - half,
-        false => row,
+/// Multiplies the loads in a row of elements through which mirrors pass, once for each of them.
+fn scale_loads(loads: &mut [f64], (row, mirrors): (usize, [Mirror; 2]), factor: f64) {
+    if mirrors[1] == Mirror::Centre {
+        loads[0] *= factor;
+    }
+    if mirrors[0] == Mirror::Centre && row == 0 {
+        for load in loads {
+            *load *= factor;
+        }
     }
 }
 
-/// Writes a line from itself, or from the half of it in front of the mirror.
+/// The row of the part that shows a row of the whole.
+const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
+    let half = rows / 2;
+    match mirror {
+        Mirror::None => row,
+        Mirror::Centre => row.abs_diff(half),
+        Mirror::Edge if row < half => half - 1 - row,
+        Mirror::Edge => row - half,
+    }
+}
+
+/// Writes a line from its part in front of a mirror, or from itself.
 fn unfold(part: &[f64], line: &mut [f64]) {
-    let (behind, front) = line.split_at_mut(line.len() - part.len());
-    front.copy_from_slice(part);
-    for (value, image) in behind.iter_mut().rev().zip(part) {
+    let behind = line.len() - part.len();
+    line[behind..].copy_from_slice(part);
+    mirror_behind(line, part.len());
+}
+
+/// Completes a line of which so many values are in front of a mirror.
+fn mirror_behind(line: &mut [f64], in_front: usize) {
+    let (behind, front) = line.split_at_mut(line.len() - in_front);
+    // An element about whose centre the mirror is has no image.
+    let own = front.len() - behind.len();
+    for (value, image) in behind.iter_mut().rev().zip(&front[own..]) {
         *value = *image;
     }
 }

@@ -15,6 +15,7 @@ mod contact_box;
 mod contact_set;
 mod far_loads;
 mod folded;
+mod halves;
 mod iteration;
 mod lanes;
 mod listed;
@@ -99,9 +100,9 @@ const MAX_TOLERANCE: f64 = 1e-2;
 /// Solves a contact problem; the pressure that `state` holds is the first guess, and is the solution afterwards.
 ///
 /// Without a guess the solver starts from solutions on coarser grids. It iterates on a box around the contact where that
-/// is much smaller than the grid, and on one half or one quarter of a grid with an even number of elements (a multiple
-/// of four where it is periodic) where separation and first guess are their own mirror images about its middle, to the
-/// last bit. How it iterates is in `docs/theory/contact.md`.
+/// is much smaller than the grid, and on one half or one quarter of a grid (with a multiple of four elements where it is
+/// periodic) where separation and first guess are their own mirror images about its middle, to the last bit. How it
+/// iterates is in `docs/theory/contact.md`.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for a compliance that is not finite and positive, a force that is not finite and

@@ -16,6 +16,7 @@ use std::ops::Range;
 use crate::contact::blocks::sum_blocks;
 use crate::contact::contact_set::{ContactSet, Run};
 use crate::contact::far_loads::{FarLoads, SMALLEST};
+use crate::contact::halves::Halves;
 use crate::contact::lanes::add;
 use crate::{Convolution, ConvolutionWorkspace};
 
@@ -30,8 +31,7 @@ pub(super) struct Preconditioner {
     /// Differences along x and along y, \[1/m].
     weights: [f64; 2],
     shape: [usize; 2],
-    /// Whether the grid has a mirror at its rear along x and y.
-    mirrors: [bool; 2],
+    halves: Halves,
     blocks: Convolution,
     workspace: ConvolutionWorkspace,
     /// Means of the residual over the blocks, and what the convolution makes of them.
@@ -53,7 +53,10 @@ impl Preconditioner {
         Self {
             weights,
             shape: grid.shape(),
-            mirrors: convolution.mirrors(),
+            halves: Halves {
+                mirrors: convolution.mirrors(),
+                columns: grid.shape()[1],
+            },
             workspace: blocks.workspace(),
             blocks,
             means: vec![0.0; n_blocks],
@@ -105,6 +108,7 @@ impl Preconditioner {
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
     fn spread(&mut self, contact: &ContactSet, residual: &[f64], field: &mut [f64]) {
+        let (halves, block_columns) = (self.halves, self.blocks.grid().shape()[1]);
         let (weights, loads) = self.far_loads.weights_and_loads();
         let fields = [
             contact.field(field),
@@ -118,6 +122,15 @@ impl Preconditioner {
                     [residual, weights].map(|list| &list[contact.places(band)]);
                 contact.scatter_in(band, residual, field);
                 sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
+                let first = contact.bands().elements(band).start;
+                for run in contact.runs(band) {
+                    for (index, part) in halves.of(run) {
+                        let element = run.elements_from(first).start + index;
+                        let [row, column] = [element / halves.columns, element % halves.columns];
+                        means[row / BLOCK * block_columns + column / BLOCK] -=
+                            0.25 * (1.0 - part) * residual[run.places().start + index];
+                    }
+                }
                 let load = |place: usize| weights[place] * residual[place];
                 sum_blocks::<SMALLEST>(contact, band, load, loads);
             });
@@ -137,29 +150,39 @@ impl Preconditioner {
             for (column, (value, weight)) in (column..).zip(result.iter_mut().zip(weights)) {
                 *value = images[column / BLOCK] - weight * displacements[column / SMALLEST];
             }
+            for (index, part) in self.halves.of(run) {
+                result[index] -= (1.0 - part) * images[(column + index) / BLOCK];
+            }
         }
     }
 
     /// Adds the differences between elements of a run, and between them and those of the rows before and behind.
     fn add_differences(&self, (run, residual, field): (&Run, &[f64], &[f64]), result: &mut [f64]) {
         let [rows, columns] = self.shape;
-        let [along_x, along_y] = self.weights;
+        let Halves { mirrors, .. } = self.halves;
+        let along_x = self.weights[0];
+        let along_y = self.weights[1] * self.halves.of_row(run);
         let Range { start, end } = run.elements();
         let row = start / columns;
         add(result, 2.0 * (along_x + along_y), residual);
-        // Beside a run there is no residual, and behind a mirror stands the element itself.
+        // Beside a run there is no residual, and behind a mirror stands the element itself, or the image of the next, of
+        // which the other half of this one takes its part.
         add(&mut result[1..], -along_y, residual);
         add(result, -along_y, &residual[1..]);
-        if self.mirrors[1] && start == row * columns {
+        if !mirrors[1].is_none() && start == row * columns {
             result[0] -= along_y * residual[0];
         }
-        if row > 0 {
-            add(result, -along_x, &field[start - columns..end - columns]);
-        } else if self.mirrors[0] {
-            add(result, -along_x, residual);
-        }
-        if row + 1 < rows {
-            add(result, -along_x, &field[start + columns..end + columns]);
+        let behind = if row > 0 {
+            Some(&field[start - columns..end - columns])
+        } else {
+            (!mirrors[0].is_none()).then_some(residual)
+        };
+        let ahead = (row + 1 < rows).then(|| &field[start + columns..end + columns]);
+        let missing = 1.0 - self.halves.of_first_column(run);
+        result[0] -= missing * 2.0 * along_x * residual[0];
+        for beside in [behind, ahead].into_iter().flatten() {
+            add(result, -along_x, beside);
+            result[0] += missing * along_x * beside[0];
         }
     }
 }
@@ -169,6 +192,7 @@ mod tests {
     use faer::{Mat, Side};
 
     use super::*;
+    use crate::mirror::{Mirror, NO_MIRRORS};
     use crate::{BemError, Grid};
 
     /// Contacts with many diagonal neighbours, ends and gaps: every other element, corners that touch, stripes, crosses,
@@ -231,9 +255,20 @@ mod tests {
     fn on_any_contact_it_is_symmetric_and_positive() -> Result<(), BemError> {
         let grid = Grid::new([26, 24], [1.0, 0.7])?;
         for whole in [Convolution::new(&grid), Convolution::periodic(&grid)] {
-            for mirrors in [[false, false], [false, true], [true, true]] {
+            for mirrors in [
+                NO_MIRRORS,
+                [Mirror::None, Mirror::Edge],
+                [Mirror::Edge, Mirror::Edge],
+            ] {
                 check(&whole.folded(mirrors), |_| true);
             }
+        }
+        let odd = Convolution::new(&Grid::new([25, 23], [1.0, 0.7])?);
+        for mirrors in [
+            [Mirror::None, Mirror::Centre],
+            [Mirror::Centre, Mirror::Centre],
+        ] {
+            check(&odd.folded(mirrors), |_| true);
         }
         Ok(())
     }

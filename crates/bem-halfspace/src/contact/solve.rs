@@ -57,8 +57,7 @@ fn solve_around(
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
         in_parts && part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
     };
-    let with_margin =
-        bounds.map(|bounds| bounds.with_margin_from(grid.shape(), convolution.mirrors()));
+    let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors()));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(pays)) else {
         return Iteration::new(question, state).run(accuracy);
     };

@@ -2,6 +2,7 @@
 
 use rustfft::num_complex::Complex;
 
+use crate::mirror::Mirror;
 use crate::plane_transform::PlaneTransform;
 
 impl PlaneTransform {
@@ -15,14 +16,22 @@ impl PlaneTransform {
     ) {
         let length = self.padded[0] / 2 + 1;
         let factors = |column: usize| &spectrum[column * length..][..length];
-        match (&self.columns.turns, self.rows.has_mirror()) {
-            (None, false) => multiply_whole(factors(column), values),
-            (None, true) => multiply_pair([2 * column, 2 * column + 1].map(factors), values),
-            (Some(turns), false) => multiply_mirrored([factors(column); 2], turns, values),
-            (Some(turns), true) => {
-                let both = [2 * column, 2 * column + 1].map(factors);
-                multiply_mirrored(both, turns, values);
-            }
+        let of_pair = || {
+            // Beside the last of an odd number of real coefficients stands none.
+            let last = self.padded[1] / 2;
+            [2 * column, 2 * column + 1].map(|column| factors(column.min(last)))
+        };
+        let pairs = self.rows.has_mirror();
+        let both = if pairs {
+            of_pair()
+        } else {
+            [factors(column); 2]
+        };
+        match self.columns.mirror() {
+            Mirror::None if pairs => multiply_pair(both, values),
+            Mirror::None => multiply_whole(both[0], values),
+            Mirror::Centre => multiply_parts(both, values),
+            Mirror::Edge => multiply_turned(both, self.columns.turns(), values),
         }
     }
 }
@@ -49,9 +58,16 @@ fn multiply_pair([first, second]: [&[f64]; 2], values: &mut [Complex<f64>]) {
     }
 }
 
-/// Of a column beside a mirror, in the notation of [`mirrored`](super::mirrored): one factor for the real part of U_k
+/// One factor for real parts and one for imaginary ones.
+fn multiply_parts([real, imaginary]: [&[f64]; 2], values: &mut [Complex<f64>]) {
+    for (value, (real, imaginary)) in values.iter_mut().zip(real.iter().zip(imaginary)) {
+        *value = Complex::new(value.re * real, value.im * imaginary);
+    }
+}
+
+/// Of a column beside a mirror, in the notation of [`about_edge`](super::about_edge): one factor for the real part of U_k
 /// and one for its imaginary part.
-fn multiply_mirrored(
+fn multiply_turned(
     [real, imaginary]: [&[f64]; 2],
     turns: &[Complex<f64>],
     values: &mut [Complex<f64>],

@@ -4,12 +4,13 @@
 //! passes through forward transform, product and inverse transform while it is in the cache, so that the padded field
 //! never exists as a whole.
 //!
-//! Of a field that is its own mirror image, only the half beside the mirror is stored and transformed; see
-//! [`mirrored`].
+//! Of a field that is its own mirror image, only the part in front of the mirror is stored and transformed; see
+//! [`about_centre`] and [`about_edge`].
 
+mod about_centre;
+mod about_edge;
 mod columns;
 mod even_product;
-mod mirrored;
 mod rows;
 mod workspace;
 
@@ -19,6 +20,7 @@ use std::ops::Range;
 use rustfft::num_complex::Complex;
 
 use crate::bands::join;
+use crate::mirror::{Mirror, NO_MIRRORS};
 use columns::ColumnTransform;
 use rows::RowTransform;
 pub(crate) use workspace::Workspace;
@@ -50,12 +52,12 @@ impl fmt::Debug for PlaneTransform {
 impl PlaneTransform {
     /// Plans the transforms of whole fields.
     pub(crate) fn new(padded: [usize; 2]) -> Self {
-        Self::folded(padded, [false; 2])
+        Self::folded(padded, NO_MIRRORS)
     }
 
     /// Plans the transforms of the parts of fields that are their own mirror images along the axes of `mirrors`; the
-    /// period is even there, and the first element of the part lies beside the mirror.
-    pub(crate) fn folded(padded: [usize; 2], mirrors: [bool; 2]) -> Self {
+    /// period is even there.
+    pub(crate) fn folded(padded: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let (columns, rows) = join(
             || ColumnTransform::new(padded[0], mirrors[0]),
             || RowTransform::new(padded[1], mirrors[1]),

@@ -31,6 +31,9 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
     /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
     /// of an element at position zero.
     ///
+    /// Of a surface that is [its own mirror image](Surface::mirrors) about y = 0, over a footprint that is so too, only the
+    /// half at y ≥ 0 is followed; where it never moves, about x = 0 too.
+    ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
     /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
@@ -61,7 +64,7 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = positive("sliding_distance", options.sliding_distance)?;
         let n_steps = elements_along(distance, spacing)?;
-        let [rows, columns] = options.resolution().layout()?.shape;
+        let [rows, columns] = options.resolution().layout([false; 2])?.shape;
         // Refused before so many steps are made.
         Grid::new([rows + n_steps, columns], options.spacing)?;
         let control = Control::NormalForce(load.normal_force());
@@ -145,8 +148,11 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let bounds = stepping.contact_bounds();
         let columns = bounds.shape()[1];
         let mut pressure = vec![0.0; bounds.n_elements()];
-        for ([row, column], load) in stepping.loaded_elements() {
-            pressure[(row - bounds.lower[0]) * columns + column - bounds.lower[1]] = load * unit;
+        for (element, load) in stepping.loaded_elements() {
+            for [row, column] in stepping.layout.images_of(element) {
+                let index = (row - bounds.lower[0]) * columns + column - bounds.lower[1];
+                pressure[index] += load * unit;
+            }
         }
         let spacing = stepping.resolution.spacing;
         Ok(PressureField {

@@ -53,7 +53,9 @@ impl SlideOptions {
 
 /// Presses `surface` into an undeformed half space with a constant force and slides it, from first touch on.
 ///
-/// The element in which the lowest point starts has it in its centre.
+/// The element in which the lowest point starts has it in its centre. Of a surface that is
+/// [its own mirror image](Surface::mirrors) about y = 0, over a footprint that is so too, only the half at y ≥ 0 is
+/// followed.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for options out of range; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when

@@ -51,12 +51,16 @@ impl Slopes {
         );
         let mut sum = MeanSlopes::default();
         let mut normal = 0.0;
+        // Images fore and aft have the opposite slope.
+        let has_image = !stepping.layout.mirrors[0].is_none();
         for (element, load) in stepping.loaded_elements() {
             let [met, end] = self.at(surface, stepping, element)?;
-            sum.met += load * met;
-            sum.end += load * end;
+            if !has_image {
+                sum.met += load * met;
+                sum.end += load * end;
+            }
             sum.steepness += load * met.abs();
-            sum.largest = sum.largest.max(met);
+            sum.largest = sum.largest.max(if has_image { met.abs() } else { met });
             normal += load;
         }
         if normal == 0.0 {

@@ -225,4 +225,9 @@ impl<S: Surface> Surface for Strip<'_, S> {
     fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
         self.profile.gradient([x, 0.0])
     }
+
+    fn mirrors(&self) -> [bool; 2] {
+        let [along_x, _] = self.profile.mirrors();
+        [along_x, true]
+    }
 }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use indenters::Surface;
 
 use crate::error::positive;
+use crate::mirror::Mirror;
 use crate::steady::loading::{Equation, GridLoading, Loading};
 use crate::steady::pivoting::Solution;
 use crate::steady::plans::Plans;
@@ -23,17 +24,6 @@ use crate::{BemError, Grid};
 const FLAT: f64 = 0.1;
 /// Height that the sides of the contact of a paraboloid reach, about, in the same units.
 const GUESSED_HEIGHT: f64 = 0.5;
-
-/// How grid and body mirror in y.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mirror {
-    /// No symmetry, or none that the grid shares.
-    None,
-    /// About the centre of a column.
-    Centre,
-    /// About the edge between two columns.
-    Edge,
-}
 
 /// An element that may touch.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +50,7 @@ pub(super) struct Mesh {
     shape: [usize; 2],
     /// Position of the row and the column 0 in elements from the lowest point.
     origin: [f64; 2],
+    /// Of grid and body in y.
     mirror: Mirror,
     elements: Vec<Element>,
     /// Whether an element ends in a vertical wall, by row and column.
@@ -112,7 +103,9 @@ impl Mesh {
             "number of elements of the footprint that may touch",
             mesh.elements.len() as f64,
         )?;
-        mesh.find_mirror(surface);
+        if surface.mirrors()[1] {
+            mesh.keep_front();
+        }
         let all = Region::around(&mesh, 0..mesh.n_elements());
         mesh.table = plans.cover((&mesh.loading.creep, mesh.aspect()), all.shape);
         Ok(mesh)
@@ -162,35 +155,13 @@ impl Mesh {
         Ok(())
     }
 
-    /// Keeps the elements at y ≥ 0 when the others mirror them.
-    fn find_mirror(&mut self, surface: &impl Surface) {
-        let phase = self.options.phase[1].abs();
-        let candidate = if phase == 0.0 {
-            Mirror::Centre
-        } else {
-            Mirror::Edge
+    /// Keeps the elements at y ≥ 0 of a surface that mirrors them, where the grid does too.
+    fn keep_front(&mut self) {
+        self.mirror = match self.options.phase[1].abs() {
+            0.0 => Mirror::Centre,
+            0.5 => Mirror::Edge,
+            _ => return,
         };
-        if phase > 0.0 && phase < 0.5 || self.kept == Some(SteadyOmission::MirrorHalf) {
-            return;
-        }
-        let mirrored = |element: &Element| {
-            let [x, y] = [self.centre(0, element.row), self.centre(1, element.column)];
-            [
-                x - 0.5 * self.options.spacing[0],
-                x + 0.5 * self.options.spacing[0],
-            ]
-            .iter()
-            .all(|&x| {
-                surface
-                    .height([x, y])
-                    .total_cmp(&surface.height([x, -y]))
-                    .is_eq()
-            })
-        };
-        if !self.elements.iter().all(mirrored) {
-            return;
-        }
-        self.mirror = candidate;
         // An element needs its image inside the footprint: the shorter side limits both.
         let origin = self.origin[1];
         let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;

@@ -17,7 +17,7 @@ use crate::contact::ContactBox;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MarchState {
     steps_done: usize,
-    /// Lower and upper ends of the box around the contact, in elements of the footprint.
+    /// Lower and upper ends of the box around the contact, in elements in front of the mirrors.
     contact_box: [[usize; 2]; 2],
     /// Loads in the box.
     load: Vec<f64>,
@@ -67,18 +67,20 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     /// The empty box of a state, and the rows that it remembers.
     fn check(&self, state: &MarchState) -> Result<(ContactBox, Range<usize>), BemError> {
         let [lower, upper] = state.contact_box;
-        let n_steps = self.route.legs.len();
-        at_most("steps done", state.steps_done, n_steps)?;
+        let (shape, mirrors) = (self.layout.followed(), self.layout.mirrors);
+        at_most("steps done", state.steps_done, self.route.legs.len())?;
         for axis in 0..2 {
-            at_most(
-                "end of the contact box",
-                upper[axis],
-                self.layout.shape[axis],
-            )?;
-            at_most("start of the contact box", lower[axis] + 1, upper[axis])?;
+            at_most("end of the contact box", upper[axis], shape[axis])?;
+            // The box begins at a mirror.
+            let last = if mirrors[axis].is_none() {
+                upper[axis]
+            } else {
+                1
+            };
+            at_most("start of the contact box", lower[axis] + 1, last)?;
         }
         let bounds = Bounds { lower, upper };
-        let rows = self.route.rows_from(state.steps_done, self.layout.shape[0]);
+        let rows = self.route.rows_from(state.steps_done, shape[0]);
         let n_values = self.window.memory(rows.clone()).len();
         for (field, values, elements) in [
             ("load", &state.load, bounds.n_elements()),
@@ -100,7 +102,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
                 });
             }
         }
-        Ok((ContactBox::new(bounds, self.aspect())?, rows))
+        Ok((ContactBox::of(self.window.convolution(), bounds)?, rows))
     }
 }
 

@@ -6,8 +6,8 @@
 //! ```
 //! Every step is an elastic contact of compliance 2 (1 − ν) α under an indenter of height h + history. The elements stay
 //! where they are in the half space; the footprint goes with the indenter by whole elements, and the indenter stands
-//! anywhere over the element in its middle. Inside, heights are measured in a scale of the scene and lengths in Δx, so
-//! that only ratios enter.
+//! anywhere over the element in its middle. Of an indenter that is its own mirror image only the elements in front of the
+//! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
 
 mod checkpoint;
 mod omission;
@@ -41,7 +41,7 @@ pub(crate) struct Stepping<'scene, S: ?Sized> {
     steps_done: usize,
     step: ExponentialStep,
     time_step: f64,
-    /// Heights of the indenter over the footprint, and the offset for which they were sampled.
+    /// Heights of the indenter over the followed elements of the footprint, and the offset for which they were sampled.
     heights: Vec<f64>,
     sampled_offset: f64,
     /// Heights plus displacement without load.
@@ -90,7 +90,8 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         route: Route,
         resolution: &Resolution,
     ) -> Result<Self, BemError> {
-        let layout = resolution.layout()?;
+        let [along_x, along_y] = surface.mirrors();
+        let layout = resolution.layout([along_x && route.rests(), along_y])?;
         let [dx, dy] = resolution.spacing;
         let material = HalfSpace {
             creep: material.creep(),
@@ -102,7 +103,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
             0 => route.without_memory(),
             _ => route,
         };
-        let n_rows = route.rows_from(0, layout.shape[0]).end;
+        let n_rows = route.rows_from(0, layout.followed()[0]).end;
         let window = Window::new(n_rows, &layout, dy / dx, step.n_fields())?;
         let mut stepping = Self {
             surface,
@@ -116,9 +117,9 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
             time_step,
             heights: Vec::new(),
             sampled_offset: f64::NAN,
-            separation: vec![0.0; layout.shape[0] * layout.shape[1]],
+            separation: vec![0.0; layout.followed().iter().product()],
+            contact_box: ContactBox::of(window.convolution(), Bounds::around([0; 2]))?,
             window,
-            contact_box: ContactBox::new(Bounds::around(layout.apex), [1.0, dy / dx])?,
             kept: None,
         };
         stepping.sample(stepping.route.legs[0].offset)?;
@@ -135,15 +136,28 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         self.window.n_elements()
     }
 
-    /// Elements with load in the last step, and their loads, of which only the ratios matter.
+    /// Elements of the footprint in front of the mirrors with load in the last step, and their loads there, of which only
+    /// the ratios matter.
     pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
-        self.contact_box.loaded_elements()
+        let [first_row, first_column] = self.layout.first();
+        let loaded = self.contact_box.loaded_elements();
+        loaded.map(move |([row, column], load)| ([first_row + row, first_column + column], load))
     }
 
-    /// The box around the loaded elements; the element under the lowest point without any.
+    /// The box of the footprint around all loaded elements; the element under the lowest point without any.
     pub(crate) fn contact_bounds(&self) -> Bounds {
-        let elements = self.loaded_elements().map(|(element, _)| element);
-        Bounds::of(elements).unwrap_or(Bounds::around(self.layout.apex))
+        let lowest = Bounds::around(self.layout.apex);
+        let loaded = self.loaded_bounds();
+        loaded.map_or(lowest, |loaded| self.layout.unfolded(&loaded))
+    }
+
+    /// The box around the loaded elements in front of the mirrors, counted from there.
+    fn loaded_bounds(&self) -> Option<Bounds> {
+        Bounds::of(
+            self.contact_box
+                .loaded_elements()
+                .map(|(element, _)| element),
+        )
     }
 
     /// Distance of the lowest point from the centre of its element in the last step, in elements.
@@ -184,7 +198,8 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         if self.kept == Some(SlideOmission::RowsBehind) {
             return 0..self.window.n_rows();
         }
-        self.route.rows_from(self.steps_done, self.layout.shape[0])
+        let n_rows = self.layout.followed()[0];
+        self.route.rows_from(self.steps_done, n_rows)
     }
 
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
@@ -202,12 +217,12 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         Ok(())
     }
 
-    /// Position in the frame of the indenter, in elements.
+    /// Position of a row of the footprint in the frame of the indenter, in elements.
     pub(crate) fn along(&self, row: usize, offset: f64) -> f64 {
         row as f64 - self.layout.apex[0] as f64 - offset
     }
 
-    /// Position across, \[m].
+    /// Position of a column of the footprint across, \[m].
     pub(crate) fn across(&self, column: usize) -> f64 {
         (column as f64 - self.layout.apex[1] as f64) * self.resolution.spacing[1]
     }
@@ -217,11 +232,11 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         if offset.total_cmp(&self.sampled_offset).is_eq() {
             return Ok(());
         }
-        let [rows, columns] = self.layout.shape;
-        let mut heights = Vec::with_capacity(rows * columns);
-        for row in 0..rows {
+        let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
+        let mut heights = Vec::with_capacity(self.separation.len());
+        for row in first_row..rows {
             let x = self.along(row, offset) * self.resolution.spacing[0];
-            for column in 0..columns {
+            for column in first_column..columns {
                 let value = self.surface.height([x, self.across(column)]);
                 if value.is_nan() || value == f64::NEG_INFINITY {
                     return Err(BemError::InvalidHeight { row, column, value });
@@ -243,23 +258,24 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
 
     /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
+        let convolution = self.window.convolution();
+        let [rows, columns] = self.layout.followed();
         if self.kept == Some(SlideOmission::OutsideContact) {
             let bounds = Bounds {
                 lower: [0; 2],
-                upper: self.layout.shape,
+                upper: [rows, columns],
             };
-            return ContactBox::undivided(bounds, self.aspect());
+            return ContactBox::undivided(convolution, bounds);
         }
-        let columns = self.layout.shape[1];
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
-        let element = lowest.map_or(self.layout.apex, |index| [index / columns, index % columns]);
-        let bounds = Bounds::around(element).with_margin(self.layout.shape);
-        ContactBox::new(bounds, self.aspect())
+        let index = lowest.unwrap_or(0);
+        let element = Bounds::around([index / columns, index % columns]);
+        ContactBox::of(convolution, self.with_margin(&element))
     }
 
-    fn aspect(&self) -> [f64; 2] {
-        let [dx, dy] = self.resolution.spacing;
-        [1.0, dy / dx]
+    /// With room for a growing contact.
+    fn with_margin(&self, bounds: &Bounds) -> Bounds {
+        bounds.with_margin(self.layout.followed(), self.layout.mirrors)
     }
 
     fn set_separation(&mut self, first_row: usize) {

@@ -22,10 +22,10 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
             let control = self.scaled(leg.control);
             let outcome = self.contact_box.solve(control, &self.resolution.contact)?;
             self.find_increment(leg.row);
-            let contact = Bounds::of(self.loaded_elements().map(|(element, _)| element));
+            let contact = self.loaded_bounds();
             if let Some(outside) = self.penetration(leg.row, outcome.indentation_depth) {
                 let mut bounds = contact.map_or(outside, |contact| contact.union(&outside));
-                bounds = bounds.with_margin(self.layout.shape);
+                bounds = self.with_margin(&bounds);
                 if enlarged {
                     bounds = bounds.union(&self.contact_box.bounds);
                 }
@@ -33,11 +33,12 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
                 enlarged = true;
                 continue;
             }
-            if let Some(bounds) = contact {
-                self.check_footprint(&bounds, leg.position)?;
-                self.tighten(&bounds)?;
+            let all = contact.map(|contact| self.layout.unfolded(&contact));
+            if let Some((contact, all)) = contact.zip(all) {
+                self.check_footprint(&all, leg.position)?;
+                self.tighten(&contact)?;
             }
-            return Ok(self.instant(leg, outcome, contact));
+            return Ok(self.instant(leg, outcome, all));
         }
     }
 
@@ -51,17 +52,24 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
             indentation_depth: outcome.indentation_depth * self.scale,
             normal_force,
             bounds,
-            n_contact: self.loaded_elements().count(),
+            n_contact: self.n_contact(),
             iterations: outcome.iterations,
         }
     }
 
-    /// Sum of the loads that a normal force of 1 N makes.
+    fn n_contact(&self) -> usize {
+        let elements = self.loaded_elements().map(|(element, _)| element);
+        elements
+            .map(|element| self.layout.n_images_of(element))
+            .sum()
+    }
+
+    /// Sum of the loads in front of the mirrors that a normal force of 1 N makes.
     ///
     /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.scale;
-        compliance / (4.0 * PI * self.resolution.spacing[1])
+        compliance / (4.0 * PI * self.resolution.spacing[1]) / self.layout.images()
     }
 
     fn scaled(&self, control: Control) -> Control {
@@ -75,7 +83,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         let bounds = self.contact_box.bounds;
         self.contact_box.separation.clear();
         for row in 0..bounds.shape()[0] {
-            let row = &self.separation[bounds.row_range(row, self.layout.shape[1])];
+            let row = &self.separation[bounds.row_range(row, self.layout.followed()[1])];
             self.contact_box.separation.extend_from_slice(row);
         }
     }
@@ -93,13 +101,11 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
 
     /// Elements outside the box that the indenter penetrates.
     fn penetration(&self, first_row: usize, depth: f64) -> Option<Bounds> {
-        let increment = self
-            .window
-            .increment(first_row..first_row + self.layout.shape[0]);
+        let [rows, columns] = self.layout.followed();
+        let increment = self.window.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
         // The box and the window round differently, so the box's own tolerance would be too sharp here.
         let allowed = -2.0 * self.resolution.contact.tolerance * deflection;
-        let columns = self.layout.shape[1];
         let gaps = self.separation.iter().zip(increment).enumerate();
         let outside = gaps
             .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
@@ -125,7 +131,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
             return Ok(());
         }
         let shape = self.contact_box.bounds.shape();
-        let needed = contact.with_margin(self.layout.shape);
+        let needed = self.with_margin(contact);
         let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));
         if ((rows * columns) as f64) < NEEDED_PART * (shape[0] * shape[1]) as f64 {
             self.contact_box = self.contact_box.moved_to(needed)?;

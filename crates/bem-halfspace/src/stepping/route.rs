@@ -104,6 +104,13 @@ impl Route {
         Ok(Self { legs, spans })
     }
 
+    /// Whether the indenter never moves.
+    pub(crate) fn rests(&self) -> bool {
+        self.legs
+            .iter()
+            .all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
+    }
+
     /// The same way over a half space that remembers nothing, so that the elements may go along.
     pub(crate) fn without_memory(mut self) -> Self {
         for leg in &mut self.legs {

@@ -13,7 +13,7 @@ use rheology::ExponentialStep;
 use crate::resolution::Layout;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
-/// Fields over all elements of a way; displacements in units of the height scale, lengths in Δx.
+/// Fields over all elements of a way in front of the mirrors; displacements in units of the height scale, lengths in Δx.
 pub(super) struct Window {
     convolution: Convolution,
     workspace: ConvolutionWorkspace,
@@ -32,9 +32,10 @@ impl Window {
         aspect: f64,
         n_fields: usize,
     ) -> Result<Self, BemError> {
-        let grid = Grid::new([n_rows, layout.shape[1]], [1.0, aspect])?;
+        let grid = Grid::new([n_rows, layout.followed()[1]], [1.0, aspect])?;
         let n_elements = grid.n_elements();
-        let convolution = Convolution::new(&grid);
+        let whole = Convolution::new(&grid.unfolded(layout.mirrors));
+        let convolution = whole.folded(layout.mirrors);
         Ok(Self {
             workspace: convolution.workspace(),
             load: vec![0.0; n_elements],
@@ -43,6 +44,10 @@ impl Window {
             n_fields,
             convolution,
         })
+    }
+
+    pub(super) const fn convolution(&self) -> &Convolution {
+        &self.convolution
     }
 
     pub(super) fn n_elements(&self) -> usize {

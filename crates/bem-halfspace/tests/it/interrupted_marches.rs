@@ -2,7 +2,8 @@
 
 use bem_halfspace::slide::{March, MarchState, Motion, MotionRow};
 use bem_halfspace::{BemError, ContactOptions, Control, Footprint, Resolution};
-use indenters::PowerProfile;
+use indenters::{PowerProfile, Unmirrored};
+use rheology::Elastic;
 
 use crate::support::prony;
 
@@ -107,6 +108,28 @@ fn a_state_of_another_scene_is_refused() {
             refused,
             Err(BemError::InvalidParameter {
                 parameter: "steps done",
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
+}
+
+/// The other side of the mirror is not in its boxes.
+#[test]
+fn a_state_without_a_mirror_is_refused_in_front_of_one() {
+    let body = PowerProfile::new(0.5, 1.5).expect("a body");
+    let whole = Unmirrored(&body);
+    let elastic = Elastic::new(2.0).expect("a material");
+    let mut first = March::new(&whole, &elastic, &motions(), &resolution()).expect("a march");
+    first.step().expect("a step");
+    let mut mirrored = March::new(&body, &elastic, &motions(), &resolution()).expect("a march");
+    let refused = mirrored.resume(&first.state());
+    assert!(
+        matches!(
+            refused,
+            Err(BemError::InvalidParameter {
+                parameter: "start of the contact box" | "end of the contact box",
                 ..
             })
         ),

@@ -15,6 +15,7 @@ mod elastic_contact;
 mod indentation_follows_lee_radok_and_ting;
 mod influence_coefficients;
 mod interrupted_marches;
+mod marches_in_front_of_a_mirror;
 mod mirrored_contact;
 mod nested_grids;
 mod normal_indentation;

@@ -36,6 +36,10 @@ impl Surface for WavyCylinder {
             0.0,
         ]
     }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true; 2]
+    }
 }
 
 fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySliding {

@@ -1,10 +1,10 @@
 //! The stationary solution satisfies the contact conditions, and the symmetries of the scene.
 
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use bem_halfspace::steady::{DepthControl, SteadyOptions, SteadySliding, steady, steady_at_depth};
 use casebook::group;
-use indenters::{PowerProfile, Surface};
+use indenters::{Surface, Unmirrored};
 
-use crate::support::Scene;
+use crate::support::{Scene, prony};
 
 fn options(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadyOptions {
     let spacing = scene.contact_length() / elements;
@@ -59,46 +59,59 @@ fn pressure_is_positive_symmetric_and_balances_the_force() {
     }
 }
 
-/// The paraboloid, with a height that is not the same to the last bit on both sides: no symmetry is used.
-struct Unsymmetric(PowerProfile);
-
-impl Surface for Unsymmetric {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        Surface::height(&self.0, [x, y]) * (1.0 + 1e-15 * y.signum())
-    }
-
-    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-        Surface::gradient(&self.0, position)
+/// Both are the same discrete problem, solved to 1e-10 of the depth scale.
+fn assert_half_is_whole(half: &SteadySliding, whole: &SteadySliding) {
+    // Elements on the axis are their own image.
+    assert!(
+        whole.unknowns > half.unknowns + half.unknowns / 2 && whole.unknowns <= 2 * half.unknowns,
+        "{} unknowns of the half, {} of the whole",
+        half.unknowns,
+        whole.unknowns
+    );
+    for (name, half, whole) in [
+        (
+            "friction",
+            half.friction_coefficient,
+            whole.friction_coefficient,
+        ),
+        ("force", half.normal_force, whole.normal_force),
+        ("area", half.contact_area, whole.contact_area),
+    ] {
+        let error = (half / whole - 1.0).abs();
+        assert!(
+            error < 1e-9,
+            "{name} {half} of the half, {whole} of the whole"
+        );
     }
 }
 
 #[test]
 fn half_of_a_symmetric_scene_has_the_friction_of_the_whole() {
-    for phase in [[0.0, 0.0], [0.0, 0.5]] {
-        let scene = Scene::unit(2.0);
-        let options = options(&scene, 6.0, phase);
-        let half = solve(&scene, 6.0, phase);
-        let whole = steady(
-            &Unsymmetric(scene.body),
-            &scene.material,
-            &scene.load,
-            &options,
-        )
-        .expect("a solution");
-        assert!(
-            whole.unknowns > half.unknowns + half.unknowns / 2,
-            "{} and {}",
-            whole.unknowns,
-            half.unknowns
-        );
-        let error = (whole.friction_coefficient / half.friction_coefficient - 1.0).abs();
-        assert!(
-            error < 1e-10,
-            "{} and {}",
-            whole.friction_coefficient,
-            half.friction_coefficient
-        );
+    for (elements, power) in [(6.0, 1.0), (6.0, 2.0), (16.0, 2.0)] {
+        for phase in [[0.0, 0.0], [0.0, 0.5]] {
+            let scene = Scene::unit(power);
+            let options = options(&scene, elements, phase);
+            let whole = Unmirrored(&scene.body);
+            let whole = steady(&whole, &scene.material, &scene.load, &options);
+            let half = solve(&scene, elements, phase);
+            assert_half_is_whole(&half, &whole.expect("a solution"));
+        }
     }
+}
+
+#[test]
+fn half_of_a_symmetric_scene_at_a_depth_has_the_force_of_the_whole() {
+    let scene = Scene::unit(2.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let control = DepthControl {
+        depth: 0.2,
+        sliding_distance: 100.0,
+        velocity: scene.load.velocity(),
+    };
+    let options = options(&scene, 4.0, [0.0; 2]);
+    let half = steady_at_depth(&scene.body, &solid, &control, &options);
+    let whole = steady_at_depth(&Unmirrored(&scene.body), &solid, &control, &options);
+    assert_half_is_whole(&half.expect("a solution"), &whole.expect("a solution"));
 }
 
 #[test]

@@ -68,7 +68,7 @@ fn a_slide_is_the_same_on_one_and_three_threads() {
     let load = SlidingLoad::new(1.5, 0.3).expect("a load");
     // More than the 2^13 elements for which a second thread is taken.
     let options = SlideOptions {
-        spacing: [0.04; 2],
+        spacing: [0.025; 2],
         footprint: Footprint::square(1.8),
         sliding_distance: 0.4,
         contact: ContactOptions::default(),

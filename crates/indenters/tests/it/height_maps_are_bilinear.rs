@@ -118,3 +118,18 @@ fn grids_that_do_not_fit_are_refused() {
         );
     }
 }
+
+#[test]
+fn a_map_has_the_mirrors_of_its_nodes() {
+    // Rows at x = -1, 0, 1, columns at y = -1, 0, 1.
+    for (heights, expected) in [
+        ([2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 2.0], [true, true]),
+        ([2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 3.0, 2.0], [false, true]),
+        ([2.0, 1.0, 2.0, 1.0, 0.0, 3.0, 2.0, 1.0, 2.0], [true, false]),
+        // The lowest node is not in the middle, through which the nodes are mirrored.
+        ([2.0, 0.0, 2.0, 1.0, 4.0, 1.0, 2.0, 0.0, 2.0], [false, true]),
+    ] {
+        let map = HeightMap::new([3, 3], [1.0, 0.5], heights.to_vec()).expect("a map");
+        assert_eq!(map.mirrors(), expected, "mirrors of {heights:?}");
+    }
+}

@@ -1,0 +1,79 @@
+//! Transforms of one half of a row or column that is its own mirror image about the edge of its first element.
+//!
+//! With x_n at a distance of n + ½ elements from the mirror and as much on its other side, the Fourier transform of the
+//! period of 2 L elements is, but for a phase that both directions share,
+//!
+//! ```text
+//! U_k = 2 Σ x_n cos(π (n + ½) k / L),        n, k = 0 … L − 1.
+//! ```
+//!
+//! In the order x_0, x_2, x_4 … x_5, x_3, x_1 it is found from the Fourier transform V of L elements (Makhoul 1980,
+//! DOI 10.1109/TASSP.1980.1163351): with w_k = exp(−iπk/2L) and U_L = 0,
+//!
+//! ```text
+//! U_k = w_k V_k + w̄_k V_(L−k),        V_k = w̄_k (U_k − i U_(L−k)) / 2.
+//! ```
+
+use std::f64::consts::PI;
+
+use rustfft::num_complex::Complex;
+
+/// The numbers w_k for k = 0 … L/2.
+pub(super) fn turns(length: usize) -> Vec<Complex<f64>> {
+    let turn = |k| Complex::from_polar(1.0, -0.5 * PI * k as f64 / length as f64);
+    (0..=length / 2).map(turn).collect()
+}
+
+/// Where an element stands in the order of the transform.
+pub(super) const fn place(element: usize, length: usize) -> usize {
+    if element.is_multiple_of(2) {
+        element / 2
+    } else {
+        length - 1 - element / 2
+    }
+}
+
+/// Puts values and zeros behind them into the order of the transform.
+pub(super) fn order(values: &[f64], ordered: &mut [f64]) {
+    ordered.fill(0.0);
+    let even = values.iter().step_by(2);
+    for (place, value) in ordered.iter_mut().zip(even) {
+        *place = *value;
+    }
+    let odd = values.iter().skip(1).step_by(2);
+    for (place, value) in ordered.iter_mut().rev().zip(odd) {
+        *place = *value;
+    }
+}
+
+/// Takes the first values from the order of the transform.
+pub(super) fn order_back(ordered: &[f64], values: &mut [f64]) {
+    for (value, place) in values.iter_mut().step_by(2).zip(ordered) {
+        *value = *place;
+    }
+    let odd = values.iter_mut().skip(1).step_by(2);
+    for (value, place) in odd.zip(ordered.iter().rev()) {
+        *value = *place;
+    }
+}
+
+/// U_0 … U_(L−1) of real x, from V_0 … V_(L/2).
+pub(super) fn turn(turns: &[Complex<f64>], half: &[Complex<f64>], numbers: &mut [f64]) {
+    let length = numbers.len();
+    for (k, (value, turn)) in half.iter().zip(turns).enumerate() {
+        let turned = 2.0 * value * turn;
+        if k > 0 {
+            numbers[length - k] = -turned.im;
+        }
+        numbers[k] = turned.re;
+    }
+}
+
+/// Twice V_0 … V_(L/2) from real U_0 … U_(L−1).
+pub(super) fn turn_back(turns: &[Complex<f64>], numbers: &[f64], half: &mut [Complex<f64>]) {
+    let length = numbers.len();
+    for (k, (value, turn)) in half.iter_mut().zip(turns).enumerate() {
+        let opposite = if k > 0 { numbers[length - k] } else { 0.0 };
+        *value = turn.conj() * Complex::new(numbers[k], -opposite);
+    }
+}
