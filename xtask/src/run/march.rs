@@ -21,8 +21,6 @@ const LARGEST_GRID: usize = 32;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
 const LENGTHS: f64 = 24.0;
 const DRIFT: f64 = 0.05;
-/// What counts as stationary where only the limit is asked for.
-const ANY_DRIFT: f64 = f64::INFINITY;
 /// Distances v λ of the slowest element until a solid counts as stationary.
 const MEMORIES: f64 = 12.0;
 /// Contact lengths after which a march to the stationary state is not begun.
@@ -225,11 +223,7 @@ impl<'a, S: Shape> Scene<'a, S> {
             (transient.last().friction_coefficient, None)
         } else {
             let state = transient.stationary(DRIFT)?;
-            let scatter = scatter_of_limits(&transient)?;
-            (
-                state.friction_coefficient,
-                Some(state.distance_error.max(scatter)),
-            )
+            (state.friction_coefficient, Some(state.distance_error))
         };
         Ok(End::of(transient, load.normal_force(), reached))
     }
@@ -344,20 +338,6 @@ impl End {
             pressure,
         })
     }
-}
-
-/// How far apart the limits are that were foretold on the last quarter of the way; which elements touch changes from step
-/// to step, and an extrapolation widens that.
-fn scatter_of_limits(transient: &Transient) -> Result<f64> {
-    let mut shorter = transient.clone();
-    let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
-    for _ in 0..=transient.rows.len() / 4 {
-        let limit = shorter.stationary(ANY_DRIFT)?.friction_coefficient;
-        lowest = limit.min(lowest);
-        highest = limit.max(highest);
-        shorter.rows.pop();
-    }
-    Ok(highest - lowest)
 }
 
 /// What gaps of the size of the tolerance change of the friction.

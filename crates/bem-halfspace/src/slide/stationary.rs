@@ -10,6 +10,9 @@
 use crate::BemError;
 use crate::slide::{SlideRow, Transient};
 
+/// So many have a last quarter.
+const FEWEST_STEPS: usize = 4;
+
 /// The limit of the friction coefficient for an infinite sliding distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -17,7 +20,9 @@ use crate::slide::{SlideRow, Transient};
 pub struct StationaryFriction {
     /// μ_∞, extrapolated from the distances S, S/2 and S/4.
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the extrapolation: what the term 1/S² changes. The error of the grid is not in it.
+    /// Estimated absolute error of the extrapolation: what the term 1/S² changes, and by how much the limits differ that
+    /// the steps of the second half of the distance foretell, because the contact changes by whole elements, and the
+    /// friction with it. Otherwise the error of the grid is not in it.
     pub distance_error: f64,
     /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
     /// order, the relative difference between its last value and the limit.
@@ -52,22 +57,34 @@ impl Transient {
             friction_coefficient: value,
             tolerance: drift_tolerance,
         };
-        if n < 4 {
+        if n < FEWEST_STEPS {
             return Err(not_stationary(1.0));
         }
         let points = halvings(&self.rows);
         let drift = ((value - points[1].1) / value).abs();
         if drift <= drift_tolerance {
             let friction_coefficient = value_at_zero(&points);
-            let distance_error = (friction_coefficient - value_at_zero(&points[..2])).abs();
+            let last_term = (friction_coefficient - value_at_zero(&points[..2])).abs();
             return Ok(StationaryFriction {
                 friction_coefficient,
-                distance_error,
+                distance_error: last_term + scatter_of_limits(&self.rows),
                 drift,
             });
         }
         Err(not_stationary(drift))
     }
+}
+
+/// By how much the limits differ that the steps of the second half of the distance foretell.
+fn scatter_of_limits(rows: &[SlideRow]) -> f64 {
+    let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
+    let first = (rows.len() / 2).max(FEWEST_STEPS);
+    for count in first..=rows.len() {
+        let limit = value_at_zero(&halvings(&rows[..count]));
+        lowest = limit.min(lowest);
+        highest = limit.max(highest);
+    }
+    highest - lowest
 }
 
 /// The last row and those at a half and a quarter of its distance, as (reciprocal distance, friction coefficient).

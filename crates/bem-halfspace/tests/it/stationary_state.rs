@@ -52,32 +52,26 @@ fn only_the_front_half_stays_in_contact() {
 
 #[test]
 fn extrapolation_in_the_distance_agrees_with_a_longer_run() {
-    for exponent in [1.0, 2.0] {
+    for (exponent, elements) in [(1.0, 4.0), (1.0, 5.0), (1.0, 6.0), (2.0, 4.0), (2.0, 5.0)] {
         let scene = Scene::unit(exponent);
-        let short = scene
-            .slide(5.0, 24.0)
-            .stationary(0.02)
-            .expect("a stationary state");
-        let long = scene
-            .slide(5.0, 192.0)
-            .stationary(0.02)
-            .expect("a stationary state");
+        let name = format!("p = {exponent}, {elements} elements");
+        let slide = |lengths| scene.slide(elements, lengths);
+        let [short, long] = [24.0, 192.0].map(|lengths| {
+            let state = slide(lengths).stationary(0.02);
+            state.expect("a stationary state")
+        });
         let deviation = (short.friction_coefficient - long.friction_coefficient).abs();
         let allowed = short.distance_error + long.distance_error;
+        assert!(deviation <= allowed, "{name}: {short:?} and {long:?}");
         assert!(
-            deviation <= allowed,
-            "p = {exponent}: {short:?} and {long:?}"
-        );
-        assert!(
-            short.distance_error < 2e-3 * short.friction_coefficient,
-            "p = {exponent}: {short:?}"
+            short.distance_error < 2e-2 * short.friction_coefficient,
+            "{name}: {short:?}"
         );
         // The drift is, to leading order, the distance that is left to the limit.
-        let left =
-            1.0 - scene.slide(5.0, 24.0).last().friction_coefficient / long.friction_coefficient;
+        let left = 1.0 - slide(24.0).last().friction_coefficient / long.friction_coefficient;
         assert!(
             (left / short.drift - 1.0).abs() < 0.35,
-            "p = {exponent}: left {left}, {short:?}"
+            "{name}: left {left}, {short:?}"
         );
     }
 }
