@@ -7,15 +7,6 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
 
-/// The tests run with the checks that a release build leaves out. Only the crates of the workspace are compiled anew
-/// for that; their dependencies stay those of the release build.
-const CHECKED_ARITHMETIC: [&str; 4] = [
-    "--config=profile.release.debug-assertions=true",
-    "--config=profile.release.overflow-checks=true",
-    "--config=profile.release.package.\"*\".debug-assertions=false",
-    "--config=profile.release.package.\"*\".overflow-checks=false",
-];
-
 /// The folder of the workspace.
 pub(super) fn workspace_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -45,12 +36,7 @@ pub(super) fn cargo_output(arguments: &[&str]) -> Result<String> {
 
 /// Runs all tests of a scope, and passes each line of their output to the terminal and to `read`.
 pub(super) fn cargo_test(scope: &[&str], mut read: impl FnMut(&str)) -> Result<()> {
-    let arguments = [
-        &CHECKED_ARITHMETIC[..],
-        &["test", "--release", "--no-fail-fast"],
-        scope,
-    ]
-    .concat();
+    let arguments = [&["test", "--release", "--no-fail-fast"], scope].concat();
     let mut child = command(&arguments)
         .stdout(Stdio::piped())
         .spawn()

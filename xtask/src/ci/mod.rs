@@ -1,7 +1,7 @@
 //! `ci`: everything that CI checks, one step after the other.
 //!
-//! All builds use the release profile, because `cargo xtask` itself has compiled most dependencies with it. Tests of the
-//! whole workspace share those; tests of single crates compile the few that they use with fewer features.
+//! All builds use the release profile, because `cargo xtask` itself has compiled nearly everything with it. Tests of the
+//! whole workspace share that; tests of single crates compile what they use with fewer features and more checks.
 
 mod command;
 mod dependencies;
@@ -76,11 +76,18 @@ fn all_tests(counts: &mut TestCounts) -> Result<()> {
         .try_for_each(|targets| test(&["--workspace", "--all-features", targets], counts))
 }
 
+/// The checks that a release build leaves out, in the crates of the workspace, which have to be compiled anew anyway.
+const DEBUG_ASSERTIONS: [&str; 2] = [
+    "--config=profile.release.debug-assertions=true",
+    "--config=profile.release.package.\"*\".debug-assertions=false",
+];
+
 /// One crate at a time, because crates that are built together unite their features.
 fn lean_tests(counts: &mut TestCounts) -> Result<()> {
-    LIBRARIES
-        .iter()
-        .try_for_each(|library| test(&["--package", library, "--no-default-features"], counts))
+    LIBRARIES.iter().try_for_each(|library| {
+        let scope = ["--package", library, "--no-default-features"];
+        test(&[&scope[..], &DEBUG_ASSERTIONS].concat(), counts)
+    })
 }
 
 fn test(scope: &[&str], counts: &mut TestCounts) -> Result<()> {
