@@ -5,8 +5,7 @@
 pub(crate) enum Mirror {
     /// No symmetry, or none that the grid shares.
     None,
-    /// About the centre of a row or column, the first of the part; its loads are those of the half in front of the
-    /// mirror.
+    /// About the centre of a row or column, the first of the part.
     Centre,
     /// About the edge between two rows or columns.
     Edge,

@@ -44,8 +44,9 @@ pub trait Surface {
     /// where there is no body.
     fn gradient(&self, position: [f64; 2]) -> [f64; 2];
 
-    /// Whether h(−x, y) = h(x, y), and whether h(x, −y) = h(x, y), everywhere and up to rounding. Solvers then do without
-    /// one side of the mirror; a surface that does not say so is computed on both.
+    /// Whether h(−x, y) = h(x, y), and whether h(x, −y) = h(x, y), everywhere and up to rounding, and the gradient
+    /// accordingly but on kinks. Solvers then do without one side of the mirror; a surface that does not say so is computed
+    /// on both.
     fn mirrors(&self) -> [bool; 2] {
         [false; 2]
     }
@@ -83,7 +84,8 @@ impl<P: Axisymmetric> Surface for P {
 
 /// A surface that does not tell of its mirrors, so that solvers compute both sides of them.
 ///
-/// The answers are the same up to rounding: this is for those who want to see that, or what a mirror saves.
+/// The answers are the same up to rounding, but for slopes on kinks, which have two: this is for those who want to see
+/// that, or what a mirror saves.
 #[derive(Debug, Clone, Copy)]
 pub struct Unmirrored<'a, S: ?Sized>(pub &'a S);
 

@@ -103,7 +103,7 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         (Method::MdrTransient, Motion::Sliding { .. }) => Vec::new(),
         (Method::BemSteady, Motion::Sliding { distance, .. }) => {
             let mut left_out = Vec::new();
-            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
+            left_out.extend(mirrors(&question.body)[1].then_some(Omission::MirrorHalf));
             left_out.push(outside_or_transforms(answer));
             // After a distance the friction is not yet that of the stationary state.
             left_out.extend(distance.is_none().then_some(Omission::TimeSteps));
@@ -112,13 +112,14 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
         (Method::BemSteady, Motion::Pressing { .. }) => Vec::new(),
         (Method::BemTransient, Motion::Sliding { .. }) => {
             let mut left_out = Vec::new();
-            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
+            left_out.extend(mirrors(&question.body)[1].then_some(Omission::MirrorHalf));
             left_out.extend([Omission::OutsideContact, Omission::RowsBehind]);
             left_out
         }
         (Method::BemTransient, Motion::Pressing { .. }) => {
             let mut left_out = vec![Omission::TimeSteps];
-            left_out.extend(is_even(&question.body).then_some(Omission::MirrorHalf));
+            let is_even = mirrors(&question.body) != [false; 2];
+            left_out.extend(is_even.then_some(Omission::MirrorHalf));
             left_out.push(Omission::Gradients);
             // A depth that is held needs another force at every time.
             let constant = matches!(question.control, Control::NormalForce(_));
@@ -129,14 +130,13 @@ fn candidates(question: &Question, answer: &Answer) -> Vec<Omission> {
     }
 }
 
-/// Whether one half of a body in y is the mirror image of the other.
-fn is_even(body: &Body) -> bool {
-    let [_, in_y] = match body {
+/// Whether a body is its own mirror image along x and y.
+fn mirrors(body: &Body) -> [bool; 2] {
+    match body {
         Body::Revolution(body) => body.mirrors(),
         Body::Cylinder(cylinder) => cylinder.mirrors(),
         Body::HeightMap(map) => map.mirrors(),
-    };
-    in_y
+    }
 }
 
 /// A box is transformed unless its contact is factorised.

@@ -1,6 +1,7 @@
 //! A first guess from grids of larger elements.
 
 use crate::bands::Bands;
+use crate::contact::halves::Halves;
 use crate::contact::{Accuracy, ContactState, Control, Question, solve_normalised};
 use crate::convolution::Surroundings;
 
@@ -36,11 +37,15 @@ pub(super) fn start_from_coarser(
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
     let bands = Bands::new([rows, columns]);
+    let halves = Halves::of(convolution);
     bands.for_each([&mut state.load], |band, [loads]| {
         for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
             let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
             for (column, load) in loads.iter_mut().enumerate() {
                 *load = coarse[column / 2];
+            }
+            for (column, part) in halves.in_line(row * columns..(row + 1) * columns) {
+                loads[column] *= part;
             }
         }
     });

@@ -4,6 +4,7 @@
 //! front of the plane tells them all. Of an element through whose centre the plane passes, half the load is in front.
 
 use crate::bands::Bands;
+use crate::contact::halves::Halves;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
 use crate::convolution::Surroundings;
 use crate::mirror::{Mirror, NO_MIRRORS};
@@ -104,6 +105,7 @@ impl Folded {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
         let first = [0, 1].map(|axis| whole[axis] - shape[axis]);
+        let halves = Halves::of(&self.convolution);
         let bands = Bands::new(shape);
         let parts = [&mut self.separation[..], &mut self.state.load];
         bands.for_each(parts, |band, [separations, loads]| {
@@ -113,7 +115,9 @@ impl Folded {
                 let start = (first[0] + row) * whole[1] + first[1];
                 separations.copy_from_slice(&separation[start..start + shape[1]]);
                 loads.copy_from_slice(&load[start..start + shape[1]]);
-                scale_loads(loads, (row, mirrors), 0.5);
+                for (column, part) in halves.in_line(row * shape[1]..(row + 1) * shape[1]) {
+                    loads[column] *= part;
+                }
             }
         });
     }
@@ -122,6 +126,7 @@ impl Folded {
     fn give_to(&self, fields: [&mut [f64]; 2]) {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
+        let halves = Halves::of(&self.convolution);
         let bands = Bands::new(whole);
         bands.for_each(fields, |band, [loads, displacements]| {
             let loads = loads.chunks_exact_mut(whole[1]);
@@ -131,23 +136,13 @@ impl Folded {
                 let part = row * shape[1]..(row + 1) * shape[1];
                 unfold(&self.state.displacement[part.clone()], displacements);
                 let front = whole[1] - shape[1];
-                loads[front..].copy_from_slice(&self.state.load[part]);
-                scale_loads(&mut loads[front..], (row, mirrors), 2.0);
+                loads[front..].copy_from_slice(&self.state.load[part.clone()]);
+                for (column, part) in halves.in_line(part) {
+                    loads[front + column] /= part;
+                }
                 mirror_behind(loads, shape[1]);
             }
         });
-    }
-}
-
-/// Multiplies the loads in a row of elements through which mirrors pass, once for each of them.
-fn scale_loads(loads: &mut [f64], (row, mirrors): (usize, [Mirror; 2]), factor: f64) {
-    if mirrors[1] == Mirror::Centre {
-        loads[0] *= factor;
-    }
-    if mirrors[0] == Mirror::Centre && row == 0 {
-        for load in loads {
-            *load *= factor;
-        }
     }
 }
 

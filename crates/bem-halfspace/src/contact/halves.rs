@@ -1,42 +1,58 @@
 //! Elements through which a mirror passes, of which one half is in front of it.
 
+use std::ops::Range;
+
+use crate::Convolution;
 use crate::contact::contact_set::Run;
 use crate::mirror::Mirror;
 
-/// Of a grid with so many columns, at its rear along x and y.
+/// Where the mirrors of a grid pass through its first row and its first column.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Halves {
-    pub(super) mirrors: [Mirror; 2],
-    pub(super) columns: usize,
+    mirrors: [Mirror; 2],
+    columns: usize,
 }
 
 impl Halves {
-    /// Those of a run, counted from its start, and the part of each that is in front of the mirrors.
-    pub(super) fn of(&self, run: &Run) -> impl Iterator<Item = (usize, f64)> {
-        let of_row = self.of_row(run);
-        let of_first = of_row * self.of_first_column(run);
+    pub(super) const fn of(convolution: &Convolution) -> Self {
+        Self {
+            mirrors: convolution.mirrors(),
+            columns: convolution.grid().shape()[1],
+        }
+    }
+
+    /// The elements of a run through which mirrors pass, counted from its start, and the part of each in front of them.
+    pub(super) fn in_run(&self, run: &Run) -> impl Iterator<Item = (usize, f64)> + use<> {
+        self.in_line(run.elements())
+    }
+
+    /// The same for neighbours in one row.
+    pub(super) fn in_line(
+        &self,
+        elements: Range<usize>,
+    ) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let of_row = self.part_of_row(elements.start);
+        let of_first = of_row * self.part_of_column(elements.start);
         let count = if of_row < 1.0 {
-            run.elements().len()
+            elements.len()
         } else {
             usize::from(of_first < 1.0)
         };
         (0..count).map(move |index| (index, if index == 0 { of_first } else { of_row }))
     }
 
-    /// The part of the row of a run in front of the mirror across x.
-    pub(super) fn of_row(&self, run: &Run) -> f64 {
-        let is_first = run.elements().start < self.columns;
-        in_front(self.mirrors[0], is_first)
+    /// The part of the row of an element in front of the mirror across x.
+    pub(super) fn part_of_row(&self, element: usize) -> f64 {
+        part_of(self.mirrors[0], element < self.columns)
     }
 
-    /// The part of the column in which a run begins in front of the mirror across y.
-    pub(super) fn of_first_column(&self, run: &Run) -> f64 {
-        let is_first = run.elements().start.is_multiple_of(self.columns);
-        in_front(self.mirrors[1], is_first)
+    /// The part of the column of an element in front of the mirror across y.
+    pub(super) fn part_of_column(&self, element: usize) -> f64 {
+        part_of(self.mirrors[1], element.is_multiple_of(self.columns))
     }
 }
 
-fn in_front(mirror: Mirror, is_first: bool) -> f64 {
+fn part_of(mirror: Mirror, is_first: bool) -> f64 {
     if is_first && mirror == Mirror::Centre {
         0.5
     } else {

@@ -12,6 +12,7 @@ mod direction;
 mod heights;
 
 use crate::contact::contact_set::{ContactSet, Run};
+use crate::contact::halves::Halves;
 use crate::contact::lanes::sum;
 use crate::contact::listed::Listed;
 use crate::contact::preconditioner::Preconditioner;
@@ -166,13 +167,16 @@ impl<'a> Iteration<'a> {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
+        let halves = Halves::of(self.convolution);
         let bands = contact.bands();
         bands.for_each([&mut *self.load, spread], |band, [load, spread]| {
             spread.fill(0.0);
             for (load, element) in load.iter_mut().zip(bands.elements(band)) {
                 *load = match (contact.contains(element), loaded) {
                     (true, true) => *load,
-                    (true, false) => uniform,
+                    (true, false) => {
+                        uniform * halves.part_of_row(element) * halves.part_of_column(element)
+                    }
                     (false, _) => 0.0,
                 };
             }

@@ -18,6 +18,7 @@ use crate::contact::contact_set::{ContactSet, Run};
 use crate::contact::far_loads::{FarLoads, SMALLEST};
 use crate::contact::halves::Halves;
 use crate::contact::lanes::add;
+use crate::mirror::Mirror;
 use crate::{Convolution, ConvolutionWorkspace};
 
 /// The weight w; π/4 would be right for the shortest wave along an edge, but what counts is the whole spectrum.
@@ -31,6 +32,7 @@ pub(super) struct Preconditioner {
     /// Differences along x and along y, \[1/m].
     weights: [f64; 2],
     shape: [usize; 2],
+    mirrors: [Mirror; 2],
     halves: Halves,
     blocks: Convolution,
     workspace: ConvolutionWorkspace,
@@ -53,10 +55,8 @@ impl Preconditioner {
         Self {
             weights,
             shape: grid.shape(),
-            halves: Halves {
-                mirrors: convolution.mirrors(),
-                columns: grid.shape()[1],
-            },
+            mirrors: convolution.mirrors(),
+            halves: Halves::of(convolution),
             workspace: blocks.workspace(),
             blocks,
             means: vec![0.0; n_blocks],
@@ -108,7 +108,7 @@ impl Preconditioner {
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
     fn spread(&mut self, contact: &ContactSet, residual: &[f64], field: &mut [f64]) {
-        let (halves, block_columns) = (self.halves, self.blocks.grid().shape()[1]);
+        let (halves, columns) = (self.halves, self.shape[1]);
         let (weights, loads) = self.far_loads.weights_and_loads();
         let fields = [
             contact.field(field),
@@ -124,10 +124,10 @@ impl Preconditioner {
                 sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
                 let first = contact.bands().elements(band).start;
                 for run in contact.runs(band) {
-                    for (index, part) in halves.of(run) {
+                    for (index, part) in halves.in_run(run) {
                         let element = run.elements_from(first).start + index;
-                        let [row, column] = [element / halves.columns, element % halves.columns];
-                        means[row / BLOCK * block_columns + column / BLOCK] -=
+                        let [row, column] = [element / columns, element % columns];
+                        means[row / BLOCK * columns.div_ceil(BLOCK) + column / BLOCK] -=
                             0.25 * (1.0 - part) * residual[run.places().start + index];
                     }
                 }
@@ -150,7 +150,7 @@ impl Preconditioner {
             for (column, (value, weight)) in (column..).zip(result.iter_mut().zip(weights)) {
                 *value = images[column / BLOCK] - weight * displacements[column / SMALLEST];
             }
-            for (index, part) in self.halves.of(run) {
+            for (index, part) in self.halves.in_run(run) {
                 result[index] -= (1.0 - part) * images[(column + index) / BLOCK];
             }
         }
@@ -159,9 +159,9 @@ impl Preconditioner {
     /// Adds the differences between elements of a run, and between them and those of the rows before and behind.
     fn add_differences(&self, (run, residual, field): (&Run, &[f64], &[f64]), result: &mut [f64]) {
         let [rows, columns] = self.shape;
-        let Halves { mirrors, .. } = self.halves;
+        let mirrors = self.mirrors;
         let along_x = self.weights[0];
-        let along_y = self.weights[1] * self.halves.of_row(run);
+        let along_y = self.weights[1] * self.halves.part_of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
         add(result, 2.0 * (along_x + along_y), residual);
@@ -178,7 +178,7 @@ impl Preconditioner {
             (!mirrors[0].is_none()).then_some(residual)
         };
         let ahead = (row + 1 < rows).then(|| &field[start + columns..end + columns]);
-        let missing = 1.0 - self.halves.of_first_column(run);
+        let missing = 1.0 - self.halves.part_of_column(run.elements().start);
         result[0] -= missing * 2.0 * along_x * residual[0];
         for beside in [behind, ahead].into_iter().flatten() {
             add(result, -along_x, beside);
@@ -266,25 +266,29 @@ mod tests {
         let odd = Convolution::new(&Grid::new([25, 23], [1.0, 0.7])?);
         for mirrors in [
             [Mirror::None, Mirror::Centre],
+            [Mirror::Centre, Mirror::None],
             [Mirror::Centre, Mirror::Centre],
         ] {
             check(&odd.folded(mirrors), |_| true);
         }
+        let mixed = Convolution::new(&Grid::new([26, 23], [1.0, 0.7])?);
+        check(&mixed.folded([Mirror::Edge, Mirror::Centre]), |_| true);
         Ok(())
     }
 
     #[test]
     fn on_a_contact_in_several_bands_it_is_symmetric_and_positive() -> Result<(), BemError> {
-        let grid = Grid::new([1100, 9], [1.0, 0.7])?;
-        let convolution = Convolution::new(&grid);
-        let border = ContactSet::new(grid.shape()).bands().rows(1).start;
-        assert!(
-            (1..1088).contains(&border),
-            "two bands meet at row {border}"
-        );
-        check(&convolution, |row| {
-            (border - 12..border + 12).contains(&row)
-        });
+        let grid = Grid::new([2000, 9], [1.0, 0.7])?;
+        let whole = Convolution::new(&grid);
+        for convolution in [&whole, &whole.folded([Mirror::None, Mirror::Centre])] {
+            let border = ContactSet::new(convolution.grid().shape());
+            let border = border.bands().rows(1).start;
+            assert!(
+                (1..1988).contains(&border),
+                "two bands meet at row {border}"
+            );
+            check(convolution, |row| (border - 12..border + 12).contains(&row));
+        }
         Ok(())
     }
 }

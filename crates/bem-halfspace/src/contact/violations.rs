@@ -7,7 +7,8 @@ use crate::contact::lanes::{larger, largest, lower, reduce, sum};
 pub(super) struct Violations {
     /// Largest |gap| in the contact; NaN where numbers overflow.
     pub(super) gap: f64,
-    /// Largest tension in the contact, as the displacement that it causes at its own element.
+    /// Largest tension in the contact, as the displacement that it causes at its own element; a half of it where a mirror
+    /// passes through.
     pub(super) tension: f64,
     /// Largest penetration outside the contact.
     pub(super) penetration: f64,

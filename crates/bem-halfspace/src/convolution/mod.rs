@@ -102,7 +102,8 @@ impl Convolution {
     }
 
     /// The same influence between pressures that are their own images about `mirrors` in the middle of the grid; the
-    /// fields are those of its part in front of them. Only of a whole grid.
+    /// fields are those of its part in front of them, with half the pressure of a row or column through whose centre a
+    /// mirror passes. Only of a whole grid.
     pub(crate) fn folded(&self, mirrors: [Mirror; 2]) -> Self {
         debug_assert_eq!(self.mirrors, NO_MIRRORS, "a whole grid");
         if mirrors == NO_MIRRORS {

@@ -15,7 +15,7 @@ pub(super) struct ColumnTransform {
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     mirror: Mirror,
-    /// Of [`about_centre`] or [`about_edge`]; empty without a mirror.
+    /// Of [`about_edge`]; empty without a mirror there.
     turns: Vec<Complex<f64>>,
 }
 
@@ -23,8 +23,7 @@ impl ColumnTransform {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let (length, turns) = match mirror {
-            Mirror::None => (period, Vec::new()),
-            Mirror::Centre => (period / 2, about_centre::turns(period / 2)),
+            Mirror::None | Mirror::Centre => (period, Vec::new()),
             Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
         };
         let mut planner = FftPlanner::new();
@@ -39,8 +38,8 @@ impl ColumnTransform {
     /// Number of elements that are transformed.
     pub(super) fn len(&self) -> usize {
         match self.mirror {
-            Mirror::Centre => self.forward.len() + 1,
             Mirror::None | Mirror::Edge => self.forward.len(),
+            Mirror::Centre => self.forward.len() / 2 + 1,
         }
     }
 
@@ -55,18 +54,18 @@ impl ColumnTransform {
     pub(super) fn scratch_len(&self) -> usize {
         let plans = [&self.forward, &self.inverse];
         let [forward, inverse] = plans.map(|plan| plan.get_inplace_scratch_len());
-        let of_copy = match self.mirror {
+        let of_period = match self.mirror {
             Mirror::Centre => self.forward.len(),
             Mirror::None | Mirror::Edge => 0,
         };
-        of_copy + forward.max(inverse)
+        of_period + forward.max(inverse)
     }
 
     /// Where the element of a row stands in a column.
     pub(super) fn place(&self, row: usize) -> usize {
         match self.mirror {
-            Mirror::Edge => about_edge::place(row, self.len()),
             Mirror::None | Mirror::Centre => row,
+            Mirror::Edge => about_edge::place(row, self.len()),
         }
     }
 
@@ -83,24 +82,24 @@ impl ColumnTransform {
     pub(super) fn forward(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
         if self.mirror == Mirror::Centre {
             column[0] *= 2.0;
-            return self.cosines(scratch, column);
+            return self.sum_of_period(scratch, column);
         }
         self.forward.process_with_scratch(column, scratch);
     }
 
     pub(super) fn inverse(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
         if self.mirror == Mirror::Centre {
-            return self.cosines(scratch, column);
+            return self.sum_of_period(scratch, column);
         }
         self.inverse.process_with_scratch(column, scratch);
     }
 
-    /// The sums F of [`about_centre`].
-    fn cosines(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
-        let (copy, scratch) = scratch.split_at_mut(self.forward.len());
-        let first = about_centre::fold(&self.turns, column);
-        copy.copy_from_slice(&column[..copy.len()]);
-        self.forward.process_with_scratch(copy, scratch);
-        about_centre::unfold_complex(first, copy, column);
+    /// The sums F of [`about_centre`], in both directions, as the Fourier transform of the period: here a mirror halves
+    /// the rows only.
+    fn sum_of_period(&self, scratch: &mut [Complex<f64>], column: &mut [Complex<f64>]) {
+        let (period, scratch) = scratch.split_at_mut(self.forward.len());
+        about_centre::unfold(column, period);
+        self.forward.process_with_scratch(period, scratch);
+        column.copy_from_slice(&period[..column.len()]);
     }
 }

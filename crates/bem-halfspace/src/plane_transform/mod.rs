@@ -94,8 +94,7 @@ impl PlaneTransform {
 
     /// Transforms a real row of the whole period; its values are overwritten.
     pub(crate) fn transform_row(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
-        let mut scratch = vec![ZERO; self.rows.scratch_len()];
-        self.rows.forward_whole(&mut scratch, row, transformed);
+        self.rows.forward_whole(row, transformed);
     }
 
     /// Transforms columns of the whole period, without normalisation.

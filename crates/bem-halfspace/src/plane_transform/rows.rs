@@ -6,49 +6,64 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::mirror::Mirror;
+use crate::plane_transform::about_centre::{Buffers, Cosines};
+use crate::plane_transform::about_edge;
 use crate::plane_transform::workspace::Lane;
-use crate::plane_transform::{about_centre, about_edge};
 
 /// The transforms of a row, or of the part of it in front of a mirror.
 ///
 /// The coefficients of a whole row are complex, and those of the other half of the period their conjugates; those beside
 /// a mirror are real, and two of them side by side are stored as one complex number.
 #[derive(Clone)]
-pub(super) struct RowTransform {
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
-    mirror: Mirror,
-    /// Of [`about_centre`] or [`about_edge`]; empty without a mirror.
-    turns: Vec<Complex<f64>>,
+pub(super) enum RowTransform {
+    Whole {
+        forward: Arc<dyn RealToComplex<f64>>,
+        inverse: Arc<dyn ComplexToReal<f64>>,
+    },
+    AboutCentre {
+        cosines: Cosines,
+        /// Half of the period.
+        length: usize,
+    },
+    AboutEdge {
+        forward: Arc<dyn RealToComplex<f64>>,
+        inverse: Arc<dyn ComplexToReal<f64>>,
+        turns: Vec<Complex<f64>>,
+    },
 }
 
 impl RowTransform {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
-        let (length, turns) = match mirror {
-            Mirror::None => (period, Vec::new()),
-            Mirror::Centre => (period / 2, about_centre::turns(period / 2)),
-            Mirror::Edge => (period / 2, about_edge::turns(period / 2)),
-        };
         let mut planner = RealFftPlanner::new();
-        Self {
-            forward: planner.plan_fft_forward(length),
-            inverse: planner.plan_fft_inverse(length),
-            mirror,
-            turns,
+        let length = period / 2;
+        match mirror {
+            Mirror::None => Self::Whole {
+                forward: planner.plan_fft_forward(period),
+                inverse: planner.plan_fft_inverse(period),
+            },
+            Mirror::Centre => Self::AboutCentre {
+                cosines: Cosines::new(&mut planner, length),
+                length,
+            },
+            Mirror::Edge => Self::AboutEdge {
+                forward: planner.plan_fft_forward(length),
+                inverse: planner.plan_fft_inverse(length),
+                turns: about_edge::turns(length),
+            },
         }
     }
 
     /// Number of elements that are transformed.
     pub(super) fn len(&self) -> usize {
-        match self.mirror {
-            Mirror::Centre => self.forward.len() + 1,
-            Mirror::None | Mirror::Edge => self.forward.len(),
+        match self {
+            Self::Whole { forward, .. } | Self::AboutEdge { forward, .. } => forward.len(),
+            Self::AboutCentre { length, .. } => length + 1,
         }
     }
 
     pub(super) const fn has_mirror(&self) -> bool {
-        !self.mirror.is_none()
+        !matches!(self, Self::Whole { .. })
     }
 
     /// Number of complex numbers that hold the coefficients.
@@ -61,87 +76,125 @@ impl RowTransform {
     }
 
     pub(super) fn scratch_len(&self) -> usize {
-        let inverse = self.inverse.get_scratch_len();
-        self.forward.get_scratch_len().max(inverse)
+        match self {
+            Self::Whole {
+                forward, inverse, ..
+            }
+            | Self::AboutEdge {
+                forward, inverse, ..
+            } => forward.get_scratch_len().max(inverse.get_scratch_len()),
+            Self::AboutCentre { cosines, .. } => cosines.scratch_len(),
+        }
+    }
+
+    /// What the sums about a centre overwrite.
+    pub(super) fn buffers(&self) -> Option<Buffers> {
+        match self {
+            Self::AboutCentre { cosines, .. } => Some(cosines.buffers()),
+            Self::Whole { .. } | Self::AboutEdge { .. } => None,
+        }
     }
 
     /// Transforms all elements of a row without a mirror; they are overwritten.
-    pub(super) fn forward_whole(
-        &self,
-        scratch: &mut [Complex<f64>],
-        row: &mut [f64],
-        transformed: &mut [Complex<f64>],
-    ) {
-        let done = self.forward.process_with_scratch(row, transformed, scratch);
-        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+    pub(super) fn forward_whole(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
+        debug_assert!(!self.has_mirror(), "a whole row");
+        if let Self::Whole { forward, .. } = self {
+            let mut scratch = forward.make_scratch_vec();
+            forward_real(&**forward, (row, transformed), &mut scratch);
+        }
     }
 
     /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
     /// the lane.
     pub(super) fn forward(&self, lane: &mut Lane, values: &[f64]) {
-        match self.mirror {
-            Mirror::None => {
-                lane.row[..values.len()].copy_from_slice(values);
-                lane.row[values.len()..].fill(0.0);
-                self.forward_whole(&mut lane.scratch, &mut lane.row, &mut lane.half_row);
+        let Lane {
+            row,
+            half_row,
+            scratch,
+            ..
+        } = lane;
+        match self {
+            Self::Whole { forward, .. } => {
+                fill(row, values);
+                forward_real(&**forward, (row, half_row), scratch);
             }
-            Mirror::Centre => {
-                lane.row[..values.len()].copy_from_slice(values);
-                lane.row[values.len()..].fill(0.0);
-                lane.row[0] *= 2.0;
-                self.cosines(lane);
+            Self::AboutCentre { cosines, .. } => {
+                fill(row, values);
+                row[0] *= 2.0;
+                sum(cosines, lane);
                 pair(&lane.row, &mut lane.half_row);
             }
-            Mirror::Edge => {
-                about_edge::order(values, &mut lane.row);
-                self.forward_whole(&mut lane.scratch, &mut lane.row, &mut lane.half_row);
-                about_edge::turn(&self.turns, &lane.half_row, &mut lane.row);
-                pair(&lane.row, &mut lane.half_row);
+            Self::AboutEdge { forward, turns, .. } => {
+                about_edge::order(values, row);
+                forward_real(&**forward, (row, half_row), scratch);
+                about_edge::turn(turns, half_row, row);
+                pair(row, half_row);
             }
         }
     }
 
     /// The way back, without normalisation, of the coefficients in the half row of the lane.
     pub(super) fn inverse(&self, lane: &mut Lane, values: &mut [f64]) {
-        match self.mirror {
-            Mirror::None => {
-                self.inverse_whole(lane);
+        let Lane {
+            row,
+            half_row,
+            scratch,
+            ..
+        } = lane;
+        match self {
+            Self::Whole { inverse, .. } => {
+                inverse_real(&**inverse, (half_row, row), scratch);
+                values.copy_from_slice(&row[..values.len()]);
+            }
+            Self::AboutCentre { cosines, .. } => {
+                unpair(half_row, row);
+                sum(cosines, lane);
                 values.copy_from_slice(&lane.row[..values.len()]);
             }
-            Mirror::Centre => {
-                unpair(&lane.half_row, &mut lane.row);
-                self.cosines(lane);
-                values.copy_from_slice(&lane.row[..values.len()]);
-            }
-            Mirror::Edge => {
-                unpair(&lane.half_row, &mut lane.row);
-                about_edge::turn_back(&self.turns, &lane.row, &mut lane.half_row);
-                self.inverse_whole(lane);
-                about_edge::order_back(&lane.row, values);
+            Self::AboutEdge { inverse, turns, .. } => {
+                unpair(half_row, row);
+                about_edge::turn_back(turns, row, half_row);
+                inverse_real(&**inverse, (half_row, row), scratch);
+                about_edge::order_back(row, values);
             }
         }
     }
+}
 
-    fn inverse_whole(&self, lane: &mut Lane) {
-        // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
-        lane.half_row[0].im = 0.0;
-        let length = lane.row.len();
-        if length.is_multiple_of(2) {
-            lane.half_row[length / 2].im = 0.0;
-        }
-        let (row, half_row, scratch) = (&mut lane.row, &mut lane.half_row, &mut lane.scratch);
-        let done = self.inverse.process_with_scratch(half_row, row, scratch);
-        debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
-    }
+/// Values, and zeros behind them.
+fn fill(row: &mut [f64], values: &[f64]) {
+    row[..values.len()].copy_from_slice(values);
+    row[values.len()..].fill(0.0);
+}
 
-    /// The sums F of [`about_centre`] of the row of the lane; overwrites its half row.
-    fn cosines(&self, lane: &mut Lane) {
-        let length = self.forward.len();
-        let first = about_centre::fold(&self.turns, &mut lane.row);
-        let half_row = &mut lane.half_row[..=length / 2];
-        self.forward_whole(&mut lane.scratch, &mut lane.row[..length], half_row);
-        about_centre::unfold_real(first, half_row, &mut lane.row);
+/// Replaces the row of a lane by its sums about a centre.
+fn sum(cosines: &Cosines, lane: &mut Lane) {
+    if let Some(buffers) = &mut lane.buffers {
+        cosines.apply(&mut lane.row, (buffers, &mut lane.scratch));
     }
+}
+
+pub(super) fn forward_real(
+    plan: &dyn RealToComplex<f64>,
+    (reals, coefficients): (&mut [f64], &mut [Complex<f64>]),
+    scratch: &mut [Complex<f64>],
+) {
+    let done = plan.process_with_scratch(reals, coefficients, scratch);
+    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
+}
+
+pub(super) fn inverse_real(
+    plan: &dyn ComplexToReal<f64>,
+    (coefficients, reals): (&mut [Complex<f64>], &mut [f64]),
+    scratch: &mut [Complex<f64>],
+) {
+    // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
+    coefficients[0].im = 0.0;
+    if reals.len().is_multiple_of(2) {
+        coefficients[reals.len() / 2].im = 0.0;
+    }
+    let done = plan.process_with_scratch(coefficients, reals, scratch);
+    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }
 
 /// Stores two real numbers each as one complex number.

@@ -7,6 +7,7 @@ use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
+use crate::plane_transform::about_centre::Buffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 
 /// Below this many elements threads cost more than they gain.
@@ -33,6 +34,8 @@ pub(super) struct Lane {
     pub(super) half_row: Vec<Complex<f64>>,
     pub(super) columns: Vec<Complex<f64>>,
     pub(super) scratch: Vec<Complex<f64>>,
+    /// Of rows in front of a mirror about a centre.
+    pub(super) buffers: Option<Buffers>,
 }
 
 impl Workspace {
@@ -75,6 +78,7 @@ impl Lane {
             half_row: vec![ZERO; transform.rows.len() / 2 + 1],
             columns: vec![ZERO; TILE * transform.column_stride()],
             scratch: vec![ZERO; scratch.max(transform.columns.scratch_len())],
+            buffers: transform.rows.buffers(),
         }
     }
 }

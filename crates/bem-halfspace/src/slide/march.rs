@@ -64,7 +64,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = positive("sliding_distance", options.sliding_distance)?;
         let n_steps = elements_along(distance, spacing)?;
-        let [rows, columns] = options.resolution().layout([false; 2])?.shape;
+        let even = [false, surface.mirrors()[1]];
+        let [rows, columns] = options.resolution().layout(even)?.followed();
         // Refused before so many steps are made.
         Grid::new([rows + n_steps, columns], options.spacing)?;
         let control = Control::NormalForce(load.normal_force());

@@ -98,14 +98,14 @@ impl Mesh {
         // Refuses what is too large before it is sampled.
         Grid::new(mesh.shape, options.spacing)?;
         mesh.sample(surface)?;
+        if surface.mirrors()[1] {
+            mesh.keep_front();
+        }
         // Without such an element nothing can carry load.
         positive(
             "number of elements of the footprint that may touch",
             mesh.elements.len() as f64,
         )?;
-        if surface.mirrors()[1] {
-            mesh.keep_front();
-        }
         let all = Region::around(&mesh, 0..mesh.n_elements());
         mesh.table = plans.cover((&mesh.loading.creep, mesh.aspect()), all.shape);
         Ok(mesh)

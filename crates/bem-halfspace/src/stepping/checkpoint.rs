@@ -17,6 +17,8 @@ use crate::contact::ContactBox;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MarchState {
     steps_done: usize,
+    /// Rows and columns of the footprint in front of the mirrors.
+    footprint: [usize; 2],
     /// Lower and upper ends of the box around the contact, in elements in front of the mirrors.
     contact_box: [[usize; 2]; 2],
     /// Loads in the box.
@@ -38,6 +40,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         let Bounds { lower, upper } = self.contact_box.bounds;
         MarchState {
             steps_done: self.steps_done,
+            footprint: self.layout.followed(),
             contact_box: [lower, upper],
             load: self.contact_box.state.pressure().to_vec(),
             memory: self.window.memory(self.rows_needed()).to_vec(),
@@ -69,7 +72,12 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         let [lower, upper] = state.contact_box;
         let (shape, mirrors) = (self.layout.followed(), self.layout.mirrors);
         at_most("steps done", state.steps_done, self.route.legs.len())?;
-        for axis in 0..2 {
+        for (axis, parameter) in ["rows of the footprint", "columns of the footprint"]
+            .into_iter()
+            .enumerate()
+        {
+            at_most(parameter, state.footprint[axis], shape[axis])?;
+            at_most(parameter, shape[axis], state.footprint[axis])?;
             at_most("end of the contact box", upper[axis], shape[axis])?;
             // The box begins at a mirror.
             let last = if mirrors[axis].is_none() {

@@ -6,18 +6,16 @@ use bem_halfspace::{
     solve_contact,
 };
 
-const EDGE: usize = 96;
-
 /// A paraboloid with ripples, under whose load the contact changes often before it is found.
-fn heights(middle: [f64; 2]) -> Vec<f64> {
+fn heights(edge: usize, middle: [f64; 2]) -> Vec<f64> {
     let height = |index: usize| {
         let [x, y] = [
-            (index / EDGE) as f64 - middle[0],
-            (index % EDGE) as f64 - middle[1],
+            (index / edge) as f64 - middle[0],
+            (index % edge) as f64 - middle[1],
         ];
         0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).cos() * (0.7 * y).cos()
     };
-    (0..EDGE * EDGE).map(height).collect()
+    (0..edge * edge).map(height).collect()
 }
 
 /// Solves from the pressure 1 on some rows in at most so many iterations.
@@ -26,8 +24,9 @@ fn solve(
     state: &mut ContactState,
     max_iterations: usize,
 ) -> Result<Contact, BemError> {
+    let edge = problem.convolution.grid().shape()[1];
     state.pressure_mut().fill(0.0);
-    state.pressure_mut()[38 * EDGE..58 * EDGE].fill(1.0);
+    state.pressure_mut()[38 * edge..edge * (edge - 38)].fill(1.0);
     let options = ContactOptions {
         tolerance: 1e-10,
         max_iterations,
@@ -36,18 +35,18 @@ fn solve(
 }
 
 fn solves_without_allocation() {
-    let grid = Grid::new([EDGE, EDGE], [1.0, 1.0]).expect("a valid grid");
     let kinds = [Convolution::new, Convolution::periodic];
-    // The second has mirrors.
-    let bodies = [heights([45.3, 50.8]), heights([47.5; 2])];
-    for (new, heights) in kinds
+    // Those in the middle have mirrors, between elements or through them.
+    let bodies = [(96, [45.3, 50.8]), (96, [47.5; 2]), (97, [48.0; 2])];
+    for (new, (edge, middle)) in kinds
         .into_iter()
-        .flat_map(|new| bodies.iter().map(move |body| (new, body)))
+        .flat_map(|new| bodies.map(|body| (new, body)))
     {
-        let convolution = new(&grid);
+        let grid = Grid::new([edge; 2], [1.0; 2]).expect("a valid grid");
+        let (convolution, heights) = (new(&grid), heights(edge, middle));
         let problem = ContactProblem {
             convolution: &convolution,
-            separation: heights,
+            separation: &heights,
             compliance: 1.0,
             control: Control::NormalForce(2000.0),
         };

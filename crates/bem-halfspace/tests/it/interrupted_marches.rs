@@ -115,24 +115,28 @@ fn a_state_of_another_scene_is_refused() {
     );
 }
 
-/// The other side of the mirror is not in its boxes.
+/// The footprint of one has both sides, that of the other one.
 #[test]
-fn a_state_without_a_mirror_is_refused_in_front_of_one() {
+fn states_with_and_without_a_mirror_do_not_fit() {
     let body = PowerProfile::new(0.5, 1.5).expect("a body");
     let whole = Unmirrored(&body);
     let elastic = Elastic::new(2.0).expect("a material");
-    let mut first = March::new(&whole, &elastic, &motions(), &resolution()).expect("a march");
-    first.step().expect("a step");
     let mut mirrored = March::new(&body, &elastic, &motions(), &resolution()).expect("a march");
-    let refused = mirrored.resume(&first.state());
-    assert!(
-        matches!(
-            refused,
-            Err(BemError::InvalidParameter {
-                parameter: "start of the contact box" | "end of the contact box",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
+    let mut all = March::new(&whole, &elastic, &motions(), &resolution()).expect("a march");
+    for step in [mirrored.step(), all.step()] {
+        step.expect("a step");
+    }
+    let [front, both] = [mirrored.state(), all.state()];
+    for refused in [mirrored.resume(&both), all.resume(&front)] {
+        assert!(
+            matches!(
+                refused,
+                Err(BemError::InvalidParameter {
+                    parameter: "columns of the footprint",
+                    ..
+                })
+            ),
+            "{refused:?}"
+        );
+    }
 }

@@ -4,7 +4,7 @@
 
 use bem_halfspace::slide::{March, Motion, MotionRow, PressureField};
 use bem_halfspace::{Control, Footprint, Resolution};
-use indenters::{PowerProfile, Unmirrored};
+use indenters::{HeightMap, PowerProfile, Surface, Unmirrored};
 use rheology::Material;
 
 use crate::support::{TIGHT, every_kind_of_material, prony};
@@ -83,11 +83,15 @@ fn presses() -> Vec<Motion> {
 }
 
 /// Compares all steps and returns the number of elements that are followed, in front of the mirrors and without them.
-fn compare(material: &dyn Material, motions: &[Motion], footprint: Footprint) -> [usize; 2] {
+fn compare(
+    surface: &impl Surface,
+    material: &dyn Material,
+    motions: &[Motion],
+    footprint: Footprint,
+) -> [usize; 2] {
     let resolution = resolution(footprint);
-    let mirrored = body();
-    let whole = Unmirrored(&mirrored);
-    let mut front = March::new(&mirrored, material, motions, &resolution).expect("a march");
+    let whole = Unmirrored(surface);
+    let mut front = March::new(surface, material, motions, &resolution).expect("a march");
     let mut all = March::new(&whole, material, motions, &resolution).expect("a march");
     for _ in motions {
         let got = front.step().expect("a step").expect("a row");
@@ -102,7 +106,7 @@ fn compare(material: &dyn Material, motions: &[Motion], footprint: Footprint) ->
 #[test]
 fn one_half_tells_all_of_a_motion() {
     for (name, material) in every_kind_of_material() {
-        let [front, all] = compare(&*material, &motions(), SQUARE);
+        let [front, all] = compare(&body(), &*material, &motions(), SQUARE);
         // Those through which the mirror passes are followed on either side.
         assert!(
             2 * front > all && front < 5 * all / 9,
@@ -114,12 +118,56 @@ fn one_half_tells_all_of_a_motion() {
 #[test]
 fn one_quarter_tells_all_of_an_indenter_that_stays() {
     for (name, material) in every_kind_of_material() {
-        let [front, all] = compare(&*material, &presses(), SQUARE);
+        let [front, all] = compare(&body(), &*material, &presses(), SQUARE);
         assert!(
             4 * front > all && front < all / 3,
             "{name}: {front} elements of {all}"
         );
     }
+}
+
+/// The same ahead and behind, but not right and left.
+struct Keel;
+
+impl Surface for Keel {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        x * x + y * y + 0.3 * y * y * y
+    }
+
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [2.0 * x, 2.0 * y + 0.9 * y * y]
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true, false]
+    }
+}
+
+#[test]
+fn the_front_tells_all_of_a_keel_until_it_moves() {
+    let material = prony([0.1, 0.0], &[(2.0, 0.5)]);
+    let [front, all] = compare(&Keel, &material, &presses(), SQUARE);
+    assert!(
+        2 * front > all && front < 5 * all / 9,
+        "{front} elements of {all}"
+    );
+    let [front, all] = compare(&Keel, &material, &motions(), SQUARE);
+    assert_eq!(front, all, "elements");
+}
+
+#[test]
+fn a_height_map_has_the_mirrors_of_its_nodes() {
+    let material = prony([0.1, 0.2], &[(2.0, 0.5)]);
+    let height = |node: usize| {
+        let [x, y] = [node / 33, node % 33].map(|index| (index as f64 - 16.0) * 0.125);
+        0.4 * x * x + 0.7 * y * y + 0.05 * (3.0 * x).cos() * y.abs()
+    };
+    let map = HeightMap::new([33, 33], [0.125; 2], (0..33 * 33).map(height).collect());
+    let [front, all] = compare(&map.expect("a map"), &material, &motions(), SQUARE);
+    assert!(
+        2 * front > all && front < 5 * all / 9,
+        "{front} elements of {all}"
+    );
 }
 
 #[test]
@@ -129,6 +177,6 @@ fn a_footprint_that_is_not_symmetric_is_followed_on_both_sides() {
         x: SQUARE.x,
         y: [-1.5, 2.5],
     };
-    let [front, all] = compare(&material, &motions(), footprint);
+    let [front, all] = compare(&body(), &material, &motions(), footprint);
     assert_eq!(front, all, "elements");
 }

@@ -2,7 +2,7 @@
 
 use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
 use bem_halfspace::{BemError, Footprint};
-use indenters::{FlatPunch, PowerProfile, Sphere};
+use indenters::{FlatPunch, PowerProfile, Sphere, Surface};
 
 use crate::support::Scene;
 
@@ -168,6 +168,51 @@ fn no_footprint_breaks_the_symmetry() {
                 "{phase:?}, {y:?}: {refused:?}"
             );
         }
+    }
+}
+
+/// Two runners on either side of the lowest point.
+struct Sledge;
+
+impl Surface for Sledge {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        let aside = y.abs() - 3.0;
+        if aside.abs() < 1.0 {
+            x * x + aside * aside
+        } else {
+            f64::INFINITY
+        }
+    }
+
+    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [2.0 * x, 2.0 * (y.abs() - 3.0) * y.signum()]
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        [true; 2]
+    }
+}
+
+#[test]
+fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
+    let scene = Scene::unit(2.0);
+    for y in [[-1.0, 5.0], [-5.0, 1.0]] {
+        let options = SteadyOptions {
+            spacing: [0.2; 2],
+            footprint: Footprint { x: [-5.0, 5.0], y },
+            ..good(&scene)
+        };
+        let refused = steady(&Sledge, &scene.material, &scene.load, &options);
+        assert!(
+            matches!(
+                refused,
+                Err(BemError::InvalidParameter {
+                    parameter: "number of elements of the footprint that may touch",
+                    ..
+                })
+            ),
+            "{y:?}: {refused:?}"
+        );
     }
 }
 
