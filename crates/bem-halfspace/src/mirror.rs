@@ -34,14 +34,6 @@ impl Mirror {
         }
     }
 
-    /// How often a load in front of the mirror counts.
-    pub(crate) const fn images(self) -> f64 {
-        match self {
-            Self::None => 1.0,
-            Self::Centre | Self::Edge => 2.0,
-        }
-    }
-
     pub(crate) const fn is_none(self) -> bool {
         matches!(self, Self::None)
     }
@@ -53,4 +45,10 @@ impl Mirror {
             Self::Centre | Self::Edge => Self::Edge,
         }
     }
+}
+
+/// How often the loads in front of mirrors count.
+pub(crate) fn images(mirrors: [Mirror; 2]) -> f64 {
+    let count = |mirror: Mirror| if mirror.is_none() { 1.0 } else { 2.0 };
+    mirrors.into_iter().map(count).product()
 }

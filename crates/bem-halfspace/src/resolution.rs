@@ -61,11 +61,6 @@ impl Layout {
         [0, 1].map(|axis| self.shape[axis] - followed[axis])
     }
 
-    /// How often the loads in front of the mirrors count.
-    pub(crate) fn images(&self) -> f64 {
-        self.mirrors.map(Mirror::images).iter().product()
-    }
-
     /// An element of the footprint and its images; one through which a mirror passes appears once for either half.
     pub(crate) fn images_of(&self, element: [usize; 2]) -> impl Iterator<Item = [usize; 2]> {
         let [rows, columns] = [0, 1].map(|axis| {

@@ -7,7 +7,7 @@ use crate::bands::Bands;
 use crate::contact::halves::Halves;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
 use crate::convolution::Surroundings;
-use crate::mirror::{Mirror, NO_MIRRORS};
+use crate::mirror::{Mirror, NO_MIRRORS, images};
 use crate::{BemError, Convolution};
 
 /// The part of a grid in front of mirrors, and its contact.
@@ -82,12 +82,7 @@ impl Folded {
     }
 
     fn solve(&mut self, control: Control, accuracy: &Accuracy) -> Result<Outcome, BemError> {
-        let images: f64 = self
-            .convolution
-            .mirrors()
-            .map(Mirror::images)
-            .iter()
-            .product();
+        let images = images(self.convolution.mirrors());
         let control = match control {
             Control::NormalForce(total) => Control::NormalForce(total / images),
             depth @ Control::IndentationDepth(_) => depth,

@@ -41,7 +41,7 @@ pub(super) struct Cosines {
 }
 
 /// What the sums overwrite.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Buffers {
     reals: Vec<f64>,
     coefficients: Vec<Complex<f64>>,
@@ -60,6 +60,12 @@ impl Cosines {
             plan: planner.plan_fft_forward(length),
             sines: Some((0..=length / 2).map(sine).collect()),
         }
+    }
+
+    /// Number of numbers, L + 1.
+    pub(super) fn len(&self) -> usize {
+        let transformed = self.plan.len();
+        1 + self.sines.as_ref().map_or(transformed / 2, |_| transformed)
     }
 
     pub(super) fn scratch_len(&self) -> usize {
@@ -156,10 +162,7 @@ mod tests {
         cosines.apply(&mut numbers, (&mut buffers, &mut scratch));
         let sum = |k: usize| -> f64 {
             let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let angle = |n: usize| {
-                let turn = (n * k % (2 * length)) as f64 / length as f64;
-                PI * turn
-            };
+            let angle = |n: usize| PI * (n * k % (2 * length)) as f64 / length as f64;
             let between: f64 = (1..length).map(|n| f(n) * angle(n).cos()).sum();
             f(0) + sign * f(length) + 2.0 * between
         };

@@ -20,11 +20,7 @@ pub(super) enum RowTransform {
         forward: Arc<dyn RealToComplex<f64>>,
         inverse: Arc<dyn ComplexToReal<f64>>,
     },
-    AboutCentre {
-        cosines: Cosines,
-        /// Half of the period.
-        length: usize,
-    },
+    AboutCentre(Cosines),
     AboutEdge {
         forward: Arc<dyn RealToComplex<f64>>,
         inverse: Arc<dyn ComplexToReal<f64>>,
@@ -42,10 +38,7 @@ impl RowTransform {
                 forward: planner.plan_fft_forward(period),
                 inverse: planner.plan_fft_inverse(period),
             },
-            Mirror::Centre => Self::AboutCentre {
-                cosines: Cosines::new(&mut planner, length),
-                length,
-            },
+            Mirror::Centre => Self::AboutCentre(Cosines::new(&mut planner, length)),
             Mirror::Edge => Self::AboutEdge {
                 forward: planner.plan_fft_forward(length),
                 inverse: planner.plan_fft_inverse(length),
@@ -58,7 +51,7 @@ impl RowTransform {
     pub(super) fn len(&self) -> usize {
         match self {
             Self::Whole { forward, .. } | Self::AboutEdge { forward, .. } => forward.len(),
-            Self::AboutCentre { length, .. } => length + 1,
+            Self::AboutCentre(cosines) => cosines.len(),
         }
     }
 
@@ -83,15 +76,15 @@ impl RowTransform {
             | Self::AboutEdge {
                 forward, inverse, ..
             } => forward.get_scratch_len().max(inverse.get_scratch_len()),
-            Self::AboutCentre { cosines, .. } => cosines.scratch_len(),
+            Self::AboutCentre(cosines) => cosines.scratch_len(),
         }
     }
 
-    /// What the sums about a centre overwrite.
-    pub(super) fn buffers(&self) -> Option<Buffers> {
+    /// What the sums about a centre overwrite; nothing elsewhere.
+    pub(super) fn buffers(&self) -> Buffers {
         match self {
-            Self::AboutCentre { cosines, .. } => Some(cosines.buffers()),
-            Self::Whole { .. } | Self::AboutEdge { .. } => None,
+            Self::AboutCentre(cosines) => cosines.buffers(),
+            Self::Whole { .. } | Self::AboutEdge { .. } => Buffers::default(),
         }
     }
 
@@ -107,55 +100,47 @@ impl RowTransform {
     /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
     /// the lane.
     pub(super) fn forward(&self, lane: &mut Lane, values: &[f64]) {
-        let Lane {
-            row,
-            half_row,
-            scratch,
-            ..
-        } = lane;
         match self {
             Self::Whole { forward, .. } => {
-                fill(row, values);
-                forward_real(&**forward, (row, half_row), scratch);
+                fill(&mut lane.row, values);
+                let fields = (&mut lane.row[..], &mut lane.half_row[..]);
+                forward_real(&**forward, fields, &mut lane.scratch);
             }
-            Self::AboutCentre { cosines, .. } => {
-                fill(row, values);
-                row[0] *= 2.0;
-                sum(cosines, lane);
+            Self::AboutCentre(cosines) => {
+                fill(&mut lane.row, values);
+                lane.row[0] *= 2.0;
+                cosines.apply(&mut lane.row, (&mut lane.buffers, &mut lane.scratch));
                 pair(&lane.row, &mut lane.half_row);
             }
             Self::AboutEdge { forward, turns, .. } => {
-                about_edge::order(values, row);
-                forward_real(&**forward, (row, half_row), scratch);
-                about_edge::turn(turns, half_row, row);
-                pair(row, half_row);
+                about_edge::order(values, &mut lane.row);
+                let fields = (&mut lane.row[..], &mut lane.half_row[..]);
+                forward_real(&**forward, fields, &mut lane.scratch);
+                about_edge::turn(turns, &lane.half_row, &mut lane.row);
+                pair(&lane.row, &mut lane.half_row);
             }
         }
     }
 
     /// The way back, without normalisation, of the coefficients in the half row of the lane.
     pub(super) fn inverse(&self, lane: &mut Lane, values: &mut [f64]) {
-        let Lane {
-            row,
-            half_row,
-            scratch,
-            ..
-        } = lane;
         match self {
             Self::Whole { inverse, .. } => {
-                inverse_real(&**inverse, (half_row, row), scratch);
-                values.copy_from_slice(&row[..values.len()]);
+                let fields = (&mut lane.half_row[..], &mut lane.row[..]);
+                inverse_real(&**inverse, fields, &mut lane.scratch);
+                values.copy_from_slice(&lane.row[..values.len()]);
             }
-            Self::AboutCentre { cosines, .. } => {
-                unpair(half_row, row);
-                sum(cosines, lane);
+            Self::AboutCentre(cosines) => {
+                unpair(&lane.half_row, &mut lane.row);
+                cosines.apply(&mut lane.row, (&mut lane.buffers, &mut lane.scratch));
                 values.copy_from_slice(&lane.row[..values.len()]);
             }
             Self::AboutEdge { inverse, turns, .. } => {
-                unpair(half_row, row);
-                about_edge::turn_back(turns, row, half_row);
-                inverse_real(&**inverse, (half_row, row), scratch);
-                about_edge::order_back(row, values);
+                unpair(&lane.half_row, &mut lane.row);
+                about_edge::turn_back(turns, &lane.row, &mut lane.half_row);
+                let fields = (&mut lane.half_row[..], &mut lane.row[..]);
+                inverse_real(&**inverse, fields, &mut lane.scratch);
+                about_edge::order_back(&lane.row, values);
             }
         }
     }
@@ -165,13 +150,6 @@ impl RowTransform {
 fn fill(row: &mut [f64], values: &[f64]) {
     row[..values.len()].copy_from_slice(values);
     row[values.len()..].fill(0.0);
-}
-
-/// Replaces the row of a lane by its sums about a centre.
-fn sum(cosines: &Cosines, lane: &mut Lane) {
-    if let Some(buffers) = &mut lane.buffers {
-        cosines.apply(&mut lane.row, (buffers, &mut lane.scratch));
-    }
 }
 
 pub(super) fn forward_real(

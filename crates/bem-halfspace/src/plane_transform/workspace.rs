@@ -35,7 +35,7 @@ pub(super) struct Lane {
     pub(super) columns: Vec<Complex<f64>>,
     pub(super) scratch: Vec<Complex<f64>>,
     /// Of rows in front of a mirror about a centre.
-    pub(super) buffers: Option<Buffers>,
+    pub(super) buffers: Buffers,
 }
 
 impl Workspace {

@@ -7,6 +7,7 @@ use indenters::Surface;
 use super::{Instant, Leg, SlideOmission, Stepping};
 use crate::bounds::Bounds;
 use crate::contact::Outcome;
+use crate::mirror::images;
 use crate::{BemError, Control};
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
@@ -69,7 +70,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.scale;
-        compliance / (4.0 * PI * self.resolution.spacing[1]) / self.layout.images()
+        compliance / (4.0 * PI * self.resolution.spacing[1]) / images(self.layout.mirrors)
     }
 
     fn scaled(&self, control: Control) -> Control {
