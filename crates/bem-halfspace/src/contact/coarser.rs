@@ -38,9 +38,9 @@ pub(super) fn start_from_coarser(
     let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
     let bands = Bands::new([rows, columns]);
     let halves = Halves::of(convolution);
-    bands.for_each([&mut state.load], |band, [loads]| {
+    bands.for_each([state.load.values_mut()], |band, [loads]| {
         for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
-            let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
+            let coarse = &coarse.load.values()[row / 2 * columns.div_ceil(2)..];
             for (column, load) in loads.iter_mut().enumerate() {
                 *load = coarse[column / 2];
             }

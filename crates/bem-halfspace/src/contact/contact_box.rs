@@ -37,11 +37,11 @@ impl ContactBox {
     /// A box of other bounds that starts from the load of this one.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
         let mut moved = Self::of(&self.convolution, bounds)?;
-        let columns = bounds.shape()[1];
+        let (columns, moved_load) = (bounds.shape()[1], moved.state.load.values_mut());
         for (element, load) in self.loaded_elements() {
             if bounds.contains(element) {
                 let [row, column] = [element[0] - bounds.lower[0], element[1] - bounds.lower[1]];
-                moved.state.load[row * columns + column] = load;
+                moved_load[row * columns + column] = load;
             }
         }
         Ok(moved)
@@ -51,7 +51,7 @@ impl ContactBox {
     pub(super) fn take_from(&mut self, (separation, load): (&[f64], &[f64]), columns: usize) {
         let (bounds, width) = (self.bounds, self.bounds.shape()[1]);
         let bands = Bands::new(bounds.shape());
-        let copies = [&mut self.separation[..], &mut self.state.load];
+        let copies = [&mut self.separation[..], self.state.load.values_mut()];
         bands.for_each(copies, |band, copies| {
             for (copy, field) in copies.into_iter().zip([separation, load]) {
                 for (row, copy) in bands.rows(band).zip(copy.chunks_exact_mut(width)) {
@@ -68,7 +68,7 @@ impl ContactBox {
         let rows = bounds.rows();
         let load = &mut load[rows.start * columns..rows.end * columns];
         let copy = |band, [load]: [&mut [f64]; 1]| {
-            let pieces = self.state.load[bands.elements(band)].chunks_exact(shape[1]);
+            let pieces = self.state.load.values()[bands.elements(band)].chunks_exact(shape[1]);
             for (piece, row) in pieces.zip(load.chunks_exact_mut(columns)) {
                 row[bounds.lower[1]..bounds.upper[1]].copy_from_slice(piece);
             }
@@ -101,6 +101,7 @@ impl ContactBox {
         let lower = self.bounds.lower;
         self.state
             .load
+            .values()
             .iter()
             .enumerate()
             .filter(|(_, load)| **load > 0.0)

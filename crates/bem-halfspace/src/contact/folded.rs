@@ -25,7 +25,10 @@ pub(super) fn solve_in_front_of_mirrors(
     accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     let (convolution, separation, control) = question;
-    let mirrors = find_mirrors(convolution, [separation, &state.load]);
+    let mirrors = match state.load.touched() {
+        Some(load) => find_mirrors(convolution, [separation, load]),
+        None => find_mirrors(convolution, [separation]),
+    };
     if mirrors == NO_MIRRORS {
         return solve_normalised(question, state, accuracy);
     }
@@ -33,15 +36,15 @@ pub(super) fn solve_in_front_of_mirrors(
         Some(folded) if folded.convolution.mirrors() == mirrors => folded,
         _ => Box::new(Folded::new(convolution.folded(mirrors))),
     };
-    folded.take_from([separation, &state.load]);
+    folded.take_from(separation, state.load.touched());
     let outcome = folded.solve(control, accuracy);
-    folded.give_to([&mut state.load, &mut state.displacement]);
+    folded.give_to([state.load.values_mut(), &mut state.displacement]);
     state.folded = Some(folded);
     outcome
 }
 
 /// The mirrors in the middle of the grid about which fields are their own images, to the last bit.
-fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
+fn find_mirrors<const N: usize>(convolution: &Convolution, fields: [&[f64]; N]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
@@ -95,21 +98,29 @@ impl Folded {
         })
     }
 
-    /// Copies what lies in front of the mirrors from separation and load of the whole grid.
-    fn take_from(&mut self, [separation, load]: [&[f64]; 2]) {
+    /// Copies what lies in front of the mirrors from the separation of the whole grid, and from its load if that was ever
+    /// touched; otherwise that of the part was not either.
+    fn take_from(&mut self, separation: &[f64], load: Option<&[f64]>) {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
         let first = [0, 1].map(|axis| whole[axis] - shape[axis]);
         let halves = Halves::of(&self.convolution);
         let bands = Bands::new(shape);
-        let parts = [&mut self.separation[..], &mut self.state.load];
-        bands.for_each(parts, |band, [separations, loads]| {
-            let separations = separations.chunks_exact_mut(shape[1]);
-            let loads = loads.chunks_exact_mut(shape[1]);
-            for (row, (separations, loads)) in bands.rows(band).zip(separations.zip(loads)) {
+        let copy = |field: &[f64], band: usize, part: &mut [f64]| {
+            for (row, part) in bands.rows(band).zip(part.chunks_exact_mut(shape[1])) {
                 let start = (first[0] + row) * whole[1] + first[1];
-                separations.copy_from_slice(&separation[start..start + shape[1]]);
-                loads.copy_from_slice(&load[start..start + shape[1]]);
+                part.copy_from_slice(&field[start..start + shape[1]]);
+            }
+        };
+        bands.for_each([&mut self.separation], |band, [part]| {
+            copy(separation, band, part);
+        });
+        let Some(load) = load else {
+            return;
+        };
+        bands.for_each([self.state.load.values_mut()], |band, [part]| {
+            copy(load, band, part);
+            for (row, loads) in bands.rows(band).zip(part.chunks_exact_mut(shape[1])) {
                 for (column, part) in halves.in_line(row * shape[1]..(row + 1) * shape[1]) {
                     loads[column] *= part;
                 }
@@ -131,7 +142,7 @@ impl Folded {
                 let part = row * shape[1]..(row + 1) * shape[1];
                 unfold(&self.state.displacement[part.clone()], displacements);
                 let front = whole[1] - shape[1];
-                loads[front..].copy_from_slice(&self.state.load[part.clone()]);
+                loads[front..].copy_from_slice(&self.state.load.values()[part.clone()]);
                 for (column, part) in halves.in_line(part) {
                     loads[front + column] /= part;
                 }

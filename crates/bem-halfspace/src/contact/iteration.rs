@@ -85,7 +85,7 @@ impl<'a> Iteration<'a> {
             separation,
             control,
             tolerance: 0.0,
-            load: &mut state.load,
+            load: state.load.values_mut(),
             displacement: &mut state.displacement,
             workspace: state
                 .workspace

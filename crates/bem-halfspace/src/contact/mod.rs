@@ -19,6 +19,7 @@ mod halves;
 mod iteration;
 mod lanes;
 mod listed;
+mod load;
 mod preconditioner;
 mod solve;
 mod state;

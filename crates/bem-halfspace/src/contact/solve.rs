@@ -33,12 +33,14 @@ pub(crate) fn solve_normalised(
     accuracy: &Accuracy,
 ) -> Result<Outcome, BemError> {
     let shape = question.0.grid().shape();
-    let loaded =
-        |load: &[f64]| Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
-    let mut bounds = loaded(&state.load);
+    let loaded = |state: &ContactState| {
+        let load = state.load.touched()?;
+        Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0)
+    };
+    let mut bounds = loaded(state);
     if bounds.is_none() {
         start_from_coarser(question, state);
-        bounds = loaded(&state.load);
+        bounds = loaded(state);
     }
     solve_around(bounds, question, state, accuracy)
 }
@@ -65,9 +67,9 @@ fn solve_around(
         Some(inner) if suits(&inner, &bounds, &outer) => inner,
         _ => Box::new(ContactBox::of(convolution, outer)?),
     };
-    inner.take_from((question.1, &state.load), grid.shape()[1]);
+    inner.take_from((question.1, state.load.values()), grid.shape()[1]);
     let outcome = inner.solve_to(question.2, accuracy);
-    inner.give_to(&mut state.load, grid.shape()[1]);
+    inner.give_to(state.load.values_mut(), grid.shape()[1]);
     let solved = inner.bounds;
     state.inner = Some(inner);
     check_around(&solved, question, (state, outcome?), accuracy)
@@ -92,7 +94,7 @@ fn check_around(
         .get_or_insert_with(|| convolution.workspace());
     convolution.apply(
         workspace,
-        (&state.load, solved.rows()),
+        (state.load.values(), solved.rows()),
         (&mut state.displacement, 0..rows),
     );
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.

@@ -4,13 +4,14 @@ use crate::bands::{Bands, Starts, resize};
 use crate::contact::contact_box::ContactBox;
 use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
+use crate::contact::load::Load;
 use crate::convolution::Surroundings;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next.
 #[derive(Debug, Clone)]
 pub struct ContactState {
-    pub(super) load: Vec<f64>,
+    pub(super) load: Load,
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
@@ -35,7 +36,7 @@ impl ContactState {
     pub fn new(convolution: &Convolution) -> Self {
         let n = convolution.grid().n_elements();
         Self {
-            load: vec![0.0; n],
+            load: Load::new(n),
             displacement: vec![0.0; n],
             contact: Vec::new(),
             starts: vec![0],
@@ -51,13 +52,13 @@ impl ContactState {
     /// Pressure P ≥ 0, \[Pa], row-major.
     #[must_use]
     pub fn pressure(&self) -> &[f64] {
-        &self.load
+        self.load.values()
     }
 
     /// The pressure to start from, \[Pa], row-major. What is not a positive number counts as zero; without any
     /// pressure the solver starts from solutions on coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
-        &mut self.load
+        self.load.values_mut()
     }
 
     /// Indices of the elements in contact after a solve, increasing.
@@ -86,7 +87,10 @@ impl ContactState {
 
     /// Takes what the caller left as a first guess, times a factor; what is no positive number counts as zero.
     pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
-        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
+        if self.load.touched().is_none() {
+            return;
+        }
+        Bands::new(grid.shape()).for_each([self.load.values_mut()], |_, [load]| {
             for load in load {
                 let guess = *load * factor;
                 *load = if guess > 0.0 && guess.is_finite() {
@@ -99,7 +103,7 @@ impl ContactState {
     }
 
     pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
-        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
+        Bands::new(grid.shape()).for_each([self.load.values_mut()], |_, [load]| {
             for load in load {
                 *load *= factor;
             }
@@ -108,7 +112,7 @@ impl ContactState {
 
     pub(super) fn list_contact(&mut self, grid: &Grid) {
         let bands = Bands::new(grid.shape());
-        let load = &self.load;
+        let load = self.load.values();
         let loaded = |band| {
             let elements = bands.elements(band);
             elements.filter(|&element| load[element] > 0.0)
