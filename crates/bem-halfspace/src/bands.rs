@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::parts::{Parts, Starts, fold_parts};
+
 /// Smaller bands would cost more to hand out than to work on.
 const MIN_ELEMENTS: usize = 1 << 13;
 
@@ -57,7 +59,7 @@ impl Bands {
     }
 
     /// Does the work of every band on its part of fields that may be divided in different ways.
-    pub(crate) fn fold<const N: usize, T: Send, R: Send>(
+    pub(crate) fn fold<const N: usize, T: Send, R: Default + Send>(
         &self,
         fields: Parts<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
@@ -85,7 +87,7 @@ impl Bands {
     }
 
     /// What the bands contribute, combined pairwise.
-    pub(crate) fn gather<R: Send>(
+    pub(crate) fn gather<R: Default + Send>(
         &self,
         work: impl Fn(usize) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
@@ -97,67 +99,6 @@ impl Bands {
     pub(crate) fn sum(&self, work: impl Fn(usize) -> f64 + Sync) -> f64 {
         self.gather(work, |left, right| left + right)
     }
-}
-
-/// Where the parts of a field begin.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Starts<'a> {
-    /// After so many values each.
-    Every(usize),
-    /// One number per part, and the end.
-    Listed(&'a [usize]),
-}
-
-impl Starts<'_> {
-    /// Where a part begins.
-    fn of(self, part: usize) -> usize {
-        match self {
-            Self::Every(unit) => part * unit,
-            Self::Listed(starts) => starts[part],
-        }
-    }
-}
-
-/// Fields, and where the parts of each begin.
-pub(crate) type Parts<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
-
-/// Does the work of every part of a range on its part of the fields.
-///
-/// The halves of the range are combined, and those are of their halves: the order is always the same.
-pub(crate) fn fold_parts<const N: usize, T: Send, R: Send>(
-    parts: Range<usize>,
-    fields: Parts<T, N>,
-    work: &(impl Fn(usize, [&mut [T]; N]) -> R + Sync),
-    combine: &(impl Fn(R, R) -> R + Sync),
-) -> R {
-    if parts.len() <= 1 {
-        return work(parts.start, fields.map(|(field, _)| field));
-    }
-    let middle = parts.start + parts.len() / 2;
-    let (lower, upper) = split(fields, parts.start, middle);
-    let (left, right) = join(
-        || fold_parts(parts.start..middle, lower, work, combine),
-        || fold_parts(middle..parts.end, upper, work, combine),
-    );
-    combine(left, right)
-}
-
-/// The fields, which begin with the part `first`, before and behind the beginning of a part in the `middle`.
-fn split<'a, T, const N: usize>(
-    fields: Parts<'a, T, N>,
-    first: usize,
-    middle: usize,
-) -> (Parts<'a, T, N>, Parts<'a, T, N>) {
-    let mut behind = [(); N].map(|()| (<&mut [T]>::default(), Starts::Every(0)));
-    let mut slots = behind.iter_mut();
-    let before = fields.map(|(field, starts)| {
-        let (lower, upper) = field.split_at_mut(starts.of(middle) - starts.of(first));
-        if let Some(slot) = slots.next() {
-            *slot = (upper, starts);
-        }
-        (lower, starts)
-    });
-    (before, behind)
 }
 
 /// Copies of a value, first touched by the threads that share the memory from then on.
@@ -185,19 +126,4 @@ pub(crate) fn resize<T: Copy + Send + Sync>(values: &mut Vec<T>, value: T, count
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn resize<T: Copy>(values: &mut Vec<T>, value: T, count: usize) {
     values.resize(count, value);
-}
-
-/// Does both works, side by side where there are threads.
-#[cfg(feature = "rayon")]
-pub(crate) fn join<L: Send, R: Send>(
-    left: impl FnOnce() -> L + Send,
-    right: impl FnOnce() -> R + Send,
-) -> (L, R) {
-    rayon::join(left, right)
-}
-
-/// Does both works.
-#[cfg(not(feature = "rayon"))]
-pub(crate) fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
-    (left(), right())
 }

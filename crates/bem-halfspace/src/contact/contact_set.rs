@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use crate::bands::{Bands, Starts};
+use crate::bands::Bands;
+use crate::parts::Starts;
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]

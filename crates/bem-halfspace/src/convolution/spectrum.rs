@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::bands::{Starts, copies, fold_parts};
+use crate::bands::copies;
+use crate::parts::{Starts, fold_parts};
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 

@@ -1,17 +1,13 @@
 //! What a filter overwrites, divided into lanes that work side by side.
 
-#[cfg(feature = "rayon")]
-use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
-#[cfg(feature = "rayon")]
-use rayon::slice::ParallelSliceMut;
 use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
 use crate::plane_transform::about_centre::Buffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
+use crate::sharing::{n_threads, share};
 
 /// Below this many elements threads cost more than they gain.
-#[cfg(feature = "rayon")]
 const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
 
 /// What a filter of fields of one shape overwrites. With the feature `rayon`, buffers for the threads of the pool in
@@ -83,44 +79,28 @@ impl Lane {
     }
 }
 
-/// Lanes for each of several threads, of which one may be slower than another.
-#[cfg(feature = "rayon")]
-const LANES_PER_THREAD: usize = 4;
-
-#[cfg(feature = "rayon")]
 fn n_lanes(elements: usize) -> usize {
-    match rayon::current_num_threads() {
-        1 => 1,
-        threads => (LANES_PER_THREAD * threads).min(1 + elements / MIN_ELEMENTS_PER_LANE),
-    }
+    n_threads().min(1 + elements / MIN_ELEMENTS_PER_LANE)
 }
 
-#[cfg(not(feature = "rayon"))]
-const fn n_lanes(_elements: usize) -> usize {
-    1
-}
+/// Parts of which a lane has its share, so that one may do fewer than another.
+const PARTS_PER_LANE: usize = 32;
 
-/// Divides `values` into one part per lane, each of whole units, and does the work of each part: `work` gets the number
-/// of its first unit, its lane and its part. A unit is worked on the same way in any lane, so that the result does not
-/// depend on their number.
-pub(super) fn for_each_lane<T: Send>(
+/// Divides `values` into parts of whole units and does the work of each on one of the lanes: `work` gets the number of
+/// the first unit of a part, the lane and the part. A unit is worked on the same way in any lane, so that the result does
+/// not depend on their number.
+pub(super) fn for_each_part<T: Send>(
     lanes: &mut [Lane],
     (values, unit): (&mut [T], usize),
     work: impl Fn(usize, &mut Lane, &mut [T]) + Sync,
 ) {
-    if let [lane] = lanes {
-        work(0, lane, values);
-        return;
-    }
-    #[cfg(feature = "rayon")]
-    {
-        let units = (values.len() / unit).div_ceil(lanes.len()).max(1);
-        lanes
-            .par_iter_mut()
-            .zip(values.par_chunks_mut(units * unit))
-            .enumerate()
-            .for_each(|(part, (lane, values))| work(part * units, lane, values));
-    }
-    #[cfg(not(feature = "rayon"))]
-    debug_assert!(lanes.len() == 1, "one lane of units of {unit}");
+    let n_parts = match lanes.len() {
+        1 => 1,
+        n_lanes => PARTS_PER_LANE * n_lanes,
+    };
+    let units = (values.len() / unit).div_ceil(n_parts).max(1);
+    let parts = values.chunks_mut(units * unit).enumerate();
+    share(lanes, parts, |lane, (part, values)| {
+        work(part * units, lane, values);
+    });
 }
