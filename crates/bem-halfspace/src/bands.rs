@@ -3,9 +3,7 @@
 use std::ops::Range;
 
 use crate::parts::{Parts, Starts, fold_parts};
-
-/// Smaller bands would cost more to hand out than to work on.
-const MIN_ELEMENTS: usize = 1 << 13;
+use crate::sharing::MIN_ELEMENTS;
 
 /// The rows of a grid in bands, which depend on the shape of the grid alone.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,7 @@ use std::array::from_fn;
 use std::mem::take;
 use std::ops::Range;
 
-use crate::sharing::{n_threads, share};
+use crate::sharing::{MOST_TASKS, n_tasks, n_threads, share};
 
 /// Where the parts of a field begin.
 #[derive(Debug, Clone, Copy)]
@@ -27,9 +27,6 @@ impl Starts<'_> {
 
 /// Fields, and where the parts of each begin.
 pub(crate) type Parts<'a, T, const N: usize> = [(&'a mut [T], Starts<'a>); N];
-
-/// Most tasks into which work is divided; several for each of a few threads, so that one may do fewer than another.
-const MOST_TASKS: usize = 64;
 
 /// A range of parts that one thread works on, and then their result.
 struct Leaf<'a, T, R, const N: usize> {
@@ -54,7 +51,8 @@ pub(crate) fn fold_parts<const N: usize, T: Send, R: Default + Send>(
         task: None,
         result: R::default(),
     });
-    give_tasks(parts.clone(), fields, &mut leaves);
+    let leaves = &mut leaves[..n_tasks(n_lanes)];
+    give_tasks(parts.clone(), fields, leaves);
     let tasks = leaves.iter_mut().filter_map(|leaf| {
         let task = leaf.task.take()?;
         Some((task, &mut leaf.result))
@@ -64,7 +62,7 @@ pub(crate) fn fold_parts<const N: usize, T: Send, R: Default + Send>(
         tasks,
         |(), ((parts, fields), result)| *result = fold_alone(parts, fields, work, combine),
     );
-    combine_results(parts, &mut leaves, combine)
+    combine_results(parts, leaves, combine)
 }
 
 /// The same on one thread.
@@ -82,12 +80,13 @@ fn fold_alone<const N: usize, T, R>(
     combine(left, fold_alone(upper, behind, work, combine))
 }
 
-/// Divides a range among leaves, of which there is a power of two, as [`fold_alone`] does.
+/// Divides a range among at least one leaf as [`fold_alone`] does.
 fn give_tasks<'a, const N: usize, T, R>(
     parts: Range<usize>,
     fields: Parts<'a, T, N>,
     leaves: &mut [Leaf<'a, T, R, N>],
 ) {
+    debug_assert!(!leaves.is_empty(), "no leaf for {parts:?}");
     match (halves(&parts), leaves) {
         (Some([lower, upper]), leaves @ [_, _, ..]) => {
             let (before, behind) = split(fields, parts.start, upper.start);
@@ -100,12 +99,13 @@ fn give_tasks<'a, const N: usize, T, R>(
     }
 }
 
-/// Combines the results of leaves as [`fold_alone`] does.
+/// Combines the results of at least one leaf as [`fold_alone`] does.
 fn combine_results<const N: usize, T, R: Default>(
     parts: Range<usize>,
     leaves: &mut [Leaf<T, R, N>],
     combine: &impl Fn(R, R) -> R,
 ) -> R {
+    debug_assert!(!leaves.is_empty(), "no leaf for {parts:?}");
     match (halves(&parts), leaves) {
         (Some([lower, upper]), leaves @ [_, _, ..]) => {
             let (left, right) = leaves.split_at_mut(leaves.len() / 2);

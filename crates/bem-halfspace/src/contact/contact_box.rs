@@ -3,6 +3,7 @@
 use crate::bands::Bands;
 use crate::bounds::Bounds;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
+use crate::sharing::in_pool;
 use crate::{BemError, ContactOptions, Convolution, Grid};
 
 /// Contact solver on a box of elements around the contact.
@@ -83,7 +84,9 @@ impl ContactBox {
         control: Control,
         options: &ContactOptions,
     ) -> Result<Outcome, BemError> {
-        self.solve_to(control, &options.into())
+        in_pool(self.bounds.n_elements(), || {
+            self.solve_to(control, &options.into())
+        })
     }
 
     pub(super) fn solve_to(

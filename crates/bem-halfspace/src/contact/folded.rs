@@ -106,21 +106,21 @@ impl Folded {
         let first = [0, 1].map(|axis| whole[axis] - shape[axis]);
         let halves = Halves::of(&self.convolution);
         let bands = Bands::new(shape);
-        let copy = |field: &[f64], band: usize, part: &mut [f64]| {
-            for (row, part) in bands.rows(band).zip(part.chunks_exact_mut(shape[1])) {
+        let copy = |field: &[f64], band: usize, copies: &mut [f64]| {
+            for (row, copy) in bands.rows(band).zip(copies.chunks_exact_mut(shape[1])) {
                 let start = (first[0] + row) * whole[1] + first[1];
-                part.copy_from_slice(&field[start..start + shape[1]]);
+                copy.copy_from_slice(&field[start..start + shape[1]]);
             }
         };
-        bands.for_each([&mut self.separation], |band, [part]| {
-            copy(separation, band, part);
+        bands.for_each([&mut self.separation], |band, [separations]| {
+            copy(separation, band, separations);
         });
         let Some(load) = load else {
             return;
         };
-        bands.for_each([self.state.load.values_mut()], |band, [part]| {
-            copy(load, band, part);
-            for (row, loads) in bands.rows(band).zip(part.chunks_exact_mut(shape[1])) {
+        bands.for_each([self.state.load.values_mut()], |band, [loads]| {
+            copy(load, band, loads);
+            for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(shape[1])) {
                 for (column, part) in halves.in_line(row * shape[1]..(row + 1) * shape[1]) {
                     loads[column] *= part;
                 }

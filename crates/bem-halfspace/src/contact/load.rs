@@ -25,7 +25,7 @@ impl Load {
     }
 
     /// The values, unless nothing was ever written to them: they are zero then, and the system would have to provide
-    /// their memory page by page for whoever reads them, which takes longer than an iteration.
+    /// their memory page by page for whoever reads them.
     pub(super) fn touched(&self) -> Option<&[f64]> {
         self.is_touched.then_some(&self.values)
     }

@@ -29,6 +29,7 @@ use std::f64::consts::PI;
 
 use crate::bands::Bands;
 use crate::convolution::Surroundings;
+use crate::sharing::in_pool;
 use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
@@ -111,6 +112,16 @@ const MAX_TOLERANCE: f64 = 1e-2;
 /// [`BemError::LengthMismatch`], [`BemError::InvalidHeight`]; [`BemError::ContactNotConverged`] with the residual
 /// reached.
 pub fn solve_contact(
+    problem: &ContactProblem,
+    state: &mut ContactState,
+    options: &ContactOptions,
+) -> Result<Contact, BemError> {
+    in_pool(problem.convolution.grid().n_elements(), || {
+        solve_here(problem, state, options)
+    })
+}
+
+fn solve_here(
     problem: &ContactProblem,
     state: &mut ContactState,
     options: &ContactOptions,

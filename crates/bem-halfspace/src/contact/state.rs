@@ -9,7 +9,8 @@ use crate::convolution::Surroundings;
 use crate::parts::Starts;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
-/// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next.
+/// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next. With the
+/// feature `rayon`, the buffers are for the threads of the pool of the first solve.
 #[derive(Debug, Clone)]
 pub struct ContactState {
     pub(super) load: Load,

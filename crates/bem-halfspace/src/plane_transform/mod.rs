@@ -24,7 +24,7 @@ use crate::sharing::join;
 use columns::ColumnTransform;
 use rows::RowTransform;
 pub(crate) use workspace::Workspace;
-use workspace::{Lane, for_each_part};
+use workspace::{Lane, share_among_lanes};
 
 /// Columns that pass together: eight complex numbers fill two cache lines.
 const TILE: usize = 8;
@@ -116,7 +116,7 @@ impl PlaneTransform {
         let unit = self.n_tiles() * STRIP;
         let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
         let strips = &mut strips[used.start * unit..used.end * unit];
-        for_each_part(lanes, (strips, unit), |first, lane, strips| {
+        share_among_lanes(lanes, (strips, unit), |first, lane, strips| {
             for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
                 for row in rows_of_strip(strip, loaded) {
                     self.rows
@@ -149,7 +149,7 @@ impl PlaneTransform {
             lanes,
             ..
         } = workspace;
-        for_each_part(lanes, (tiles, stride), |first, lane, tiles| {
+        share_among_lanes(lanes, (tiles, stride), |first, lane, tiles| {
             for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
                 self.gather_columns(lane, strips, (tile, loaded));
@@ -212,7 +212,7 @@ impl PlaneTransform {
         let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
         let Workspace { tiles, lanes, .. } = workspace;
         let result = &mut result[wanted.start * width..wanted.end * width];
-        for_each_part(lanes, (result, width), |first, lane, result| {
+        share_among_lanes(lanes, (result, width), |first, lane, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
                 let mut pieces = tiles[row..].iter().step_by(stride);
                 let coefficients = &mut lane.half_row[..self.n_columns()];

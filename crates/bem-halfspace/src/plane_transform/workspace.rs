@@ -5,10 +5,7 @@ use rustfft::num_complex::Complex;
 use crate::bands::copies;
 use crate::plane_transform::about_centre::Buffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
-use crate::sharing::{n_threads, share};
-
-/// Below this many elements threads cost more than they gain.
-const MIN_ELEMENTS_PER_LANE: usize = 1 << 13;
+use crate::sharing::{MIN_ELEMENTS, n_tasks, n_threads, share};
 
 /// What a filter of fields of one shape overwrites. With the feature `rayon`, buffers for the threads of the pool in
 /// which it was made.
@@ -80,25 +77,18 @@ impl Lane {
 }
 
 fn n_lanes(elements: usize) -> usize {
-    n_threads().min(1 + elements / MIN_ELEMENTS_PER_LANE)
+    n_threads().min(1 + elements / MIN_ELEMENTS)
 }
-
-/// Parts of which a lane has its share, so that one may do fewer than another.
-const PARTS_PER_LANE: usize = 32;
 
 /// Divides `values` into parts of whole units and does the work of each on one of the lanes: `work` gets the number of
 /// the first unit of a part, the lane and the part. A unit is worked on the same way in any lane, so that the result does
 /// not depend on their number.
-pub(super) fn for_each_part<T: Send>(
+pub(super) fn share_among_lanes<T: Send>(
     lanes: &mut [Lane],
     (values, unit): (&mut [T], usize),
     work: impl Fn(usize, &mut Lane, &mut [T]) + Sync,
 ) {
-    let n_parts = match lanes.len() {
-        1 => 1,
-        n_lanes => PARTS_PER_LANE * n_lanes,
-    };
-    let units = (values.len() / unit).div_ceil(n_parts).max(1);
+    let units = (values.len() / unit).div_ceil(n_tasks(lanes.len())).max(1);
     let parts = values.chunks_mut(units * unit).enumerate();
     share(lanes, parts, |lane, (part, values)| {
         work(part * units, lane, values);

@@ -43,6 +43,7 @@ use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::error::{below_one, positive};
+use crate::sharing::in_pool;
 use crate::{BemError, Footprint};
 pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
@@ -206,7 +207,8 @@ fn solve(
         Some(other) => Start::Known(loads_of(other, &mesh)),
         None => Start::Guessed(mesh.first_guess()),
     };
-    let solution = pivoting::solve(&mesh, &mut reuse.plans, start)?;
+    let plans = &mut reuse.plans;
+    let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, start))?;
     SteadySliding::new(&mesh, &solution)
 }
 

@@ -42,6 +42,9 @@ fn one_two_and_three_threads_agree_to_the_last_bit() {
         let [one, two, three] = [1, 2, 3].map(|threads| on_threads(threads, solve));
         assert_eq!(one, two, "the same contact on one and two threads");
         assert_eq!(one, three, "the same contact on one and three threads");
+        let (left, right) = on_threads(2, || rayon::join(solve, solve));
+        assert_eq!([&one; 2], [&left, &right], "two contacts at once");
+        assert_eq!(one, solve(), "the same contact outside a pool");
     }
 }
 
