@@ -127,6 +127,7 @@ fn report(scene: &Scene) -> Result<(), Failure> {
     }
     let (_, reference, _) = solve(scene, REFERENCE_TOLERANCE)?;
     let error = deviation(state.pressure(), reference.pressure());
+    drop((state, reference));
     println!(
         "{} {} {} {error:.1e} {bytes:.0} {:.3} {fastest:.4} {pair:.4} {:.1} {:.3?}",
         scene.name,
