@@ -1,6 +1,6 @@
 //! A long run in pieces.
 
-use std::ops::Range;
+use std::ops::{Range, RangeBounds};
 
 use indenters::Surface;
 use rheology::ExponentialStep;
@@ -71,21 +71,20 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     fn check(&self, state: &MarchState) -> Result<(ContactBox, Range<usize>), BemError> {
         let [lower, upper] = state.contact_box;
         let (shape, mirrors) = (self.layout.followed(), self.layout.mirrors);
-        at_most("steps done", state.steps_done, self.route.legs.len())?;
+        within("steps done", state.steps_done, ..=self.route.legs.len())?;
         for (axis, parameter) in ["rows of the footprint", "columns of the footprint"]
             .into_iter()
             .enumerate()
         {
-            at_most(parameter, state.footprint[axis], shape[axis])?;
-            at_most(parameter, shape[axis], state.footprint[axis])?;
-            at_most("end of the contact box", upper[axis], shape[axis])?;
+            within(parameter, state.footprint[axis], shape[axis]..=shape[axis])?;
+            within("end of the contact box", upper[axis], ..=shape[axis])?;
             // The box begins at a mirror.
             let last = if mirrors[axis].is_none() {
                 upper[axis]
             } else {
                 1
             };
-            at_most("start of the contact box", lower[axis] + 1, last)?;
+            within("start of the contact box", lower[axis], ..last)?;
         }
         let bounds = Bounds { lower, upper };
         let rows = self.route.rows_from(state.steps_done, shape[0]);
@@ -115,8 +114,12 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
 }
 
 /// Checks an index of a state against its scene.
-fn at_most(parameter: &'static str, value: usize, limit: usize) -> Result<(), BemError> {
-    if value <= limit {
+fn within(
+    parameter: &'static str,
+    value: usize,
+    range: impl RangeBounds<usize>,
+) -> Result<(), BemError> {
+    if range.contains(&value) {
         return Ok(());
     }
     Err(BemError::InvalidParameter {

@@ -140,3 +140,25 @@ fn states_with_and_without_a_mirror_do_not_fit() {
         );
     }
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_state_with_an_impossible_box_is_refused() {
+    let body = PowerProfile::new(0.5, 1.5).expect("a body");
+    let elastic = Elastic::new(2.0).expect("a material");
+    let mut march = March::new(&body, &elastic, &motions(), &resolution()).expect("a march");
+    march.step().expect("a step");
+    let mut state = serde_json::to_value(march.state()).expect("a value");
+    state["contact_box"][0][0] = serde_json::json!(usize::MAX);
+    let refused = march.resume(&serde_json::from_value(state).expect("a state"));
+    assert!(
+        matches!(
+            refused,
+            Err(BemError::InvalidParameter {
+                parameter: "start of the contact box",
+                ..
+            })
+        ),
+        "{refused:?}"
+    );
+}
