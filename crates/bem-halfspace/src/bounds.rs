@@ -100,6 +100,16 @@ impl Bounds {
         start + self.lower[1]..start + self.upper[1]
     }
 
+    /// Copies what lies inside the box from a field with `columns` columns.
+    pub(crate) fn cut(&self, (field, columns): (&[f64], usize), part: &mut [f64]) {
+        let bands = Bands::new(self.shape());
+        bands.for_each([part], |band, [part]| {
+            for (row, part) in bands.rows(band).zip(part.chunks_exact_mut(self.shape()[1])) {
+                part.copy_from_slice(&field[self.row_range(row, columns)]);
+            }
+        });
+    }
+
     /// With room for a growing contact, inside a field of the given shape, of a size that transforms fast; from the rear
     /// of the field on along the axes with mirrors there.
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {

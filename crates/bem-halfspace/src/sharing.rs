@@ -95,18 +95,11 @@ fn wait_awake(are_done: impl Fn() -> bool) {
 
 /// Does work on so many elements on a thread of the current pool, if it is not there already: from outside, each of its
 /// loops would have to be handed in and waited for.
-#[cfg(feature = "rayon")]
 pub(crate) fn in_pool<R: Send>(n_elements: usize, work: impl FnOnce() -> R + Send) -> R {
     if n_elements < MIN_ELEMENTS {
         return work();
     }
-    rayon::join(work, || ()).0
-}
-
-/// Does work on so many elements.
-#[cfg(not(feature = "rayon"))]
-pub(crate) fn in_pool<R>(_n_elements: usize, work: impl FnOnce() -> R) -> R {
-    work()
+    join(work, || ()).0
 }
 
 /// Number of threads of the current pool.

@@ -37,18 +37,15 @@ pub(super) fn start_from_coarser(
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
     let bands = Bands::new([rows, columns]);
-    let halves = Halves::of(convolution);
     bands.for_each([state.load.values_mut()], |band, [loads]| {
         for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
             let coarse = &coarse.load.values()[row / 2 * columns.div_ceil(2)..];
             for (column, load) in loads.iter_mut().enumerate() {
                 *load = coarse[column / 2];
             }
-            for (column, part) in halves.in_line(row * columns..(row + 1) * columns) {
-                loads[column] *= part;
-            }
         }
     });
+    Halves::of(convolution).keep_front(state.load.values_mut());
 }
 
 /// Mean of the finite heights of two by two elements; `+∞` where there are none.

@@ -50,16 +50,9 @@ impl ContactBox {
 
     /// Copies what lies inside the bounds from a field with `columns` columns, the load as a first guess.
     pub(super) fn take_from(&mut self, (separation, load): (&[f64], &[f64]), columns: usize) {
-        let (bounds, width) = (self.bounds, self.bounds.shape()[1]);
-        let bands = Bands::new(bounds.shape());
-        let copies = [&mut self.separation[..], self.state.load.values_mut()];
-        bands.for_each(copies, |band, copies| {
-            for (copy, field) in copies.into_iter().zip([separation, load]) {
-                for (row, copy) in bands.rows(band).zip(copy.chunks_exact_mut(width)) {
-                    copy.copy_from_slice(&field[bounds.row_range(row, columns)]);
-                }
-            }
-        });
+        let bounds = self.bounds;
+        bounds.cut((separation, columns), &mut self.separation);
+        bounds.cut((load, columns), self.state.load.values_mut());
     }
 
     /// Copies the load back.

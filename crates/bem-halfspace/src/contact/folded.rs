@@ -4,6 +4,7 @@
 //! front of the plane tells them all. Of an element through whose centre the plane passes, half the load is in front.
 
 use crate::bands::Bands;
+use crate::bounds::Bounds;
 use crate::contact::halves::Halves;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
 use crate::convolution::Surroundings;
@@ -103,29 +104,16 @@ impl Folded {
     fn take_from(&mut self, separation: &[f64], load: Option<&[f64]>) {
         let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
         let whole = self.convolution.grid().unfolded(mirrors).shape();
-        let first = [0, 1].map(|axis| whole[axis] - shape[axis]);
-        let halves = Halves::of(&self.convolution);
-        let bands = Bands::new(shape);
-        let copy = |field: &[f64], band: usize, copies: &mut [f64]| {
-            for (row, copy) in bands.rows(band).zip(copies.chunks_exact_mut(shape[1])) {
-                let start = (first[0] + row) * whole[1] + first[1];
-                copy.copy_from_slice(&field[start..start + shape[1]]);
-            }
+        let front = Bounds {
+            lower: [0, 1].map(|axis| whole[axis] - shape[axis]),
+            upper: whole,
         };
-        bands.for_each([&mut self.separation], |band, [separations]| {
-            copy(separation, band, separations);
-        });
-        let Some(load) = load else {
-            return;
-        };
-        bands.for_each([self.state.load.values_mut()], |band, [loads]| {
-            copy(load, band, loads);
-            for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(shape[1])) {
-                for (column, part) in halves.in_line(row * shape[1]..(row + 1) * shape[1]) {
-                    loads[column] *= part;
-                }
-            }
-        });
+        front.cut((separation, whole[1]), &mut self.separation);
+        if let Some(load) = load {
+            let loads = self.state.load.values_mut();
+            front.cut((load, whole[1]), loads);
+            Halves::of(&self.convolution).keep_front(loads);
+        }
     }
 
     /// Writes load and displacement of the whole grid.

@@ -41,6 +41,16 @@ impl Halves {
         (0..count).map(move |index| (index, if index == 0 { of_first } else { of_row }))
     }
 
+    /// Leaves of the whole loads on a field what is in front of the mirrors.
+    pub(super) fn keep_front(&self, loads: &mut [f64]) {
+        let lines = loads.chunks_exact_mut(self.columns).enumerate();
+        for (row, line) in lines {
+            for (column, part) in self.in_line(row * self.columns..(row + 1) * self.columns) {
+                line[column] *= part;
+            }
+        }
+    }
+
     /// The part of the row of an element in front of the mirror across x.
     pub(super) fn part_of_row(&self, element: usize) -> f64 {
         part_of(self.mirrors[0], element < self.columns)
