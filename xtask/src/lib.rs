@@ -15,7 +15,6 @@ mod material;
 mod meter;
 mod npy;
 mod output;
-mod plot;
 mod progress;
 mod run;
 mod scaling;

@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 use comfy_table::Table;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use viscofriction_plot::{Drawing, Figure, PNG_WIDTH, draw, render_png};
 
 /// The input was wrong: exit status 2; one line that names the place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -78,6 +79,20 @@ pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
     let part = path.with_file_name(name);
     fs::write(&part, contents).with_context(say)?;
     fs::rename(&part, path).with_context(say)
+}
+
+/// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`.
+pub(crate) fn write_figure(folder: &Path, name: &str, figure: &Figure) -> Result<()> {
+    let drawing = draw(figure).with_context(|| format!("drawing {name}"))?;
+    write_drawing(folder, name, &drawing)
+}
+
+/// Writes a drawing as `NAME.svg` and `NAME.png`.
+pub(crate) fn write_drawing(folder: &Path, name: &str, drawing: &Drawing) -> Result<()> {
+    let png = render_png(drawing, PNG_WIDTH).with_context(|| format!("drawing {name}"))?;
+    let path = |extension: &str| folder.join(format!("{name}.{extension}"));
+    write_atomically(&path("svg"), drawing.svg.as_bytes())?;
+    write_atomically(&path("png"), &png)
 }
 
 /// Removes what killed runs left of [`write_atomically`] for this file; nobody else may be writing it.

@@ -14,8 +14,7 @@ use benches::Random;
 use clap::Args;
 use rayon::prelude::*;
 
-use crate::output::{WrongInput, print_line, write_atomically, write_table};
-use crate::plot::{PNG_WIDTH, draw, render_png};
+use crate::output::{WrongInput, print_line, write_figure, write_table};
 use crate::progress;
 use judged::{Examination, Judged};
 use ways::{FULL, QUICK};
@@ -49,12 +48,7 @@ pub(crate) fn calibrate(options: &Calibrate) -> Result<()> {
     let judged = judge(&examinations(options)?)?;
     write_table(&out.join("calibration.csv"), &judged.rows)?;
     write_table(&out.join("calibration_refused.csv"), &judged.refusals)?;
-    let drawing = draw(&picture::figure(&judged.rows))?;
-    write_atomically(&out.join("calibration.svg"), drawing.svg.as_bytes())?;
-    write_atomically(
-        &out.join("calibration.png"),
-        &render_png(&drawing, PNG_WIDTH)?,
-    )?;
+    write_figure(out, "calibration", &picture::figure(&judged.rows))?;
     print_line(&table::table(&judged))?;
     print_line(&table::left_out(&judged.left_out))
 }

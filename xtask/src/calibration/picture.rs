@@ -1,8 +1,10 @@
 //! Deviation over bar of every answer; bars that hold are below the diagonal.
 
 use super::judged::Row;
-use crate::plot::{Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape};
 use crate::scene_file::Method;
+use viscofriction_plot::{
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
+};
 
 /// Smaller relative errors are drawn here.
 const FLOOR: f64 = 1e-16;
@@ -57,7 +59,7 @@ fn point(row: &Row) -> Option<(Method, [f64; 2])> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::draw;
+    use viscofriction_plot::draw;
 
     #[test]
     fn where_every_answer_is_refused_the_picture_has_no_points() {

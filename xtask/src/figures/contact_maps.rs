@@ -1,7 +1,9 @@
 //! The stationary contacts as maps of the pressure.
 
 use crate::figures::stationary::{Contact, Row};
-use crate::plot::{Axis, Colour, ColourScale, Dash, Figure, Line, Map, Marker, Series, Shape};
+use viscofriction_plot::{
+    Axis, Colour, ColourScale, Dash, Figure, Line, Map, Marker, Series, Shape,
+};
 
 /// Window of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];

@@ -15,8 +15,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::output::{WrongInput, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, render_png};
+use crate::output::{WrongInput, to_csv, write_atomically, write_drawing};
 use friction_over_speed::Indenter;
 
 pub(crate) use check::check;
@@ -55,11 +54,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
     write_data(&data, out)?;
     let pictures = pictures::all(&data)?;
     for Picture { name, drawing, .. } in &pictures {
-        write_atomically(
-            &out.join(format!("{name}.png")),
-            &render_png(drawing, PNG_WIDTH)?,
-        )?;
-        write_atomically(&out.join(format!("{name}.svg")), drawing.svg.as_bytes())?;
+        write_drawing(out, name, drawing)?;
     }
     write_atomically(
         &out.join("report.html"),

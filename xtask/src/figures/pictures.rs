@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::figures::approach::{self, Approach};
 use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
-use crate::plot::{
+use viscofriction_plot::{
     Axis, Chart, Colour, ColourScale, Dash, Drawing, Figure, LegendPlace, Line, Map, Marker,
     Series, Shape, draw,
 };

@@ -5,10 +5,10 @@ use friction_analytic::scaling_factor;
 use serde::{Deserialize, Serialize};
 
 use crate::figures::factors::PAPER;
-use crate::plot::{
+use crate::scaling::scaling_factor as solve;
+use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
-use crate::scaling::scaling_factor as solve;
 
 pub(super) const FILE: &str = "scaling_function.csv";
 /// Values of the table, evenly spaced in ln(2p − 1).

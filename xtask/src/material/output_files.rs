@@ -7,8 +7,7 @@ use serde::Serialize;
 
 use super::table::{Measurements, Table};
 use super::{Fitted, picture};
-use crate::output::{WrongInput, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, draw, render_png};
+use crate::output::{WrongInput, to_csv, write_atomically, write_figure};
 
 /// Measured and fitted moduli at one frequency.
 #[derive(Debug, Serialize)]
@@ -53,10 +52,8 @@ pub(super) fn write(table: &Table, fitted: &Fitted<'_>) -> Result<()> {
         Comparison::Oscillation(rows) => to_csv(rows)?,
         Comparison::Relaxation(rows) => to_csv(rows)?,
     };
-    let drawing = draw(&picture::figure(&comparison))?;
     write_atomically(&out.join("fit.csv"), rows.as_bytes())?;
-    write_atomically(&out.join("fit.svg"), drawing.svg.as_bytes())?;
-    write_atomically(&out.join("fit.png"), &render_png(&drawing, PNG_WIDTH)?)?;
+    write_figure(out, "fit", &picture::figure(&comparison))?;
     if let Some(shifted) = &fitted.shifted {
         let shifts = shifted.master.log10_factors.iter();
         let shifts: Vec<ShiftRow> = shifts

@@ -1,7 +1,7 @@
 //! Measured and fitted moduli, and the error between them.
 
 use super::output_files::{Comparison, ModulusRow, RelaxationRow};
-use crate::plot::{
+use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
 

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde::Serialize;
 
 use super::answer::Answer;
 use super::pictures;
 use crate::npy::to_npy;
-use crate::output::{WrongInput, to_csv, write_atomically};
-use crate::plot::{Figure, PNG_WIDTH, draw, render_png};
+use crate::output::{WrongInput, to_csv, write_atomically, write_figure};
+use viscofriction_plot::Figure;
 
 #[derive(Debug, Serialize)]
 struct PressureRow {
@@ -60,7 +60,7 @@ fn write_pressure(answer: &Answer, out: &Path) -> Result<()> {
         let places: Vec<f64> = (0..shape[axis]).map(|index| place(axis, index)).collect();
         write_atomically(&out.join(name), &to_npy(&places, &[places.len()]))?;
     }
-    write_picture(&pictures::pressure(field)?, out, "pressure")
+    write_figure(out, "pressure", &pictures::pressure(field)?)
 }
 
 fn write_line(answer: &Answer, out: &Path) -> Result<()> {
@@ -92,7 +92,7 @@ fn write_along<R: Serialize>(
     let path = |extension: &str| out.join(format!("{name}.{extension}"));
     write_atomically(&path("csv"), to_csv(&rows)?.as_bytes())?;
     write_atomically(&path("npy"), &to_npy(&points.concat(), &[points.len(), 2]))?;
-    write_picture(&figure(points), out, name)
+    write_figure(out, name, &figure(points))
 }
 
 fn write_history(answer: &Answer, out: &Path) -> Result<()> {
@@ -101,13 +101,5 @@ fn write_history(answer: &Answer, out: &Path) -> Result<()> {
         return Ok(());
     }
     write_atomically(&out.join("history.csv"), to_csv(rows)?.as_bytes())?;
-    write_picture(&pictures::history(rows), out, "history")
-}
-
-fn write_picture(figure: &Figure, out: &Path, name: &str) -> Result<()> {
-    let say = || format!("drawing {name}");
-    let drawing = draw(figure).with_context(say)?;
-    write_atomically(&out.join(format!("{name}.svg")), drawing.svg.as_bytes())?;
-    let png = render_png(&drawing, PNG_WIDTH).with_context(say)?;
-    write_atomically(&out.join(format!("{name}.png")), &png)
+    write_figure(out, "history", &pictures::history(rows))
 }

@@ -4,7 +4,9 @@ use anyhow::{Context, Result};
 use bem_halfspace::slide::PressureField;
 
 use super::answer::HistoryRow;
-use crate::plot::{Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Series};
+use viscofriction_plot::{
+    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Series,
+};
 
 /// The pressure over the contact.
 pub(super) fn pressure(field: &PressureField) -> Result<Figure> {

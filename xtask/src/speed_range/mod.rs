@@ -12,8 +12,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use crate::output::{WrongInput, print_line, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, draw, render_png};
+use crate::output::{WrongInput, print_line, to_csv, write_atomically, write_figure};
 
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
@@ -114,13 +113,7 @@ pub(crate) fn speed_range(options: &SpeedRange) -> Result<()> {
         write_atomically(&out.join(name), table.as_bytes())?;
     }
     for (name, figure) in pictures::all((&curves, &validity, &borders), &extent)? {
-        let drawing = draw(&figure)?;
-        let png = render_png(&drawing, PNG_WIDTH)?;
-        write_atomically(
-            &out.join(name).with_extension("svg"),
-            drawing.svg.as_bytes(),
-        )?;
-        write_atomically(&out.join(name).with_extension("png"), &png)?;
+        write_figure(out, name, &figure)?;
     }
     print_line(&border::printed(&borders))?;
     print_line(&out.display())

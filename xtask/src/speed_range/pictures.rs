@@ -3,13 +3,13 @@
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
 
-use crate::plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Panel, Series,
-    Shape,
-};
 use crate::speed_range::border::Model;
 use crate::speed_range::sliding::{Sliding, plateau};
 use crate::speed_range::{Decades, EXPONENTS, Extent, border, curves, validity};
+use viscofriction_plot::{
+    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Panel, Series,
+    Shape,
+};
 
 /// Looks of the stiffness ratios.
 const COLOURS: [Colour; 3] = [Colour::Blue, Colour::Green, Colour::Red];

@@ -20,8 +20,9 @@ use std::path::PathBuf;
 use anyhow::{Result, bail};
 use clap::Args;
 
-use crate::output::{WrongInput, markdown_table, print_line, to_csv, write_atomically};
-use crate::plot::{PNG_WIDTH, draw, render_png};
+use crate::output::{
+    WrongInput, markdown_table, print_line, to_csv, write_atomically, write_figure,
+};
 use case::Family;
 use judge::{Row, Verdict};
 
@@ -53,12 +54,7 @@ pub(crate) fn stability(options: &Stability) -> Result<()> {
         |one: &Row, other: &Row| one.family == other.family && one.parameter == other.parameter;
     let families: Vec<&[Row]> = rows.chunk_by(of_one_family).collect();
     write_atomically(&out.join("stability.csv"), to_csv(&rows)?.as_bytes())?;
-    let drawing = draw(&picture::picture(&families))?;
-    write_atomically(&out.join("stability.svg"), drawing.svg.as_bytes())?;
-    write_atomically(
-        &out.join("stability.png"),
-        &render_png(&drawing, PNG_WIDTH)?,
-    )?;
+    write_figure(out, "stability", &picture::picture(&families))?;
     print_line(&summary(&families))?;
     let seconds = start.elapsed().as_secs_f64();
     print_line(&format!("{} in {seconds:.1} s", out.display()))?;

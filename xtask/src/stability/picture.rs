@@ -1,7 +1,7 @@
 //! The cases as a heat map: one row per family, one cell per case.
 
-use crate::plot::{Cell, Colour, ColourScale, Figure, Matrix, MatrixRow};
 use crate::stability::judge::{Row, Verdict};
+use viscofriction_plot::{Cell, Colour, ColourScale, Figure, Matrix, MatrixRow};
 
 /// Deviations below 10^this of their tolerance have the darkest colour.
 const DARKEST: f64 = -6.0;

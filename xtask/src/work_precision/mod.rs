@@ -14,8 +14,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use clap::Args;
 
-use crate::output::{WrongInput, print_line, write_atomically, write_table};
-use crate::plot::{PNG_WIDTH, draw, render_png};
+use crate::output::{WrongInput, print_line, write_figure, write_table};
 use crate::progress;
 use fit::{Fit, fit};
 use measured::{Row, Timing};
@@ -140,12 +139,8 @@ fn write(measured: &Measured, out: &Path) -> Result<()> {
         ("work_precision_sliding", sliding),
         ("work_precision_at_rest", at_rest),
     ] {
-        let drawing = draw(&picture::figure(&rows))?;
-        let png = render_png(&drawing, PNG_WIDTH)?;
-        let path = out.join(name);
-        write_atomically(&path.with_extension("svg"), drawing.svg.as_bytes())?;
-        write_atomically(&path.with_extension("png"), &png)?;
-        print_line(&path.with_extension("svg").display())?;
+        write_figure(out, name, &picture::figure(&rows))?;
+        print_line(&out.join(name).with_extension("svg").display())?;
     }
     Ok(())
 }

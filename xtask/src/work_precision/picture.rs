@@ -2,10 +2,10 @@
 
 use super::measured::Row;
 use super::series::Solver;
-use crate::plot::{
+use crate::scene_file::{Method, Model};
+use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
-use crate::scene_file::{Method, Model};
 
 /// Errors of references that are drawn; smaller ones do not matter.
 const VISIBLE: f64 = 1e-9;

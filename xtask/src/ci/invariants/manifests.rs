@@ -16,7 +16,7 @@ struct Rule {
     in_tests: &'static [&'static str],
 }
 
-const RULES: [Rule; 6] = [
+const RULES: [Rule; 7] = [
     Rule {
         name: "indenters",
         required: &["libm", "thiserror"],
@@ -53,6 +53,12 @@ const RULES: [Rule; 6] = [
         ],
         optional: &["rayon", "serde"],
         in_tests: &["casebook", "friction-analytic"],
+    },
+    Rule {
+        name: "viscofriction-plot",
+        required: &["colorous", "resvg", "thiserror", "ttf-parser", "xmlwriter"],
+        optional: &[],
+        in_tests: &[],
     },
     Rule {
         name: "casebook",

@@ -1,16 +1,16 @@
 //! Ticks and their labels: decades with minor ticks, or steps of 1, 2, 5 times a power of ten.
 
-use super::axis::{Axis, Scale};
+use crate::axis::{Axis, Scale};
 
 /// Mark on an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     /// Position in the unit of the axis.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// Long or short.
-    pub(super) major: bool,
+    pub(crate) major: bool,
     /// Text, if it has one.
-    pub(super) label: Option<String>,
+    pub(crate) label: Option<String>,
 }
 
 /// Largest number of labelled steps on a linear axis.
@@ -19,7 +19,7 @@ const MOST_STEPS: f64 = 6.0;
 const MOST_DECADES: f64 = 8.0;
 
 /// Ticks of an axis from its lower to its upper end.
-pub(super) fn ticks(axis: &Axis) -> Vec<Tick> {
+pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
     match axis.scale {
         Scale::Linear => linear_ticks(axis),
         Scale::Log10 => log_ticks(axis),

@@ -1,10 +1,10 @@
 //! Axes: label, scale, range, and the way from a value to a fraction of the axis.
 
-use super::error::PlotError;
+use crate::error::PlotError;
 
 /// Spacing of values along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// Equal steps in the value.
     Linear,
     /// Equal steps in the decimal logarithm of the value.
@@ -13,13 +13,13 @@ pub(crate) enum Scale {
 
 /// One axis of a picture; values outside the range are refused.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Axis {
+pub struct Axis {
     /// Quantity and unit, as "velocity v [m/s]".
-    pub(crate) label: String,
+    pub label: String,
     /// Spacing of values.
-    pub(crate) scale: Scale,
+    pub scale: Scale,
     /// Lower and upper end, in the unit of the label.
-    pub(crate) range: [f64; 2],
+    pub range: [f64; 2],
 }
 
 /// Share of an axis by which a value may miss its end through rounding (far below a pixel).
@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-9;
 impl Axis {
     /// Linear axis.
     #[must_use]
-    pub(crate) fn linear(label: impl Into<String>, range: [f64; 2]) -> Self {
+    pub fn linear(label: impl Into<String>, range: [f64; 2]) -> Self {
         Self {
             label: label.into(),
             scale: Scale::Linear,
@@ -38,7 +38,7 @@ impl Axis {
 
     /// Logarithmic axis; the range must be positive.
     #[must_use]
-    pub(crate) fn log10(label: impl Into<String>, range: [f64; 2]) -> Self {
+    pub fn log10(label: impl Into<String>, range: [f64; 2]) -> Self {
         Self {
             label: label.into(),
             scale: Scale::Log10,
@@ -48,7 +48,7 @@ impl Axis {
 
     /// Logarithmic axis over the whole decades around positive values; one decade when there are none.
     #[must_use]
-    pub(crate) fn decades(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
+    pub fn decades(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
         let [mut low, mut high] = [f64::INFINITY, 0.0_f64];
         for value in values {
             low = low.min(value);
@@ -65,7 +65,7 @@ impl Axis {
     }
 
     /// Refuses a range that cannot be drawn.
-    pub(super) fn validate(&self) -> Result<(), PlotError> {
+    pub(crate) fn validate(&self) -> Result<(), PlotError> {
         let [from, to] = self.range;
         let axis = || self.label.clone();
         if self.label.is_empty() {
@@ -94,13 +94,13 @@ impl Axis {
     }
 
     /// Position on the axis, 0 at its lower and 1 at its upper end; not finite for a value that has none.
-    pub(super) fn fraction(&self, value: f64) -> f64 {
+    pub(crate) fn fraction(&self, value: f64) -> f64 {
         let [from, to] = self.range.map(|end| self.coordinate(end));
         (self.coordinate(value) - from) / (to - from)
     }
 
     /// Refuses a value that the axis does not show; `of` and `index` name it.
-    pub(super) fn check(&self, value: f64, of: &str, index: usize) -> Result<(), PlotError> {
+    pub(crate) fn check(&self, value: f64, of: &str, index: usize) -> Result<(), PlotError> {
         if !value.is_finite() {
             return Err(PlotError::NotFinite {
                 of: of.into(),

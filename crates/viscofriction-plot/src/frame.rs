@@ -1,15 +1,15 @@
 //! The frame of a picture: the rectangle the data live in, with its ticks, labels and title.
 
-use super::axis::Axis;
-use super::canvas::{Anchor, Area, Canvas, Pen, Pixel};
-use super::error::PlotError;
-use super::font::{check_fit, text_width};
-use super::ticks::{Tick, ticks};
+use crate::axis::Axis;
+use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use crate::error::PlotError;
+use crate::font::{check_fit, text_width};
+use crate::ticks::{Tick, ticks};
 
 /// Sizes of the texts, \[px\].
-pub(super) const TICK_SIZE: u32 = 13;
-pub(super) const LABEL_SIZE: u32 = 14;
-pub(super) const TITLE_SIZE: u32 = 14;
+pub(crate) const TICK_SIZE: u32 = 13;
+pub(crate) const LABEL_SIZE: u32 = 14;
+pub(crate) const TITLE_SIZE: u32 = 14;
 
 /// Distances, \[px\].
 const GAP: f64 = 6.0;
@@ -32,15 +32,15 @@ const GRID_PEN: Pen<'static> = Pen {
 
 /// Data rectangle and its two axes.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame<'a> {
-    pub(super) area: Area,
-    pub(super) x: &'a Axis,
-    pub(super) y: &'a Axis,
+pub(crate) struct Frame<'a> {
+    pub(crate) area: Area,
+    pub(crate) x: &'a Axis,
+    pub(crate) y: &'a Axis,
 }
 
 /// Which way the ticks point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TickSide {
+pub(crate) enum TickSide {
     /// Into the frame, on all four sides, over a faint grid.
     Inside,
     /// Away from the frame, on the left and below.
@@ -48,22 +48,22 @@ pub(super) enum TickSide {
 }
 
 /// Room a title takes above the frame, \[px\].
-pub(super) fn top_margin(title: Option<&str>) -> f64 {
+pub(crate) fn top_margin(title: Option<&str>) -> f64 {
     if title.is_some() { TITLE_HEIGHT } else { 10.0 }
 }
 
 /// Room the tick labels and the label of the x axis take below the frame, \[px\].
-pub(super) fn bottom_margin() -> f64 {
+pub(crate) fn bottom_margin() -> f64 {
     4.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE)
 }
 
 /// Room the tick labels and the label of a y axis take beside the frame, \[px\].
-pub(super) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
+pub(crate) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
     Ok(tick_label_width(y)? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
 }
 
 /// Room to the right of the frame, \[px\]; half of the last tick label may reach into it.
-pub(super) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
+pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
     let last = ticks(x)
         .into_iter()
         .filter_map(|tick| tick.label)
@@ -81,7 +81,7 @@ fn tick_label_width(axis: &Axis) -> Result<f64, PlotError> {
 
 impl Frame<'_> {
     /// Pixel of a data point.
-    pub(super) fn pixel(&self, [x, y]: [f64; 2]) -> Pixel {
+    pub(crate) fn pixel(&self, [x, y]: [f64; 2]) -> Pixel {
         [
             self.area.left + self.area.width * self.x.fraction(x),
             self.area.bottom() - self.area.height * self.y.fraction(y),
@@ -89,7 +89,7 @@ impl Frame<'_> {
     }
 
     /// Draws everything but the data.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         canvas: &mut Canvas,
         title: Option<&str>,
@@ -227,7 +227,7 @@ impl Frame<'_> {
 }
 
 /// Draws ticks and label of a vertical axis to the right of a rectangle.
-pub(super) fn draw_right_axis(
+pub(crate) fn draw_right_axis(
     canvas: &mut Canvas,
     area: Area,
     axis: &Axis,

@@ -1,27 +1,27 @@
 //! Charts: series over a pair of axes.
 
-use super::axis::Axis;
-use super::canvas::{Area, Canvas, Pixel};
-use super::error::PlotError;
-use super::figure::PANEL_WIDTH;
-use super::frame::{Frame, TickSide, bottom_margin, right_margin, side_margin, top_margin};
-use super::legend::{Legend, LegendPlace, plan};
-use super::marks::draw_series;
-use super::series::Series;
+use crate::axis::Axis;
+use crate::canvas::{Area, Canvas, Pixel};
+use crate::error::PlotError;
+use crate::figure::PANEL_WIDTH;
+use crate::frame::{Frame, TickSide, bottom_margin, right_margin, side_margin, top_margin};
+use crate::legend::{Legend, LegendPlace, plan};
+use crate::marks::draw_series;
+use crate::series::Series;
 
 /// Series over a pair of axes.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Chart {
+pub struct Chart {
     /// Text above the frame.
-    pub(crate) title: Option<String>,
+    pub title: Option<String>,
     /// Horizontal axis.
-    pub(crate) x: Axis,
+    pub x: Axis,
     /// Vertical axis.
-    pub(crate) y: Axis,
+    pub y: Axis,
     /// Data, drawn in this order.
-    pub(crate) series: Vec<Series>,
+    pub series: Vec<Series>,
     /// Place of the legend.
-    pub(crate) legend: LegendPlace,
+    pub legend: LegendPlace,
 }
 
 /// Height of the data rectangle, \[px\].
@@ -29,7 +29,7 @@ const HEIGHT: f64 = 280.0;
 
 impl Chart {
     /// Refuses axes and data that cannot be drawn faithfully.
-    pub(super) fn validate(&self) -> Result<(), PlotError> {
+    pub(crate) fn validate(&self) -> Result<(), PlotError> {
         self.x.validate()?;
         self.y.validate()?;
         if self.series.is_empty() {
@@ -43,18 +43,18 @@ impl Chart {
     }
 
     /// Room that the left side needs, \[px\].
-    pub(super) fn left_margin(&self) -> Result<f64, PlotError> {
+    pub(crate) fn left_margin(&self) -> Result<f64, PlotError> {
         side_margin(&self.y)
     }
 
     /// Height of the whole panel, \[px\].
-    pub(super) fn height(&self, left: f64) -> Result<f64, PlotError> {
+    pub(crate) fn height(&self, left: f64) -> Result<f64, PlotError> {
         let frame = self.frame([0.0, 0.0], left)?;
         Ok(frame.area.bottom() + bottom_margin() + self.legend(&frame)?.height_below())
     }
 
     /// Draws the panel with its upper left corner at `origin`.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         canvas: &mut Canvas,
         origin: Pixel,

@@ -1,23 +1,23 @@
 //! Figures: one panel or several, side by side and in rows.
 
-use super::canvas::{Canvas, Drawing};
-use super::chart::Chart;
-use super::error::PlotError;
-use super::map::Map;
-use super::matrix::{MATRIX_WIDTH, Matrix};
+use crate::canvas::{Canvas, Drawing};
+use crate::chart::Chart;
+use crate::error::PlotError;
+use crate::map::Map;
+use crate::matrix::{MATRIX_WIDTH, Matrix};
 
 /// One or more panels in one picture.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Figure {
+pub struct Figure {
     /// Panels from left to right, then from top to bottom.
-    pub(crate) panels: Vec<Panel>,
+    pub panels: Vec<Panel>,
     /// Number of panels side by side.
-    pub(crate) columns: usize,
+    pub columns: usize,
 }
 
 /// Part of a figure.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Panel {
+pub enum Panel {
     /// Series over a pair of axes.
     Chart(Chart),
     /// Field on a grid.
@@ -27,7 +27,7 @@ pub(crate) enum Panel {
 }
 
 /// Width of every panel but a matrix, \[px\].
-pub(super) const PANEL_WIDTH: f64 = 480.0;
+pub(crate) const PANEL_WIDTH: f64 = 480.0;
 
 impl From<Chart> for Panel {
     fn from(chart: Chart) -> Self {
@@ -50,7 +50,7 @@ impl From<Matrix> for Panel {
 impl Figure {
     /// Figure of a single panel.
     #[must_use]
-    pub(crate) fn single(panel: impl Into<Panel>) -> Self {
+    pub fn single(panel: impl Into<Panel>) -> Self {
         Self {
             panels: vec![panel.into()],
             columns: 1,
@@ -62,7 +62,7 @@ impl Figure {
 ///
 /// # Errors
 /// Whatever could not be drawn faithfully: see [`PlotError`].
-pub(crate) fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
+pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
     figure.validate()?;
     let margins = figure.left_margins()?;
     let rows: Vec<&[Panel]> = figure.panels.chunks(figure.columns).collect();
@@ -158,10 +158,10 @@ impl Panel {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{
+    use super::*;
+    use crate::{
         Axis, Cell, Colour, ColourScale, Dash, LegendPlace, Line, Marker, MatrixRow, Series, Shape,
     };
-    use super::*;
 
     fn chart() -> Chart {
         let curve = vec![[1e-3, 0.157], [1e1, 0.157]];

@@ -3,17 +3,17 @@
 use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use super::canvas::Drawing;
-use super::error::PlotError;
+use crate::canvas::Drawing;
+use crate::error::PlotError;
 
 /// Usual width of a picture, \[px\].
-pub(crate) const PNG_WIDTH: u32 = 1600;
+pub const PNG_WIDTH: u32 = 1600;
 
 /// PNG file of a drawing on white, `width` pixels wide.
 ///
 /// # Errors
 /// A drawing that cannot be read, or a size that cannot be allocated.
-pub(crate) fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
+pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     let tree = Tree::from_str(&drawing.outlined, &Options::default());
     let tree = tree.map_err(|error| PlotError::Svg(error.to_string()))?;
     let refuse = |reason: String| PlotError::Png { width, reason };
@@ -42,7 +42,7 @@ pub(crate) fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::canvas::{Anchor, Canvas};
+    use crate::canvas::{Anchor, Canvas};
 
     fn drawing() -> Drawing {
         let mut canvas = Canvas::new(40.0, 20.0);

@@ -2,40 +2,40 @@
 
 use std::collections::BTreeMap;
 
-use super::axis::{Axis, Scale};
-use super::canvas::{Area, Canvas, Pen, Pixel, scale_colour};
-use super::error::PlotError;
-use super::figure::PANEL_WIDTH;
-use super::frame::{Frame, TickSide, bottom_margin, draw_right_axis, side_margin, top_margin};
-use super::marks::draw_series;
-use super::series::Series;
+use crate::axis::{Axis, Scale};
+use crate::canvas::{Area, Canvas, Pen, Pixel, scale_colour};
+use crate::error::PlotError;
+use crate::figure::PANEL_WIDTH;
+use crate::frame::{Frame, TickSide, bottom_margin, draw_right_axis, side_margin, top_margin};
+use crate::marks::draw_series;
+use crate::series::Series;
 
 /// Field on a rectangular grid; a unit of length is equally long on both axes.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Map {
+pub struct Map {
     /// Text above the frame.
-    pub(crate) title: Option<String>,
+    pub title: Option<String>,
     /// Horizontal axis; the grid fills its range.
-    pub(crate) x: Axis,
+    pub x: Axis,
     /// Vertical axis; the grid fills its range.
-    pub(crate) y: Axis,
+    pub y: Axis,
     /// Number of cells along x.
-    pub(crate) columns: usize,
+    pub columns: usize,
     /// One value per cell, row by row from the lowest y, each from the lowest x; cells without one stay white.
-    pub(crate) values: Vec<Option<f64>>,
+    pub values: Vec<Option<f64>>,
     /// Meaning of the colours.
-    pub(crate) colours: ColourScale,
+    pub colours: ColourScale,
     /// Outlines or points drawn over the field; their labels are not shown.
-    pub(crate) overlays: Vec<Series>,
+    pub overlays: Vec<Series>,
 }
 
 /// Linear scale from dark blue to yellow.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ColourScale {
+pub struct ColourScale {
     /// Quantity and unit.
-    pub(crate) label: String,
+    pub label: String,
     /// Values of the darkest and the brightest colour.
-    pub(crate) range: [f64; 2],
+    pub range: [f64; 2],
 }
 
 /// Largest size of the data rectangle, \[px\].
@@ -47,7 +47,7 @@ const LEVELS: u8 = 100;
 
 impl Map {
     /// Refuses axes, values and overlays that cannot be drawn faithfully.
-    pub(super) fn validate(&self) -> Result<(), PlotError> {
+    pub(crate) fn validate(&self) -> Result<(), PlotError> {
         for axis in [&self.x, &self.y] {
             axis.validate()?;
             if axis.scale == Scale::Log10 {
@@ -87,17 +87,17 @@ impl Map {
     }
 
     /// Room that the left side needs, \[px\].
-    pub(super) fn left_margin(&self) -> Result<f64, PlotError> {
+    pub(crate) fn left_margin(&self) -> Result<f64, PlotError> {
         side_margin(&self.y)
     }
 
     /// Height of the whole panel, \[px\].
-    pub(super) fn height(&self, left: f64) -> Result<f64, PlotError> {
+    pub(crate) fn height(&self, left: f64) -> Result<f64, PlotError> {
         Ok(self.frame([0.0, 0.0], left)?.area.bottom() + bottom_margin())
     }
 
     /// Draws the panel with its upper left corner at `origin`.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         canvas: &mut Canvas,
         origin: Pixel,
@@ -170,7 +170,7 @@ impl Map {
 }
 
 /// A bar that shows all colours, with its axis on the right.
-pub(super) fn draw_colour_bar(
+pub(crate) fn draw_colour_bar(
     canvas: &mut Canvas,
     bar: Area,
     axis: &Axis,
@@ -189,7 +189,7 @@ pub(super) fn draw_colour_bar(
 }
 
 /// Colour of a share between 0 and 1 of the scale.
-pub(super) fn colour_of(share: f64) -> String {
+pub(crate) fn colour_of(share: f64) -> String {
     level_colour(level(share))
 }
 

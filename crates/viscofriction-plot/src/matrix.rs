@@ -2,41 +2,41 @@
 
 use std::collections::BTreeMap;
 
-use super::axis::Axis;
-use super::canvas::{Anchor, Area, Canvas, Pen, Pixel};
-use super::colour::Colour;
-use super::error::PlotError;
-use super::font::{check_fit, text_width};
-use super::frame::{TICK_SIZE, TITLE_SIZE, side_margin, top_margin};
-use super::map::{ColourScale, colour_of, draw_colour_bar};
+use crate::axis::Axis;
+use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use crate::colour::Colour;
+use crate::error::PlotError;
+use crate::font::{check_fit, text_width};
+use crate::frame::{TICK_SIZE, TITLE_SIZE, side_margin, top_margin};
+use crate::map::{ColourScale, colour_of, draw_colour_bar};
 
 /// Rows of cells; the panel is wider than others because texts stand on both sides of them.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Matrix {
+pub struct Matrix {
     /// Text above the cells.
-    pub(crate) title: Option<String>,
+    pub title: Option<String>,
     /// From top to bottom.
-    pub(crate) rows: Vec<MatrixRow>,
+    pub rows: Vec<MatrixRow>,
     /// Meaning of the colours of values.
-    pub(crate) colours: ColourScale,
+    pub colours: ColourScale,
     /// Meaning of the plain colours, from left to right below the cells.
-    pub(crate) legend: Vec<(Colour, String)>,
+    pub legend: Vec<(Colour, String)>,
 }
 
 /// One row.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct MatrixRow {
+pub struct MatrixRow {
     /// Text on the left.
-    pub(crate) name: String,
+    pub name: String,
     /// From left to right.
-    pub(crate) cells: Vec<Cell>,
+    pub cells: Vec<Cell>,
     /// Text on the right.
-    pub(crate) note: String,
+    pub note: String,
 }
 
 /// One cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cell {
+pub enum Cell {
     /// A number on the colour scale.
     Value(f64),
     /// Something without a number.
@@ -44,7 +44,7 @@ pub(crate) enum Cell {
 }
 
 /// Width of the panel, \[px\].
-pub(super) const MATRIX_WIDTH: f64 = 960.0;
+pub(crate) const MATRIX_WIDTH: f64 = 960.0;
 /// Distance from cell to cell along and across a row, \[px\].
 const STRIDE: [f64; 2] = [12.0, 16.0];
 /// Parts of these distances that are coloured.
@@ -58,7 +58,7 @@ const BASELINE: f64 = 12.0;
 
 impl Matrix {
     /// Refuses rows and values that cannot be drawn faithfully.
-    pub(super) fn validate(&self) -> Result<(), PlotError> {
+    pub(crate) fn validate(&self) -> Result<(), PlotError> {
         let scale = self.colour_axis();
         scale.validate()?;
         if self.columns() == 0 {
@@ -81,7 +81,7 @@ impl Matrix {
     }
 
     /// Room that the names need, \[px\].
-    pub(super) fn left_margin(&self) -> Result<f64, PlotError> {
+    pub(crate) fn left_margin(&self) -> Result<f64, PlotError> {
         let names = self.rows.iter().map(|row| &row.name);
         names
             .map(|name| text_width(name, TICK_SIZE))
@@ -89,7 +89,7 @@ impl Matrix {
     }
 
     /// Height of the whole panel, \[px\].
-    pub(super) fn height(&self, left: f64) -> f64 {
+    pub(crate) fn height(&self, left: f64) -> f64 {
         let area = self.area([0.0, 0.0], left);
         (area.bottom() + LEGEND_HEIGHT).max(area.top + BAR_HEIGHT + GAP)
     }
@@ -104,7 +104,7 @@ impl Matrix {
     }
 
     /// Draws the panel with its upper left corner at `origin`.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         canvas: &mut Canvas,
         origin: Pixel,

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// What a figure must satisfy and what was given instead.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub(crate) enum PlotError {
+pub enum PlotError {
     /// An axis or colour range is not finite or does not increase.
     #[error("the range of '{axis}' must be finite and increase, it is {from} to {to}")]
     Range {

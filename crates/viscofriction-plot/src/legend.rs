@@ -1,15 +1,15 @@
 //! The legend: where it stands and what it shows.
 
-use super::canvas::{Anchor, Area, Canvas, Pen, Pixel};
-use super::error::PlotError;
-use super::font::text_width;
-use super::frame::Frame;
-use super::marks::{MARKER_RADIUS, draw_marker, error_ends, line_pen};
-use super::series::Series;
+use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use crate::error::PlotError;
+use crate::font::text_width;
+use crate::frame::Frame;
+use crate::marks::{MARKER_RADIUS, draw_marker, error_ends, line_pen};
+use crate::series::Series;
 
 /// Place of the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum LegendPlace {
+pub enum LegendPlace {
     /// The first corner without data under the legend, or below the chart if there is none.
     #[default]
     Free,
@@ -37,7 +37,7 @@ const INSET: f64 = 10.0;
 const COLUMN_GAP: f64 = 18.0;
 
 /// Legend with its place found.
-pub(super) struct Legend<'a> {
+pub(crate) struct Legend<'a> {
     entries: Vec<(&'a Series, &'a str)>,
     /// Width of one column with sample and text, \[px\].
     column: f64,
@@ -52,7 +52,7 @@ enum Spot {
 }
 
 /// Finds the place of the legend of some series in a frame.
-pub(super) fn plan<'a>(
+pub(crate) fn plan<'a>(
     series: &'a [Series],
     frame: &Frame,
     place: LegendPlace,
@@ -84,7 +84,7 @@ pub(super) fn plan<'a>(
 
 impl Legend<'_> {
     /// Height taken below the chart, \[px\].
-    pub(super) fn height_below(&self) -> f64 {
+    pub(crate) fn height_below(&self) -> f64 {
         match self.spot {
             Spot::Below => to_f64(self.rows()) * ROW + PADDING,
             Spot::Inside(_) | Spot::Nowhere => 0.0,
@@ -92,7 +92,7 @@ impl Legend<'_> {
     }
 
     /// Draws the legend; `bottom` is where a legend below the chart begins.
-    pub(super) fn draw(&self, canvas: &mut Canvas, frame: &Frame, bottom: f64) {
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame, bottom: f64) {
         let start = match self.spot {
             Spot::Nowhere => return,
             Spot::Inside(area) => {

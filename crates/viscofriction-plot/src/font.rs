@@ -5,14 +5,14 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, FaceParsingError, GlyphId, OutlineBuilder};
 
-use super::canvas::Pixel;
-use super::error::PlotError;
+use crate::canvas::Pixel;
+use crate::error::PlotError;
 
 /// Family name of the bundled font.
-pub(super) const FAMILY: &str = "DejaVu Sans";
+pub(crate) const FAMILY: &str = "DejaVu Sans";
 
 static FACE: LazyLock<Result<Face<'static>, FaceParsingError>> =
-    LazyLock::new(|| Face::parse(include_bytes!("../../assets/DejaVuSans.ttf"), 0));
+    LazyLock::new(|| Face::parse(include_bytes!("../assets/DejaVuSans.ttf"), 0));
 
 fn face() -> Result<&'static Face<'static>, PlotError> {
     let face = FACE.as_ref();
@@ -41,7 +41,7 @@ fn layout(face: &Face, text: &str) -> Result<(Vec<(GlyphId, f64)>, f64), PlotErr
 }
 
 /// Width of a text, \[px\]; refuses characters that the font cannot draw.
-pub(super) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
+pub(crate) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
     let face = face()?;
     let (_, end) = layout(face, text)?;
     Ok(end * scale(face, size))
@@ -49,7 +49,7 @@ pub(super) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
 
 /// Path data of a text with a `part` of it to the left of the point, through which its baseline passes; refuses characters
 /// that the font cannot draw.
-pub(super) fn outline(
+pub(crate) fn outline(
     text: &str,
     size: u32,
     ([x, y], part): (Pixel, f64),
@@ -115,7 +115,7 @@ impl OutlineBuilder for GlyphPath {
 }
 
 /// Refuses a text that is wider than its place, \[px\].
-pub(super) fn check_fit(text: &str, size: u32, available: f64) -> Result<(), PlotError> {
+pub(crate) fn check_fit(text: &str, size: u32, available: f64) -> Result<(), PlotError> {
     let needed = text_width(text, size)?;
     if needed <= available {
         return Ok(());

@@ -8,31 +8,31 @@ use std::fmt::Display;
 use colorous::VIRIDIS;
 use xmlwriter::{Options, XmlWriter};
 
-use super::error::PlotError;
-use super::font::{FAMILY, outline};
+use crate::error::PlotError;
+use crate::font::{FAMILY, outline};
 
 /// Pixels from the left and the top.
-pub(super) type Pixel = [f64; 2];
+pub(crate) type Pixel = [f64; 2];
 
 /// Rectangle in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Area {
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
+pub(crate) struct Area {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
 }
 
 impl Area {
-    pub(super) fn right(&self) -> f64 {
+    pub(crate) fn right(&self) -> f64 {
         self.left + self.width
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.top + self.height
     }
 
-    pub(super) fn contains(&self, [x, y]: Pixel, margin: f64) -> bool {
+    pub(crate) fn contains(&self, [x, y]: Pixel, margin: f64) -> bool {
         let across = (self.left - margin..=self.right() + margin).contains(&x);
         across && (self.top - margin..=self.bottom() + margin).contains(&y)
     }
@@ -40,15 +40,15 @@ impl Area {
 
 /// Pen of a line or outline.
 #[derive(Debug, Clone)]
-pub(super) struct Pen<'a> {
-    pub(super) colour: &'a str,
-    pub(super) width: f64,
+pub(crate) struct Pen<'a> {
+    pub(crate) colour: &'a str,
+    pub(crate) width: f64,
     /// Lengths of dashes and gaps, \[px\].
-    pub(super) dash: Option<String>,
+    pub(crate) dash: Option<String>,
 }
 
 impl<'a> Pen<'a> {
-    pub(super) fn solid(colour: &'a str, width: f64) -> Self {
+    pub(crate) fn solid(colour: &'a str, width: f64) -> Self {
         Self {
             colour,
             width,
@@ -59,7 +59,7 @@ impl<'a> Pen<'a> {
 
 /// Place of a text relative to its point; all but `Upwards` run to the right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -69,15 +69,15 @@ pub(super) enum Anchor {
 
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Drawing {
+pub struct Drawing {
     /// As an SVG text.
-    pub(crate) svg: String,
+    pub svg: String,
     /// The same with the outlines of all letters in place of texts.
-    pub(super) outlined: String,
+    pub(crate) outlined: String,
 }
 
 /// Picture under construction.
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     svg: XmlWriter,
     outlined: XmlWriter,
     /// The first text that has no outline.
@@ -86,7 +86,7 @@ pub(super) struct Canvas {
 
 impl Canvas {
     /// White canvas, \[px\].
-    pub(super) fn new(width: f64, height: f64) -> Self {
+    pub(crate) fn new(width: f64, height: f64) -> Self {
         let mut canvas = Self {
             svg: XmlWriter::new(Options::default()),
             outlined: XmlWriter::new(Options::default()),
@@ -110,7 +110,7 @@ impl Canvas {
     }
 
     /// The picture; an error if a text could not be drawn.
-    pub(super) fn finish(self) -> Result<Drawing, PlotError> {
+    pub(crate) fn finish(self) -> Result<Drawing, PlotError> {
         match self.refused {
             Some(refused) => Err(refused),
             None => Ok(Drawing {
@@ -120,7 +120,7 @@ impl Canvas {
         }
     }
 
-    pub(super) fn line(&mut self, from: Pixel, to: Pixel, pen: &Pen) {
+    pub(crate) fn line(&mut self, from: Pixel, to: Pixel, pen: &Pen) {
         self.each(|xml| {
             xml.start_element("line");
             let ends = [
@@ -135,7 +135,7 @@ impl Canvas {
         });
     }
 
-    pub(super) fn polyline(&mut self, points: &[Pixel], pen: &Pen) {
+    pub(crate) fn polyline(&mut self, points: &[Pixel], pen: &Pen) {
         let places: Vec<String> = points
             .iter()
             .map(|[x, y]| format!("{},{}", rounded(*x), rounded(*y)))
@@ -149,7 +149,7 @@ impl Canvas {
         });
     }
 
-    pub(super) fn circle(&mut self, [cx, cy]: Pixel, radius: f64, fill: &str, pen: &Pen) {
+    pub(crate) fn circle(&mut self, [cx, cy]: Pixel, radius: f64, fill: &str, pen: &Pen) {
         self.each(|xml| {
             xml.start_element("circle");
             write_places(xml, &[("cx", cx), ("cy", cy), ("r", radius)]);
@@ -160,7 +160,7 @@ impl Canvas {
     }
 
     /// Closed shape given as SVG path data.
-    pub(super) fn shape(&mut self, path: &str, fill: &str, pen: &Pen) {
+    pub(crate) fn shape(&mut self, path: &str, fill: &str, pen: &Pen) {
         self.each(|xml| {
             xml.start_element("path");
             xml.write_attribute("d", path);
@@ -170,7 +170,7 @@ impl Canvas {
         });
     }
 
-    pub(super) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
+    pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
         self.each(|xml| {
             xml.start_element("rect");
             let places = [
@@ -187,7 +187,7 @@ impl Canvas {
     }
 
     /// Text whose baseline passes through the point.
-    pub(super) fn text(&mut self, [x, y]: Pixel, text: &str, size: u32, anchor: Anchor) {
+    pub(crate) fn text(&mut self, [x, y]: Pixel, text: &str, size: u32, anchor: Anchor) {
         let (place, part) = match anchor {
             Anchor::Start => ("start", 0.0),
             Anchor::Middle | Anchor::Upwards => ("middle", 0.5),
@@ -219,7 +219,7 @@ impl Canvas {
 
     /// Opens a group in which a cell of the given size, \[px\], has the size 1 by 1, with the origin in the lower
     /// left corner of the area and y upwards; neighbouring fills meet without seams.
-    pub(super) fn start_mosaic(&mut self, area: Area, [width, height]: [f64; 2]) {
+    pub(crate) fn start_mosaic(&mut self, area: Area, [width, height]: [f64; 2]) {
         self.each(|xml| {
             xml.start_element("g");
             xml.write_attribute("shape-rendering", "crispEdges");
@@ -236,7 +236,7 @@ impl Canvas {
     }
 
     /// Closes the group opened last.
-    pub(super) fn end_group(&mut self) {
+    pub(crate) fn end_group(&mut self) {
         self.each(XmlWriter::end_element);
     }
 
@@ -286,6 +286,6 @@ fn rounded(value: f64) -> impl Display {
 }
 
 /// Colour of a share between 0 and 1 of a colour scale, dark blue to yellow.
-pub(super) fn scale_colour(share: f64) -> String {
+pub(crate) fn scale_colour(share: f64) -> String {
     format!("#{:x}", VIRIDIS.eval_continuous(share))
 }

@@ -2,7 +2,7 @@
 
 /// Line and marker colours: Okabe and Ito's palette, with a magenta dark enough for thin lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Colour {
+pub enum Colour {
     /// #0072B2.
     Blue,
     /// #D55E00 (vermilion).
@@ -19,7 +19,7 @@ pub(crate) enum Colour {
 
 impl Colour {
     /// Value as #rrggbb.
-    pub(super) const fn hex(self) -> &'static str {
+    pub(crate) const fn hex(self) -> &'static str {
         match self {
             Self::Blue => "#0072b2",
             Self::Red => "#d55e00",

@@ -1,15 +1,15 @@
 //! Lines, markers and error bars.
 
-use super::canvas::{Canvas, Pen, Pixel};
-use super::frame::Frame;
-use super::series::{Dash, Fill, Line, Marker, Series, Shape};
+use crate::canvas::{Canvas, Pen, Pixel};
+use crate::frame::Frame;
+use crate::series::{Dash, Fill, Line, Marker, Series, Shape};
 
 /// Radius of a circular marker, \[px\]; the other shapes have about its area.
-pub(super) const MARKER_RADIUS: f64 = 3.6;
+pub(crate) const MARKER_RADIUS: f64 = 3.6;
 const CAP: f64 = 3.5;
 
 /// Draws one series: its line, then its error bars, then its markers.
-pub(super) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
+pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
     let pixels: Vec<Pixel> = series
         .points
         .iter()
@@ -31,12 +31,12 @@ pub(super) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
 }
 
 /// Upper and lower end of an error bar.
-pub(super) fn error_ends(frame: &Frame, [x, y]: [f64; 2], error: f64) -> [Pixel; 2] {
+pub(crate) fn error_ends(frame: &Frame, [x, y]: [f64; 2], error: f64) -> [Pixel; 2] {
     [y + error, y - error].map(|end| frame.pixel([x, end]))
 }
 
 /// Pen of a series' line.
-pub(super) fn line_pen(line: Line, series: &Series) -> Pen<'static> {
+pub(crate) fn line_pen(line: Line, series: &Series) -> Pen<'static> {
     // Thin lines keep a pattern that can be told apart.
     let unit = line.width.max(1.2);
     let pattern: Option<&[f64]> = match line.dash {
@@ -68,7 +68,7 @@ fn draw_error_bar(canvas: &mut Canvas, [upper, lower]: [Pixel; 2], series: &Seri
 }
 
 /// Draws a marker centred on a pixel.
-pub(super) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, colour: &str) {
+pub(crate) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, colour: &str) {
     let radius = MARKER_RADIUS;
     let pen = Pen::solid(colour, 1.2);
     let fill = match marker.fill {

@@ -1,33 +1,33 @@
 //! Data series: points, error bars, and the look of their line and markers.
 
-use super::axis::Axis;
-use super::colour::Colour;
-use super::error::PlotError;
+use crate::axis::Axis;
+use crate::colour::Colour;
+use crate::error::PlotError;
 
 /// Points with a line through them, markers on them, or both.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Series {
+pub struct Series {
     /// Text in the legend; a series without one is left out there.
-    pub(crate) label: Option<String>,
+    pub label: Option<String>,
     /// Points (x, y) in the units of the axes, in drawing order.
-    pub(crate) points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
     /// Half lengths of symmetric error bars in y, one per point.
-    pub(crate) errors: Option<Vec<f64>>,
+    pub errors: Option<Vec<f64>>,
     /// Line through the points.
-    pub(crate) line: Option<Line>,
+    pub line: Option<Line>,
     /// Markers on the points.
-    pub(crate) marker: Option<Marker>,
+    pub marker: Option<Marker>,
     /// Colour of line, markers and error bars.
-    pub(crate) colour: Colour,
+    pub colour: Colour,
 }
 
 /// Look of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Line {
+pub struct Line {
     /// Pattern.
-    pub(crate) dash: Dash,
+    pub dash: Dash,
     /// Width, \[px\] of a picture 480 px wide.
-    pub(crate) width: f64,
+    pub width: f64,
 }
 
 /// Pattern of a line.
@@ -36,7 +36,7 @@ pub(crate) struct Line {
     reason = "a dash-dot line has no other name"
 )]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Dash {
+pub enum Dash {
     /// Unbroken.
     Solid,
     /// Dashes.
@@ -49,18 +49,18 @@ pub(crate) enum Dash {
 
 /// Look and spacing of markers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Marker {
+pub struct Marker {
     /// Outline.
-    pub(crate) shape: Shape,
+    pub shape: Shape,
     /// Inside.
-    pub(crate) fill: Fill,
+    pub fill: Fill,
     /// A marker on every n-th point, from the first on; at least 1.
-    pub(crate) every: usize,
+    pub every: usize,
 }
 
 /// Outline of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shape {
+pub enum Shape {
     /// Circle.
     Circle,
     /// Square.
@@ -73,7 +73,7 @@ pub(crate) enum Shape {
 
 /// Inside of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fill {
+pub enum Fill {
     /// White.
     Open,
     /// In the colour of the series.
@@ -83,13 +83,13 @@ pub(crate) enum Fill {
 impl Line {
     /// Line of usual width.
     #[must_use]
-    pub(crate) const fn thick(dash: Dash) -> Self {
+    pub const fn thick(dash: Dash) -> Self {
         Self { dash, width: 1.8 }
     }
 
     /// Line of half the usual width.
     #[must_use]
-    pub(crate) const fn thin(dash: Dash) -> Self {
+    pub const fn thin(dash: Dash) -> Self {
         Self { dash, width: 0.9 }
     }
 }
@@ -97,7 +97,7 @@ impl Line {
 impl Marker {
     /// White marker with coloured outline on every point.
     #[must_use]
-    pub(crate) const fn open(shape: Shape) -> Self {
+    pub const fn open(shape: Shape) -> Self {
         Self {
             shape,
             fill: Fill::Open,
@@ -107,7 +107,7 @@ impl Marker {
 
     /// Coloured marker on every point.
     #[must_use]
-    pub(crate) const fn filled(shape: Shape) -> Self {
+    pub const fn filled(shape: Shape) -> Self {
         Self {
             shape,
             fill: Fill::Filled,
@@ -119,7 +119,7 @@ impl Marker {
 impl Series {
     /// Line without markers, label or error bars.
     #[must_use]
-    pub(crate) const fn line(points: Vec<[f64; 2]>, line: Line, colour: Colour) -> Self {
+    pub const fn line(points: Vec<[f64; 2]>, line: Line, colour: Colour) -> Self {
         Self {
             label: None,
             points,
@@ -132,7 +132,7 @@ impl Series {
 
     /// Markers without line, label or error bars.
     #[must_use]
-    pub(crate) const fn markers(points: Vec<[f64; 2]>, marker: Marker, colour: Colour) -> Self {
+    pub const fn markers(points: Vec<[f64; 2]>, marker: Marker, colour: Colour) -> Self {
         Self {
             label: None,
             points,
@@ -144,7 +144,7 @@ impl Series {
     }
 
     /// Refuses points and error bars that the axes do not show.
-    pub(super) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
+    pub(crate) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
         let name = self.name();
         self.validate_look(name)?;
         for (index, &[at, value]) in self.points.iter().enumerate() {

@@ -1,0 +1,37 @@
+//! Pictures of curves and fields: [`draw`] makes a [`Drawing`] of a [`Figure`], which is an SVG text, and [`render_png`] a PNG of it.
+//!
+//! The crate draws what it is given or refuses: a point that is not finite or lies outside its axis is a
+//! [`PlotError`], never dropped, clamped or clipped.
+//! Output is the same byte for byte from run to run and does not depend on installed fonts.
+//!
+//! Axes, marks and legend are drawn here, because libraries for charts clamp or clip what lies outside, or have no legend
+//! samples with line and marker together. Texts are laid out letter by letter: they are short, and a library that shapes
+//! them takes longer to compile than all solvers of the workspace.
+
+mod axis;
+mod canvas;
+mod chart;
+mod colour;
+mod error;
+mod figure;
+mod font;
+mod frame;
+mod legend;
+mod map;
+mod marks;
+mod matrix;
+mod png;
+mod series;
+mod ticks;
+
+pub use axis::{Axis, Scale};
+pub use canvas::Drawing;
+pub use chart::Chart;
+pub use colour::Colour;
+pub use error::PlotError;
+pub use figure::{Figure, Panel, draw};
+pub use legend::LegendPlace;
+pub use map::{ColourScale, Map};
+pub use matrix::{Cell, Matrix, MatrixRow};
+pub use png::{PNG_WIDTH, render_png};
+pub use series::{Dash, Fill, Line, Marker, Series, Shape};
