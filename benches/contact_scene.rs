@@ -1,5 +1,7 @@
 //! The contacts of one instant that are timed.
 
+use std::f64::consts::{PI, TAU};
+
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
@@ -8,7 +10,7 @@ use bem_halfspace::{
 /// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
 const COMPLIANCE: f64 = 4.0;
 const MAX_ITERATIONS: usize = 500;
-/// Contact radius and depth of the Hertz contact on the unit square.
+/// Contact radius of the Hertz contact on the unit square.
 const RADIUS: f64 = 0.3;
 
 /// A contact at a given force.
@@ -26,20 +28,12 @@ impl ContactScene {
     /// Depth of the Hertz contact in closed form, \[m].
     pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
 
-    /// Hertz contact with the radius 0.3 on the unit square of `n` × `n` elements, free boundary, apex between the four
-    /// middle elements.
+    /// Hertz contact with the radius 0.3 on the unit square of `n` × `n` elements, free boundary, with the apex so many
+    /// elements from the middle along x and y; there are two mirrors where that is zero, and none elsewhere.
     ///
     /// # Errors
     /// [`BemError`] for a number of elements that no grid has.
-    pub fn hertz(n: usize) -> Result<Self, BemError> {
-        Self::hertz_aside(n, 0.0)
-    }
-
-    /// The same with the apex so many elements aside along x and y; there is no mirror unless it is zero.
-    ///
-    /// # Errors
-    /// [`BemError`] for a number of elements that no grid has.
-    pub fn hertz_aside(n: usize, offset: f64) -> Result<Self, BemError> {
+    pub fn hertz(n: usize, offset: f64) -> Result<Self, BemError> {
         let edge = 1.0 / n as f64;
         let middle = 0.5 * n as f64 + offset;
         let centre = |index: usize| (index as f64 + 0.5 - middle) * edge;
@@ -51,24 +45,28 @@ impl ContactScene {
         })
     }
 
-    /// A periodic surface on the unit square, pressed with the mean pressure 0.05 on its summits.
+    /// A periodic surface on the unit square, pressed with the mean pressure 0.05.
     ///
     /// # Errors
     /// [`BemError`] for a number of elements that no grid has.
-    pub fn rough(summits: Vec<f64>) -> Result<Self, BemError> {
-        let n = summits.len().isqrt();
+    pub fn periodic(heights: Vec<f64>) -> Result<Self, BemError> {
+        let n = heights.len().isqrt();
         Ok(Self {
             convolution: Convolution::periodic(&Grid::new([n; 2], [1.0 / n as f64; 2])?),
-            heights: summits.into_iter().map(|summit| -summit).collect(),
+            heights,
             force: 0.05,
         })
     }
 
-    /// Solves the contact from a cold start.
+    /// Solves the contact from the pressure in a state.
     ///
     /// # Errors
     /// Those of [`solve_contact`].
-    pub fn solve(&self, tolerance: f64) -> Result<(Contact, ContactState), BemError> {
+    pub fn solve_from(
+        &self,
+        state: &mut ContactState,
+        tolerance: f64,
+    ) -> Result<Contact, BemError> {
         let problem = ContactProblem {
             convolution: &self.convolution,
             separation: &self.heights,
@@ -79,16 +77,59 @@ impl ContactScene {
             tolerance,
             max_iterations: MAX_ITERATIONS,
         };
+        solve_contact(&problem, state, &options)
+    }
+
+    /// Solves the contact from a cold start.
+    ///
+    /// # Errors
+    /// Those of [`solve_contact`].
+    pub fn solve(&self, tolerance: f64) -> Result<(Contact, ContactState), BemError> {
         let mut state = ContactState::new(&self.convolution);
-        let contact = solve_contact(&problem, &mut state, &options)?;
+        let contact = self.solve_from(&mut state, tolerance)?;
         Ok((contact, state))
     }
 }
 
-/// Relative difference in the mean square.
+/// Directions of the waves of each length.
+const DIRECTIONS: usize = 16;
+
+/// Periodic self-affine heights over `n` × `n` elements of the unit square, with the root of the mean square slope 1: a
+/// sum of waves like that of Weierstrass and Mandelbrot, of the lengths 1/4, 1/5.6, 1/8 … down to eight elements, 16
+/// directions each, with amplitudes `q^(−H)` for the Hurst exponent H = 0.8.
 #[must_use]
-pub fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
-    let pairs = actual.iter().zip(expected);
-    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
+pub fn rough_heights(n: usize) -> Vec<f64> {
+    let mut heights = vec![0.0; n * n];
+    let mut square_slope = 0.0;
+    let numbers = (4..).map(|step| 2.0_f64.powf(0.5 * f64::from(step)));
+    let numbers = numbers.take_while(|number| *number <= n as f64 / 8.0);
+    let waves = numbers.flat_map(|number| (0..DIRECTIONS).map(move |index| (number, index)));
+    for (index, (number, direction)) in waves.enumerate() {
+        let angle = PI * (direction as f64 + 0.5) / DIRECTIONS as f64;
+        let wave = [angle.cos(), angle.sin()].map(|part| (number * part).round());
+        let q = TAU * wave[0].hypot(wave[1]);
+        let amplitude = q.powf(-0.8);
+        square_slope += 0.5 * (q * amplitude).powi(2);
+        // Equally distributed (Weyl).
+        let phase = TAU * (index as f64 * 0.618_033_988_749_894_9).fract();
+        add_wave(&mut heights, wave, (amplitude, phase));
+    }
+    let scale = 1.0 / square_slope.sqrt();
+    heights.iter_mut().for_each(|height| *height *= scale);
+    heights
+}
+
+/// Adds a wave with so many periods along x and y.
+fn add_wave(heights: &mut [f64], wave: [f64; 2], (amplitude, phase): (f64, f64)) {
+    let n = heights.len().isqrt();
+    let angle = |periods: f64, index: usize| TAU * periods * index as f64 / n as f64;
+    let along_y: Vec<[f64; 2]> = (0..n)
+        .map(|column| angle(wave[1], column).sin_cos().into())
+        .collect();
+    for (row, heights) in heights.chunks_exact_mut(n).enumerate() {
+        let (sine, cosine) = (angle(wave[0], row) + phase).sin_cos();
+        for (height, [sine_y, cosine_y]) in heights.iter_mut().zip(&along_y) {
+            *height += amplitude * (cosine * cosine_y - sine * sine_y);
+        }
+    }
 }

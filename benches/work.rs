@@ -8,12 +8,16 @@
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
 
+use std::error::Error;
 use std::fs;
 use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
-use benches::{ContactScene, Failure, deviation, on_threads, self_affine};
+use benches::{ContactScene, rough_heights};
+
+/// Why there is no timing.
+type Failure = Box<dyn Error + Send + Sync>;
 
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
@@ -69,7 +73,7 @@ fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
     match (name, size.parse()) {
         ("hertz", Ok(n)) => hertz("hertz", n, 0.0),
         ("hertz-aside", Ok(n)) => hertz("hertz-aside", n, ASIDE),
-        ("rough", Ok(n)) => rough(self_affine(n)),
+        ("rough", Ok(n)) => rough(rough_heights(n)),
         ("rough", Err(_)) => rough(heights_in(size)?),
         _ => Err(format!("there is no scene {name} {size}").into()),
     }
@@ -79,19 +83,19 @@ fn hertz(name: &'static str, n: usize, offset: f64) -> Result<Scene, Failure> {
     let start = processor_time()?;
     Ok(Scene {
         name,
-        contact: ContactScene::hertz_aside(n, offset)?,
+        contact: ContactScene::hertz(n, offset)?,
         setup: processor_time()? - start,
         tolerance: 5e-10,
         padded: 2 * n,
     })
 }
 
-fn rough(summits: Vec<f64>) -> Result<Scene, Failure> {
-    let n = summits.len().isqrt();
+fn rough(heights: Vec<f64>) -> Result<Scene, Failure> {
+    let n = heights.len().isqrt();
     let start = processor_time()?;
     Ok(Scene {
         name: "rough",
-        contact: ContactScene::rough(summits)?,
+        contact: ContactScene::periodic(heights)?,
         setup: processor_time()? - start,
         tolerance: 5e-9,
         padded: n,
@@ -103,7 +107,7 @@ fn heights_in(file: &str) -> Result<Vec<f64>, Failure> {
     let (numbers, _) = bytes.as_chunks::<8>();
     Ok(numbers
         .iter()
-        .map(|bytes| f64::from_le_bytes(*bytes))
+        .map(|bytes| -f64::from_le_bytes(*bytes))
         .collect())
 }
 
@@ -186,4 +190,24 @@ fn memory(line: &str) -> Result<f64, Failure> {
     let found = status.lines().find_map(|text| text.strip_prefix(line));
     let number = found.and_then(|text| text.split_whitespace().next());
     Ok(1024.0 * number.ok_or("no such line")?.parse::<f64>()?)
+}
+
+/// Does the work in a pool of so many threads.
+#[cfg(feature = "rayon")]
+fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Result<R, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    Ok(pool.build()?.install(work))
+}
+
+/// Does the work on one thread.
+#[cfg(not(feature = "rayon"))]
+fn on_threads<R>(_: usize, work: impl FnOnce() -> R) -> Result<R, Failure> {
+    Ok(work())
+}
+
+/// Relative difference in the mean square.
+fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
+    let pairs = actual.iter().zip(expected);
+    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
 }

@@ -16,6 +16,7 @@ mod meter;
 mod npy;
 mod output;
 mod progress;
+mod random;
 mod run;
 mod scaling;
 mod scene;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use crate::random::Random;
 use anyhow::{Result, bail};
-use benches::Random;
 use indenters::Axisymmetric;
 
 use crate::run::{Body, Question};

@@ -1,7 +1,7 @@
 //! The bars of one scene beside its deviations.
 
+use crate::random::Random;
 use anyhow::{Result, anyhow};
-use benches::Random;
 use serde::Serialize;
 
 use super::draw::{Scene, scene};

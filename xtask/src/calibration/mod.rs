@@ -9,8 +9,8 @@ mod ways;
 
 use std::path::PathBuf;
 
+use crate::random::Random;
 use anyhow::Result;
-use benches::Random;
 use clap::Args;
 use rayon::prelude::*;
 

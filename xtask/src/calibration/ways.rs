@@ -1,6 +1,6 @@
 //! What is asked about a scene: by which method, how exactly, and against which reference.
 
-use benches::Random;
+use crate::random::Random;
 
 use super::draw::{Scene, between, choice};
 use crate::scene_file::{Accuracy, Method, Model};

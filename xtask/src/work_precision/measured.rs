@@ -1,6 +1,5 @@
 //! Error and time of every run.
 
-use benches::deviation;
 use serde::Serialize;
 
 use super::asked::FRICTION;
@@ -132,4 +131,11 @@ fn row(series: &Series, resolution: Resolution, (outcome, cost): (&Outcome, Cost
         fineness: resolution.fineness(),
         solver: series.solver,
     }
+}
+
+/// Relative difference in the mean square.
+fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
+    let pairs = actual.iter().zip(expected);
+    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
 }

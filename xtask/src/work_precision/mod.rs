@@ -5,6 +5,7 @@ mod contacts;
 mod fit;
 mod measured;
 mod picture;
+mod rough;
 mod scenes;
 mod series;
 mod table;

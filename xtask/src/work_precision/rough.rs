@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
-use crate::Random;
+use crate::random::Random;
 
 const HURST_EXPONENT: f64 = 0.8;
 /// Longest waves along the side.
@@ -16,8 +16,7 @@ const SHORTEST: f64 = 8.0;
 /// Periodic self-affine heights over `n` × `n` elements of a side of length 1, with the root of the mean square slope 1.
 ///
 /// White noise of fixed seed, whose waves are weighted with `q^(−1−H)` from the longest to the shortest.
-#[must_use]
-pub fn self_affine(n: usize) -> Vec<f64> {
+pub(super) fn self_affine(n: usize) -> Vec<f64> {
     let mut planner = FftPlannerScalar::new();
     let mut field = white_noise(n * n);
     planner.plan_fft_forward(n).process(&mut field);
