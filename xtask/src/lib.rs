@@ -9,6 +9,7 @@
 
 mod calibration;
 mod ci;
+mod evidence;
 mod figures;
 mod input;
 mod material;
@@ -22,9 +23,9 @@ mod scaling;
 mod scene;
 mod scene_file;
 mod speed_range;
-mod stability;
 mod stationary;
 mod sweep;
+mod tasks;
 mod work_precision;
 
 use std::path::PathBuf;
@@ -62,8 +63,8 @@ enum Command {
     SpeedRange(speed_range::SpeedRange),
     /// Measure error against run time of every method on every benchmark scene: CSV, fitted orders, SVG and PNG.
     WorkPrecision(work_precision::WorkPrecision),
-    /// Judge every method on stiff and extreme cases: CSV, SVG and PNG; fails when one is wrong.
-    Stability(stability::Stability),
+    /// Measure anew how stable, accurate and expensive the methods are: CSV, SVG, PNG and Markdown.
+    Evidence(evidence::Evidence),
     /// Compare the error bars of every method with its deviations on random scenes: CSV, SVG and PNG.
     Calibrate(calibration::Calibrate),
     /// Solve one scene.
@@ -123,7 +124,7 @@ pub fn execute() -> ExitCode {
         Command::MeasureStationary(options) => stationary::measure(&options),
         Command::SpeedRange(options) => speed_range::speed_range(&options),
         Command::WorkPrecision(options) => work_precision::measure(&options),
-        Command::Stability(options) => stability::stability(&options),
+        Command::Evidence(options) => evidence::evidence(options),
         Command::Calibrate(options) => calibration::calibrate(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),

@@ -1,6 +1,6 @@
 //! The same scene in other units: whatever has no dimension stays as it is.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use bem_halfspace::indent::indent as indent_half_space;
 use bem_halfspace::slide::{SlideOptions as MarchOptions, slide as march_half_space};
 use bem_halfspace::steady::{SteadyOptions as StationaryOptions, steady as stationary_half_space};
@@ -10,7 +10,7 @@ use indenters::{EquivalentLine, RoundTippedCone, SlidingLoad};
 use mdr_core::{IndentOptions, SlideOptions, SteadyOptions, indent, slide, steady};
 use rheology::{StandardSolid, StandardSolidParameters, Viscous};
 
-use crate::stability::case::{Case, Comparison, Family, Outcome, power_of_ten};
+use super::case::{Case, Comparison, Family, Finding, power_of_ten};
 
 /// Dimensionless numbers of a method.
 type Numbers = Vec<(&'static str, f64)>;
@@ -45,41 +45,28 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 fn other_units(name: &'static str, method: fn(Units) -> Result<Numbers>) -> Family {
+    let changes: [(&str, fn(f64) -> Units); 3] = [
+        ("length", |length| Units { length, ..SI }),
+        ("time", |time| Units { time, ..SI }),
+        ("force", |force| Units { force, ..SI }),
+    ];
     let mut cases = Vec::new();
-    for (unit, change) in [
-        (
-            "length",
-            (|units, length| Units { length, ..units }) as fn(Units, f64) -> Units,
-        ),
-        ("time", |units, time| Units { time, ..units }),
-        ("force", |units, force| Units { force, ..units }),
-    ] {
+    for (unit, change) in changes {
         for exponent in [-12, -8, -4, -1, 1, 4, 8, 12] {
-            let units = change(SI, power_of_ten(exponent));
-            let value = format!("{unit} 1e{exponent}");
-            cases.push(Case::new(value, move || {
-                compare(&method(units)?, &method(SI)?)
-            }));
+            let units = change(power_of_ten(exponent));
+            let run = move || same(&method(units)?, &method(SI)?);
+            cases.push(Case::new(format!("{unit} 1e{exponent}"), run));
         }
     }
-    Family {
-        name,
-        parameter: "unit, 1e-12 … 1e12",
-        cases,
-        slow: false,
-    }
+    Family::of(name, "unit, 1e-12 … 1e12", cases)
 }
 
-fn compare(got: &Numbers, expected: &Numbers) -> Result<Outcome> {
+fn same(got: &Numbers, expected: &Numbers) -> Result<Finding> {
     let pairs = got.iter().zip(expected);
-    let comparisons = pairs.map(|((quantity, got), (_, expected))| Comparison {
-        quantity,
-        expected: *expected,
-        got: *got,
-        scale: expected.abs(),
-        tolerance: TOLERANCE,
+    let comparisons = pairs.map(|((quantity, got), (_, expected))| {
+        Comparison::relative(quantity, *got, *expected, TOLERANCE)
     });
-    Ok(Outcome::Values(comparisons.collect()))
+    Ok(Finding::Values(comparisons.collect()))
 }
 
 impl Units {
@@ -103,17 +90,35 @@ impl Units {
         })?)
     }
 
+    fn force(self) -> f64 {
+        20.0 * self.force
+    }
+
     fn load(self) -> Result<SlidingLoad> {
-        Ok(SlidingLoad::new(
-            20.0 * self.force,
-            0.4 * self.length / self.time,
-        )?)
+        let velocity = 0.4 * self.length / self.time;
+        Ok(SlidingLoad::new(self.force(), velocity)?)
+    }
+
+    fn times(self) -> [f64; 3] {
+        [0.1, 1.0, 10.0].map(|time| time * self.time)
+    }
+
+    fn resolution(self) -> Resolution {
+        Resolution {
+            spacing: [0.1 * self.length; 2],
+            footprint: Footprint::square(1.5 * self.length),
+            contact: ContactOptions {
+                // Two roundings of one scene end at the same digits only when the contact is solved so far.
+                tolerance: 1e-12,
+                ..ContactOptions::default()
+            },
+        }
     }
 }
 
 fn theorems(units: Units) -> Result<Numbers> {
-    let (cone, load) = (units.cone()?, units.load()?);
-    let state = axisymmetric_sliding(&cone, &units.viscous()?, &load)?;
+    let cone = units.cone()?;
+    let state = axisymmetric_sliding(&cone, &units.viscous()?, &units.load()?)?;
     let contact = ElasticContact {
         contact_radius: 0.7 * units.length,
         velocity: 1e-3 * units.length / units.time,
@@ -129,11 +134,16 @@ fn theorems(units: Units) -> Result<Numbers> {
 }
 
 fn line_stationary(units: Units) -> Result<Numbers> {
-    let (cone, load) = (units.cone()?, units.load()?);
     let options = SteadyOptions {
         relative_error: 1e-10,
     };
-    let state = steady(&EquivalentLine(&cone), &units.solid()?, &load, &options)?;
+    let cone = units.cone()?;
+    let state = steady(
+        &EquivalentLine(&cone),
+        &units.solid()?,
+        &units.load()?,
+        &options,
+    )?;
     Ok(vec![
         ("friction coefficient", state.friction_coefficient),
         ("depth", state.indentation_depth / units.length),
@@ -142,13 +152,19 @@ fn line_stationary(units: Units) -> Result<Numbers> {
 }
 
 fn line_march(units: Units) -> Result<Numbers> {
-    let (cone, load) = (units.cone()?, units.load()?);
     let options = SlideOptions {
         spacing: 0.01 * units.length,
         drift_tolerance: 1e-6,
         max_sliding_distance: 100.0 * units.length,
     };
-    let state = slide(&EquivalentLine(&cone), &units.solid()?, &load, &options)?.stationary;
+    let cone = units.cone()?;
+    let state = slide(
+        &EquivalentLine(&cone),
+        &units.solid()?,
+        &units.load()?,
+        &options,
+    )?
+    .stationary;
     Ok(vec![
         ("friction coefficient", state.friction_coefficient),
         ("depth", state.indentation_depth / units.length),
@@ -157,71 +173,53 @@ fn line_march(units: Units) -> Result<Numbers> {
 }
 
 fn line_pressed(units: Units) -> Result<Numbers> {
-    let cone = units.cone()?;
     let options = IndentOptions {
         spacing: 0.01 * units.length,
     };
-    let times = [0.1, 1.0, 10.0].map(|time| time * units.time);
-    let force = 20.0 * units.force;
+    let cone = units.cone()?;
     let rows = indent(
         &EquivalentLine(&cone),
         &units.solid()?,
-        force,
-        &times,
+        units.force(),
+        &units.times(),
         &options,
     )?;
-    let depths = rows.iter();
-    Ok(depths
-        .map(|row| ("depth", row.indentation_depth / units.length))
-        .collect())
+    let depths = rows.iter().map(|row| row.indentation_depth / units.length);
+    Ok(depths.map(|depth| ("depth", depth)).collect())
 }
 
 fn half_space_stationary(units: Units) -> Result<Numbers> {
-    let (cone, load) = (units.cone()?, units.load()?);
     let Resolution {
         spacing, footprint, ..
-    } = resolution(units);
+    } = units.resolution();
     let options = StationaryOptions {
         spacing,
         phase: [0.0; 2],
         footprint,
-        // Any solution within the tolerance counts, so that it is smaller than what is asked of the invariance.
+        // Any solution within the tolerance is right, so that it is smaller than what is asked of the invariance.
         tolerance: 1e-11,
         max_iterations: 100,
     };
-    let state = stationary_half_space(&cone, &units.solid()?, &load, &options)?;
+    let state = stationary_half_space(&units.cone()?, &units.solid()?, &units.load()?, &options)?;
     Ok(vec![
         ("friction coefficient", state.friction_coefficient),
         ("depth", state.depth.reference_depth / units.length),
     ])
 }
 
-fn resolution(units: Units) -> Resolution {
-    Resolution {
-        spacing: [0.1 * units.length; 2],
-        footprint: Footprint::square(1.5 * units.length),
-        contact: ContactOptions {
-            // Two roundings of one scene end at the same digits only when the contact is solved so far.
-            tolerance: 1e-12,
-            ..ContactOptions::default()
-        },
-    }
-}
-
 fn half_space_march(units: Units) -> Result<Numbers> {
-    let (cone, load) = (units.cone()?, units.load()?);
     let Resolution {
         spacing,
         footprint,
         contact,
-    } = resolution(units);
+    } = units.resolution();
     let options = MarchOptions {
         spacing,
         footprint,
         sliding_distance: 3.0 * units.length,
         contact,
     };
-    let state = march_half_space(&cone, &units.solid()?, &load, &options)?;
+    let state = march_half_space(&units.cone()?, &units.solid()?, &units.load()?, &options)?;
     let last = state.last();
     Ok(vec![
         ("friction coefficient", last.friction_coefficient),
@@ -231,14 +229,10 @@ fn half_space_march(units: Units) -> Result<Numbers> {
 }
 
 fn half_space_pressed(units: Units) -> Result<Numbers> {
-    let cone = units.cone()?;
-    let times = [0.1, 1.0, 10.0].map(|time| time * units.time);
-    let force = 20.0 * units.force;
-    let options = resolution(units);
-    let rows = indent_half_space(&cone, &units.solid()?, (force, &times), &options)?;
-    let last = rows.last().context("three rows")?;
+    let load = (units.force(), &units.times()[..]);
+    let rows = indent_half_space(&units.cone()?, &units.solid()?, load, &units.resolution())?;
     Ok(vec![
-        ("depth", last.indentation_depth / units.length),
-        ("area", last.contact_area / units.length / units.length),
+        ("depth", rows[2].indentation_depth / units.length),
+        ("area", rows[2].contact_area / units.length / units.length),
     ])
 }

@@ -1,6 +1,6 @@
 //! The cone on a line of any linear viscoelastic material, by its own formulas: the judge of the one-dimensional solvers.
 //!
-//! With h̃ = s |x|, touched at x_r and let go at −y, each branch has the length l = v τ, and
+//! With h̃ = s |x|, in contact from −y to x_r, each branch has the length l = v τ, and
 //!
 //! ```text
 //! ahead    e = G s l (1 − e^(−z/l)),  z = x_r − x           behind   e = G s l (q e^(−z/l) − (1 − e^(−z/l))),  z = −x

@@ -1,84 +1,56 @@
 //! The contact of one instant, and the influence coefficients behind it.
 
+use std::f64::consts::PI;
+
 use anyhow::Result;
 use bem_halfspace::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, influence,
     solve_contact,
 };
 
-use crate::stability::case::{Case, Family, Outcome, decades, refused};
-use crate::stability::direct_sum::conditions;
+use super::case::{Case, Family, Finding, compare, decades, families, refused};
+use super::direct_sum::conditions;
+
+const PATCHES: [f64; 8] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 2025.0, 4096.0];
 
 pub(super) fn families() -> Vec<Family> {
-    let mut heights = Family::over(
-        ("contact, heights far above zero", "height/displacement"),
-        decades(0, 12, 1),
-        high_above,
-    );
-    heights.cases.extend(unusual_heights());
-    vec![
-        Family::over(
-            ("influence, far elements", "distance/edge"),
-            decades(0, 12, 1),
-            far,
-        ),
-        Family::over(
-            ("influence, slender elements", "Δy/Δx"),
-            decades(-12, 12, 1),
-            slender,
-        ),
-        Family::over(
-            ("contact, one element to a full box", "force"),
-            decades(-12, 12, 1),
-            any_force,
-        ),
-        Family::over(
-            ("contact, slender", "width/length"),
-            decades(-4, 4, 1),
-            slender_contact,
-        ),
-        Family::over(
-            ("contact, many patches", "patches"),
-            [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 2025.0, 4096.0],
-            patches,
-        ),
-        heights,
-    ]
+    let mut families = families! {
+        "influence, far elements", "distance/edge", decades(0, 12, 1) => far;
+        "influence, slender elements", "Δy/Δx", decades(-12, 12, 1) => slender;
+        "contact, one element to a full box", "force", decades(-12, 12, 1) => any_force;
+        "contact, slender", "width/length", decades(-4, 4, 1) => slender_contact;
+        "contact, many patches", "patches", PATCHES => patches;
+        "contact, heights far above zero", "height/displacement", decades(0, 12, 1) => high_above;
+    };
+    families[5].cases.extend(unusual_heights());
+    families
 }
 
 /// Σ of 16 parts; far away also 1/r + h²/(24 r³) times the area, with an error of the order (h/r)⁴.
-fn far(distance: f64) -> Result<Outcome> {
+fn far(distance: f64) -> Result<Finding> {
     let whole = influence([distance, 0.0], [1.0, 1.0]);
     let part = |k: i32| {
         let [x, y] = [k / 4, k % 4].map(|k| 0.25 * (f64::from(k) - 1.5));
         influence([distance + x, y], [0.25, 0.25])
     };
     let parts: f64 = (0..16).map(part).sum();
-    let mut pairs = vec![("sum of parts", [whole, parts])];
-    if distance >= 1e4 {
-        let exact = (1.0 + 1.0 / (24.0 * distance * distance)) / distance;
-        pairs.push(("expansion", [whole, exact]));
+    let tolerance = 64.0 * f64::EPSILON;
+    if distance < 1e4 {
+        return compare!(within tolerance; "sum of parts" => whole, parts);
     }
-    Ok(Outcome::relative(&pairs, 64.0 * f64::EPSILON))
+    let exact = (1.0 + 1.0 / (24.0 * distance * distance)) / distance;
+    compare!(within tolerance; "sum of parts" => whole, parts; "expansion" => whole, exact)
 }
 
 /// 2 b asinh(a/b) + 2 a asinh(b/a) in the middle of an element of edges a and b, a neighbour as the difference of
 /// longer elements.
-fn slender(aspect: f64) -> Result<Outcome> {
-    let own = |x: f64, y: f64| 2.0 * (y * (x / y).asinh() + x * (y / x).asinh());
-    let neighbour = 0.5 * (own(3.0, aspect) - own(1.0, aspect));
-    let pairs = [
-        (
-            "own",
-            [influence([0.0; 2], [1.0, aspect]), own(1.0, aspect)],
-        ),
-        (
-            "neighbour",
-            [influence([1.0, 0.0], [1.0, aspect]), neighbour],
-        ),
-    ];
+fn slender(aspect: f64) -> Result<Finding> {
+    let middle = |x: f64, y: f64| 2.0 * (y * (x / y).asinh() + x * (y / x).asinh());
+    let neighbour = 0.5 * (middle(3.0, aspect) - middle(1.0, aspect));
     // The difference loses a digit or two where the elements are long.
-    Ok(Outcome::relative(&pairs, 1e3 * f64::EPSILON))
+    compare!(within 1e3 * f64::EPSILON;
+        "own" => influence([0.0; 2], [1.0, aspect]), middle(1.0, aspect);
+        "neighbour" => influence([1.0, 0.0], [1.0, aspect]), neighbour)
 }
 
 fn solved(
@@ -86,7 +58,7 @@ fn solved(
     separation: &[f64],
     control: Control,
     options: &ContactOptions,
-) -> Result<Outcome> {
+) -> Result<Finding> {
     let convolution = Convolution::new(grid);
     let mut state = ContactState::new(&convolution);
     let problem = ContactProblem {
@@ -97,8 +69,12 @@ fn solved(
     };
     let contact = solve_contact(&problem, &mut state, options)?;
     // What the option promises, and the rounding of two different sums.
-    let allowed = 1.01 * options.tolerance;
-    Ok(conditions(&problem, (&contact, state.pressure()), allowed))
+    Ok(conditions(
+        &problem,
+        &contact,
+        state.pressure(),
+        1.01 * options.tolerance,
+    ))
 }
 
 /// Heights over the elements of a grid around the origin.
@@ -111,14 +87,18 @@ fn heights(grid: &Grid, height: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 }
 
 /// A paraboloid with its tip over an element; small forces load that one, large ones the whole box.
-fn any_force(force: f64) -> Result<Outcome> {
+fn any_force(force: f64) -> Result<Finding> {
     let grid = Grid::new([33, 33], [1.0, 1.0])?;
     let separation = heights(&grid, |x, y| x * x + y * y);
-    let control = Control::NormalForce(force);
-    solved(&grid, &separation, control, &ContactOptions::default())
+    solved(
+        &grid,
+        &separation,
+        Control::NormalForce(force),
+        &ContactOptions::default(),
+    )
 }
 
-fn slender_contact(aspect: f64) -> Result<Outcome> {
+fn slender_contact(aspect: f64) -> Result<Finding> {
     let grid = Grid::new([48, 48], [1.0, aspect])?;
     let separation = heights(&grid, |x, y| x * x + (y / aspect).powi(2));
     let control = Control::IndentationDepth(300.0);
@@ -126,9 +106,9 @@ fn slender_contact(aspect: f64) -> Result<Outcome> {
 }
 
 /// A carton of eggs of different heights, each of which touches.
-fn patches(count: f64) -> Result<Outcome> {
+fn patches(count: f64) -> Result<Finding> {
     let grid = Grid::new([128, 128], [1.0, 1.0])?;
-    let waves = std::f64::consts::PI * count.sqrt() / 128.0;
+    let waves = PI * count.sqrt() / 128.0;
     let separation = heights(&grid, |x, y| {
         let [phase_x, phase_y] = [x, y].map(|along| waves * (along + 64.0));
         let uneven = 0.1 * (1.0 + (7.3 * (phase_x / 3.1).floor() + 3.7 * phase_y).sin());
@@ -139,7 +119,7 @@ fn patches(count: f64) -> Result<Outcome> {
 }
 
 /// Heights that are large beside what the pressure moves: rounding of the heights is all that can be seen of a gap.
-fn high_above(height: f64) -> Result<Outcome> {
+fn high_above(height: f64) -> Result<Finding> {
     let grid = Grid::new([17, 17], [1.0, 1.0])?;
     let separation = heights(&grid, |x, y| height + 0.01 * (x * x + y * y));
     let options = ContactOptions {
@@ -147,6 +127,33 @@ fn high_above(height: f64) -> Result<Outcome> {
         ..ContactOptions::default()
     };
     solved(&grid, &separation, Control::NormalForce(10.0), &options)
+}
+
+fn unusual_heights() -> Vec<Case> {
+    let corner = |height: f64| {
+        Case::new(format!("{height}"), move || {
+            let solved = with_corner(height, Control::NormalForce(1.0))?;
+            refused!(solved => BemError::InvalidHeight { row: 0, column: 0, .. })
+        })
+    };
+    let control = |name: &'static str, control: Control| {
+        Case::new(name, move || {
+            let solved = with_corner(1.0, control)?;
+            refused!(solved => BemError::InvalidParameter { parameter: "normal_force" | "indentation_depth", .. })
+        })
+    };
+    vec![
+        corner(f64::NAN),
+        corner(f64::NEG_INFINITY),
+        control("tension", Control::NormalForce(-1.0)),
+        control("depth ∞", Control::IndentationDepth(f64::INFINITY)),
+        Case::new("a hole", a_hole),
+        Case::new("no body", || {
+            let grid = Grid::new([9, 9], [1.0, 1.0])?;
+            let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
+            refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
+        }),
+    ]
 }
 
 /// A small contact with one corner of another height.
@@ -169,66 +176,19 @@ fn attempted(grid: &Grid, separation: &[f64], control: Control) -> Result<(), Be
     solve_contact(&problem, &mut state, &ContactOptions::default()).map(|_| ())
 }
 
-fn unusual_heights() -> Vec<Case> {
-    let corner = |height: f64| {
-        Case::new(format!("{height}"), move || {
-            let solved = with_corner(height, Control::NormalForce(1.0))?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidHeight {
-                    row: 0,
-                    column: 0,
-                    ..
-                }
-            ))
-        })
-    };
-    let control = |name: &'static str, control: Control| {
-        Case::new(name, move || {
-            let solved = with_corner(1.0, control)?;
-            Ok(refused!(
-                solved,
-                BemError::InvalidParameter {
-                    parameter: "normal_force" | "indentation_depth",
-                    ..
-                }
-            ))
-        })
-    };
-    vec![
-        corner(f64::NAN),
-        corner(f64::NEG_INFINITY),
-        control("pull", Control::NormalForce(-1.0)),
-        control("depth ∞", Control::IndentationDepth(f64::INFINITY)),
-        Case::new("a hole", a_hole),
-        Case::new("no body", || {
-            let grid = Grid::new([9, 9], [1.0, 1.0])?;
-            let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
-            Ok(refused!(
-                solved,
-                BemError::InvalidParameter {
-                    parameter: "separation",
-                    ..
-                }
-            ))
-        }),
-    ]
-}
-
-fn a_hole() -> Result<Outcome> {
+fn a_hole() -> Result<Finding> {
     let grid = Grid::new([9, 9], [1.0, 1.0])?;
-    let hole = |x: f64, y: f64| {
+    let separation = heights(&grid, |x, y| {
         if x == 0.0 {
             f64::INFINITY
         } else {
             x * x + y * y
         }
-    };
-    let options = ContactOptions::default();
+    });
     solved(
         &grid,
-        &heights(&grid, hole),
+        &separation,
         Control::NormalForce(40.0),
-        &options,
+        &ContactOptions::default(),
     )
 }

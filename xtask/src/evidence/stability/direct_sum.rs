@@ -6,59 +6,51 @@ use std::f64::consts::PI;
 
 use bem_halfspace::{Contact, ContactProblem, Control, influence};
 
-use crate::stability::case::{Comparison, Outcome};
+use super::case::{Comparison, Finding};
 
-/// The conditions `gap = 0` under load, `gap ≥ 0` elsewhere, `P ≥ 0`, and the force.
+/// The conditions of contact: the gap is zero under load and nowhere negative, no pressure is negative, and the force is
+/// the sum of the pressures.
 ///
-/// Gaps count relative to the largest displacement, as in `ContactOptions::tolerance`.
+/// Gaps are relative to the largest displacement, as in `ContactOptions::tolerance`.
 pub(super) fn conditions(
     problem: &ContactProblem,
-    (contact, pressure): (&Contact, &[f64]),
+    contact: &Contact,
+    pressure: &[f64],
     tolerance: f64,
-) -> Outcome {
+) -> Finding {
     let displacement = displacement(problem, pressure);
     let largest = displacement.iter().copied().fold(0.0, f64::max);
-    let mut worst = 0.0_f64;
-    for ((separation, moved), load) in problem.separation.iter().zip(&displacement).zip(pressure) {
+    let elements = problem.separation.iter().zip(&displacement).zip(pressure);
+    let violations = elements.map(|((separation, moved), load)| {
         let gap = separation + moved - contact.indentation_depth;
-        let violation = if *load > 0.0 { gap.abs() } else { -gap };
-        worst = if violation.is_nan() {
-            f64::NAN
+        if *load > 0.0 { gap.abs() } else { -gap }
+    });
+    // Unlike `f64::max` this keeps what is not a number.
+    let worst = violations.fold(0.0, |worst: f64, violation| {
+        if violation <= worst || worst.is_nan() {
+            worst
         } else {
-            worst.max(violation)
-        };
-    }
-    let area = problem.convolution.grid().element_area();
-    let force = area * pressure.iter().sum::<f64>();
-    let lowest = pressure.iter().copied().fold(0.0, f64::min);
-    let mut comparisons = vec![
-        comparison("gap", [worst, 0.0], largest, tolerance),
-        comparison("pull", [lowest, 0.0], 1.0, 0.0),
-        comparison("force", [force, contact.normal_force], force, 1e-12),
-    ];
-    comparisons.push(match problem.control {
-        Control::NormalForce(asked) => comparison("force asked for", [force, asked], asked, 1e-12),
-        Control::IndentationDepth(asked) => {
-            let pair = [contact.indentation_depth, asked];
-            comparison("depth asked for", pair, asked, 1e-12)
+            violation
         }
     });
-    Outcome::Values(comparisons)
-}
-
-fn comparison(
-    quantity: &'static str,
-    [got, expected]: [f64; 2],
-    scale: f64,
-    tolerance: f64,
-) -> Comparison {
-    Comparison {
-        quantity,
-        expected,
-        got,
-        scale,
-        tolerance,
-    }
+    let lowest = pressure.iter().copied().fold(0.0, f64::min);
+    let area = problem.convolution.grid().element_area();
+    let force = area * pressure.iter().sum::<f64>();
+    let prescribed = match problem.control {
+        Control::NormalForce(prescribed) => {
+            Comparison::relative("prescribed force", force, prescribed, 1e-12)
+        }
+        Control::IndentationDepth(prescribed) => {
+            let depth = contact.indentation_depth;
+            Comparison::relative("prescribed depth", depth, prescribed, 1e-12)
+        }
+    };
+    Finding::Values(vec![
+        Comparison::relative("gap", worst, 0.0, tolerance).in_units_of(largest),
+        Comparison::relative("tension", lowest, 0.0, 0.0).in_units_of(1.0),
+        Comparison::relative("force", force, contact.normal_force, 1e-12).in_units_of(force),
+        prescribed,
+    ])
 }
 
 fn displacement(problem: &ContactProblem, pressure: &[f64]) -> Vec<f64> {

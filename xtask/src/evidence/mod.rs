@@ -1,0 +1,124 @@
+//! `evidence`: how stable, how accurate and how expensive the methods are, measured anew.
+//!
+//! Every experiment turns cases into tables, pictures and a summary; here they are written.
+
+mod stability;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Result, bail};
+use clap::{Args, Subcommand};
+use serde::Serialize;
+use viscofriction_plot::Figure;
+
+use crate::output::{WrongInput, print_line, to_csv, write_atomically, write_figure};
+
+/// Which experiment, how much of it, and where the results go.
+#[derive(Debug, Args)]
+pub(crate) struct Evidence {
+    /// One experiment; without it all of them.
+    #[command(subcommand)]
+    experiment: Option<Experiment>,
+    /// Where tables (CSV), pictures (SVG and PNG) and a page for each experiment (Markdown) are written.
+    #[arg(
+        long,
+        global = true,
+        value_name = "DIR",
+        default_value = "target/evidence"
+    )]
+    out: PathBuf,
+    /// A few cheap cases only.
+    #[arg(long, global = true)]
+    quick: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Experiment {
+    /// Judge every method on stiff and extreme cases; fails when one is wrong.
+    Stability(stability::Options),
+}
+
+/// What an experiment found.
+#[derive(Debug)]
+struct Report {
+    /// Name of the page.
+    name: &'static str,
+    tables: Vec<Table>,
+    pictures: Vec<(&'static str, Figure)>,
+    /// Markdown.
+    summary: String,
+    /// Why the command fails, if it does.
+    failure: Option<String>,
+}
+
+/// A file of comma-separated values.
+#[derive(Debug)]
+struct Table {
+    name: &'static str,
+    contents: String,
+}
+
+/// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
+pub(crate) fn evidence(options: Evidence) -> Result<()> {
+    let Evidence {
+        experiment,
+        out,
+        quick,
+    } = options;
+    std::fs::create_dir_all(&out)
+        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
+    let mut failures = Vec::new();
+    for experiment in experiment.map_or_else(Experiment::all, |one| vec![one]) {
+        let start = Instant::now();
+        let report = experiment.run(quick)?;
+        report.write(&out)?;
+        print_line(&report.summary)?;
+        let (page, seconds) = (report.page(&out), start.elapsed().as_secs_f64());
+        print_line(&format!("{} in {seconds:.1} s", page.display()))?;
+        failures.extend(report.failure);
+    }
+    if failures.is_empty() {
+        return Ok(());
+    }
+    bail!("{}", failures.join("\n"))
+}
+
+impl Experiment {
+    fn all() -> Vec<Self> {
+        vec![Self::Stability(stability::Options::default())]
+    }
+
+    fn run(&self, quick: bool) -> Result<Report> {
+        match self {
+            Self::Stability(options) => stability::report(options, quick),
+        }
+    }
+}
+
+impl Table {
+    fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
+        let contents = to_csv(rows)?;
+        Ok(Self { name, contents })
+    }
+}
+
+impl Report {
+    fn page(&self, out: &Path) -> PathBuf {
+        out.join(self.name).with_extension("md")
+    }
+
+    fn write(&self, out: &Path) -> Result<()> {
+        let mut page = format!("{}\n", self.summary);
+        for Table { name, contents } in &self.tables {
+            let file = format!("{name}.csv");
+            page += &format!("\n[{file}]({file})\n");
+            write_atomically(&out.join(file), contents.as_bytes())?;
+        }
+        for (name, figure) in &self.pictures {
+            page += &format!("\n![{name}]({name}.svg)\n");
+            write_figure(out, name, figure)?;
+        }
+        write_atomically(&self.page(out), page.as_bytes())
+    }
+}

@@ -1,0 +1,144 @@
+//! Materials: steps of any length, time constants over fifteen decades, springs that vanish.
+
+use anyhow::Result;
+use rheology::{
+    ExponentialStep, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum,
+    Springpot, StandardSolid, StandardSolidParameters,
+};
+
+use super::case::{Comparison, Family, Finding, compare, decades, families};
+
+/// A few roundings.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const EXPONENTS: [f64; 9] = [0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 0.99];
+
+pub(super) fn families() -> Vec<Family> {
+    families! {
+        "creep of Kelvin–Voigt in steps", "Δt/λ", decades(-12, 12, 1) => creep_steps;
+        "relaxation of Maxwell in steps", "Δt/τ", decades(-12, 12, 1) => relaxation_steps;
+        "spectra of 16 branches", "decades of τ", (1..=15).map(f64::from) => many_branches;
+        "two branches of nearly one τ", "difference", decades(-15, -1, 1) => close_branches;
+        "three-element solid", "γ", decades(-12, 3, 1) => three_elements;
+        "springpot as Prony series", "exponent", EXPONENTS => springpot;
+    }
+}
+
+/// Two steps from rest under constant load are J(2Δt) w, and one step is J(Δt) w.
+fn creep_steps(ratio: f64) -> Result<Finding> {
+    let material = KelvinVoigt::new(1.0, 1.0)?;
+    let step = ExponentialStep::creep(&material.creep(), ratio)?;
+    let mut state = vec![0.0; step.n_fields()];
+    step.advance_at(1.0, &mut state);
+    let second = step.response() + step.history_at(&state);
+    let exact = |time: f64| -(-time).exp_m1();
+    compare!(within ROUNDING;
+        "first step" => step.response(), exact(ratio);
+        "second step" => second, exact(2.0 * ratio))
+}
+
+/// A ramp u = t over one step, held over a second: φ(x), then φ(x) e^(−x), times the strain of the first.
+fn relaxation_steps(ratio: f64) -> Result<Finding> {
+    let material = Maxwell::new(1.0, 1.0)?;
+    let step = ExponentialStep::relaxation(&material.relaxation(), ratio)?;
+    let mut state = vec![0.0; step.n_fields()];
+    step.advance_at(ratio, &mut state);
+    let held = step.history_at(&state);
+    let ramp = -(-ratio).exp_m1();
+    compare!(within ROUNDING;
+        "ramp" => step.response() * ratio, ramp;
+        "held" => held, ramp * (-ratio).exp())
+}
+
+/// Sixteen branches of different moduli, over so many decades of time constants around 1 s.
+pub(super) fn prony_over(n_decades: f64) -> Result<Prony> {
+    let branch = |index: i32| RelaxationBranch {
+        modulus: 1.0 + 0.5 * f64::from(index).sin(),
+        relaxation_time: 10_f64.powf(n_decades * (f64::from(index) / 15.0 - 0.5)),
+    };
+    let branches = (0..16).map(branch).collect();
+    Ok(Prony::new(RelaxationSpectrum::new(0.1, 0.0, branches)?)?)
+}
+
+fn many_branches(n_decades: f64) -> Result<Finding> {
+    reciprocal_spectra(&prony_over(n_decades)?.relaxation())
+}
+
+/// The same two branches whether they are told apart or not: 1/(1 + ε) and 1 have nearly the moduli of one branch.
+///
+/// Times closer than one part in 10⁸ become one, which moves a modulus by the square of that.
+fn close_branches(difference: f64) -> Result<Finding> {
+    let branches = [1.0, 1.0 + difference].map(|relaxation_time| RelaxationBranch {
+        modulus: 1.0,
+        relaxation_time,
+    });
+    reciprocal_spectra(&RelaxationSpectrum::new(1.0, 0.0, branches.to_vec())?)
+}
+
+/// s Ĝ(s) · s Ĵ(s) = 1 on s = iω, over all time constants and three decades beyond.
+fn reciprocal_spectra(relaxation: &RelaxationSpectrum) -> Result<Finding> {
+    let creep = relaxation.to_creep()?;
+    let mut comparisons = Vec::new();
+    for tenth in -105..=105 {
+        let omega = 10_f64.powf(0.1 * f64::from(tenth));
+        let stiff = relaxation.complex_modulus(omega)?;
+        let soft = creep.complex_compliance(omega)?;
+        let size = stiff.storage.hypot(stiff.loss) * soft.storage.hypot(soft.loss);
+        // (G' + iG'')(J' − iJ'') = 1
+        let real = stiff.storage * soft.storage + stiff.loss * soft.loss;
+        let imaginary = stiff.loss * soft.storage - stiff.storage * soft.loss;
+        for (quantity, got, expected) in
+            [("real part", real, 1.0), ("imaginary part", imaginary, 0.0)]
+        {
+            comparisons
+                .push(Comparison::relative(quantity, got, expected, 1e-13).in_units_of(size));
+        }
+    }
+    Ok(Finding::Values(comparisons))
+}
+
+/// The solid of the paper's Fig. 1 with G₂ = 1 Pa and τ = 1 s.
+pub(super) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
+    Ok(StandardSolid::new(StandardSolidParameters {
+        equilibrium_modulus: stiffness_ratio,
+        maxwell_modulus: 1.0,
+        viscosity: 1.0,
+    })?)
+}
+
+/// Retardation time (1 + γ)/γ, compliance 1/(γ (1 + γ)), largest loss tangent 1/(2 √(γ (1 + γ))), J(1) by Taylor where
+/// the spring hardly acts.
+fn three_elements(gamma: f64) -> Result<Finding> {
+    let solid = solid(gamma)?;
+    let creep = solid.creep();
+    let element = creep.elements()[0];
+    let rate = gamma / (1.0 + gamma);
+    let delayed = -(-rate).exp_m1() / (gamma * (1.0 + gamma));
+    let peak = 0.5 / (gamma * (1.0 + gamma)).sqrt();
+    compare!(within ROUNDING;
+        "retardation time" => element.retardation_time, 1.0 / rate;
+        "delayed compliance" => element.compliance, 1.0 / (gamma * (1.0 + gamma));
+        "compliance at τ" => solid.creep_compliance(1.0)?, 1.0 / (1.0 + gamma) + delayed;
+        "largest loss tangent" => solid.loss_peak().loss_tangent, peak)
+}
+
+/// The series promises its error in a band of eight decades; between the samples that it was fitted to it may exceed it
+/// by little.
+fn springpot(exponent: f64) -> Result<Finding> {
+    let element = Springpot::new(1.0, exponent)?;
+    let expansion = element.expand([1e-4, 1e4], 1e-6)?;
+    let mut comparisons = Vec::new();
+    for step in -40..=40 {
+        let omega = 10_f64.powf(0.1 * f64::from(step));
+        let exact = element.complex_modulus(omega)?;
+        let series = expansion.spectrum.complex_modulus(omega)?;
+        for (quantity, got, expected) in [
+            ("storage modulus", series.storage, exact.storage),
+            ("loss modulus", series.loss, exact.loss),
+        ] {
+            let size = exact.storage.hypot(exact.loss);
+            comparisons
+                .push(Comparison::relative(quantity, got, expected, 1.01e-6).in_units_of(size));
+        }
+    }
+    Ok(Finding::Values(comparisons))
+}
