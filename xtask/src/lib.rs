@@ -7,7 +7,6 @@
     reason = "this crate talks to a person at a terminal"
 )]
 
-mod calibration;
 mod ci;
 mod evidence;
 mod figures;
@@ -22,11 +21,8 @@ mod run;
 mod scaling;
 mod scene;
 mod scene_file;
-mod speed_range;
-mod stationary;
 mod sweep;
 mod tasks;
-mod work_precision;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -56,17 +52,8 @@ enum Command {
     ScalingTable(ScalingTable),
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),
-    /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed. CSV.
-    MeasureStationary(stationary::MeasureStationary),
-    /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds: CSV,
-    /// SVG and PNG.
-    SpeedRange(speed_range::SpeedRange),
-    /// Measure error against run time of every method on every benchmark scene: CSV, fitted orders, SVG and PNG.
-    WorkPrecision(work_precision::WorkPrecision),
     /// Measure anew how stable, accurate and expensive the methods are: CSV, SVG, PNG and Markdown.
     Evidence(evidence::Evidence),
-    /// Compare the error bars of every method with its deviations on random scenes: CSV, SVG and PNG.
-    Calibrate(calibration::Calibrate),
     /// Solve one scene.
     Run(run::Run),
     /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
@@ -121,11 +108,7 @@ pub fn execute() -> ExitCode {
         }
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
         Command::FitMaterial(options) => material::fit(&options),
-        Command::MeasureStationary(options) => stationary::measure(&options),
-        Command::SpeedRange(options) => speed_range::speed_range(&options),
-        Command::WorkPrecision(options) => work_precision::measure(&options),
         Command::Evidence(options) => evidence::evidence(options),
-        Command::Calibrate(options) => calibration::calibrate(&options),
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),

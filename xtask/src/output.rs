@@ -131,12 +131,6 @@ pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Writes rows as CSV, and says where.
-pub(crate) fn write_table<R: Serialize>(path: &Path, rows: &[R]) -> Result<()> {
-    write_atomically(path, to_csv(rows)?.as_bytes())?;
-    print_line(&path.display())
-}
-
 /// Reads a table that [`to_csv`] wrote.
 pub(crate) fn read_csv<R: DeserializeOwned>(path: &Path) -> Result<Vec<R>> {
     let mut reader =

@@ -2,7 +2,11 @@
 //!
 //! Every experiment turns cases into tables, pictures and a summary; here they are written.
 
+mod calibration;
+mod speed_range;
 mod stability;
+mod stationary;
+mod work_precision;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -35,8 +39,16 @@ pub(crate) struct Evidence {
 
 #[derive(Debug, Subcommand)]
 enum Experiment {
+    /// Measure error against run time of every method on every benchmark scene.
+    WorkPrecision,
     /// Judge every method on stiff and extreme cases; fails when one is wrong.
     Stability(stability::Options),
+    /// Compare the error bars of every method with its deviations on random scenes.
+    Calibration(calibration::Options),
+    /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
+    SpeedRange,
+    /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
+    Stationary(stationary::Options),
 }
 
 /// What an experiment found.
@@ -86,12 +98,23 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
 
 impl Experiment {
     fn all() -> Vec<Self> {
-        vec![Self::Stability(stability::Options::default())]
+        // The first one reports the largest memory that the process has had.
+        vec![
+            Self::Stationary(stationary::Options::default()),
+            Self::WorkPrecision,
+            Self::Stability(stability::Options::default()),
+            Self::Calibration(calibration::Options::default()),
+            Self::SpeedRange,
+        ]
     }
 
     fn run(&self, quick: bool) -> Result<Report> {
         match self {
+            Self::WorkPrecision => work_precision::report(quick),
             Self::Stability(options) => stability::report(options, quick),
+            Self::Calibration(options) => calibration::report(options, quick),
+            Self::SpeedRange => speed_range::report(quick),
+            Self::Stationary(options) => stationary::report(options, quick),
         }
     }
 }

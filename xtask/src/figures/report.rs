@@ -19,7 +19,7 @@ table{border-collapse:collapse;font-size:.85rem;margin:1rem 0}th,td{border-botto
 th{border-bottom:1px solid #333;font-weight:normal;vertical-align:bottom}td:first-child,th:first-child{text-align:left}\
 .paper{border-left:3px solid #999;padding-left:1rem;color:#333}details{margin:1rem 0}.wide{overflow-x:auto}";
 
-/// Picture of `cargo xtask stability`, which the figures do not recompute.
+/// Picture of `cargo xtask evidence stability`, which the figures do not recompute.
 const STABILITY: &str = include_str!("../../../docs/figures/stability.svg");
 
 pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
@@ -47,7 +47,7 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     write_picture(&mut page, pictures, "stationary_contact")?;
     write!(
         page,
-        "<h2>Stiff and extreme cases</h2><p>Not in the paper; as committed, from <code>cargo xtask stability</code>: one \
+        "<h2>Stiff and extreme cases</h2><p>Not in the paper; as committed, from <code>cargo xtask evidence stability</code>: one \
          row per family, one cell per case.</p><figure>{STABILITY}</figure>"
     )?;
     page.push_str(NOT_STATED);
@@ -239,7 +239,7 @@ const NOT_STATED: &str = "<h2>What the paper does not state</h2><p>Force, viscos
 
 /// Times depend on the machine, so that the committed picture is shown and not a new one.
 const WORK_PRECISION: &str = concat!(
-    "<h2>What an accuracy costs</h2><p>Not in the paper, and not computed with this page: measured by <code>cargo xtask \
+    "<h2>What an accuracy costs</h2><p>Not in the paper, and not computed with this page: measured by <code>cargo xtask evidence \
      work-precision</code>, as docs/work-precision.md says.</p><figure>",
     include_str!("../../../docs/figures/work_precision_sliding.svg"),
     "<figcaption>Error of the friction coefficient over the processor time, each method against a reference of its \

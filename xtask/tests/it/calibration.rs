@@ -16,7 +16,13 @@ fn number(row: &Row, column: &str) -> f64 {
 #[test]
 fn nine_of_ten_error_bars_hold_on_random_scenes() {
     let folder = folder("calibration");
-    let output = xtask(&["calibrate", "--quick", "--out", argument(&folder)]);
+    let output = xtask(&[
+        "evidence",
+        "calibration",
+        "--quick",
+        "--out",
+        argument(&folder),
+    ]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let mut reader = csv::Reader::from_path(folder.join("calibration.csv")).expect("a table");
     let rows: Vec<Row> = reader
@@ -49,7 +55,8 @@ fn scenes_follow_from_the_seed_and_unknown_numbers_of_them_are_wrong_input() {
     let run = |seed: &str, scenes: &str, name: &str| {
         let folder = folder(name);
         let output = xtask(&[
-            "calibrate",
+            "evidence",
+            "calibration",
             "--quick",
             "--scenes",
             scenes,

@@ -12,7 +12,7 @@ fn measured(name: &str, tables: &[&str]) -> (PathBuf, String) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::remove_dir_all(&folder).ok();
     let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(["measure-stationary", "--quick", "--out"])
+        .args(["evidence", "stationary", "--quick", "--out"])
         .arg(&folder)
         .args(tables.iter().flat_map(|table| ["--table", table]))
         .output()

@@ -18,7 +18,13 @@ fn computed() -> &'static (PathBuf, String) {
     static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
     RUN.get_or_init(|| {
         let folder = folder("speed-range");
-        let output = xtask(&["speed-range", "--quick", "--out", argument(&folder)]);
+        let output = xtask(&[
+            "evidence",
+            "speed-range",
+            "--quick",
+            "--out",
+            argument(&folder),
+        ]);
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{message}");
         (folder, text(&output.stdout))

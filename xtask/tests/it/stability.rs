@@ -7,7 +7,13 @@ use crate::support::{argument, folder, text, xtask};
 #[test]
 fn no_stiff_or_extreme_case_is_wrong() {
     let folder = folder("stability");
-    let output = xtask(&["stability", "--quick", "--out", argument(&folder)]);
+    let output = xtask(&[
+        "evidence",
+        "stability",
+        "--quick",
+        "--out",
+        argument(&folder),
+    ]);
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{message}");
     let mut reader = csv::Reader::from_path(folder.join("stability.csv")).expect("a table");
@@ -41,7 +47,16 @@ fn no_stiff_or_extreme_case_is_wrong() {
 #[test]
 fn cases_can_be_chosen_and_unknown_ones_are_wrong_input() {
     let folder = folder("stability-chosen");
-    let run = |only: &str| xtask(&["stability", "--only", only, "--out", argument(&folder)]);
+    let run = |only: &str| {
+        xtask(&[
+            "evidence",
+            "stability",
+            "--only",
+            only,
+            "--out",
+            argument(&folder),
+        ])
+    };
     let chosen = run("creep of Kelvin–Voigt in steps, Δt/λ = 1e-12");
     let printed = text(&chosen.stdout);
     assert_eq!(chosen.status.code(), Some(0), "{printed}");

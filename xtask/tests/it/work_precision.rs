@@ -14,7 +14,13 @@ fn measured() -> &'static (PathBuf, String) {
     static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
     RUN.get_or_init(|| {
         let folder = folder("work-precision");
-        let output = xtask(&["work-precision", "--quick", "--out", argument(&folder)]);
+        let output = xtask(&[
+            "evidence",
+            "work-precision",
+            "--quick",
+            "--out",
+            argument(&folder),
+        ]);
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{message}");
         (folder, text(&output.stdout))

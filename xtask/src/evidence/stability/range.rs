@@ -29,6 +29,9 @@ const UNIT: Scene = Scene {
 /// Solves a scene and compares with the closed form; a scene without a solution must end in the right error.
 type Method = fn(Scene, Expected) -> Result<Finding>;
 
+/// The scene that belongs to the value of a parameter.
+type Change = fn(f64) -> Scene;
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Expected {
     Solution,
@@ -37,7 +40,7 @@ enum Expected {
 
 pub(super) fn families() -> Vec<Family> {
     // The parameters that are changed one at a time.
-    let parameters: [(&'static str, fn(f64) -> Scene); 4] = [
+    let parameters: [(&'static str, Change); 4] = [
         ("force / N", |force| Scene { force, ..UNIT }),
         ("speed / (m/s)", |velocity| Scene { velocity, ..UNIT }),
         ("viscosity / (Pa s)", |viscosity| Scene {

@@ -23,6 +23,9 @@ struct Units {
     force: f64,
 }
 
+/// Another unit of one kind.
+type Change = fn(f64) -> Units;
+
 const SI: Units = Units {
     length: 1.0,
     time: 1.0,
@@ -45,7 +48,7 @@ pub(super) fn families() -> Vec<Family> {
 }
 
 fn other_units(name: &'static str, method: fn(Units) -> Result<Numbers>) -> Family {
-    let changes: [(&str, fn(f64) -> Units); 3] = [
+    let changes: [(&str, Change); 3] = [
         ("length", |length| Units { length, ..SI }),
         ("time", |time| Units { time, ..SI }),
         ("force", |force| Units { force, ..SI }),

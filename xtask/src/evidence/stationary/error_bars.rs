@@ -5,10 +5,10 @@ use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions};
 use serde::Serialize;
 
+use crate::evidence::stationary::bodies::{self, Case};
 use crate::meter::{measure, median};
 use crate::output::markdown_table;
 use crate::progress;
-use crate::stationary::bodies::{self, Case};
 
 /// Shapes of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];

@@ -7,26 +7,12 @@ mod pictures;
 mod sliding;
 mod validity;
 
-use std::path::PathBuf;
-
 use anyhow::Result;
-use clap::Args;
 
-use crate::output::{WrongInput, print_line, to_csv, write_atomically, write_figure};
+use super::{Report, Table};
 
 /// Exponents of the profiles: cone and paraboloid, in this order in every table.
 const EXPONENTS: [f64; 2] = [1.0, 2.0];
-
-/// Where the results go, and how many there are.
-#[derive(Debug, Args)]
-pub(crate) struct SpeedRange {
-    /// Where tables and pictures are written.
-    #[arg(long, default_value = "target/speed-range")]
-    out: PathBuf,
-    /// Fewer speeds and stiffness ratios, and wider error bars.
-    #[arg(long)]
-    quick: bool,
-}
 
 /// Values from 10^first to 10^last, evenly spaced in the logarithm.
 #[derive(Debug, Clone, Copy)]
@@ -96,25 +82,21 @@ const QUICK: Extent = Extent {
     map_error: 3e-2,
 };
 
-/// Computes everything, writes it, and prints the border of the viscous law.
-pub(crate) fn speed_range(options: &SpeedRange) -> Result<()> {
-    let out = &options.out;
-    std::fs::create_dir_all(out)
-        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
-    let extent = if options.quick { QUICK } else { FULL };
+/// Computes curves, map and border; a quick run takes fewer speeds and stiffness ratios, and wider error bars.
+pub(super) fn report(quick: bool) -> Result<Report> {
+    let extent = if quick { QUICK } else { FULL };
     let curves = curves::compute(&extent)?;
     let validity = validity::compute(&extent)?;
     let borders = border::find(&validity)?;
-    for (name, table) in [
-        ("friction_over_speed.csv", to_csv(&curves)?),
-        ("validity.csv", to_csv(&validity)?),
-        ("validity_border.csv", to_csv(&borders)?),
-    ] {
-        write_atomically(&out.join(name), table.as_bytes())?;
-    }
-    for (name, figure) in pictures::all((&curves, &validity, &borders), &extent)? {
-        write_figure(out, name, &figure)?;
-    }
-    print_line(&border::printed(&borders))?;
-    print_line(&out.display())
+    Ok(Report {
+        name: "speed_range",
+        tables: vec![
+            Table::new("friction_over_speed", &curves)?,
+            Table::new("validity", &validity)?,
+            Table::new("validity_border", &borders)?,
+        ],
+        pictures: pictures::all((&curves, &validity, &borders), &extent)?,
+        summary: border::printed(&borders).to_string(),
+        failure: None,
+    })
 }

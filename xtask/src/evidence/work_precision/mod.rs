@@ -10,28 +10,14 @@ mod scenes;
 mod series;
 mod table;
 
-use std::path::{Path, PathBuf};
-
 use anyhow::Result;
-use clap::Args;
 
-use crate::output::{WrongInput, print_line, write_figure, write_table};
+use super::{Report, Table};
 use crate::progress;
 use fit::{Fit, fit};
 use measured::{Row, Timing};
 use scenes::{QUICK_SCENES, SCENES, Scene};
 use series::{Plan, Refusal, Series};
-
-/// Arguments of the command.
-#[derive(Debug, Args)]
-pub(crate) struct WorkPrecision {
-    /// Where tables and pictures are written.
-    #[arg(long, default_value = "target/work-precision")]
-    out: PathBuf,
-    /// A few scenes at coarse resolutions only, each timed once.
-    #[arg(long)]
-    quick: bool,
-}
 
 /// How much is measured.
 #[derive(Debug)]
@@ -68,27 +54,37 @@ struct Measured {
     refusals: Vec<Refusal>,
 }
 
-/// Measures on one thread, writes tables and pictures, and prints what they say.
-pub(crate) fn measure(options: &WorkPrecision) -> Result<()> {
-    let out = &options.out;
-    std::fs::create_dir_all(out)
-        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
-    let extent = if options.quick { QUICK } else { FULL };
+/// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
+pub(super) fn report(quick: bool) -> Result<Report> {
+    let extent = if quick { QUICK } else { FULL };
     let plan = plan(&extent)?;
     // On one thread processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let measured = pool.install(|| carry_out(plan, extent.timing));
-    write(&measured, out)?;
-    print_line(&table::table(&measured.series))?;
-    for refusal in &measured.refusals {
+    let Measured { series, refusals } = pool.install(|| carry_out(plan, extent.timing));
+    let rows: Vec<&Row> = series.iter().flat_map(|(rows, _)| rows).collect();
+    let fits: Vec<&Fit> = series.iter().map(|(_, fit)| fit).collect();
+    let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
+    let refused = refusals.iter().map(|refusal| {
         let Refusal {
             scene,
             what,
             reason,
         } = refusal;
-        print_line(&format!("refused: {scene}, {what}: {reason}"))?;
-    }
-    Ok(())
+        format!("\nrefused: {scene}, {what}: {reason}")
+    });
+    Ok(Report {
+        name: "work_precision",
+        tables: vec![
+            Table::new("work_precision", &rows)?,
+            Table::new("work_precision_orders", &fits)?,
+        ],
+        pictures: vec![
+            ("work_precision_sliding", picture::figure(&sliding)),
+            ("work_precision_at_rest", picture::figure(&at_rest)),
+        ],
+        summary: format!("{}{}", table::table(&series), refused.collect::<String>()),
+        failure: None,
+    })
 }
 
 /// All series, with their references.
@@ -127,21 +123,4 @@ fn add(measured: &mut Measured, series: &Series, timing: Timing, advance: &dyn F
     if let Some(fit) = fit(&rows) {
         measured.series.push((rows, fit));
     }
-}
-
-fn write(measured: &Measured, out: &Path) -> Result<()> {
-    let series = &measured.series;
-    let rows: Vec<&Row> = series.iter().flat_map(|(rows, _)| rows).collect();
-    let fits: Vec<&Fit> = series.iter().map(|(_, fit)| fit).collect();
-    write_table(&out.join("work_precision.csv"), &rows)?;
-    write_table(&out.join("work_precision_orders.csv"), &fits)?;
-    let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.into_iter().partition(|row| row.slides());
-    for (name, rows) in [
-        ("work_precision_sliding", sliding),
-        ("work_precision_at_rest", at_rest),
-    ] {
-        write_figure(out, name, &picture::figure(&rows))?;
-        print_line(&out.join(name).with_extension("svg").display())?;
-    }
-    Ok(())
 }

@@ -1,12 +1,11 @@
 //! Friction over speed on the line and on the half space, and their ratio.
 
 use anyhow::Result;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::progress;
-use crate::speed_range::sliding::{Friction, Line, Sliding};
-use crate::speed_range::{EXPONENTS, Extent};
+use crate::evidence::speed_range::sliding::{Friction, Line, Sliding};
+use crate::evidence::speed_range::{EXPONENTS, Extent};
+use crate::tasks::in_parallel;
 
 /// One speed; friction in units of the mean slope d/a, errors absolute.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,15 +43,7 @@ pub(super) fn compute(extent: &Extent) -> Result<Vec<Row>> {
 
 /// Solves every question by both methods.
 pub(super) fn rows(task: &'static str, questions: &[Sliding], error: f64) -> Result<Vec<Row>> {
-    let bar = progress::bar(task, questions.len());
-    let rows = questions.par_iter().map(|question| {
-        let row = row(question, error);
-        bar.inc(1);
-        row
-    });
-    let rows = rows.collect();
-    bar.finish_and_clear();
-    rows
+    in_parallel(task, questions, |question| row(question, error))
 }
 
 fn row(question: &Sliding, relative_error: f64) -> Result<Row> {

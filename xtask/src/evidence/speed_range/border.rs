@@ -5,9 +5,9 @@ use comfy_table::Table;
 use indenters::bracketed_root;
 use serde::Serialize;
 
+use crate::evidence::speed_range::sliding::{Sliding, plateau};
+use crate::evidence::speed_range::validity;
 use crate::output::markdown_table;
-use crate::speed_range::sliding::{Sliding, plateau};
-use crate::speed_range::validity;
 
 /// Largest |prediction/friction − 1| that counts as right.
 pub(super) const ALLOWED: f64 = 0.1;

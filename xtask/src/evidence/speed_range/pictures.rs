@@ -3,9 +3,9 @@
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
 
-use crate::speed_range::border::Model;
-use crate::speed_range::sliding::{Sliding, plateau};
-use crate::speed_range::{Decades, EXPONENTS, Extent, border, curves, validity};
+use crate::evidence::speed_range::border::Model;
+use crate::evidence::speed_range::sliding::{Sliding, plateau};
+use crate::evidence::speed_range::{Decades, EXPONENTS, Extent, border, curves, validity};
 use viscofriction_plot::{
     Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Panel, Series,
     Shape,

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use crate::meter::{measure, peak_memory};
 use crate::output::markdown_table;
-use crate::progress;
 use crate::scene::Scene;
+use crate::tasks::in_turn;
 
 /// Elements in contact on the smallest grid.
 const SMALLEST: f64 = 1e3;
@@ -51,11 +51,9 @@ pub(super) fn compute(largest: f64) -> Result<Vec<Row>> {
     let limit = steady_friction(&scene.body, &scene.material, &scene.load, &options)?;
     let area = solve(&scene, scene.theory()?.contact_length() / PILOT)?.contact_area;
     let sizes = sizes(largest);
-    let bar = progress::bar("growth", sizes.len());
-    let rows = sizes.into_iter().map(|size| {
+    in_turn("growth", &sizes, |&size| {
         let (solution, cost) = measure(|| solve(&scene, (area / (size * ASPECT)).sqrt()));
         let solution = solution.with_context(|| format!("{size:.0} elements in contact"))?;
-        bar.inc(1);
         let [dx, dy] = solution.pressure.grid.spacing();
         Ok(Row {
             elements_in_contact: (solution.contact_area / dx / dy).round(),
@@ -67,10 +65,7 @@ pub(super) fn compute(largest: f64) -> Result<Vec<Row>> {
             residual: solution.residual,
             relative_deviation: solution.friction_coefficient / limit.friction_coefficient - 1.0,
         })
-    });
-    let rows = rows.collect();
-    bar.finish_and_clear();
-    rows
+    })
 }
 
 fn sizes(largest: f64) -> Vec<f64> {

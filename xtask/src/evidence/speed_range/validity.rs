@@ -3,9 +3,9 @@
 use anyhow::Result;
 use serde::Serialize;
 
-use crate::speed_range::curves;
-use crate::speed_range::sliding::{Sliding, plateau};
-use crate::speed_range::{EXPONENTS, Extent};
+use crate::evidence::speed_range::curves;
+use crate::evidence::speed_range::sliding::{Sliding, plateau};
+use crate::evidence::speed_range::{EXPONENTS, Extent};
 
 /// One contact; friction in units of the mean slope d/a, errors absolute.
 #[derive(Debug, Clone, PartialEq, Serialize)]

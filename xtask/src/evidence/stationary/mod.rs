@@ -1,0 +1,85 @@
+//! `measure-stationary`: how far the stationary solver can be trusted, and what it costs.
+
+mod bodies;
+mod error_bars;
+mod growth;
+mod speed;
+
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+
+use super::{Report, Table};
+use crate::output::WrongInput;
+
+/// What is measured, and how far.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// Elements in contact on the largest grid of the table of growth, between 2e3 and 1e7.
+    #[arg(long, default_value_t = LARGEST, value_name = "N")]
+    largest: f64,
+    /// Table to make; may be given several times [default: all].
+    #[arg(long = "table", value_enum, value_name = "TABLE")]
+    tables: Vec<Part>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            largest: LARGEST,
+            tables: Vec::new(),
+        }
+    }
+}
+
+/// One of the tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    /// Time and memory over the size of the grid.
+    Growth,
+    /// Time to an error, by the stationary solver and by the march in time.
+    Speed,
+    /// Error bars against much finer solutions.
+    ErrorBars,
+}
+
+/// Elements in contact on the largest grid, and on that of a quick run.
+const LARGEST: f64 = 1e5;
+const QUICK_LARGEST: f64 = 4e3;
+
+/// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
+pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+    if !(2e3..=1e7).contains(&options.largest) {
+        let (range, given) = ("between 2e3 and 1e7", options.largest);
+        return Err(WrongInput(format!("--largest must be {range}, but is {given}")).into());
+    }
+    let wanted = |part| options.tables.is_empty() || options.tables.contains(&part);
+    let (mut tables, mut summaries) = (Vec::new(), Vec::new());
+    // Growth comes first, because the memory that it reports is the largest that the process has had.
+    if wanted(Part::Growth) {
+        let largest = if quick {
+            QUICK_LARGEST
+        } else {
+            options.largest
+        };
+        let rows = growth::compute(largest)?;
+        tables.push(Table::new("growth", &rows)?);
+        summaries.push(growth::summary(&rows));
+    }
+    if wanted(Part::Speed) {
+        let rows = speed::compute(quick)?;
+        tables.push(Table::new("speed", &rows)?);
+        summaries.push(speed::summary(&rows));
+    }
+    if wanted(Part::ErrorBars) {
+        let rows = error_bars::compute(quick)?;
+        tables.push(Table::new("error_bars", &rows)?);
+        summaries.push(error_bars::summary(&rows));
+    }
+    Ok(Report {
+        name: "stationary",
+        tables,
+        pictures: Vec::new(),
+        summary: summaries.join("\n\n"),
+        failure: None,
+    })
+}
