@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use xtask::InputKind;
+use viscofriction_cli::InputKind;
 
 fuzz_target!(|contents: &[u8]| {
     for file in ["map.csv", "map.npy"] {

@@ -3,6 +3,6 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use xtask::InputKind;
+use viscofriction_cli::InputKind;
 
 fuzz_target!(|contents: &[u8]| fuzz::check(InputKind::SweepRows, "sweep.csv", contents));

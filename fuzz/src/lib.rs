@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use xtask::{InputKind, check_input};
+use viscofriction_cli::{InputKind, check_input};
 
 /// Checks the contents of a file; panics when a refusal does not help.
 pub fn check(kind: InputKind, file: &str, contents: &[u8]) {

@@ -10,26 +10,40 @@
 mod ci;
 mod evidence;
 mod figures;
-mod input;
-mod material;
 mod meter;
-mod npy;
 mod output;
 mod progress;
 mod random;
-mod run;
 mod scaling;
 mod scene;
-mod scene_file;
-mod sweep;
 mod tasks;
+
+/// Names of the library under which the experiments know them.
+mod run {
+    pub(crate) use viscofriction::solve::{
+        Answer, Body, Problem as Question, Revolution, choose, solve,
+    };
+
+    /// The scenes of experiments name no files.
+    pub(crate) fn no_files(path: &std::path::Path) -> Result<Vec<u8>, viscofriction::WrongInput> {
+        Err(viscofriction::WrongInput(format!(
+            "{}: no file is read",
+            path.display()
+        )))
+    }
+}
+
+mod scene_file {
+    pub(crate) use viscofriction::scene::{
+        Accuracy, Control, Indenter, MaterialTable, Method, Model, Scene as SceneFile, scene_file,
+    };
+}
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-pub use input::{InputKind, check_input};
 pub use output::WrongInput;
 
 use scaling::Format;
@@ -50,16 +64,8 @@ enum Command {
     ScalingFactors(ScalingFactors),
     /// Compute the function s(p) that friction-analytic interpolates; takes long, and goes on where it was interrupted.
     ScalingTable(ScalingTable),
-    /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
-    FitMaterial(material::FitMaterial),
     /// Measure anew how stable, accurate and expensive the methods are: CSV, SVG, PNG and Markdown.
     Evidence(evidence::Evidence),
-    /// Solve one scene.
-    Run(run::Run),
-    /// Solve a scene for many values of its parameters: one CSV row per point, written as it is finished.
-    Sweep(sweep::Sweep),
-    /// Print the JSON Schema of scene files.
-    SceneSchema,
     /// Count what each library crate pulls in when it is built alone, and measure what building it takes. Markdown.
     Dependencies(ci::Dependencies),
     /// Run everything that CI checks.
@@ -107,11 +113,7 @@ pub fn execute() -> ExitCode {
             scaling::print(&options.exponents, options.relative_error, options.format)
         }
         Command::ScalingTable(options) => scaling::generate_table(&options.out),
-        Command::FitMaterial(options) => material::fit(&options),
         Command::Evidence(options) => evidence::evidence(options),
-        Command::Run(options) => run::run(&options),
-        Command::Sweep(options) => sweep::sweep(&options),
-        Command::SceneSchema => scene_file::json_schema().map(|schema| print!("{schema}")),
         Command::Dependencies(options) => ci::measure(&options),
         Command::Ci => ci::run(),
     };

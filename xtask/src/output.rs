@@ -10,41 +10,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use viscofriction_plot::{Drawing, Figure, PNG_WIDTH, draw, render_png};
 
-/// The input was wrong: exit status 2; one line that names the place.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct WrongInput(pub(crate) String);
-
-impl std::fmt::Display for WrongInput {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for WrongInput {}
-
-/// Reads a whole file that the command line names.
-pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
-    fs::read(path).map_err(|error| WrongInput(format!("{}: {error}", path.display())))
-}
-
-/// The line at which a record of a CSV file begins, counted from 1; empty lines before it belong to its position.
-pub(crate) fn line_of_record(contents: &[u8], position: Option<&csv::Position>) -> usize {
-    let start = position.map_or(0, csv::Position::byte);
-    let start = usize::try_from(start)
-        .unwrap_or(usize::MAX)
-        .min(contents.len());
-    let is_break = |byte: &&u8| b"\r\n".contains(byte);
-    line_of(
-        contents,
-        start + contents[start..].iter().take_while(is_break).count(),
-    )
-}
-
-/// The line of an offset in a text, counted from 1.
-pub(crate) fn line_of(text: &[u8], offset: usize) -> usize {
-    let before = text.iter().take(offset);
-    1 + before.filter(|byte| **byte == b'\n').count()
-}
+pub use viscofriction::WrongInput;
 
 /// Prints a line; a reader that has seen enough is no error.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
@@ -93,33 +59,6 @@ pub(crate) fn write_drawing(folder: &Path, name: &str, drawing: &Drawing) -> Res
     let path = |extension: &str| folder.join(format!("{name}.{extension}"));
     write_atomically(&path("svg"), drawing.svg.as_bytes())?;
     write_atomically(&path("png"), &png)
-}
-
-/// Removes what killed runs left of [`write_atomically`] for this file; nobody else may be writing it.
-pub(crate) fn remove_parts(path: &Path) -> Result<()> {
-    let say = || format!("clearing parts of {}", path.display());
-    let folder = match path.parent() {
-        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
-        Some(folder) if folder.is_dir() => folder,
-        _ => return Ok(()),
-    };
-    for entry in fs::read_dir(folder).with_context(say)? {
-        let name = entry.with_context(say)?.file_name();
-        if is_part(&name.to_string_lossy(), path) {
-            fs::remove_file(folder.join(name)).with_context(say)?;
-        }
-    }
-    Ok(())
-}
-
-/// Whether a file is the name of another one with the number of a process.
-fn is_part(name: &str, path: &Path) -> bool {
-    let whole = path.file_name().unwrap_or_default().to_string_lossy();
-    let process = name
-        .strip_prefix(&*whole)
-        .and_then(|rest| rest.strip_prefix('.'))
-        .and_then(|rest| rest.strip_suffix(".part"));
-    process.is_some_and(|number| number.parse::<u32>().is_ok())
 }
 
 /// CSV with a header line; numbers read back to the same f64.

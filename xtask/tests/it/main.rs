@@ -1,22 +1,9 @@
-//! What a user types, and what comes back; one binary, one module per claim.
+//! What a maintainer types, and what comes back; one binary, one module per claim.
 
-mod any_scene_is_answered;
 mod calibration;
 mod commands;
-mod documented_commands;
-mod explained_omissions;
-mod fit_material;
-mod fuzzed_inputs;
-mod half_space_scenes;
-mod height_maps_of_numpy;
-mod line_contacts;
-mod malformed_numbers;
-mod malformed_scenes;
-mod malformed_tables;
 mod measure_stationary;
-mod scenes;
 mod speed_range;
 mod stability;
 mod support;
-mod sweeps;
 mod work_precision;

@@ -113,7 +113,7 @@ fn load(random: &mut Random, (motion, units): (Motion, Units), parts: &str) -> R
 /// D = h(a) = 2 (1 − ν) F J(t)/(4 a); at least a tenth of the contact where the end is flat.
 fn force_and_depth(parts: &str, load: &str, [contact, time]: [f64; 2]) -> Result<[f64; 2]> {
     let file = scene_file(format!("{parts}{load}").parse()?)?;
-    let question = Question::new(&file, Path::new(""))?;
+    let question = Question::new(&file, Path::new(""), crate::run::no_files)?;
     let Body::Revolution(body) = &question.body else {
         bail!("only bodies of revolution are drawn");
     };

@@ -27,7 +27,7 @@ pub(super) fn figure(rows: &[Row]) -> Figure {
         let points = points.iter().filter(|(of, _)| *of == method);
         let points: Vec<[f64; 2]> = points.map(|(_, point)| *point).collect();
         (!points.is_empty()).then(|| Series {
-            label: Some(method.name()),
+            label: Some(method.name().to_owned()),
             ..Series::markers(points, Marker::open(shape), colour)
         })
     });

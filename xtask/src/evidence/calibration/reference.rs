@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// The question of a scene to one method.
 pub(super) fn question(scene: &Scene, way: &Way) -> Result<Question> {
-    let question = Question::new(&scene.file, Path::new(""))?;
+    let question = Question::new(&scene.file, Path::new(""), crate::run::no_files)?;
     Ok(Question {
         method: Some(way.method),
         // Without sliding both models are the same.
@@ -140,7 +140,7 @@ fn ask(scene: &Scene, way: &Way) -> Result<Reference> {
 
 /// The closed form of powers beside the quadrature that answers any body.
 fn power_pressed(scene: &Scene) -> Result<Option<Reference>> {
-    let question = Question::new(&scene.file, Path::new(""))?;
+    let question = Question::new(&scene.file, Path::new(""), crate::run::no_files)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =
         (&question.body, question.control)
     else {

@@ -75,7 +75,7 @@ impl Asked {
 
     /// The model is named only where the methods differ in it.
     fn question(&self, (model, method): (Model, Method), accuracy: Accuracy) -> Result<Question> {
-        let question = Question::new(&self.scene, Path::new(""))?;
+        let question = Question::new(&self.scene, Path::new(""), crate::run::no_files)?;
         Ok(Question {
             method: Some(method),
             model: (!self.presses()).then_some(model),

@@ -108,7 +108,7 @@ fn name(series: &Series) -> String {
         (Solver::Of(Method::BemSteady), Some(Resolution::Elements(_))) => {
             format!("{}, elements", Method::BemSteady.name())
         }
-        (Solver::Of(method), _) => method.name(),
+        (Solver::Of(method), _) => method.name().to_owned(),
     }
 }
 

@@ -1,0 +1,7 @@
+//! The program `viscofriction`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    viscofriction_cli::execute()
+}

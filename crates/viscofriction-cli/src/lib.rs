@@ -1,0 +1,66 @@
+//! The program `viscofriction`: scenes, sweeps, and materials from measurements.
+//!
+//! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this crate talks to a person at a terminal"
+)]
+
+mod input;
+mod material;
+mod meter;
+mod output;
+mod progress;
+mod run;
+mod sweep;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+pub use viscofriction::WrongInput;
+
+pub use input::{InputKind, check_input};
+
+/// Friction of rigid bodies that slide over rubber and other viscoelastic materials.
+#[derive(Debug, Parser)]
+#[command(name = "viscofriction", version)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve one scene.
+    Run(run::Run),
+    /// Solve a scene for many values of its keys: one CSV row per point, written as it is finished.
+    Sweep(sweep::Sweep),
+    /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
+    FitMaterial(material::FitMaterial),
+    /// Print the JSON Schema of scene files.
+    SceneSchema,
+}
+
+/// Does what the command line asks for.
+#[must_use]
+pub fn execute() -> ExitCode {
+    let result = match CommandLine::parse().command {
+        Command::Run(options) => run::run(&options),
+        Command::Sweep(options) => sweep::sweep(&options),
+        Command::FitMaterial(options) => material::fit(&options),
+        Command::SceneSchema => scene_schema(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            let wrong_input = error.downcast_ref::<WrongInput>().is_some();
+            ExitCode::from(if wrong_input { 2 } else { 1 })
+        }
+    }
+}
+
+fn scene_schema() -> anyhow::Result<()> {
+    output::print_text(&viscofriction::scene::json_schema()?)
+}

@@ -1,0 +1,197 @@
+//! `fit-material`: a table of measured moduli becomes the material of a scene.
+
+mod columns;
+mod output_files;
+mod picture;
+mod shifting;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use clap::Args;
+use rheology::RheologyError;
+use rheology::fit::{
+    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, RelaxationPoint, identify,
+};
+
+use viscofriction::WrongInput;
+
+use crate::output::{OutputFolder, print_line, print_text, read_input};
+use shifting::Shifted;
+use table::{Measurements, Table};
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+pub(crate) struct FitMaterial {
+    /// Table of comma separated values: a line of names (f or ω, E' and E'' or G' and G'', perhaps T; or t and E_relax or
+    /// G_relax), a line of units (Hz or rad/s, Pa to GPa, C or K, s), then one line per measurement.
+    data: PathBuf,
+    /// Where material.toml, fit.csv, fit.svg and fit.png are written [default: material.toml on the standard output].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+    /// Poisson ratio, by which E becomes G = E/(2 (1 + ν)).
+    #[arg(
+        long,
+        default_value_t = 0.5,
+        value_name = "NU",
+        allow_negative_numbers = true
+    )]
+    poisson_ratio: f64,
+    /// The material flows in the end: no equilibrium modulus.
+    #[arg(long)]
+    liquid: bool,
+    /// Number of branches at most, their times placed where they fit best.
+    #[arg(long, value_name = "N")]
+    branches: Option<usize>,
+    /// Excess error allowed for having few branches, without --branches [default: 0.02].
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        conflicts_with = "branches",
+        allow_negative_numbers = true
+    )]
+    parsimony: Option<f64>,
+    /// Keep --branches times equally spaced and smooth their moduli with this weight (Tikhonov); 1 is moderate.
+    #[arg(
+        long,
+        value_name = "WEIGHT",
+        requires = "branches",
+        allow_negative_numbers = true
+    )]
+    smoothing: Option<f64>,
+    /// Temperature of the master curve, in the unit of the table [default: that of the isotherm in the middle].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    reference_temperature: Option<f64>,
+    /// Shift by the WLF law with these constants about the reference temperature, instead of automatically.
+    #[arg(long, value_names = ["C1", "C2"], num_args = 2, conflicts_with = "arrhenius")]
+    wlf: Option<Vec<f64>>,
+    /// Shift by the law of Arrhenius with this activation energy in J/mol, instead of automatically.
+    #[arg(long, value_name = "ENERGY")]
+    arrhenius: Option<f64>,
+}
+
+/// Reads the table, fits it, and writes the material and its picture.
+pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
+    let out = options.out.as_deref();
+    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &output_files::NAMES));
+    let out = out.transpose()?;
+    let shear_per_tension = shear_per_tension(options.poisson_ratio)?;
+    let table = Table::read(
+        &options.data,
+        &read_input(&options.data)?,
+        shear_per_tension,
+    )?;
+    let shifted = shifting::shifted(&table, options)?;
+    let curve = curve(&table, &shifted, &options.data)?;
+    let found = identify(&curve, &options.identification()).map_err(wrong_option)?;
+    let fitted = Fitted {
+        options,
+        shifted,
+        found,
+    };
+    match &out {
+        Some(out) => {
+            output_files::write(&table, &fitted, out)?;
+            print_line(&fitted.summary())?;
+            print_line(&format!("written into {}", out.path().display()))
+        }
+        None => print_text(&output_files::material(&fitted)?),
+    }
+}
+
+/// Checks what would be a table of incompressible material.
+pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
+    Table::read(file, contents, shear_per_tension(0.5)?).map(|_| ())
+}
+
+/// What the command found.
+struct Fitted<'a> {
+    options: &'a FitMaterial,
+    shifted: Option<Shifted>,
+    found: Identification,
+}
+
+impl FitMaterial {
+    fn identification(&self) -> IdentifyOptions {
+        let ending = if self.liquid {
+            Ending::Liquid
+        } else {
+            Ending::Solid
+        };
+        let defaults = IdentifyOptions::default();
+        let control = match (self.branches, self.smoothing, self.parsimony) {
+            (Some(n_branches), Some(weight), _) => Control::Smooth { n_branches, weight },
+            (Some(n_branches), None, _) => Control::Branches(n_branches),
+            (None, _, Some(tolerance)) => Control::Parsimony { tolerance },
+            (None, _, None) => defaults.control,
+        };
+        IdentifyOptions { ending, control }
+    }
+}
+
+impl Fitted<'_> {
+    fn summary(&self) -> String {
+        let Identification {
+            spectrum,
+            rms_relative_error,
+            max_relative_error,
+        } = &self.found;
+        let n_branches = spectrum.branches().len();
+        format!(
+            "{n_branches} branches; relative error of the modulus: {:.3} % rms, {:.3} % at most",
+            100.0 * rms_relative_error,
+            100.0 * max_relative_error
+        )
+    }
+}
+
+/// G/E at a constant Poisson ratio.
+fn shear_per_tension(poisson_ratio: f64) -> Result<f64, WrongInput> {
+    if !(poisson_ratio > -1.0 && poisson_ratio <= 0.5) {
+        return Err(WrongInput(format!(
+            "--poisson-ratio must be greater than -1 and at most 0.5, but is {poisson_ratio}"
+        )));
+    }
+    Ok(0.5 / (1.0 + poisson_ratio))
+}
+
+fn curve(table: &Table, shifted: &Option<Shifted>, file: &Path) -> Result<MeasuredCurve> {
+    let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", file.display()));
+    if let Some(shifted) = shifted {
+        return Ok(shifted.master.curve.clone());
+    }
+    match &table.measurements {
+        Measurements::Oscillation(rows) => {
+            let points = rows.iter().map(|row| row.point).collect();
+            Ok(MeasuredCurve::oscillation(points).map_err(wrong)?)
+        }
+        Measurements::Relaxation(rows) => {
+            let points: Vec<RelaxationPoint> = rows.iter().map(|row| row.point).collect();
+            Ok(MeasuredCurve::relaxation(points).map_err(wrong)?)
+        }
+    }
+}
+
+/// An option that the library refuses is the user's; that a fit does not converge is not.
+fn wrong_option(error: RheologyError) -> anyhow::Error {
+    match error {
+        RheologyError::InvalidParameter {
+            parameter,
+            value,
+            allowed,
+        } => {
+            let option = match parameter {
+                "n_branches" => "--branches",
+                "tolerance" => "--parsimony",
+                "weight" => "--smoothing",
+                other => other,
+            };
+            WrongInput(format!("{option} must be {allowed}, but is {value}")).into()
+        }
+        other => other.into(),
+    }
+}

@@ -1,0 +1,172 @@
+//! `run`: one scene, one answer.
+
+mod explain;
+mod files;
+mod pictures;
+mod savings;
+mod table;
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use viscofriction::WrongInput;
+use viscofriction::scene::{Method, Source};
+use viscofriction::solve::{Answer, Omission, Problem, problem_of, solve};
+
+use crate::output::{OutputFolder, print_line, read_input, read_standard_input};
+use crate::progress;
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: viscofriction run examples/scenes/sphere-standard-solid.toml")]
+pub(crate) struct Run {
+    /// The scene file, or - for the standard input; docs/scenes.md describes it.
+    scene: PathBuf,
+    /// Take this method instead of that of the scene.
+    #[arg(long, value_enum)]
+    method: Option<MethodName>,
+    /// How the result is printed.
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// Say which parts of the method the scene did not need, and measure what that saves by doing them too.
+    #[arg(long)]
+    explain: bool,
+    /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+}
+
+/// How a result is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Table,
+    Json,
+}
+
+/// The methods by their names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum MethodName {
+    /// Closed forms, quadrature, and the table of s(p) on the half space.
+    Analytic,
+    /// Stationary sliding on the one-dimensional model.
+    MdrSteady,
+    /// The one-dimensional model from first touch on.
+    MdrTransient,
+    /// Stationary sliding on the half space.
+    BemSteady,
+    /// The half space from first touch on.
+    BemTransient,
+}
+
+impl From<MethodName> for Method {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Analytic => Self::Analytic,
+            MethodName::MdrSteady => Self::MdrSteady,
+            MethodName::MdrTransient => Self::MdrTransient,
+            MethodName::BemSteady => Self::BemSteady,
+            MethodName::BemTransient => Self::BemTransient,
+        }
+    }
+}
+
+/// An answer and the time it took.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(crate) struct Timed<'a> {
+    #[serde(flatten)]
+    answer: &'a Answer,
+    seconds: f64,
+}
+
+/// Reads the scene, solves it, and prints the answer.
+pub(crate) fn run(options: &Run) -> Result<()> {
+    let source = source(&options.scene)?;
+    let overwrite = options.overwrite;
+    let out = options.out.as_deref();
+    let out = out.map(|out| OutputFolder::new(out, overwrite, &files::NAMES));
+    let out = out.transpose()?;
+    let (problem, method) = problem_of(&source, options.method.map(Method::from), read_input)?;
+    let bar = progress::spinner(format!("{} by {}", source.path().display(), method.name()));
+    let started = Instant::now();
+    let answer = in_pool(&problem);
+    let seconds = started.elapsed().as_secs_f64();
+    bar.finish_and_clear();
+    let mut answer = answer.with_context(|| format!("{}", source.path().display()))?;
+    if out.is_none() {
+        answer.left_out.push(Omission::Files);
+    }
+    let answer = Timed {
+        answer: &answer,
+        seconds,
+    };
+    print(&answer, options.format, problem.method.is_none())?;
+    if let Some(out) = &out {
+        files::write(&answer, out)?;
+        if options.format == Format::Table {
+            print_line(&format!("written into {}", out.path().display()))?;
+        }
+    }
+    if options.explain {
+        explain(&problem, &answer, options.format)?;
+    }
+    Ok(())
+}
+
+/// The scene in a file, or on the standard input.
+pub(crate) fn source(path: &Path) -> Result<Source, WrongInput> {
+    let contents = if path == Path::new("-") {
+        read_standard_input()?
+    } else {
+        read_input(path)?
+    };
+    Source::new(path, contents)
+}
+
+/// Solves on as many threads as the scene says, or on all.
+fn in_pool(problem: &Problem) -> Result<Answer> {
+    let threads = problem.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()?;
+    Ok(pool.install(|| solve(problem))?)
+}
+
+fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
+    let Timed { answer, seconds } = timed;
+    match format {
+        Format::Json => print_line(&serde_json::to_string_pretty(timed)?),
+        Format::Table => {
+            let (method, model) = (answer.method.name(), table::model(answer.model));
+            let why = if chosen {
+                ", the cheapest that answers the scene"
+            } else {
+                ""
+            };
+            print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
+            print_line(&table::table(answer))?;
+            match table::parts(&answer.error_parts) {
+                Some(parts) => print_line(&format!("error bar: {parts}")),
+                None => Ok(()),
+            }
+        }
+    }
+}
+
+/// Measures what the scene did not need; a result as JSON stays alone on the standard output.
+fn explain(problem: &Problem, answer: &Timed<'_>, format: Format) -> Result<()> {
+    let bar = progress::spinner("measuring what was left out".to_owned());
+    let omissions = explain::table(problem, answer);
+    bar.finish_and_clear();
+    let omissions = omissions?;
+    match format {
+        Format::Json => eprintln!("{omissions}"),
+        Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,
+    }
+    Ok(())
+}

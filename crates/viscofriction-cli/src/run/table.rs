@@ -1,0 +1,73 @@
+//! An answer for a person.
+
+use comfy_table::Table;
+use viscofriction::scene::Model;
+use viscofriction::solve::{Answer, ErrorParts};
+
+/// One row per quantity, with its error and unit.
+pub(super) fn table(answer: &Answer) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(["quantity", "value", "error", "unit"]);
+    let [force, area] = if answer.is_per_length {
+        ["N/m", "m²/m"]
+    } else {
+        ["N", "m²"]
+    };
+    let rows = [
+        (
+            "friction coefficient",
+            answer.friction_coefficient,
+            answer.friction_coefficient_error,
+            "",
+        ),
+        (
+            "normal force",
+            Some(answer.normal_force),
+            answer.normal_force_error,
+            force,
+        ),
+        ("tangential force", answer.tangential_force, None, force),
+        (
+            "indentation depth",
+            answer.indentation_depth,
+            answer.indentation_depth_error,
+            "m",
+        ),
+        ("contact area", answer.contact_area, None, area),
+        ("peak pressure", answer.peak_pressure, None, "Pa"),
+    ];
+    for (name, value, error, unit) in rows {
+        if let Some(value) = value {
+            let error = error.map_or(String::new(), |error| format!("{error:.1e}"));
+            table.add_row([name.to_owned(), short(value), error, unit.to_owned()]);
+        }
+    }
+    table
+}
+
+/// Nine digits; the JSON has all of them.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+        return format!("{value:.9}");
+    }
+    format!("{value:.8e}")
+}
+
+/// What the error bar consists of; nothing of a method without parts.
+pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
+    let known = parts.named().into_iter();
+    let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
+    let parts: Vec<String> = known
+        .map(|(name, part)| format!("{name} {part:.1e}"))
+        .collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// The model in words.
+pub(super) const fn model(model: Model) -> &'static str {
+    match model {
+        Model::Line => "one-dimensional model",
+        Model::HalfSpace => "half space",
+    }
+}

@@ -1,0 +1,306 @@
+//! Ten thousand mutilated scenes and as many tables: each is accepted, or refused with file and line, and none panics.
+//!
+//! Nothing is solved. `fuzz/` asks the same without end, guided by the branches that are taken.
+
+use std::cell::Cell;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::{RngSeed, TestRunner};
+use viscofriction_cli::{InputKind, check_input};
+
+use crate::support::{example, npy};
+
+/// What happens to a file.
+#[derive(Debug, Clone)]
+enum Mutation {
+    FlipBit(Index, u8),
+    Insert(Index, &'static str),
+    /// A number by another value.
+    Replace(Index, &'static str),
+    DeleteLine(Index),
+    /// A line once more, before another one: keys that are there twice, or in the table of others.
+    RepeatLine(Index, Index),
+    /// A line loses its end.
+    CutLine(Index, Index),
+    /// The file loses its end.
+    Truncate(Index),
+}
+
+const VALUES: [&str; 24] = [
+    "0",
+    "-0.0",
+    "-1",
+    "nan",
+    "-nan",
+    "inf",
+    "-inf",
+    "1e308",
+    "-1e308",
+    "1e400",
+    "1e-308",
+    "5e-324",
+    "1e-400",
+    "0.5000000000000001",
+    "9223372036854775807",
+    "-9223372036854775808",
+    "18446744073709551616",
+    "0x10",
+    "1_000",
+    "1e",
+    "\"1\"",
+    "[]",
+    "{}",
+    "",
+];
+
+const INSERTS: [&str; 24] = [
+    "[",
+    "]",
+    "[[",
+    "{",
+    "}",
+    "=",
+    ".",
+    ",",
+    "\"",
+    "'",
+    "\"\"\"",
+    "#",
+    "\n",
+    "\r",
+    "\0",
+    "\u{feff}",
+    "é",
+    " ",
+    "[solve]\n",
+    "[indenter.sphere]\n",
+    "a.b.c = 1\n",
+    "x = [[[[[[[[1]]]]]]]]\n",
+    "nan,nan\n",
+    "1,2,3,4,5,6,7\n",
+];
+
+fn mutation() -> impl Strategy<Value = Mutation> {
+    let index = any::<Index>;
+    prop_oneof![
+        1 => (index(), 0_u8..8).prop_map(|(at, bit)| Mutation::FlipBit(at, bit)),
+        1 => (index(), prop::sample::select(&INSERTS[..])).prop_map(|(at, text)| Mutation::Insert(at, text)),
+        3 => (index(), prop::sample::select(&VALUES[..])).prop_map(|(at, text)| Mutation::Replace(at, text)),
+        1 => index().prop_map(Mutation::DeleteLine),
+        1 => (index(), index()).prop_map(|(from, to)| Mutation::RepeatLine(from, to)),
+        1 => (index(), index()).prop_map(|(line, end)| Mutation::CutLine(line, end)),
+        1 => index().prop_map(Mutation::Truncate),
+    ]
+}
+
+impl Mutation {
+    fn of(&self, text: &[u8]) -> Vec<u8> {
+        if text.is_empty() {
+            return Vec::new();
+        }
+        let mut bytes = text.to_vec();
+        let mut lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+        match self {
+            Self::FlipBit(at, bit) => bytes[at.index(text.len())] ^= 1 << bit,
+            Self::Insert(at, new) => {
+                let at = at.index(text.len());
+                bytes.splice(at..at, new.bytes());
+            }
+            Self::Replace(at, new) => {
+                let numbers = numbers(text);
+                if !numbers.is_empty() {
+                    bytes.splice(numbers[at.index(numbers.len())].clone(), new.bytes());
+                }
+            }
+            Self::Truncate(at) => bytes.truncate(at.index(text.len())),
+            Self::DeleteLine(line) => {
+                lines.remove(line.index(lines.len()));
+                bytes = lines.concat();
+            }
+            Self::RepeatLine(from, to) => {
+                lines.insert(to.index(lines.len()), lines[from.index(lines.len())]);
+                bytes = lines.concat();
+            }
+            Self::CutLine(line, end) => {
+                let line =
+                    &mut lines[line.index(text.split_inclusive(|byte| *byte == b'\n').count())];
+                *line = &line[..end.index(line.len())];
+                bytes = lines.concat();
+            }
+        }
+        bytes
+    }
+}
+
+/// Where numbers stand.
+fn numbers(text: &[u8]) -> Vec<std::ops::Range<usize>> {
+    let is_part = |byte: &u8| byte.is_ascii_digit() || b".+-eE".contains(byte);
+    let mut numbers = Vec::new();
+    let mut start = 0;
+    while start < text.len() {
+        let length = text[start..]
+            .iter()
+            .take_while(|byte| is_part(byte))
+            .count();
+        if text[start..start + length].iter().any(u8::is_ascii_digit) {
+            numbers.push(start..start + length);
+        }
+        start += length.max(1);
+    }
+    numbers
+}
+
+/// What a refusal must say first: the file and a line that it has, or the one behind its end; of an array the file.
+fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
+    if file.extension().is_some_and(|extension| extension == "npy") {
+        let start = format!("{}: ", file.display());
+        return message.starts_with(&start) && !message.contains(['\n', '\r']);
+    }
+    names_file_and_line(message, file, contents)
+}
+
+fn names_file_and_line(message: &str, file: &Path, contents: &[u8]) -> bool {
+    let lines = 1 + contents.split(|byte| *byte == b'\n').count();
+    let rest = message.strip_prefix(&file.display().to_string());
+    let rest = rest.and_then(|rest| rest.strip_prefix(':').or(rest.strip_prefix(", line ")));
+    let parsed = rest.and_then(|rest| {
+        let end = rest.find(|c: char| !c.is_ascii_digit())?;
+        Some((
+            rest[..end].parse::<usize>().ok()?,
+            rest[end..].trim_matches([':', ',', ' ']),
+        ))
+    });
+    parsed.is_some_and(|(line, why)| (1..=lines).contains(&line) && !why.is_empty())
+        && !message.contains(['\n', '\r'])
+}
+
+/// Checks files with one to four mutations each; returns how many were accepted.
+fn fuzz(kind: InputKind, files: &[(PathBuf, Vec<u8>)], cases: u32) -> u32 {
+    let accepted = Cell::new(0);
+    let mut runner = TestRunner::new(ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(2014),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    });
+    let strategy = (any::<Index>(), prop::collection::vec(mutation(), 1..5));
+    let outcome = runner.run(&strategy, |(file, mutations)| {
+        let (path, text) = file.get(files);
+        let contents = mutations
+            .iter()
+            .fold(text.clone(), |text, mutation| mutation.of(&text));
+        match check_input(kind, path, &contents) {
+            Ok(()) => accepted.set(accepted.get() + 1),
+            Err(error) => prop_assert!(
+                names_place(&error.to_string(), path, &contents),
+                "{error}\n--- of\n{}",
+                String::from_utf8_lossy(&contents)
+            ),
+        }
+        Ok(())
+    });
+    if let Err(failure) = outcome {
+        panic!("{kind:?}: {failure}");
+    }
+    accepted.get()
+}
+
+fn read(path: PathBuf) -> (PathBuf, Vec<u8>) {
+    let contents = fs::read(&path).expect("a committed file");
+    (path, contents)
+}
+
+/// The first lines of a table of measured moduli.
+fn moduli(name: &str) -> (PathBuf, Vec<u8>) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (path, contents) = read(root.join("../crates/rheology/tests/data").join(name));
+    let lines = contents.split_inclusive(|byte| *byte == b'\n').take(24);
+    (path, lines.collect::<Vec<_>>().concat())
+}
+
+#[test]
+fn mutilated_scenes_are_accepted_or_refused_with_file_and_line() {
+    let folder = fs::read_dir(example("")).expect("the scenes are there");
+    let mut paths: Vec<PathBuf> = folder
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    paths.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    });
+    paths.sort();
+    let scenes: Vec<_> = paths.into_iter().map(read).collect();
+    let accepted = fuzz(InputKind::Scene, &scenes, 10_000);
+    // Comments, and numbers that are right too.
+    assert!(
+        (500..6_000).contains(&accepted),
+        "{accepted} of 10 000 were accepted"
+    );
+}
+
+#[test]
+fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
+    let rows = "sweep,point,points,load.velocity,failure\n5ca1ab1e,1,2,0.5,\n5ca1ab1e,2,2,0.7,\"no, \"\"never\"\"\"\n";
+    let tables = [
+        (InputKind::Profile, vec![read(example("profile.csv"))]),
+        (InputKind::HeightMap, vec![read(example("tread.csv"))]),
+        (
+            InputKind::SweepRows,
+            vec![(PathBuf::from("rows.csv"), rows.into())],
+        ),
+        (
+            InputKind::Moduli,
+            ["frequency_master", "frequency_raw", "time_master"]
+                .map(|name| moduli(&format!("pyvisco_{name}.csv")))
+                .to_vec(),
+        ),
+    ];
+    for (kind, files) in tables {
+        let accepted = fuzz(kind, &files, 4_000);
+        assert!(
+            (100..3_500).contains(&accepted),
+            "{kind:?}: {accepted} of 4 000 were accepted"
+        );
+    }
+}
+
+/// A file without lines is refused by its name.
+#[test]
+fn mutilated_arrays_are_accepted_or_refused_with_their_file() {
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (12, 16), }";
+    let heights: Vec<u8> = (0..192_i32)
+        .flat_map(|index| f64::from(index).to_le_bytes())
+        .collect();
+    let files = [(PathBuf::from("map.npy"), npy(header, &heights))];
+    let accepted = fuzz(InputKind::HeightMap, &files, 4_000);
+    // Whatever changes more than a bit changes the length, too.
+    assert!(
+        (50..500).contains(&accepted),
+        "{accepted} of 4 000 were accepted"
+    );
+}
+
+/// Depth that a reader without limits would follow until its stack ends.
+#[test]
+fn endless_nesting_is_refused() {
+    let deep =
+        |open: &str, close: &str| format!("x = {}1{}", open.repeat(100_000), close.repeat(100_000));
+    for text in [
+        deep("[", "]"),
+        deep("{ a = ", " }"),
+        format!("{}a = 1", "a.".repeat(100_000)),
+        format!("[{}a]", "a.".repeat(100_000)),
+        "[[a]]\n".repeat(100_000),
+    ] {
+        let file = Path::new("scene.toml");
+        let error = check_input(InputKind::Scene, file, text.as_bytes()).expect_err("no scene");
+        let start: String = text.chars().take(20).collect();
+        assert!(
+            names_file_and_line(&error.to_string(), file, text.as_bytes()),
+            "{start}…: {error}"
+        );
+    }
+}

@@ -1,0 +1,10 @@
+//! Friction.
+
+mod npy;
+pub mod scene;
+pub mod solve;
+pub mod sweep;
+mod text;
+
+pub use bem_halfspace::slide::PressureField;
+pub use text::{WrongInput, line_of, line_of_record};

@@ -1,0 +1,88 @@
+//! What can be wrong with a scene, with the key it is wrong at.
+
+use thiserror::Error;
+
+/// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneError {
+    /// A number is outside the range it may take.
+    #[error("{key} must be {allowed}, but is {value}")]
+    Value {
+        /// Where.
+        key: String,
+        /// The refused value.
+        value: f64,
+        /// The values it may take.
+        allowed: &'static str,
+    },
+    /// Something that does not fit the types: an unknown key, a missing one, a text instead of a number.
+    #[error("{key}: {problem}")]
+    Form {
+        /// Where.
+        key: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Numbers that are right alone and wrong together.
+    #[error("{key}: {problem}")]
+    Together {
+        /// The key that is best changed.
+        key: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// No TOML.
+    #[error("{problem}")]
+    Syntax {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong.
+        problem: String,
+    },
+}
+
+impl SceneError {
+    pub fn together(key: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Together {
+            key: key.into(),
+            problem: problem.into(),
+        }
+    }
+
+    /// The key, where there is one.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Value { key, .. } | Self::Form { key, .. } | Self::Together { key, .. } => {
+                Some(key)
+            }
+            Self::Syntax { .. } => None,
+        }
+    }
+}
+
+/// Checks that a number is finite and greater than zero.
+pub fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
+    in_range(key, value, value > 0.0, "finite and greater than 0")
+}
+
+/// Checks that a number is finite and not negative.
+pub fn not_negative(key: &str, value: f64) -> Result<f64, SceneError> {
+    in_range(key, value, value >= 0.0, "finite and at least 0")
+}
+
+/// Checks that a number is finite and in a range.
+pub fn in_range(
+    key: &str,
+    value: f64,
+    holds: bool,
+    allowed: &'static str,
+) -> Result<f64, SceneError> {
+    if value.is_finite() && holds {
+        return Ok(value);
+    }
+    Err(SceneError::Value {
+        key: key.to_owned(),
+        value,
+        allowed,
+    })
+}

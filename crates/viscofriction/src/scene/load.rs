@@ -1,0 +1,59 @@
+//! `[load]`: how the body is pressed and moved.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::SceneError;
+use super::error::{not_negative, positive};
+
+/// A force or a depth, and a speed.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Normal force > 0, \[N]; or `indentation_depth`.
+    pub normal_force: Option<f64>,
+    /// Depth of the lowest point > 0, \[m]; or `normal_force`.
+    pub indentation_depth: Option<f64>,
+    /// Sliding speed ≥ 0 towards positive x, \[m/s]; 0 with `solve.duration` is pure indentation.
+    pub velocity: f64,
+}
+
+/// What is held constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Control {
+    /// F_N, \[N].
+    NormalForce(f64),
+    /// d, \[m].
+    IndentationDepth(f64),
+}
+
+impl Load {
+    /// What is held constant.
+    ///
+    /// # Errors
+    /// [`SceneError`] unless there is exactly one of force and depth, and it is positive.
+    pub fn control(&self) -> Result<Control, SceneError> {
+        match (self.normal_force, self.indentation_depth) {
+            (Some(force), None) => positive("load.normal_force", force).map(Control::NormalForce),
+            (None, Some(depth)) => {
+                positive("load.indentation_depth", depth).map(Control::IndentationDepth)
+            }
+            (Some(_), Some(_)) => Err(SceneError::together(
+                "load.indentation_depth",
+                "either normal_force or indentation_depth is given, not both",
+            )),
+            (None, None) => Err(SceneError::together(
+                "load.normal_force",
+                "normal_force or indentation_depth is missing",
+            )),
+        }
+    }
+
+    /// The sliding speed, \[m/s].
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a speed that is negative or not finite.
+    pub fn checked_velocity(&self) -> Result<f64, SceneError> {
+        not_negative("load.velocity", self.velocity)
+    }
+}

@@ -1,0 +1,64 @@
+//! The scene file: indenter, material, load and what is asked, as a person types them.
+//!
+//! Tables are externally tagged, because only then an error knows the line and the key it belongs to.
+
+mod error;
+mod height_map_file;
+mod indenter;
+mod load;
+mod material;
+mod solve;
+mod source;
+mod table_file;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use error::{SceneError, in_range, not_negative, positive};
+pub use height_map_file::height_map;
+pub use indenter::{HeightMapFile, Indenter, Term};
+pub use load::{Control, Load};
+pub use material::{Branch, MaterialTable};
+pub use solve::{Accuracy, Method, Model, Solve};
+pub use source::{Source, scene_file, split_index};
+pub use table_file::profile;
+
+/// A rigid body on a half space, and what is asked about it.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// The rigid body.
+    pub indenter: Indenter,
+    /// The half space.
+    pub material: MaterialTable,
+    /// How the body is pressed and moved.
+    pub load: Load,
+    /// What is asked, and how well.
+    #[serde(default)]
+    pub solve: Solve,
+}
+
+/// The JSON Schema of the scene file, as docs/scene.schema.json holds it.
+pub fn json_schema() -> Result<String, serde_json::Error> {
+    let mut text = serde_json::to_string_pretty(&schemars::schema_for!(Scene))?;
+    text.push('\n');
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::json_schema;
+
+    /// `cargo viscofriction scene-schema > docs/scene.schema.json` makes it current.
+    #[test]
+    fn the_committed_schema_is_that_of_the_types() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");
+        let committed = std::fs::read_to_string(path).expect("the schema is committed");
+        let current = json_schema().expect("the types have a schema");
+        assert!(
+            committed == current,
+            "docs/scene.schema.json is not current; \
+             `cargo viscofriction scene-schema > docs/scene.schema.json` makes it so"
+        );
+    }
+}

@@ -1,0 +1,167 @@
+//! `[solve]`: what is asked, and how well.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::SceneError;
+use super::error::{in_range, positive};
+
+/// What is asked, and how well.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Solve {
+    /// The method; without it the cheapest one that answers the scene.
+    pub method: Option<Method>,
+    /// The model that the answer must belong to; without it any.
+    pub model: Option<Model>,
+    /// Error of the friction coefficient, of the depth where there is no sliding; above 0 and at most 0.1, 1e-3 unless
+    /// given.
+    pub relative_error: Option<f64>,
+    /// Number of elements along the contact, from 8 to 100000, instead of a relative error.
+    pub elements: Option<usize>,
+    /// Time from first touch to the state that is asked for, \[s]; without it the stationary state.
+    pub duration: Option<f64>,
+    /// Distance from first touch to the state that is asked for, \[m]; without it the stationary state.
+    pub sliding_distance: Option<f64>,
+    /// Threads that compute, from 1 to 1024; without it all that the machine has.
+    pub threads: Option<usize>,
+}
+
+/// A way to the answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Closed forms and quadrature.
+    Analytic,
+    /// The stationary state of the one-dimensional model.
+    MdrSteady,
+    /// The one-dimensional model from first touch on.
+    MdrTransient,
+    /// The stationary state of the half space.
+    BemSteady,
+    /// The half space from first touch on.
+    BemTransient,
+}
+
+/// What the elastomer is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// The one-dimensional model of the method of dimensionality reduction.
+    Line,
+    /// The half space.
+    HalfSpace,
+}
+
+impl Model {
+    /// The name in a scene file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::HalfSpace => "half-space",
+        }
+    }
+}
+
+/// How well the answer is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Accuracy {
+    /// Relative error of the friction coefficient, or of the depth.
+    RelativeError(f64),
+    /// Number of elements along the contact.
+    Elements(usize),
+}
+
+/// Unless the scene says otherwise.
+const RELATIVE_ERROR: f64 = 1e-3;
+const ELEMENTS: std::ops::RangeInclusive<usize> = 8..=100_000;
+const THREADS: std::ops::RangeInclusive<usize> = 1..=1024;
+
+impl Method {
+    /// The name in a scene file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Analytic => "analytic",
+            Self::MdrSteady => "mdr-steady",
+            Self::MdrTransient => "mdr-transient",
+            Self::BemSteady => "bem-steady",
+            Self::BemTransient => "bem-transient",
+        }
+    }
+}
+
+impl Solve {
+    /// How well the answer is asked for.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range, or both an error and a number of elements.
+    pub fn accuracy(&self) -> Result<Accuracy, SceneError> {
+        match (self.relative_error, self.elements) {
+            (Some(_), Some(_)) => Err(SceneError::together(
+                "solve.elements",
+                "either relative_error or elements is given, not both",
+            )),
+            (_, Some(elements)) => {
+                let allowed = "from 8 to 100000";
+                let holds = ELEMENTS.contains(&elements);
+                in_range("solve.elements", elements as f64, holds, allowed)?;
+                Ok(Accuracy::Elements(elements))
+            }
+            (given, None) => {
+                let value = given.unwrap_or(RELATIVE_ERROR);
+                let holds = value > 0.0 && value <= 0.1;
+                let allowed = "greater than 0 and at most 0.1";
+                in_range("solve.relative_error", value, holds, allowed)?;
+                Ok(Accuracy::RelativeError(value))
+            }
+        }
+    }
+
+    /// Threads that compute; none for all that there are.
+    ///
+    /// # Errors
+    /// [`SceneError::Value`] for a number out of range.
+    pub fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
+        let Some(threads) = self.threads else {
+            return Ok(None);
+        };
+        let holds = THREADS.contains(&threads);
+        in_range("solve.threads", threads as f64, holds, "from 1 to 1024")?;
+        Ok(Some(threads))
+    }
+
+    /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a number out of range, or both a time and a distance.
+    pub fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
+        match (self.duration, self.sliding_distance) {
+            (Some(_), Some(_)) => Err(SceneError::together(
+                "solve.sliding_distance",
+                "either duration or sliding_distance is given, not both",
+            )),
+            (Some(duration), None) => {
+                positive("solve.duration", duration)?;
+                positive("solve.duration", velocity * duration).map(Some)
+            }
+            (None, Some(distance)) => positive("solve.sliding_distance", distance).map(Some),
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Time of a pure indentation, \[s].
+    ///
+    /// # Errors
+    /// [`SceneError`] without a duration, with a sliding distance, or for a number out of range.
+    pub fn indentation_time(&self) -> Result<f64, SceneError> {
+        if self.sliding_distance.is_some() {
+            let problem = "load.velocity is 0, so that nothing slides; give solve.duration";
+            return Err(SceneError::together("solve.sliding_distance", problem));
+        }
+        let Some(duration) = self.duration else {
+            let problem = "a velocity of 0 is pure indentation, which needs solve.duration [s]";
+            return Err(SceneError::together("load.velocity", problem));
+        };
+        positive("solve.duration", duration)
+    }
+}

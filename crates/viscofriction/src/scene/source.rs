@@ -1,0 +1,188 @@
+//! From a text to a scene, and from an error to the line it belongs to.
+
+use std::path::{Path, PathBuf};
+
+use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
+
+use super::{Scene, SceneError};
+use crate::text::{WrongInput, line_of};
+
+/// A scene file as it was read.
+#[derive(Debug, Clone)]
+pub struct Source {
+    path: PathBuf,
+    text: String,
+}
+
+impl Source {
+    /// A file of the given contents.
+    pub fn new(path: &Path, contents: Vec<u8>) -> Result<Self, WrongInput> {
+        let text = String::from_utf8(contents).map_err(|error| {
+            let line = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
+            WrongInput(format!("{}:{line}: the text is no UTF-8", path.display()))
+        })?;
+        Ok(Self {
+            path: path.to_owned(),
+            text,
+        })
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where the files are that a scene names.
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// The keys and values of the file.
+    pub fn table(&self) -> Result<Table, WrongInput> {
+        self.text.parse::<Table>().map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            self.locate(&SceneError::Syntax {
+                line: line_of(self.text.as_bytes(), start),
+                problem: error.message().to_owned(),
+            })
+        })
+    }
+
+    /// The error with file and line.
+    pub fn locate(&self, error: &SceneError) -> WrongInput {
+        let line = match error {
+            SceneError::Syntax { line, .. } => Some(*line),
+            other => other.key().and_then(|key| self.line_of_key(key)),
+        };
+        let path = self.path.display();
+        WrongInput(match line {
+            Some(line) => format!("{path}:{line}: {error}"),
+            None => format!("{path}:1: {error}"),
+        })
+    }
+
+    /// The line of a key, or of the innermost table on the way to it that is there.
+    fn line_of_key(&self, key: &str) -> Option<usize> {
+        let document = DeTable::parse(&self.text).ok()?;
+        let mut offset = None;
+        let mut tables = Some(document.get_ref());
+        for segment in key.split('.') {
+            let (name, index) = split_index(segment);
+            let Some((found, value)) = tables.and_then(|table| table.get_key_value(name)) else {
+                break;
+            };
+            let mut value = value;
+            offset = Some(found.span().start);
+            if let Some(element) = index.and_then(|index| value.get_ref().as_array()?.get(index)) {
+                value = element;
+                offset = Some(value.span().start);
+            }
+            tables = match value.get_ref() {
+                DeValue::Table(table) => Some(table),
+                _ => None,
+            };
+        }
+        offset.map(|offset| line_of(self.text.as_bytes(), offset))
+    }
+}
+
+/// The scene that keys and values describe.
+///
+/// # Errors
+/// [`SceneError::Form`] for an unknown or missing key or a value of the wrong type.
+pub fn scene_file(table: Table) -> Result<Scene, SceneError> {
+    for (key, value) in &table {
+        check_tables(key, value)?;
+    }
+    for key in ["indenter", "material"] {
+        check_kind(key, &table)?;
+    }
+    serde_path_to_error::deserialize(table).map_err(|error| {
+        let path = error.path().to_string();
+        let problem = error.inner().message().trim().to_owned();
+        SceneError::Form {
+            key: full_key(&path, &problem),
+            problem,
+        }
+    })
+}
+
+/// Refuses lists where tables belong, of which serde would take the values in the order of the keys.
+fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
+    let Some(table) = value.as_table() else {
+        let problem = format!(
+            "a table is needed, and not a value of type {}",
+            value.type_str()
+        );
+        return Err(SceneError::together(key, problem));
+    };
+    let is_kind = ["indenter", "material"].contains(&key);
+    for (name, value) in table {
+        let inner = format!("{key}.{name}");
+        match value {
+            Value::Table(_) => check_tables(&inner, value)?,
+            Value::Array(elements) => {
+                // Serde says itself what it needs in the place of a list of numbers.
+                let is_suspect = |element: &Value| is_kind || !is_plain(element);
+                for (index, element) in elements.iter().enumerate() {
+                    if is_suspect(element) {
+                        check_tables(&format!("{inner}[{index}]"), element)?;
+                    }
+                }
+            }
+            other if is_kind && table.len() == 1 => {
+                let problem = format!(
+                    "a table is needed, and not a value of type {}",
+                    other.type_str()
+                );
+                return Err(SceneError::together(inner, problem));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+const fn is_plain(value: &Value) -> bool {
+    !matches!(value, Value::Array(_) | Value::Table(_))
+}
+
+/// Indenter and material are one table each, whose name is the kind.
+fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
+    let Some(kinds) = table.get(key).and_then(Value::as_table) else {
+        return Ok(());
+    };
+    if kinds.len() == 1 {
+        return Ok(());
+    }
+    let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
+    let [count, names] = [kinds.len().to_string(), names.join(", ")];
+    Err(SceneError::together(
+        key,
+        format!("exactly one kind is needed, as in [{key}.kind], but there are {count}: {names}"),
+    ))
+}
+
+/// The path with the key that is unknown or missing.
+fn full_key(path: &str, problem: &str) -> String {
+    let named = ["unknown field `", "unknown variant `", "missing field `"]
+        .iter()
+        .find_map(|start| problem.strip_prefix(start))
+        .and_then(|rest| rest.split('`').next());
+    let path = path.trim_matches('.');
+    match named {
+        Some(name) if path.rsplit('.').next() == Some(name) => path.to_owned(),
+        Some(name) if path.is_empty() => name.to_owned(),
+        Some(name) => format!("{path}.{name}"),
+        None => path.to_owned(),
+    }
+}
+
+/// `branches[2]` as name and index.
+pub fn split_index(segment: &str) -> (&str, Option<usize>) {
+    match segment.split_once('[') {
+        Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),
+        None => (segment, None),
+    }
+}

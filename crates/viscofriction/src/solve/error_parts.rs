@@ -1,0 +1,113 @@
+//! What an error bar consists of.
+
+use serde::Serialize;
+
+/// Parts of an error bar, absolute, of the same unit as its value; a part that a method does not have is left out.
+///
+/// The bar is not smaller than their sum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ErrorParts {
+    /// Of the elements, and of the steps in time where their size follows from that of the elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub discretisation: Option<f64>,
+    /// Of a system of equations that is solved to a tolerance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub iteration: Option<f64>,
+    /// Of the memory of the material over a step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_stepping: Option<f64>,
+    /// Of the distance that is left to the stationary state.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub truncation: Option<f64>,
+}
+
+impl ErrorParts {
+    /// Of a method that has no such parts.
+    pub(crate) const NONE: Self = Self {
+        discretisation: None,
+        iteration: None,
+        time_stepping: None,
+        truncation: None,
+    };
+
+    /// An error of elements only.
+    pub(crate) const fn of_elements(error: f64) -> Self {
+        Self {
+            discretisation: Some(error),
+            ..Self::NONE
+        }
+    }
+
+    pub(crate) fn is_none(&self) -> bool {
+        *self == Self::NONE
+    }
+
+    /// The parts by their names in JSON and CSV.
+    pub const fn named(&self) -> [(&'static str, Option<f64>); 4] {
+        [
+            ("discretisation", self.discretisation),
+            ("iteration", self.iteration),
+            ("time_stepping", self.time_stepping),
+            ("truncation", self.truncation),
+        ]
+    }
+
+    /// For a person; nothing of a method without parts.
+    pub(crate) fn in_words(&self) -> Option<String> {
+        let known = self.named().into_iter();
+        let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
+        let parts: Vec<String> = known
+            .map(|(name, part)| format!("{name} {part:.1e}"))
+            .collect();
+        (!parts.is_empty()).then(|| parts.join(", "))
+    }
+
+    pub(crate) fn sum(&self) -> f64 {
+        self.named().iter().filter_map(|(_, part)| *part).sum()
+    }
+
+    /// Of a value that is so many times as large.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        let scaled = |part: Option<f64>| part.map(|part| factor * part);
+        Self {
+            discretisation: scaled(self.discretisation),
+            iteration: scaled(self.iteration),
+            time_stepping: scaled(self.time_stepping),
+            truncation: scaled(self.truncation),
+        }
+    }
+
+    /// All parts of both; what both have is added.
+    pub(crate) fn and(self, other: Self) -> Self {
+        let both = |part: Option<f64>, other: Option<f64>| match (part, other) {
+            (Some(part), Some(other)) => Some(part + other),
+            (part, other) => part.or(other),
+        };
+        Self {
+            discretisation: both(self.discretisation, other.discretisation),
+            iteration: both(self.iteration, other.iteration),
+            time_stepping: both(self.time_stepping, other.time_stepping),
+            truncation: both(self.truncation, other.truncation),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_part_is_lost_when_two_bars_are_joined() {
+        let truncated = ErrorParts {
+            discretisation: Some(2.0),
+            truncation: Some(4.0),
+            ..ErrorParts::NONE
+        };
+        let got = ErrorParts::of_elements(1.0).and(truncated);
+        let expected = ErrorParts {
+            discretisation: Some(3.0),
+            ..truncated
+        };
+        assert_eq!(got, expected, "1, and {truncated:?}");
+    }
+}

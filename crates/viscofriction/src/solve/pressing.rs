@@ -1,0 +1,364 @@
+//! Normal indentation, on any material.
+//!
+//! While the contact grows, or stays as it is, half space and line agree exactly (Lee & Radok 1960), and a constant force
+//! acts on every material like the impulse F J(t) on a dashpot of unit viscosity:
+//!
+//! ```text
+//! 8 ∫₀^a x h̃' dx = 2 (1 − ν) F J(t)         constant force
+//! F(t) = 8 G(t)/(2 (1 − ν)) ∫₀^a x h̃' dx    constant depth, contact radius a
+//! ```
+
+use std::f64::consts::PI;
+
+use super::error::{Result, bail};
+use bem_halfspace::ContactOptions;
+use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
+use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
+use indenters::{Axisymmetric, EquivalentLine, PowerProfile, contact_radius};
+use rheology::{Material, RheologyError, Viscous};
+
+use super::answer::{Answer, ContactBox, Grid};
+use super::body::Revolution;
+use super::error_parts::ErrorParts;
+use super::half_space::Simple;
+use super::resolution::{Goal, Quantity, Resolved, nothing_else, resolve};
+use super::shape::{Patch, Shape};
+use crate::scene::{Accuracy, Control, Method, Model};
+
+/// Relative error of the depth by quadrature.
+const QUADRATURE: f64 = 1e-10;
+
+/// The dashpot on which an impulse does what the material does with F J(t).
+pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
+    Viscous::new(1.0)
+}
+
+pub(crate) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+    let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
+    Ok(force * compliance)
+}
+
+/// Closed form or quadrature.
+pub(crate) fn analytic(
+    body: &Revolution,
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+    simple: Option<&Simple>,
+) -> Result<Answer> {
+    let (force, contact) = match control {
+        Control::NormalForce(force) => {
+            let impulse = impulse(material, force, duration)?;
+            let contact = indentation_after_impulse(body, &unit_dashpot()?, impulse)?;
+            (force, contact)
+        }
+        Control::IndentationDepth(depth) => held(body, material, depth, duration)?,
+    };
+    let radius = contact.contact_radius;
+    let depth = contact.indentation_depth;
+    let peak_pressure = match (body, simple) {
+        (Revolution::Power(profile), Some(Simple::Elastic)) => {
+            peak_of_power(profile, material, radius)?
+        }
+        _ => None,
+    };
+    Ok(Answer {
+        indentation_depth: Some(depth),
+        indentation_depth_error: Some(QUADRATURE * depth),
+        contact_area: Some(PI * radius * radius),
+        contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
+        peak_pressure,
+        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+    })
+}
+
+/// Force and contact of a body that is held at a depth.
+fn held(
+    body: &Revolution,
+    material: &dyn Material,
+    depth: f64,
+    duration: f64,
+) -> Result<(f64, Indentation)> {
+    let force = stiffness(material, duration)? * impulse_to_depth(body, &unit_dashpot()?, depth)?;
+    let contact = Indentation {
+        contact_radius: contact_radius(body, depth)?,
+        indentation_depth: depth,
+    };
+    Ok((force, contact))
+}
+
+/// Force at a depth that was held for a duration, over the impulse that leads to it on the unit dashpot, [1/s].
+fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
+    let modulus = material.relaxation_modulus(duration)?;
+    let stiffness = modulus / material.half_space_factor();
+    if !(stiffness.is_finite() && stiffness > 0.0) {
+        bail!(
+            "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
+        );
+    }
+    Ok(stiffness)
+}
+
+/// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
+fn peak_of_power(
+    profile: &PowerProfile,
+    material: &dyn Material,
+    radius: f64,
+) -> Result<Option<f64>> {
+    let p = profile.exponent();
+    if p <= 1.0 {
+        return Ok(None);
+    }
+    let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
+    let height = profile.line_height(radius);
+    Ok(Some(
+        4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
+    ))
+}
+
+/// The chain of elements, in as many steps as elements.
+pub(crate) fn chain(
+    body: &Revolution,
+    material: &dyn Material,
+    (force, duration): (f64, f64),
+    accuracy: Accuracy,
+) -> Result<Answer> {
+    let radius = radius(body, material, force, duration)?;
+    let solve = |elements: usize| {
+        let times: Vec<f64> = (1..=elements)
+            .map(|step| duration * (step as f64 / elements as f64))
+            .collect();
+        let spacing = 2.0 * radius / elements as f64;
+        let options = mdr_core::IndentOptions { spacing };
+        let line = EquivalentLine(body);
+        let rows = mdr_core::indent(&line, material, force, &times, &options)?;
+        last(rows)
+    };
+    let goal = goal(accuracy, LARGEST_CHAIN);
+    let depth = |row: &mdr_core::IndentRow| {
+        [Quantity {
+            least: error_of_outline(body, row),
+            ..Quantity::from(row.indentation_depth)
+        }]
+    };
+    let Resolved {
+        value: row,
+        error: [error],
+        parts: [parts],
+        elements,
+    } = resolve(&goal, solve, depth, nothing_else)?;
+    Ok(Answer {
+        indentation_depth: Some(row.indentation_depth),
+        indentation_depth_error: Some(error),
+        contact_box: row.contact.map(ContactBox::along),
+        unknowns: row.n_contact,
+        iterations: elements,
+        ..Answer::new(Method::MdrTransient, Model::Line, force).with_parts(parts)
+    })
+}
+
+/// The outermost elements are loaded as wholes, whatever part of them touches: at the edge of a flat end they carry as much
+/// as any, at every resolution.
+fn error_of_outline(body: &Revolution, row: &mdr_core::IndentRow) -> f64 {
+    let depth = row.indentation_depth;
+    let carried = row.contact.map_or(depth, |[_, front]| {
+        (depth - body.line_height(front)).clamp(0.0, depth)
+    });
+    carried / row.n_contact as f64
+}
+
+/// Boundary elements, in one step on a dashpot of unit viscosity: the steps that lead to a constant force or depth do not
+/// count.
+pub(crate) fn boundary_elements(
+    body: &impl Shape,
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+    accuracy: Accuracy,
+) -> Result<Answer> {
+    let pressed = on_unit_dashpot(material, (control, duration))?;
+    let Patch { footprint, length } = body.patch(pressed)?;
+    let spacing = |elements: usize| length / elements as f64;
+    let solve = |elements: usize| {
+        let options = IndentOptions {
+            spacing: [spacing(elements); 2],
+            footprint,
+            contact: ContactOptions::default(),
+        };
+        let steps = in_steps(pressed, 1);
+        last(indent_history(body, &unit_dashpot()?, &steps, &options)?)
+    };
+    // What is given has no error.
+    let quantities =
+        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
+    let goal = goal(accuracy, LARGEST_GRID);
+    let resolved = resolve(&goal, solve, quantities, gaps)?;
+    let spacing = spacing(resolved.elements);
+    pressed_answer(resolved, spacing, material, (control, duration))
+}
+
+/// What the dashpot says of the material: the same depth, or a force that is the stiffness times its own.
+fn pressed_answer(
+    resolved: Resolved<IndentRow, 2>,
+    spacing: f64,
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+) -> Result<Answer> {
+    let Resolved {
+        value,
+        error: [depth_error, force_error],
+        parts: [depth_parts, force_parts],
+        ..
+    } = resolved;
+    let answer = |force: f64| Answer {
+        indentation_depth: Some(value.indentation_depth),
+        contact_area: Some(value.contact_area),
+        unknowns: value.n_contact,
+        iterations: 1,
+        grid: Some(Grid {
+            spacing,
+            factorised: false,
+        }),
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
+    };
+    Ok(match control {
+        Control::NormalForce(force) => Answer {
+            indentation_depth_error: Some(depth_error),
+            ..answer(force).with_parts(depth_parts)
+        },
+        Control::IndentationDepth(_) => {
+            let stiffness = stiffness(material, duration)?;
+            Answer {
+                normal_force_error: Some(stiffness * force_error),
+                ..answer(stiffness * value.normal_force).with_parts(force_parts.times(stiffness))
+            }
+        }
+    })
+}
+
+/// What gaps of the size of the tolerance change: the depth by as much, and the force by as many times that part as there
+/// are elements along the contact.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "stands where marches are asked, which may fail"
+)]
+fn gaps(elements: usize, row: &IndentRow) -> Result<[ErrorParts; 2]> {
+    let tolerance = ContactOptions::default().tolerance;
+    let part = |error: f64| ErrorParts {
+        iteration: Some(tolerance * error),
+        ..ErrorParts::NONE
+    };
+    Ok([
+        part(row.indentation_depth),
+        part(elements as f64 * row.normal_force),
+    ])
+}
+
+/// Depth and force converge faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+
+fn goal(accuracy: Accuracy, largest: usize) -> Goal {
+    Goal {
+        accuracy,
+        largest,
+        order: ORDER,
+    }
+}
+
+/// What does in a second on the dashpot of unit viscosity what the control does to the material.
+pub(crate) fn on_unit_dashpot(
+    material: &dyn Material,
+    (control, duration): (Control, f64),
+) -> Result<Control> {
+    Ok(match control {
+        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
+        depth @ Control::IndentationDepth(_) => depth,
+    })
+}
+
+/// A second of a constant force, or of a depth that grows in proportion to time.
+pub(crate) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
+    let step = |step: usize| {
+        let time = step as f64 / n_steps as f64;
+        let control = match control {
+            Control::NormalForce(force) => bem_halfspace::Control::NormalForce(force),
+            Control::IndentationDepth(depth) => {
+                bem_halfspace::Control::IndentationDepth(time * depth)
+            }
+        };
+        IndentStep { time, control }
+    };
+    (1..=n_steps).map(step).collect()
+}
+
+const LARGEST_CHAIN: usize = 16_384;
+const LARGEST_GRID: usize = 512;
+
+/// The radius that the contact will have, for the size of the elements only.
+fn radius(body: &Revolution, material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+    let impulse = impulse(material, force, duration)?;
+    Ok(indentation_after_impulse(body, &unit_dashpot()?, impulse)?.contact_radius)
+}
+
+fn last<R>(rows: Vec<R>) -> Result<R> {
+    match rows.into_iter().next_back() {
+        Some(row) => Ok(row),
+        None => bail!("the march made no step"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indenters::FlatCone;
+    use rheology::Elastic;
+
+    use super::*;
+
+    /// The flanks carry a little, and no element sees it: all resolutions agree, and are wrong.
+    #[test]
+    fn the_bar_of_a_flat_end_holds_where_no_element_sees_its_flanks() {
+        let material = Elastic::new(1.0).expect("a material");
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        for force in [1e-3, 1e-2, 1e-1, 1.0, 10.0] {
+            let control = (Control::NormalForce(force), 1.0);
+            let exact = analytic(&body, &material, control, None).expect("a depth");
+            for elements in [16, 64, 512] {
+                let accuracy = Accuracy::Elements(elements);
+                let got = chain(&body, &material, (force, 1.0), accuracy).expect("a depth");
+                let [value, expected] =
+                    [&got, &exact].map(|answer| answer.indentation_depth.expect("a depth"));
+                let bar = got.indentation_depth_error.expect("a bar");
+                assert!(
+                    (value - expected).abs() <= bar && bar < 0.2 * expected,
+                    "{force} N, {elements} elements: {value} ± {bar} instead of {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn smaller_gaps_change_a_pressed_depth_by_less_than_the_iteration() {
+        let cone = FlatCone::new(1.0, 0.4).expect("a body");
+        let body = Revolution::Other(Box::new(cone));
+        let dashpot = unit_dashpot().expect("a material");
+        let steps = in_steps(Control::NormalForce(3.0), 1);
+        let patch = body.patch(Control::NormalForce(3.0)).expect("a patch");
+        let press = |contact: ContactOptions| {
+            let options = IndentOptions {
+                spacing: [patch.length / 32.0; 2],
+                footprint: patch.footprint,
+                contact,
+            };
+            let rows = indent_history(&body, &dashpot, &steps, &options).expect("a history");
+            last(rows).expect("a row")
+        };
+        let row = press(ContactOptions::default());
+        let exact = press(ContactOptions {
+            tolerance: 1e-13,
+            max_iterations: 10_000,
+        });
+        let change = (row.indentation_depth - exact.indentation_depth).abs();
+        let [parts, _] = gaps(32, &row).expect("parts");
+        let part = parts.iteration.expect("a part");
+        assert!(change <= part, "{change:e}, and the part is {part:e}");
+    }
+}

@@ -1,0 +1,156 @@
+//! The points of a sweep, and the scene of each.
+
+use toml::{Table, Value};
+
+use super::row::Row;
+use super::vary::{MOST_POINTS, Vary};
+use crate::scene::{SceneError, Source, scene_file, split_index};
+use crate::solve::{Problem, ReadFile, choose, not_offered, solve};
+use crate::text::WrongInput;
+
+/// A scene and the keys that vary.
+#[derive(Debug)]
+pub struct Plan {
+    source: Source,
+    table: Table,
+    vary: Vec<Vary>,
+    /// Of the scene and what varies, whatever comments and order.
+    pub fingerprint: String,
+    read: ReadFile,
+}
+
+impl Plan {
+    pub fn new(source: Source, vary: &[Vary], read: ReadFile) -> Result<Self, WrongInput> {
+        let table = source.table()?;
+        for (index, one) in vary.iter().enumerate() {
+            if vary[..index].iter().any(|other| other.key == one.key) {
+                let problem = "it is varied twice";
+                return Err(source.locate(&SceneError::together(&one.key, problem)));
+            }
+        }
+        let points = vary
+            .iter()
+            .try_fold(1_usize, |n, vary| n.checked_mul(vary.count));
+        if points.is_none_or(|points| points > MOST_POINTS) {
+            return Err(WrongInput(format!(
+                "--vary gives more than {MOST_POINTS} points"
+            )));
+        }
+        let mut scene = table.clone();
+        // How many points are computed at the same time does not change them.
+        if let Some(Value::Table(solve)) = scene.get_mut("solve") {
+            solve.remove("threads");
+        }
+        let fingerprint = fingerprint(&format!("{scene}\n{vary:?}"));
+        Ok(Self {
+            source,
+            table,
+            vary: vary.to_vec(),
+            fingerprint,
+            read,
+        })
+    }
+
+    pub const fn source(&self) -> &Source {
+        &self.source
+    }
+
+    pub fn n_points(&self) -> usize {
+        self.vary.iter().map(|vary| vary.count).product()
+    }
+
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.vary.iter().map(|vary| vary.key.as_str())
+    }
+
+    /// The values of a point; the last key is fastest.
+    pub fn values(&self, point: usize) -> Vec<f64> {
+        let mut rest = point;
+        let mut values: Vec<f64> = Vec::new();
+        for vary in self.vary.iter().rev() {
+            values.push(vary.value(rest % vary.count));
+            rest /= vary.count;
+        }
+        values.reverse();
+        values
+    }
+
+    /// Checks every point before the first is computed; returns on how many threads, none for all that there are.
+    pub fn validate(&self) -> Result<Option<usize>, WrongInput> {
+        let mut threads = None;
+        for point in 0..self.n_points() {
+            let problem = self.problem(point)?;
+            choose(&problem).map_err(|error| not_offered(&self.source, &error))?;
+            threads = problem.threads;
+        }
+        Ok(threads)
+    }
+
+    /// The row of a point; what a method could not reach is part of it.
+    pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
+        let answer = solve(&self.problem(point)?);
+        Ok(Row::new(self, point, answer))
+    }
+
+    fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
+        let values = self.values(point);
+        let mut table = self.table.clone();
+        let build = || {
+            for (key, value) in self.keys().zip(&values) {
+                set(&mut table, key, *value)?;
+            }
+            Problem::new(&scene_file(table)?, self.source.folder(), self.read)
+        };
+        build().map_err(|error| {
+            let WrongInput(message) = self.source.locate(&error);
+            let settings: Vec<String> = self
+                .keys()
+                .zip(&values)
+                .map(|(key, value)| format!("{key} = {value:?}"))
+                .collect();
+            let number = point + 1;
+            WrongInput(format!(
+                "{message} (point {number}: {})",
+                settings.join(", ")
+            ))
+        })
+    }
+}
+
+/// Sets a key; the table it is in must be there.
+fn set(table: &mut Table, key: &str, value: f64) -> Result<(), SceneError> {
+    let missing = || SceneError::together(key, "the scene has no such table to vary a key of");
+    let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
+    let mut inner = table;
+    for segment in path.split('.') {
+        let (name, index) = split_index(segment);
+        let mut found = inner.get_mut(name).ok_or_else(missing)?;
+        if let Some(index) = index {
+            found = found.get_mut(index).ok_or_else(missing)?;
+        }
+        inner = found.as_table_mut().ok_or_else(missing)?;
+    }
+    inner.insert(last.to_owned(), number(value));
+    Ok(())
+}
+
+/// A whole number as an integer, which every key accepts.
+fn number(value: f64) -> Value {
+    let largest = 2.0_f64.powi(53);
+    if value.fract() == 0.0 && value.abs() < largest {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "whole and far inside the range of the integer"
+        )]
+        return Value::Integer(value as i64);
+    }
+    Value::Float(value)
+}
+
+/// FNV-1a, 64 bits, as 16 digits.
+fn fingerprint(text: &str) -> String {
+    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{hash:016x}")
+}

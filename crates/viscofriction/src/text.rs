@@ -1,0 +1,27 @@
+//! Places in the text of a file, and the error that names them.
+
+/// The input was wrong; one line that names the place.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct WrongInput(pub String);
+
+/// The line at which a record of a CSV file begins, counted from 1; empty lines before it belong to its position.
+#[must_use]
+pub fn line_of_record(contents: &[u8], position: Option<&csv::Position>) -> usize {
+    let start = position.map_or(0, csv::Position::byte);
+    let start = usize::try_from(start)
+        .unwrap_or(usize::MAX)
+        .min(contents.len());
+    let is_break = |byte: &&u8| b"\r\n".contains(byte);
+    line_of(
+        contents,
+        start + contents[start..].iter().take_while(is_break).count(),
+    )
+}
+
+/// The line of an offset in a text, counted from 1.
+#[must_use]
+pub fn line_of(text: &[u8], offset: usize) -> usize {
+    let before = text.iter().take(offset);
+    1 + before.filter(|byte| **byte == b'\n').count()
+}
