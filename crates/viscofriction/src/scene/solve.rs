@@ -12,7 +12,7 @@ use super::error::{in_range, positive};
 pub struct Solve {
     /// The method; without it the cheapest one that answers the scene.
     pub method: Option<Method>,
-    /// The model that the answer must belong to; without it any.
+    /// What the elastomer is; the half space unless `line` is given, or a method of the one-dimensional model.
     pub model: Option<Model>,
     /// Error of the friction coefficient, of the depth where there is no sliding; above 0 and at most 0.1, 1e-3 unless
     /// given.
@@ -78,6 +78,16 @@ const ELEMENTS: std::ops::RangeInclusive<usize> = 8..=100_000;
 const THREADS: std::ops::RangeInclusive<usize> = 1..=1024;
 
 impl Method {
+    /// The one model that the method is of; none of closed forms, which there are of both.
+    #[must_use]
+    pub const fn model(self) -> Option<Model> {
+        match self {
+            Self::Analytic => None,
+            Self::MdrSteady | Self::MdrTransient => Some(Model::Line),
+            Self::BemSteady | Self::BemTransient => Some(Model::HalfSpace),
+        }
+    }
+
     /// The name in a scene file.
     pub const fn name(self) -> &'static str {
         match self {
@@ -91,6 +101,13 @@ impl Method {
 }
 
 impl Solve {
+    /// The model that the answer belongs to: the one given, or that of the method, or the half space.
+    #[must_use]
+    pub fn checked_model(&self) -> Model {
+        let of_method = self.method.and_then(Method::model);
+        self.model.or(of_method).unwrap_or(Model::HalfSpace)
+    }
+
     /// How well the answer is asked for.
     ///
     /// # Errors

@@ -54,7 +54,16 @@ pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result
         (Body::Cylinder(cylinder), _) => line_contact::answer(problem, cylinder, accuracy),
     }?;
     let left_out = plan(problem, &answer);
-    let answer = Answer { left_out, ..answer };
+    // Closed forms of pressing are those of both models.
+    let model = match method {
+        Method::Analytic => problem.model,
+        _ => answer.model,
+    };
+    let answer = Answer {
+        model,
+        left_out,
+        ..answer
+    };
     answer.finite()
 }
 
@@ -130,8 +139,17 @@ fn closed(
     (velocity, distance): (f64, Option<f64>),
 ) -> Result<Answer> {
     let motion = (problem.control, velocity);
-    let half_space = problem.model == Some(Model::HalfSpace);
+    let half_space = problem.model == Model::HalfSpace;
     match (simple(&*problem.material)?, body) {
+        (Some(elastic @ Simple::Elastic), body) => {
+            let pressed = pressing::analytic(
+                body,
+                &*problem.material,
+                (problem.control, 1.0),
+                Some(&elastic),
+            )?;
+            Ok(pressed.with_friction(0.0, 0.0))
+        }
         (Some(Simple::Viscous(material)), Revolution::Power(profile)) if half_space => {
             analytic::viscous_half_space(profile, &material, &load(motion)?)
         }

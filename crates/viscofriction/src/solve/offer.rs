@@ -58,7 +58,9 @@ fn reasons(refusals: &[(Method, &'static str)]) -> String {
 /// [`NotOffered`], with what is offered instead.
 pub fn choose(problem: &Problem) -> Result<Method, NotOffered> {
     let simple = simple(&*problem.material)?;
-    let why = |method| refusal(method, problem, simple.as_ref());
+    let why = |method| {
+        other_model(method, problem.model).or_else(|| refusal(method, problem, simple.as_ref()))
+    };
     let offered = || BY_COST.into_iter().filter(|&m| why(m).is_none());
     match problem.method {
         None => offered().next().ok_or_else(|| NotOffered::AnyMethod {
@@ -78,7 +80,23 @@ pub fn choose(problem: &Problem) -> Result<Method, NotOffered> {
     }
 }
 
-/// Whether a method answers a problem, whichever method that names.
+/// An answer is of the model that was asked for.
+fn other_model(method: Method, asked: Model) -> Option<&'static str> {
+    let of_method = method.model()?;
+    if of_method == asked {
+        return None;
+    }
+    Some(match of_method {
+        Model::Line => {
+            "it is a method of the one-dimensional model, and the scene is on the half space; solve.model = \"line\" asks for the one-dimensional model"
+        }
+        Model::HalfSpace => {
+            "it is a method of the half space, and the scene asks for the one-dimensional model"
+        }
+    })
+}
+
+/// Whether a method answers a problem, whichever method and model that names.
 pub(crate) fn answers(method: Method, problem: &Problem) -> bool {
     simple(&*problem.material)
         .is_ok_and(|simple| refusal(method, problem, simple.as_ref()).is_none())
@@ -117,7 +135,7 @@ fn line_contact(method: Method, problem: &Problem) -> Option<&'static str> {
         (Method::MdrSteady | Method::MdrTransient, _) => {
             Some("it needs a body of revolution, and a cylinder is none")
         }
-        _ if problem.model == Some(Model::Line) => Some(
+        _ if problem.model == Model::Line => Some(
             "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
         ),
         (Method::Analytic, Motion::Sliding { .. }) => {
@@ -145,11 +163,6 @@ fn boundary_elements(method: Method, problem: &Problem) -> Option<&'static str> 
     let Motion::Sliding { distance, .. } = problem.motion else {
         return (method == Method::BemSteady).then_some(NOTHING_SLIDES);
     };
-    if problem.model == Some(Model::Line) {
-        return Some(
-            "it answers for the half space, and the scene asks for the one-dimensional model",
-        );
-    }
     if !at_depth(problem) || distance.is_some() {
         return None;
     }
@@ -169,11 +182,6 @@ fn line(method: Method, problem: &Problem) -> Option<&'static str> {
             _ => at_depth(problem).then_some("it presses with a force; analytic holds a depth"),
         };
     };
-    if problem.model == Some(Model::HalfSpace) {
-        return Some(
-            "it answers for the one-dimensional model, and the scene asks for the half space",
-        );
-    }
     if method == Method::MdrTransient {
         return at_depth(problem).then_some(UNDER_FORCE);
     }
@@ -194,8 +202,9 @@ fn closed(problem: &Problem, body: &Revolution, simple: Option<&Simple>) -> Opti
         return None;
     };
     match problem.model {
-        Some(Model::HalfSpace) => closed_half_space(problem, body, simple, distance),
-        _ => closed_line(problem, body, simple, distance),
+        _ if matches!(simple, Some(Simple::Elastic)) => None,
+        Model::HalfSpace => closed_half_space(problem, body, simple, distance),
+        Model::Line => closed_line(problem, body, simple, distance),
     }
 }
 

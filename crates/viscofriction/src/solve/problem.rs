@@ -22,7 +22,7 @@ pub struct Problem {
     pub motion: Motion,
     pub accuracy: Accuracy,
     pub method: Option<Method>,
-    pub model: Option<Model>,
+    pub model: Model,
     pub threads: Option<usize>,
 }
 
@@ -62,7 +62,7 @@ impl Problem {
             motion,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
-            model: scene.solve.model,
+            model: scene.solve.checked_model(),
             threads: scene.solve.checked_threads()?,
         })
     }

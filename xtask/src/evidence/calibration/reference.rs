@@ -33,7 +33,7 @@ pub(super) fn question(scene: &Scene, way: &Way) -> Result<Question> {
     Ok(Question {
         method: Some(way.method),
         // Without sliding both models are the same.
-        model: (!scene.presses()).then_some(way.model),
+        model: way.model,
         accuracy: way.accuracy,
         ..question
     })

@@ -78,7 +78,7 @@ impl Asked {
         let question = Question::new(&self.scene, Path::new(""), crate::run::no_files)?;
         Ok(Question {
             method: Some(method),
-            model: (!self.presses()).then_some(model),
+            model,
             accuracy,
             ..question
         })
