@@ -5,7 +5,6 @@
 
 use std::fmt::Display;
 
-use colorous::VIRIDIS;
 use xmlwriter::{Options, XmlWriter};
 
 use crate::error::PlotError;
@@ -47,8 +46,13 @@ pub(crate) struct Pen<'a> {
     pub(crate) dash: Option<String>,
 }
 
+/// For shapes without an outline.
+pub(crate) const NO_PEN: Pen<'static> = Pen::solid("none", 0.0);
+/// For frames, axes and ticks.
+pub(crate) const FRAME_PEN: Pen<'static> = Pen::solid("#000000", 1.0);
+
 impl<'a> Pen<'a> {
-    pub(crate) fn solid(colour: &'a str, width: f64) -> Self {
+    pub(crate) const fn solid(colour: &'a str, width: f64) -> Self {
         Self {
             colour,
             width,
@@ -87,9 +91,10 @@ pub(crate) struct Canvas {
 impl Canvas {
     /// White canvas, \[px\].
     pub(crate) fn new(width: f64, height: f64) -> Self {
+        let writer = || XmlWriter::new(Options::default());
         let mut canvas = Self {
-            svg: XmlWriter::new(Options::default()),
-            outlined: XmlWriter::new(Options::default()),
+            svg: writer(),
+            outlined: writer(),
             refused: None,
         };
         canvas.each(|xml| {
@@ -101,9 +106,9 @@ impl Canvas {
             xml.write_attribute_fmt("font-family", format_args!("{FAMILY}, Verdana, sans-serif"));
             xml.write_attribute("stroke-linejoin", "round");
             xml.start_element("rect");
-            xml.write_attribute("width", "100%");
-            xml.write_attribute("height", "100%");
-            xml.write_attribute("fill", "white");
+            for (name, value) in [("width", "100%"), ("height", "100%"), ("fill", "white")] {
+                xml.write_attribute(name, value);
+            }
             xml.end_element();
         });
         canvas
@@ -111,79 +116,52 @@ impl Canvas {
 
     /// The picture; an error if a text could not be drawn.
     pub(crate) fn finish(self) -> Result<Drawing, PlotError> {
-        match self.refused {
-            Some(refused) => Err(refused),
-            None => Ok(Drawing {
-                svg: self.svg.end_document(),
-                outlined: self.outlined.end_document(),
-            }),
-        }
+        self.refused.map_or_else(
+            || {
+                Ok(Drawing {
+                    svg: self.svg.end_document(),
+                    outlined: self.outlined.end_document(),
+                })
+            },
+            Err,
+        )
     }
 
     pub(crate) fn line(&mut self, from: Pixel, to: Pixel, pen: &Pen) {
-        self.each(|xml| {
-            xml.start_element("line");
-            let ends = [
-                ("x1", from[0]),
-                ("y1", from[1]),
-                ("x2", to[0]),
-                ("y2", to[1]),
-            ];
-            write_places(xml, &ends);
-            write_pen(xml, pen);
-            xml.end_element();
-        });
+        let ends = [
+            ("x1", from[0]),
+            ("y1", from[1]),
+            ("x2", to[0]),
+            ("y2", to[1]),
+        ];
+        self.mark("line", &ends, &[], pen);
     }
 
     pub(crate) fn polyline(&mut self, points: &[Pixel], pen: &Pen) {
-        let places: Vec<String> = points
-            .iter()
-            .map(|[x, y]| format!("{},{}", rounded(*x), rounded(*y)))
-            .collect();
-        self.each(|xml| {
-            xml.start_element("polyline");
-            xml.write_attribute("points", &places.join(" "));
-            xml.write_attribute("fill", "none");
-            write_pen(xml, pen);
-            xml.end_element();
-        });
+        let place = |[x, y]: &Pixel| format!("{},{}", rounded(*x), rounded(*y));
+        let places: Vec<String> = points.iter().map(place).collect();
+        let texts = [("points", &*places.join(" ")), ("fill", "none")];
+        self.mark("polyline", &[], &texts, pen);
     }
 
-    pub(crate) fn circle(&mut self, [cx, cy]: Pixel, radius: f64, fill: &str, pen: &Pen) {
-        self.each(|xml| {
-            xml.start_element("circle");
-            write_places(xml, &[("cx", cx), ("cy", cy), ("r", radius)]);
-            xml.write_attribute("fill", fill);
-            write_pen(xml, pen);
-            xml.end_element();
-        });
+    pub(crate) fn circle(&mut self, [x, y]: Pixel, radius: f64, fill: &str, pen: &Pen) {
+        let places = [("cx", x), ("cy", y), ("r", radius)];
+        self.mark("circle", &places, &[("fill", fill)], pen);
     }
 
     /// Closed shape given as SVG path data.
     pub(crate) fn shape(&mut self, path: &str, fill: &str, pen: &Pen) {
-        self.each(|xml| {
-            xml.start_element("path");
-            xml.write_attribute("d", path);
-            xml.write_attribute("fill", fill);
-            write_pen(xml, pen);
-            xml.end_element();
-        });
+        self.mark("path", &[], &[("d", path), ("fill", fill)], pen);
     }
 
     pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
-        self.each(|xml| {
-            xml.start_element("rect");
-            let places = [
-                ("x", area.left),
-                ("y", area.top),
-                ("width", area.width),
-                ("height", area.height),
-            ];
-            write_places(xml, &places);
-            xml.write_attribute("fill", fill);
-            write_pen(xml, pen);
-            xml.end_element();
-        });
+        let places = [
+            ("x", area.left),
+            ("y", area.top),
+            ("width", area.width),
+            ("height", area.height),
+        ];
+        self.mark("rect", &places, &[("fill", fill)], pen);
     }
 
     /// Text whose baseline passes through the point.
@@ -193,22 +171,28 @@ impl Canvas {
             Anchor::Middle | Anchor::Upwards => ("middle", 0.5),
             Anchor::End => ("end", 1.0),
         };
-        let turn = (anchor == Anchor::Upwards)
-            .then(|| format!("rotate(-90 {} {})", rounded(x), rounded(y)));
-        let write_turn = |xml: &mut XmlWriter| {
-            if let Some(turn) = &turn {
-                xml.write_attribute("transform", turn);
+        let turn = |xml: &mut XmlWriter| {
+            if anchor == Anchor::Upwards {
+                let [x, y] = [rounded(x), rounded(y)];
+                xml.write_attribute_fmt("transform", format_args!("rotate(-90 {x} {y})"));
             }
         };
-        write_text(&mut self.svg, ([x, y], text), size, |xml| {
-            xml.write_attribute("text-anchor", place);
-            write_turn(xml);
-        });
-        match outline(text, size, ([x, y], part)) {
+        let xml = &mut self.svg;
+        xml.start_element("text");
+        write_places(xml, &[("x", x), ("y", y)]);
+        xml.write_attribute("font-size", &size);
+        xml.write_attribute("text-anchor", place);
+        turn(xml);
+        xml.set_preserve_whitespaces(true);
+        // The writer escapes the other sign of markup.
+        xml.write_text(&text.replace('&', "&amp;"));
+        xml.end_element();
+        xml.set_preserve_whitespaces(false);
+        match outline(text, size, [x, y], part) {
             Ok(path) => {
                 self.outlined.start_element("path");
                 self.outlined.write_attribute("d", &path);
-                write_turn(&mut self.outlined);
+                turn(&mut self.outlined);
                 self.outlined.end_element();
             }
             Err(refused) => {
@@ -217,27 +201,44 @@ impl Canvas {
         }
     }
 
-    /// Opens a group in which a cell of the given size, \[px\], has the size 1 by 1, with the origin in the lower
-    /// left corner of the area and y upwards; neighbouring fills meet without seams.
-    pub(crate) fn start_mosaic(&mut self, area: Area, [width, height]: [f64; 2]) {
+    /// Fills paths, each given with its colour, in which a cell of the given size, \[px\], has the size 1 by 1, with the
+    /// origin in the lower left corner of the area and y upwards; neighbouring fills meet without seams.
+    pub(crate) fn mosaic(
+        &mut self,
+        area: Area,
+        [width, height]: [f64; 2],
+        paths: impl IntoIterator<Item = (String, String)>,
+    ) {
+        let [left, bottom, down] = [area.left, area.bottom(), -height];
+        let transform = format!("translate({left:.3} {bottom:.3}) scale({width:.6} {down:.6})");
         self.each(|xml| {
             xml.start_element("g");
             xml.write_attribute("shape-rendering", "crispEdges");
-            xml.write_attribute_fmt(
-                "transform",
-                format_args!(
-                    "translate({:.3} {:.3}) scale({width:.6} {:.6})",
-                    area.left,
-                    area.bottom(),
-                    -height
-                ),
-            );
+            xml.write_attribute("transform", &transform);
         });
+        for (colour, path) in paths {
+            self.shape(&path, &colour, &NO_PEN);
+        }
+        self.each(XmlWriter::end_element);
     }
 
-    /// Closes the group opened last.
-    pub(crate) fn end_group(&mut self) {
-        self.each(XmlWriter::end_element);
+    /// One element with its places, other attributes and pen, in this order.
+    fn mark(&mut self, name: &str, places: &[(&str, f64)], texts: &[(&str, &str)], pen: &Pen) {
+        self.each(|xml| {
+            xml.start_element(name);
+            write_places(xml, places);
+            for (name, text) in texts {
+                xml.write_attribute(name, *text);
+            }
+            xml.write_attribute("stroke", pen.colour);
+            if pen.colour != NO_PEN.colour {
+                xml.write_attribute("stroke-width", &pen.width);
+            }
+            if let Some(dash) = &pen.dash {
+                xml.write_attribute("stroke-dasharray", dash);
+            }
+            xml.end_element();
+        });
     }
 
     fn each(&mut self, write: impl Fn(&mut XmlWriter)) {
@@ -246,36 +247,9 @@ impl Canvas {
     }
 }
 
-fn write_text(
-    xml: &mut XmlWriter,
-    ([x, y], text): (Pixel, &str),
-    size: u32,
-    write_more: impl Fn(&mut XmlWriter),
-) {
-    xml.start_element("text");
-    write_places(xml, &[("x", x), ("y", y)]);
-    xml.write_attribute("font-size", &size);
-    write_more(xml);
-    xml.set_preserve_whitespaces(true);
-    // The writer escapes the other sign of markup.
-    xml.write_text(&text.replace('&', "&amp;"));
-    xml.end_element();
-    xml.set_preserve_whitespaces(false);
-}
-
 fn write_places(xml: &mut XmlWriter, places: &[(&str, f64)]) {
     for (name, value) in places {
         xml.write_attribute(name, &rounded(*value));
-    }
-}
-
-fn write_pen(xml: &mut XmlWriter, pen: &Pen) {
-    xml.write_attribute("stroke", pen.colour);
-    if pen.colour != "none" {
-        xml.write_attribute("stroke-width", &pen.width);
-    }
-    if let Some(dash) = &pen.dash {
-        xml.write_attribute("stroke-dasharray", dash);
     }
 }
 
@@ -285,7 +259,8 @@ fn rounded(value: f64) -> impl Display {
     (100.0 * value).round() / 100.0 + 0.0
 }
 
-/// Colour of a share between 0 and 1 of a colour scale, dark blue to yellow.
-pub(crate) fn scale_colour(share: f64) -> String {
-    format!("#{:x}", VIRIDIS.eval_continuous(share))
+/// Exact for any number of cells, entries or columns that fits into a picture.
+#[allow(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
+pub(crate) fn to_f64(count: usize) -> f64 {
+    count as f64
 }

@@ -3,9 +3,9 @@
 use crate::axis::Axis;
 use crate::canvas::{Area, Canvas, Pixel};
 use crate::error::PlotError;
-use crate::figure::PANEL_WIDTH;
+use crate::figure::{Draw, PANEL_WIDTH};
 use crate::frame::{Frame, TickSide, bottom_margin, right_margin, side_margin, top_margin};
-use crate::legend::{Legend, LegendPlace, plan};
+use crate::legend::{Legend, LegendPlace};
 use crate::marks::draw_series;
 use crate::series::Series;
 
@@ -27,53 +27,40 @@ pub struct Chart {
 /// Height of the data rectangle, \[px\].
 const HEIGHT: f64 = 280.0;
 
-impl Chart {
-    /// Refuses axes and data that cannot be drawn faithfully.
-    pub(crate) fn validate(&self) -> Result<(), PlotError> {
+impl Draw for Chart {
+    fn validate(&self) -> Result<(), PlotError> {
         self.x.validate()?;
         self.y.validate()?;
         if self.series.is_empty() {
-            return Err(PlotError::Empty {
-                what: format!("the list of series over '{}'", self.x.label),
-            });
+            let what = format!("the list of series over '{}'", self.x.label);
+            return Err(PlotError::Empty(what));
         }
-        self.series
-            .iter()
-            .try_for_each(|series| series.validate(&self.x, &self.y))
+        let mut series = self.series.iter();
+        series.try_for_each(|series| series.validate(&self.x, &self.y))
     }
 
-    /// Room that the left side needs, \[px\].
-    pub(crate) fn left_margin(&self) -> Result<f64, PlotError> {
+    fn left_margin(&self) -> Result<f64, PlotError> {
         side_margin(&self.y)
     }
 
-    /// Height of the whole panel, \[px\].
-    pub(crate) fn height(&self, left: f64) -> Result<f64, PlotError> {
+    fn height(&self, left: f64) -> Result<f64, PlotError> {
         let frame = self.frame([0.0, 0.0], left)?;
-        Ok(frame.area.bottom() + bottom_margin() + self.legend(&frame)?.height_below())
+        let legend = Legend::new(&self.series, &frame, self.legend)?;
+        Ok(frame.area.bottom() + bottom_margin() + legend.height_below())
     }
 
-    /// Draws the panel with its upper left corner at `origin`.
-    pub(crate) fn draw(
-        &self,
-        canvas: &mut Canvas,
-        origin: Pixel,
-        left: f64,
-    ) -> Result<(), PlotError> {
+    fn draw(&self, canvas: &mut Canvas, origin: Pixel, left: f64) -> Result<(), PlotError> {
         let frame = self.frame(origin, left)?;
         frame.draw(canvas, self.title.as_deref(), TickSide::Inside)?;
         for series in &self.series {
             draw_series(canvas, &frame, series);
         }
-        self.legend(&frame)?
-            .draw(canvas, &frame, frame.area.bottom() + bottom_margin());
+        Legend::new(&self.series, &frame, self.legend)?.draw(canvas, &frame.area);
         Ok(())
     }
+}
 
-    fn legend(&self, frame: &Frame) -> Result<Legend<'_>, PlotError> {
-        plan(&self.series, frame, self.legend)
-    }
-
+impl Chart {
     fn frame(&self, [x, y]: Pixel, left: f64) -> Result<Frame<'_>, PlotError> {
         let area = Area {
             left: x + left,

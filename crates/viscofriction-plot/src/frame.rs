@@ -1,14 +1,14 @@
-//! The frame of a picture: the rectangle the data live in, with its ticks, labels and title.
+//! The frame of a picture: the rectangle the data live in, with its axes, their ticks and labels, and its title.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use crate::canvas::{Anchor, Area, Canvas, FRAME_PEN, Pen, Pixel};
 use crate::error::PlotError;
-use crate::font::{check_fit, text_width};
+use crate::font::{check_fit, text_width, widest};
 use crate::ticks::{Tick, ticks};
 
 /// Sizes of the texts, \[px\].
 pub(crate) const TICK_SIZE: u32 = 13;
-pub(crate) const LABEL_SIZE: u32 = 14;
+const LABEL_SIZE: u32 = 14;
 pub(crate) const TITLE_SIZE: u32 = 14;
 
 /// Distances, \[px\].
@@ -16,19 +16,12 @@ const GAP: f64 = 6.0;
 const TITLE_HEIGHT: f64 = 24.0;
 const MAJOR: f64 = 6.0;
 const MINOR: f64 = 3.5;
-/// Drop of the baseline from the middle of a digit, as a share of the text size.
+/// By so much a text may be longer than its edge of the frame.
+const SPILL: f64 = 24.0;
+/// Drop of the baseline from the middle of a digit, as a part of the text size.
 const HALF_DIGIT: f64 = 0.365;
 
-const FRAME_PEN: Pen<'static> = Pen {
-    colour: "#000000",
-    width: 1.0,
-    dash: None,
-};
-const GRID_PEN: Pen<'static> = Pen {
-    colour: "#e4e4e4",
-    width: 0.7,
-    dash: None,
-};
+const GRID_PEN: Pen<'static> = Pen::solid("#e4e4e4", 0.7);
 
 /// Data rectangle and its two axes.
 #[derive(Debug, Clone, Copy)]
@@ -38,13 +31,21 @@ pub(crate) struct Frame<'a> {
     pub(crate) y: &'a Axis,
 }
 
-/// Which way the ticks point.
+/// To which side of their edge the ticks point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TickSide {
-    /// Into the frame, on all four sides, over a faint grid.
+    /// Into the frame, on all four edges, over a faint grid.
     Inside,
-    /// Away from the frame, on the left and below.
+    /// Away from the frame, on the edges with labels.
     Outside,
+}
+
+/// Edge of a rectangle that has an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Edge {
+    Bottom,
+    Left,
+    Right,
 }
 
 /// Room a title takes above the frame, \[px\].
@@ -59,32 +60,30 @@ pub(crate) fn bottom_margin() -> f64 {
 
 /// Room the tick labels and the label of a y axis take beside the frame, \[px\].
 pub(crate) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
-    Ok(tick_label_width(y)? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
+    Ok(widest_label(&ticks(y))? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
 }
 
 /// Room to the right of the frame, \[px\]; half of the last tick label may reach into it.
 pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
-    let last = ticks(x)
-        .into_iter()
-        .filter_map(|tick| tick.label)
-        .next_back();
+    let last = ticks(x).into_iter().rev().find_map(|tick| tick.label);
     let width = last.map_or(Ok(0.0), |label| text_width(&label, TICK_SIZE))?;
     Ok((width / 2.0 + 4.0).max(18.0))
 }
 
-fn tick_label_width(axis: &Axis) -> Result<f64, PlotError> {
-    let labels = ticks(axis).into_iter().filter_map(|tick| tick.label);
-    labels
-        .map(|label| text_width(&label, TICK_SIZE))
-        .try_fold(0.0, |widest: f64, width| Ok(widest.max(width?)))
+fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
+    widest(
+        ticks.iter().filter_map(|tick| tick.label.as_deref()),
+        TICK_SIZE,
+    )
 }
 
 impl Frame<'_> {
     /// Pixel of a data point.
     pub(crate) fn pixel(&self, [x, y]: [f64; 2]) -> Pixel {
+        let [x, y] = [self.x.fraction(x), self.y.fraction(y)];
         [
-            self.area.left + self.area.width * self.x.fraction(x),
-            self.area.bottom() - self.area.height * self.y.fraction(y),
+            Edge::Bottom.pixel(&self.area, x)[0],
+            Edge::Left.pixel(&self.area, y)[1],
         ]
     }
 
@@ -95,120 +94,95 @@ impl Frame<'_> {
         title: Option<&str>,
         side: TickSide,
     ) -> Result<(), PlotError> {
-        self.check_texts(title)?;
-        let (x_ticks, y_ticks) = (self.x_ticks()?, ticks(self.y));
+        let area = self.area;
+        let axes = [
+            AxisEdge::new(self.x, area, Edge::Bottom)?,
+            AxisEdge::new(self.y, area, Edge::Left)?,
+        ];
         if side == TickSide::Inside {
-            self.draw_grid(canvas, &x_ticks, &y_ticks);
+            axes.iter().for_each(|axis| axis.draw_grid(canvas));
         }
-        canvas.rectangle(self.area, "none", &FRAME_PEN);
-        for tick in &x_ticks {
-            self.draw_x_tick(canvas, tick, side);
-        }
-        for tick in &y_ticks {
-            self.draw_y_tick(canvas, tick, side);
-        }
-        self.draw_texts(canvas, title)
-    }
-
-    fn check_texts(&self, title: Option<&str>) -> Result<(), PlotError> {
-        // A text may reach a little over both ends of the frame.
-        let spill = 24.0;
-        check_fit(&self.x.label, LABEL_SIZE, self.area.width + spill)?;
-        check_fit(&self.y.label, LABEL_SIZE, self.area.height + spill)?;
-        title.map_or(Ok(()), |title| {
-            check_fit(title, TITLE_SIZE, self.area.width + spill)
-        })
-    }
-
-    fn draw_grid(&self, canvas: &mut Canvas, x_ticks: &[Tick], y_ticks: &[Tick]) {
-        let area = self.area;
-        for tick in x_ticks.iter().filter(|tick| tick.major) {
-            let x = self.x_pixel(tick);
-            canvas.line([x, area.top], [x, area.bottom()], &GRID_PEN);
-        }
-        for tick in y_ticks.iter().filter(|tick| tick.major) {
-            let y = self.y_pixel(tick);
-            canvas.line([area.left, y], [area.right(), y], &GRID_PEN);
-        }
-    }
-
-    fn draw_x_tick(&self, canvas: &mut Canvas, tick: &Tick, side: TickSide) {
-        let (x, length) = (self.x_pixel(tick), tick_length(tick));
-        let (top, bottom) = (self.area.top, self.area.bottom());
-        match side {
-            TickSide::Inside => {
-                canvas.line([x, bottom], [x, bottom - length], &FRAME_PEN);
-                canvas.line([x, top], [x, top + length], &FRAME_PEN);
-            }
-            TickSide::Outside => canvas.line([x, bottom], [x, bottom + length], &FRAME_PEN),
-        }
-        if let Some(label) = &tick.label {
-            let baseline = bottom + GAP + f64::from(TICK_SIZE);
-            canvas.text([x, baseline], label, TICK_SIZE, Anchor::Middle);
-        }
-    }
-
-    fn draw_y_tick(&self, canvas: &mut Canvas, tick: &Tick, side: TickSide) {
-        let (y, length) = (self.y_pixel(tick), tick_length(tick));
-        let (left, right) = (self.area.left, self.area.right());
-        match side {
-            TickSide::Inside => {
-                canvas.line([left, y], [left + length, y], &FRAME_PEN);
-                canvas.line([right, y], [right - length, y], &FRAME_PEN);
-            }
-            TickSide::Outside => canvas.line([left, y], [left - length, y], &FRAME_PEN),
-        }
-        if let Some(label) = &tick.label {
-            let baseline = y + HALF_DIGIT * f64::from(TICK_SIZE);
-            canvas.text([left - GAP - 2.0, baseline], label, TICK_SIZE, Anchor::End);
-        }
-    }
-
-    fn draw_texts(&self, canvas: &mut Canvas, title: Option<&str>) -> Result<(), PlotError> {
-        let area = self.area;
-        let centre = [area.left + area.width / 2.0, area.top + area.height / 2.0];
-        let below = area.bottom() + 2.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE) - 2.0;
-        canvas.text(
-            [centre[0], below],
-            &self.x.label,
-            LABEL_SIZE,
-            Anchor::Middle,
-        );
-        let beside = area.left - tick_label_width(self.y)? - 2.5 * GAP;
-        canvas.text(
-            [beside, centre[1]],
-            &self.y.label,
-            LABEL_SIZE,
-            Anchor::Upwards,
-        );
+        canvas.rectangle(area, "none", &FRAME_PEN);
+        axes.iter().for_each(|axis| axis.draw_ticks(canvas, side));
+        axes.iter().try_for_each(|axis| axis.draw_label(canvas))?;
         if let Some(title) = title {
-            canvas.text(
-                [centre[0], area.top - GAP - 2.0],
-                title,
-                TITLE_SIZE,
-                Anchor::Middle,
-            );
+            check_fit(title, TITLE_SIZE, area.width + SPILL)?;
+            let above = [area.left + area.width / 2.0, area.top - GAP - 2.0];
+            canvas.text(above, title, TITLE_SIZE, Anchor::Middle);
         }
         Ok(())
     }
+}
 
-    /// Ticks of the x axis, with as many labels as stand clear of each other.
-    fn x_ticks(&self) -> Result<Vec<Tick>, PlotError> {
-        let mut ticks = ticks(self.x);
-        while self.labels_collide(&ticks)? {
-            let labelled = ticks.iter_mut().filter(|tick| tick.label.is_some());
+impl Edge {
+    /// Pixel at a fraction of the edge, from the left or from below.
+    fn pixel(self, area: &Area, fraction: f64) -> Pixel {
+        let x = area.left + area.width * fraction;
+        let y = area.bottom() - area.height * fraction;
+        match self {
+            Self::Bottom => [x, area.bottom()],
+            Self::Left => [area.left, y],
+            Self::Right => [area.right(), y],
+        }
+    }
+
+    /// A pixel moved into the rectangle.
+    fn inwards(self, [x, y]: Pixel, distance: f64) -> Pixel {
+        match self {
+            Self::Bottom => [x, y - distance],
+            Self::Left => [x + distance, y],
+            Self::Right => [x - distance, y],
+        }
+    }
+}
+
+/// An axis along the edge of a rectangle.
+pub(crate) struct AxisEdge<'a> {
+    axis: &'a Axis,
+    area: Area,
+    edge: Edge,
+    ticks: Vec<Tick>,
+}
+
+impl<'a> AxisEdge<'a> {
+    /// With as many tick labels as stand clear of each other; refuses a label that is longer than the edge.
+    pub(crate) fn new(axis: &'a Axis, area: Area, edge: Edge) -> Result<Self, PlotError> {
+        let length = match edge {
+            Edge::Bottom => area.width,
+            Edge::Left | Edge::Right => area.height,
+        };
+        check_fit(&axis.label, LABEL_SIZE, length + SPILL)?;
+        let ticks = ticks(axis);
+        let mut found = Self {
+            axis,
+            area,
+            edge,
+            ticks,
+        };
+        while edge == Edge::Bottom && found.labels_collide()? {
+            let labelled = found.ticks.iter_mut().filter(|tick| tick.label.is_some());
             for tick in labelled.skip(1).step_by(2) {
                 tick.label = None;
             }
         }
-        Ok(ticks)
+        Ok(found)
     }
 
-    fn labels_collide(&self, ticks: &[Tick]) -> Result<bool, PlotError> {
+    /// Draws ticks and labels, to the outside.
+    pub(crate) fn draw_alone(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
+        self.draw_ticks(canvas, TickSide::Outside);
+        self.draw_label(canvas)
+    }
+
+    fn pixel(&self, tick: &Tick) -> Pixel {
+        self.edge.pixel(&self.area, self.axis.fraction(tick.value))
+    }
+
+    fn labels_collide(&self) -> Result<bool, PlotError> {
         let mut free = f64::NEG_INFINITY;
-        for tick in ticks {
+        for tick in &self.ticks {
             let Some(label) = &tick.label else { continue };
-            let (middle, half) = (self.x_pixel(tick), text_width(label, TICK_SIZE)? / 2.0);
+            let (middle, half) = (self.pixel(tick)[0], text_width(label, TICK_SIZE)? / 2.0);
             if middle - half < free {
                 return Ok(true);
             }
@@ -217,46 +191,72 @@ impl Frame<'_> {
         Ok(false)
     }
 
-    fn x_pixel(&self, tick: &Tick) -> f64 {
-        self.area.left + self.area.width * self.x.fraction(tick.value)
+    /// The pixel on the other side of the rectangle.
+    fn opposite(&self, pixel: Pixel) -> Pixel {
+        let across = match self.edge {
+            Edge::Bottom => self.area.height,
+            Edge::Left | Edge::Right => self.area.width,
+        };
+        self.edge.inwards(pixel, across)
     }
 
-    fn y_pixel(&self, tick: &Tick) -> f64 {
-        self.area.bottom() - self.area.height * self.y.fraction(tick.value)
-    }
-}
-
-/// Draws ticks and label of a vertical axis to the right of a rectangle.
-pub(crate) fn draw_right_axis(
-    canvas: &mut Canvas,
-    area: Area,
-    axis: &Axis,
-) -> Result<(), PlotError> {
-    check_fit(&axis.label, LABEL_SIZE, area.height + 24.0)?;
-    let right = area.right();
-    for tick in ticks(axis) {
-        let y = area.bottom() - area.height * axis.fraction(tick.value);
-        canvas.line(
-            [right, y],
-            [right + tick_length(&tick) - 2.0, y],
-            &FRAME_PEN,
-        );
-        if let Some(label) = &tick.label {
-            let baseline = y + HALF_DIGIT * f64::from(TICK_SIZE);
-            canvas.text(
-                [right + GAP + 1.0, baseline],
-                label,
-                TICK_SIZE,
-                Anchor::Start,
-            );
+    fn draw_grid(&self, canvas: &mut Canvas) {
+        for tick in self.ticks.iter().filter(|tick| tick.major) {
+            let own = self.pixel(tick);
+            let mut ends = [own, self.opposite(own)];
+            // From the top or from the left.
+            if self.edge == Edge::Bottom {
+                ends.reverse();
+            }
+            canvas.line(ends[0], ends[1], &GRID_PEN);
         }
     }
-    let beside = right + tick_label_width(axis)? + 2.0 * GAP + f64::from(LABEL_SIZE);
-    let middle = area.top + area.height / 2.0;
-    canvas.text([beside, middle], &axis.label, LABEL_SIZE, Anchor::Upwards);
-    Ok(())
-}
 
-const fn tick_length(tick: &Tick) -> f64 {
-    if tick.major { MAJOR } else { MINOR }
+    fn draw_ticks(&self, canvas: &mut Canvas, side: TickSide) {
+        // Beside a colour bar there is less room.
+        let shorter = if self.edge == Edge::Right { 2.0 } else { 0.0 };
+        for tick in &self.ticks {
+            let length = if tick.major { MAJOR } else { MINOR } - shorter;
+            let own = self.pixel(tick);
+            let mut mark = |from, inwards| {
+                canvas.line(from, self.edge.inwards(from, inwards), &FRAME_PEN);
+            };
+            match side {
+                TickSide::Inside => {
+                    mark(own, length);
+                    mark(self.opposite(own), -length);
+                }
+                TickSide::Outside => mark(own, -length),
+            }
+            if let Some(label) = &tick.label {
+                self.draw_tick_label(canvas, own, label);
+            }
+        }
+    }
+
+    fn draw_tick_label(&self, canvas: &mut Canvas, [x, y]: Pixel, label: &str) {
+        let size = f64::from(TICK_SIZE);
+        let ([right, down], anchor) = match self.edge {
+            Edge::Bottom => ([0.0, GAP + size], Anchor::Middle),
+            Edge::Left => ([-GAP - 2.0, HALF_DIGIT * size], Anchor::End),
+            Edge::Right => ([GAP + 1.0, HALF_DIGIT * size], Anchor::Start),
+        };
+        canvas.text([x + right, y + down], label, TICK_SIZE, anchor);
+    }
+
+    fn draw_label(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
+        let [x, y] = self.edge.pixel(&self.area, 0.5);
+        let size = f64::from(LABEL_SIZE);
+        let beside = widest_label(&self.ticks)?;
+        let ([right, down], anchor) = match self.edge {
+            Edge::Bottom => (
+                [0.0, 2.0 * GAP + f64::from(TICK_SIZE) + size - 2.0],
+                Anchor::Middle,
+            ),
+            Edge::Left => ([-beside - 2.5 * GAP, 0.0], Anchor::Upwards),
+            Edge::Right => ([beside + 2.0 * GAP + size, 0.0], Anchor::Upwards),
+        };
+        canvas.text([x + right, y + down], &self.axis.label, LABEL_SIZE, anchor);
+        Ok(())
+    }
 }

@@ -1,9 +1,9 @@
 //! The legend: where it stands and what it shows.
 
-use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
+use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel, to_f64};
 use crate::error::PlotError;
-use crate::font::text_width;
-use crate::frame::Frame;
+use crate::font::widest;
+use crate::frame::{Frame, bottom_margin};
 use crate::marks::{MARKER_RADIUS, draw_marker, error_ends, line_pen};
 use crate::series::Series;
 
@@ -13,18 +13,8 @@ pub enum LegendPlace {
     /// The first corner without data under the legend, or below the chart if there is none.
     #[default]
     Free,
-    /// Inside, upper left corner.
-    TopLeft,
-    /// Inside, upper right corner.
-    TopRight,
-    /// Inside, lower left corner.
-    BottomLeft,
-    /// Inside, lower right corner.
-    BottomRight,
     /// Below the label of the x axis.
     Below,
-    /// Nowhere.
-    Hidden,
 }
 
 const TEXT_SIZE: u32 = 12;
@@ -42,76 +32,64 @@ pub(crate) struct Legend<'a> {
     /// Width of one column with sample and text, \[px\].
     column: f64,
     columns: usize,
-    spot: Spot,
+    /// Its rectangle inside the frame, or none below the chart.
+    inside: Option<Area>,
 }
 
-enum Spot {
-    Nowhere,
-    Inside(Area),
-    Below,
-}
+impl<'a> Legend<'a> {
+    /// Finds the place of the legend of some series in a frame.
+    pub(crate) fn new(
+        series: &'a [Series],
+        frame: &Frame,
+        place: LegendPlace,
+    ) -> Result<Self, PlotError> {
+        let labelled = series.iter();
+        let entries: Vec<_> = labelled
+            .filter_map(|one| Some((one, one.label.as_deref()?)))
+            .collect();
+        let labels = entries.iter().map(|&(_, label)| label);
+        let mut legend = Self {
+            column: SAMPLE + PADDING + widest(labels, TEXT_SIZE)?,
+            entries,
+            columns: 1,
+            inside: None,
+        };
+        legend.check_width(frame)?;
+        if place == LegendPlace::Free {
+            legend.inside = legend.free_corner(&frame.area, &marked_pixels(series, frame));
+        }
+        if legend.inside.is_none() {
+            legend.columns = legend.columns_below(frame.area.width);
+        }
+        Ok(legend)
+    }
 
-/// Finds the place of the legend of some series in a frame.
-pub(crate) fn plan<'a>(
-    series: &'a [Series],
-    frame: &Frame,
-    place: LegendPlace,
-) -> Result<Legend<'a>, PlotError> {
-    let entries: Vec<_> = series
-        .iter()
-        .filter_map(|one| Some((one, one.label.as_deref()?)))
-        .collect();
-    let mut column: f64 = 0.0;
-    for (_, label) in &entries {
-        column = column.max(SAMPLE + PADDING + text_width(label, TEXT_SIZE)?);
-    }
-    let mut legend = Legend {
-        entries,
-        column,
-        columns: 1,
-        spot: Spot::Nowhere,
-    };
-    if legend.entries.is_empty() || place == LegendPlace::Hidden {
-        return Ok(legend);
-    }
-    legend.check_width(frame)?;
-    legend.spot = legend.find_spot(series, frame, place);
-    if matches!(legend.spot, Spot::Below) {
-        legend.columns = legend.columns_below(frame.area.width);
-    }
-    Ok(legend)
-}
-
-impl Legend<'_> {
     /// Height taken below the chart, \[px\].
     pub(crate) fn height_below(&self) -> f64 {
-        match self.spot {
-            Spot::Below => to_f64(self.rows()) * ROW + PADDING,
-            Spot::Inside(_) | Spot::Nowhere => 0.0,
+        if self.entries.is_empty() || self.inside.is_some() {
+            return 0.0;
         }
+        to_f64(self.rows()) * ROW + PADDING
     }
 
-    /// Draws the legend; `bottom` is where a legend below the chart begins.
-    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame, bottom: f64) {
-        let start = match self.spot {
-            Spot::Nowhere => return,
-            Spot::Inside(area) => {
-                canvas.rectangle(area, "#ffffff", &Pen::solid("#999999", 0.7));
-                [area.left + PADDING, area.top + PADDING / 2.0]
-            }
-            Spot::Below => {
-                let count = to_f64(self.columns);
-                let width = count * self.column + (count - 1.0) * COLUMN_GAP;
-                [
-                    frame.area.left + (frame.area.width - width) / 2.0,
-                    bottom + PADDING / 2.0,
-                ]
-            }
+    /// Draws the legend of a frame.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Area) {
+        if self.entries.is_empty() {
+            return;
+        }
+        let [left, top] = if let Some(area) = self.inside {
+            canvas.rectangle(area, "#ffffff", &Pen::solid("#999999", 0.7));
+            [area.left + PADDING, area.top]
+        } else {
+            let count = to_f64(self.columns);
+            let width = count * self.column + (count - 1.0) * COLUMN_GAP;
+            let left = frame.left + (frame.width - width) / 2.0;
+            [left, frame.bottom() + bottom_margin()]
         };
         for (index, &(series, label)) in self.entries.iter().enumerate() {
             let (column, row) = (index / self.rows(), index % self.rows());
-            let left = start[0] + to_f64(column) * (self.column + COLUMN_GAP);
-            let middle = start[1] + (to_f64(row) + 0.5) * ROW;
+            let left = left + to_f64(column) * (self.column + COLUMN_GAP);
+            let middle = top + PADDING / 2.0 + (to_f64(row) + 0.5) * ROW;
             draw_entry(canvas, [left, middle], series, label);
         }
     }
@@ -129,49 +107,26 @@ impl Legend<'_> {
         })
     }
 
-    fn find_spot(&self, series: &[Series], frame: &Frame, place: LegendPlace) -> Spot {
-        let corners = [
-            LegendPlace::TopRight,
-            LegendPlace::TopLeft,
-            LegendPlace::BottomRight,
-            LegendPlace::BottomLeft,
-        ];
-        if place == LegendPlace::Below {
-            return Spot::Below;
-        }
-        if place != LegendPlace::Free {
-            return Spot::Inside(self.box_at(frame, place));
-        }
-        let marks = marked_pixels(series, frame);
-        let margin = MARKER_RADIUS + 4.0;
-        let is_free = |area: &Area| !marks.iter().any(|&pixel| area.contains(pixel, margin));
-        let boxes = corners.map(|corner| self.box_at(frame, corner));
-        boxes
-            .into_iter()
-            .find(is_free)
-            .map_or(Spot::Below, Spot::Inside)
-    }
-
-    fn box_at(&self, frame: &Frame, place: LegendPlace) -> Area {
+    /// The first corner, from the upper right one on, in which the legend covers no mark.
+    fn free_corner(&self, frame: &Area, marks: &[Pixel]) -> Option<Area> {
         let width = self.column + 2.0 * PADDING;
         let height = to_f64(self.entries.len()) * ROW + PADDING;
-        let is_left = matches!(place, LegendPlace::TopLeft | LegendPlace::BottomLeft);
-        let is_top = matches!(place, LegendPlace::TopLeft | LegendPlace::TopRight);
-        let area = frame.area;
-        Area {
-            left: if is_left {
-                area.left + INSET
-            } else {
-                area.right() - INSET - width
-            },
-            top: if is_top {
-                area.top + INSET
-            } else {
-                area.bottom() - INSET - height
-            },
+        let [left, top] = [frame.left + INSET, frame.top + INSET];
+        let [right, bottom] = [
+            frame.right() - INSET - width,
+            frame.bottom() - INSET - height,
+        ];
+        let corners = [[right, top], [left, top], [right, bottom], [left, bottom]];
+        let margin = MARKER_RADIUS + 4.0;
+        let boxes = corners.map(|[left, top]| Area {
+            left,
+            top,
             width,
             height,
-        }
+        });
+        boxes
+            .into_iter()
+            .find(|area| !marks.iter().any(|&pixel| area.contains(pixel, margin)))
     }
 
     fn columns_below(&self, width: f64) -> usize {
@@ -179,9 +134,8 @@ impl Legend<'_> {
             |count: &usize| to_f64(*count) * (self.column + COLUMN_GAP) <= width + COLUMN_GAP;
         let widest = (1..=self.entries.len()).take_while(fits).count().max(1);
         // Spread the entries evenly over the rows that the widest arrangement needs.
-        self.entries
-            .len()
-            .div_ceil(self.entries.len().div_ceil(widest))
+        let rows = self.entries.len().div_ceil(widest).max(1);
+        self.entries.len().div_ceil(rows).max(1)
     }
 
     fn rows(&self) -> usize {
@@ -209,46 +163,28 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
 }
 
 fn push_between(marks: &mut Vec<Pixel>, from: Pixel, to: Pixel) {
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-    let steps = (length / 3.0).ceil();
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let steps = (along[0].hypot(along[1]) / 3.0).ceil();
     let mut step = 0.0;
     while step < steps {
-        let share = step / steps;
-        marks.push([
-            from[0] + share * (to[0] - from[0]),
-            from[1] + share * (to[1] - from[1]),
-        ]);
+        let part = step / steps;
+        marks.push([from[0] + part * along[0], from[1] + part * along[1]]);
         step += 1.0;
     }
 }
 
 fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label: &str) {
     if let Some(line) = series.line {
-        canvas.line(
-            [left, middle],
-            [left + SAMPLE, middle],
-            &line_pen(line, series),
-        );
+        let end = [left + SAMPLE, middle];
+        canvas.line([left, middle], end, &line_pen(line, series.colour));
     }
     if let Some(marker) = series.marker {
-        draw_marker(
-            canvas,
-            [left + SAMPLE / 2.0, middle],
-            marker,
-            series.colour.hex(),
-        );
+        let centre = [left + SAMPLE / 2.0, middle];
+        draw_marker(canvas, centre, marker, series.colour.hex());
     }
-    let baseline = middle + 0.36 * f64::from(TEXT_SIZE);
-    canvas.text(
-        [left + SAMPLE + PADDING, baseline],
-        label,
-        TEXT_SIZE,
-        Anchor::Start,
-    );
-}
-
-/// Exact for any number of entries or columns that fits into a picture.
-#[allow(clippy::cast_precision_loss, reason = "small counts")]
-fn to_f64(count: usize) -> f64 {
-    count as f64
+    let place = [
+        left + SAMPLE + PADDING,
+        middle + 0.36 * f64::from(TEXT_SIZE),
+    ];
+    canvas.text(place, label, TEXT_SIZE, Anchor::Start);
 }

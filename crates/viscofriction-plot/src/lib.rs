@@ -1,8 +1,28 @@
-//! Pictures of curves and fields: [`draw`] makes a [`Drawing`] of a [`Figure`], which is an SVG text, and [`render_png`] a PNG of it.
+//! Pictures of curves and fields: [`draw`] makes a [`Drawing`] of a [`Figure`], which is an SVG text, and [`render_png`]
+//! a PNG of it.
 //!
 //! The crate draws what it is given or refuses: a point that is not finite or lies outside its axis is a
 //! [`PlotError`], never dropped, clamped or clipped.
 //! Output is the same byte for byte from run to run and does not depend on installed fonts.
+//!
+//! ```
+//! use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Series};
+//! use viscofriction_plot::{PNG_WIDTH, draw, render_png};
+//!
+//! let points = vec![[1e-3, 0.01], [1e-2, 0.1], [1e-1, 0.16]];
+//! let curve = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+//! let chart = Chart {
+//!     title: None,
+//!     x: Axis::log10("sliding speed v [m/s]", [1e-3, 1e-1]),
+//!     y: Axis::linear("coefficient of friction μ", [0.0, 0.2]),
+//!     series: vec![curve.labelled("half space")],
+//!     legend: LegendPlace::Free,
+//! };
+//! let drawing = draw(&Figure::single(chart))?;
+//! assert!(drawing.svg.contains(">sliding speed v [m/s]</text>"));
+//! assert_eq!(render_png(&drawing, PNG_WIDTH)?[1..4], *b"PNG");
+//! # Ok::<(), viscofriction_plot::PlotError>(())
+//! ```
 //!
 //! Axes, marks and legend are drawn here, because libraries for charts clamp or clip what lies outside, or have no legend
 //! samples with line and marker together. Texts are laid out letter by letter: they are short, and a library that shapes
@@ -27,11 +47,11 @@ mod ticks;
 pub use axis::{Axis, Scale};
 pub use canvas::Drawing;
 pub use chart::Chart;
-pub use colour::Colour;
+pub use colour::{Colour, ColourScale};
 pub use error::PlotError;
 pub use figure::{Figure, Panel, draw};
 pub use legend::LegendPlace;
-pub use map::{ColourScale, Map};
+pub use map::Map;
 pub use matrix::{Cell, Matrix, MatrixRow};
 pub use png::{PNG_WIDTH, render_png};
 pub use series::{Dash, Fill, Line, Marker, Series, Shape};

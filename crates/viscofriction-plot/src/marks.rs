@@ -1,6 +1,7 @@
 //! Lines, markers and error bars.
 
 use crate::canvas::{Canvas, Pen, Pixel};
+use crate::colour::Colour;
 use crate::frame::Frame;
 use crate::series::{Dash, Fill, Line, Marker, Series, Shape};
 
@@ -16,7 +17,7 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
         .map(|&point| frame.pixel(point))
         .collect();
     if let Some(line) = series.line {
-        canvas.polyline(&pixels, &line_pen(line, series));
+        canvas.polyline(&pixels, &line_pen(line, series.colour));
     }
     if let Some(errors) = &series.errors {
         for (&point, &error) in series.points.iter().zip(errors) {
@@ -35,27 +36,24 @@ pub(crate) fn error_ends(frame: &Frame, [x, y]: [f64; 2], error: f64) -> [Pixel;
     [y + error, y - error].map(|end| frame.pixel([x, end]))
 }
 
-/// Pen of a series' line.
-pub(crate) fn line_pen(line: Line, series: &Series) -> Pen<'static> {
+/// Pen of the line of a series.
+pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen<'static> {
     // Thin lines keep a pattern that can be told apart.
     let unit = line.width.max(1.2);
-    let pattern: Option<&[f64]> = match line.dash {
-        Dash::Solid => None,
-        Dash::Dashed => Some(&[4.0, 2.0]),
-        Dash::DashDot => Some(&[5.0, 1.8, 1.2, 1.8]),
-        Dash::Dotted => Some(&[1.2, 1.8]),
+    let pattern: &[f64] = match line.dash {
+        Dash::Solid => &[],
+        Dash::Dashed => &[4.0, 2.0],
+        Dash::DashDot => &[5.0, 1.8, 1.2, 1.8],
+        Dash::Dotted => &[1.2, 1.8],
     };
-    let lengths = |pattern: &[f64]| {
-        let texts: Vec<String> = pattern
-            .iter()
-            .map(|part| format!("{:.2}", part * unit))
-            .collect();
-        texts.join(" ")
-    };
+    let lengths: Vec<String> = pattern
+        .iter()
+        .map(|part| format!("{:.2}", part * unit))
+        .collect();
     Pen {
-        colour: series.colour.hex(),
+        colour: colour.hex(),
         width: line.width,
-        dash: pattern.map(lengths),
+        dash: (!lengths.is_empty()).then(|| lengths.join(" ")),
     }
 }
 
@@ -78,30 +76,24 @@ pub(crate) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, co
     match marker.shape {
         Shape::Circle => canvas.circle([x, y], radius, fill, &pen),
         Shape::Square => {
-            let half = 0.9 * radius;
-            let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
-            canvas.shape(&polygon([x, y], &corners), fill, &pen);
+            let [low, high] = [-0.9 * radius, 0.9 * radius];
+            let corners = [[low, low], [high, low], [high, high], [low, high]];
+            canvas.shape(&polygon([x, y], corners), fill, &pen);
         }
         Shape::Diamond => {
             let half = 1.25 * radius;
             let corners = [[0.0, -half], [half, 0.0], [0.0, half], [-half, 0.0]];
-            canvas.shape(&polygon([x, y], &corners), fill, &pen);
+            canvas.shape(&polygon([x, y], corners), fill, &pen);
         }
-        Shape::Plus => draw_plus(canvas, [x, y], 1.2 * radius, colour),
+        Shape::Plus => {
+            let (half, pen) = (1.2 * radius, Pen::solid(colour, 1.5));
+            canvas.line([x - half, y], [x + half, y], &pen);
+            canvas.line([x, y + half], [x, y - half], &pen);
+        }
     }
 }
 
-/// Draws a stroke from `-arm` to `arm` and its quarter turn.
-fn draw_plus(canvas: &mut Canvas, [x, y]: Pixel, half: f64, colour: &str) {
-    let pen = Pen::solid(colour, 1.5);
-    canvas.line([x - half, y], [x + half, y], &pen);
-    canvas.line([x, y + half], [x, y - half], &pen);
-}
-
-fn polygon([x, y]: Pixel, corners: &[[f64; 2]]) -> String {
-    let points: Vec<String> = corners
-        .iter()
-        .map(|[dx, dy]| format!("{:.2} {:.2}", x + dx, y + dy))
-        .collect();
+fn polygon([x, y]: Pixel, corners: [[f64; 2]; 4]) -> String {
+    let points = corners.map(|[right, down]| format!("{:.2} {:.2}", x + right, y + down));
     format!("M{}Z", points.join("L"))
 }

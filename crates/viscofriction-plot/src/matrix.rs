@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::axis::Axis;
-use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
-use crate::colour::Colour;
+use crate::canvas::{Anchor, Area, Canvas, NO_PEN, Pixel, to_f64};
+use crate::colour::{Colour, ColourScale, level_colour};
 use crate::error::PlotError;
-use crate::font::{check_fit, text_width};
-use crate::frame::{TICK_SIZE, TITLE_SIZE, side_margin, top_margin};
-use crate::map::{ColourScale, colour_of, draw_colour_bar};
+use crate::figure::Draw;
+use crate::font::{check_fit, text_width, widest};
+use crate::frame::{TICK_SIZE, TITLE_SIZE, top_margin};
 
 /// Rows of cells; the panel is wider than others because texts stand on both sides of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,74 +43,47 @@ pub enum Cell {
 }
 
 /// Width of the panel, \[px\].
-pub(crate) const MATRIX_WIDTH: f64 = 960.0;
+const MATRIX_WIDTH: f64 = 960.0;
 /// Distance from cell to cell along and across a row, \[px\].
 const STRIDE: [f64; 2] = [12.0, 16.0];
 /// Parts of these distances that are coloured.
 const FILLED: [f64; 2] = [0.9, 0.8];
 const GAP: f64 = 8.0;
-const BAR_WIDTH: f64 = 14.0;
 const BAR_HEIGHT: f64 = 300.0;
 const LEGEND_HEIGHT: f64 = 34.0;
 /// Drop of the baseline from the top of a row.
 const BASELINE: f64 = 12.0;
 
-impl Matrix {
-    /// Refuses rows and values that cannot be drawn faithfully.
-    pub(crate) fn validate(&self) -> Result<(), PlotError> {
-        let scale = self.colour_axis();
-        scale.validate()?;
+impl Draw for Matrix {
+    fn validate(&self) -> Result<(), PlotError> {
         if self.columns() == 0 {
-            return Err(PlotError::Empty {
-                what: format!("the rows of '{}'", self.colours.label),
-            });
+            let what = format!("the rows of '{}'", self.colours.label);
+            return Err(PlotError::Empty(what));
         }
         let cells = self.rows.iter().flat_map(|row| &row.cells);
-        for (index, cell) in cells.enumerate() {
-            if let Cell::Value(value) = cell {
-                scale.check(*value, &self.colours.label, index)?;
-            }
-        }
-        Ok(())
+        self.colours.validate(cells.map(|cell| match cell {
+            Cell::Value(value) => Some(*value),
+            Cell::Plain(_) => None,
+        }))
     }
 
-    fn columns(&self) -> usize {
-        let lengths = self.rows.iter().map(|row| row.cells.len());
-        lengths.max().unwrap_or(0)
+    fn width(&self) -> f64 {
+        MATRIX_WIDTH
     }
 
-    /// Room that the names need, \[px\].
-    pub(crate) fn left_margin(&self) -> Result<f64, PlotError> {
-        let names = self.rows.iter().map(|row| &row.name);
-        names
-            .map(|name| text_width(name, TICK_SIZE))
-            .try_fold(0.0, |widest: f64, width| Ok(widest.max(width? + 2.0 * GAP)))
+    fn left_margin(&self) -> Result<f64, PlotError> {
+        let names = self.rows.iter().map(|row| &*row.name);
+        Ok(widest(names, TICK_SIZE)? + 2.0 * GAP)
     }
 
-    /// Height of the whole panel, \[px\].
-    pub(crate) fn height(&self, left: f64) -> f64 {
+    fn height(&self, left: f64) -> Result<f64, PlotError> {
         let area = self.area([0.0, 0.0], left);
-        (area.bottom() + LEGEND_HEIGHT).max(area.top + BAR_HEIGHT + GAP)
+        Ok((area.bottom() + LEGEND_HEIGHT).max(area.top + BAR_HEIGHT + GAP))
     }
 
-    fn area(&self, [x, y]: Pixel, left: f64) -> Area {
-        Area {
-            left: x + left,
-            top: y + top_margin(self.title.as_deref()),
-            width: STRIDE[0] * to_f64(self.columns()),
-            height: STRIDE[1] * to_f64(self.rows.len()),
-        }
-    }
-
-    /// Draws the panel with its upper left corner at `origin`.
-    pub(crate) fn draw(
-        &self,
-        canvas: &mut Canvas,
-        origin: Pixel,
-        left: f64,
-    ) -> Result<(), PlotError> {
+    fn draw(&self, canvas: &mut Canvas, origin: Pixel, left: f64) -> Result<(), PlotError> {
         let area = self.area(origin, left);
-        let bar = origin[0] + MATRIX_WIDTH - side_margin(&self.colour_axis())? - BAR_WIDTH;
+        let bar = origin[0] + MATRIX_WIDTH - self.colours.bar_width()?;
         if let Some(title) = &self.title {
             check_fit(title, TITLE_SIZE, MATRIX_WIDTH - left)?;
             let place = [area.left, area.top - GAP];
@@ -127,36 +99,40 @@ impl Matrix {
         }
         self.draw_cells(canvas, area);
         self.draw_legend(canvas, area, bar)?;
-        let bar = Area {
-            left: bar,
-            top: area.top,
-            width: BAR_WIDTH,
-            height: BAR_HEIGHT,
-        };
-        draw_colour_bar(canvas, bar, &self.colour_axis())
+        self.colours.draw_bar(canvas, bar, [area.top, BAR_HEIGHT])
+    }
+}
+
+impl Matrix {
+    fn columns(&self) -> usize {
+        let lengths = self.rows.iter().map(|row| row.cells.len());
+        lengths.max().unwrap_or(0)
     }
 
-    /// One path per colour.
+    fn area(&self, [x, y]: Pixel, left: f64) -> Area {
+        Area {
+            left: x + left,
+            top: y + top_margin(self.title.as_deref()),
+            width: STRIDE[0] * to_f64(self.columns()),
+            height: STRIDE[1] * to_f64(self.rows.len()),
+        }
+    }
+
+    /// One path per colour; a cell is a unit square, counted from the lower left corner.
     fn draw_cells(&self, canvas: &mut Canvas, area: Area) {
-        let scale = self.colour_axis();
+        let [width, height] = FILLED;
         let mut paths: BTreeMap<String, String> = BTreeMap::new();
         for (row, cells) in self.rows.iter().rev().enumerate() {
             for (column, cell) in cells.cells.iter().enumerate() {
                 let colour = match cell {
-                    Cell::Value(value) => colour_of(scale.fraction(*value)),
+                    Cell::Value(value) => level_colour(self.colours.level(*value)),
                     Cell::Plain(colour) => colour.hex().to_owned(),
                 };
-                paths
-                    .entry(colour)
-                    .or_default()
-                    .push_str(&square(column, row));
+                let square = format!("M{column} {row}h{width}v{height}h-{width}z");
+                paths.entry(colour).or_default().push_str(&square);
             }
         }
-        canvas.start_mosaic(area, STRIDE);
-        for (colour, path) in paths {
-            canvas.shape(&path, &colour, &Pen::solid("none", 0.0));
-        }
-        canvas.end_group();
+        canvas.mosaic(area, STRIDE, paths);
     }
 
     fn draw_legend(&self, canvas: &mut Canvas, area: Area, end: f64) -> Result<(), PlotError> {
@@ -169,7 +145,7 @@ impl Matrix {
                 width: FILLED[0] * STRIDE[0],
                 height: FILLED[1] * STRIDE[1],
             };
-            canvas.rectangle(sample, colour.hex(), &Pen::solid("none", 0.0));
+            canvas.rectangle(sample, colour.hex(), &NO_PEN);
             x = sample.right() + GAP;
             check_fit(text, TICK_SIZE, end - x)?;
             canvas.text([x, baseline], text, TICK_SIZE, Anchor::Start);
@@ -177,20 +153,4 @@ impl Matrix {
         }
         Ok(())
     }
-
-    fn colour_axis(&self) -> Axis {
-        Axis::linear(self.colours.label.clone(), self.colours.range)
-    }
-}
-
-/// Path of a cell in units of cells, counted from the lower left corner.
-fn square(column: usize, row: usize) -> String {
-    let [width, height] = FILLED;
-    format!("M{column} {row}h{width}v{height}h-{width}z")
-}
-
-/// Exact for any number of cells that fits into a picture.
-#[allow(clippy::cast_precision_loss, reason = "counts are far below 2^52")]
-fn to_f64(count: usize) -> f64 {
-    count as f64
 }

@@ -15,14 +15,11 @@ pub const PNG_WIDTH: u32 = 1600;
 /// A drawing that cannot be read, or a size that cannot be allocated.
 pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     let tree = Tree::from_str(&drawing.outlined, &Options::default());
-    let tree = tree.map_err(|error| PlotError::Svg(error.to_string()))?;
-    let refuse = |reason: String| PlotError::Png { width, reason };
-    let size = tree.size().to_int_size();
-    let scaled = size
-        .scale_to_width(width)
-        .ok_or_else(|| refuse("no such size".into()))?;
-    let mut pixels = Pixmap::new(scaled.width(), scaled.height())
-        .ok_or_else(|| refuse("no such size".into()))?;
+    let tree = tree.map_err(|error| PlotError::Render(error.to_string()))?;
+    let refused = || PlotError::Render(format!("{width} pixels are no possible width"));
+    let scaled = tree.size().to_int_size().scale_to_width(width);
+    let scaled = scaled.ok_or_else(refused)?;
+    let mut pixels = Pixmap::new(scaled.width(), scaled.height()).ok_or_else(refused)?;
     pixels.fill(Color::WHITE);
     let [x, y] = [
         f64::from(scaled.width()) / f64::from(tree.size().width()),
@@ -34,9 +31,8 @@ pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     )]
     let scale = Transform::from_scale(x as f32, y as f32);
     resvg::render(&tree, scale, &mut pixels.as_mut());
-    pixels
-        .encode_png()
-        .map_err(|error| refuse(error.to_string()))
+    let png = pixels.encode_png();
+    png.map_err(|error| PlotError::Render(error.to_string()))
 }
 
 #[cfg(test)]
@@ -50,48 +46,26 @@ mod tests {
         canvas.finish().expect("a drawing")
     }
 
-    fn pixels(width: u32) -> Pixmap {
-        let png = render_png(&drawing(), width).expect("the picture is sound");
-        Pixmap::decode_png(&png).expect("a PNG file")
-    }
-
     #[test]
-    fn the_picture_has_the_width_asked_for_and_a_white_ground() {
-        let got = pixels(400);
+    fn the_picture_has_the_width_asked_for_a_white_ground_and_letters() {
+        let png = render_png(&drawing(), 400).expect("the picture is sound");
+        let again = render_png(&drawing(), 400);
+        assert_eq!(again.as_ref(), Ok(&png), "two pictures of one text");
+        let got = Pixmap::decode_png(&png).expect("a PNG file");
+        let size = (got.width(), got.height());
+        assert_eq!(size, (400, 200), "size of a picture of 40 x 20");
+        let corner = got.pixel(399, 0).map(|pixel| pixel.demultiply());
         assert_eq!(
-            (got.width(), got.height()),
-            (400, 200),
-            "size of a picture of 40 x 20"
-        );
-        let corner = got.pixel(399, 0).expect("a pixel").demultiply();
-        assert_eq!(
-            (corner.red(), corner.green(), corner.blue(), corner.alpha()),
-            (255, 255, 255, 255),
+            corner,
+            Some(Color::WHITE.to_color_u8()),
             "colour of the upper right corner"
         );
-    }
-
-    #[test]
-    fn text_is_drawn_with_the_bundled_font() {
-        let got = pixels(400);
-        let dark = got
-            .pixels()
-            .iter()
-            .filter(|pixel| pixel.red() < 128)
-            .count();
+        let pixels = got.pixels().iter();
+        let dark = pixels.filter(|pixel| pixel.red() < 128).count();
         // Three strokes of about 20 x 140, 20 x 140 and less: some percent of 80000 pixels.
         assert!(
             (2000..20_000).contains(&dark),
             "expected letters, got {dark} dark pixels"
-        );
-    }
-
-    #[test]
-    fn a_picture_is_the_same_file_every_time() {
-        assert_eq!(
-            render_png(&drawing(), 300),
-            render_png(&drawing(), 300),
-            "two pictures of one text"
         );
     }
 
@@ -101,15 +75,12 @@ mod tests {
             outlined: "<svg".into(),
             ..drawing()
         };
-        let broken = render_png(&broken, 100);
-        assert!(
-            matches!(broken, Err(PlotError::Svg(_))),
-            "expected a reading error, got {broken:?}"
-        );
-        let empty = render_png(&drawing(), 0);
-        assert!(
-            matches!(empty, Err(PlotError::Png { width: 0, .. })),
-            "expected a size error, got {empty:?}"
-        );
+        for (drawing, width) in [(broken, 100), (drawing(), 0)] {
+            let got = render_png(&drawing, width);
+            assert!(
+                matches!(got, Err(PlotError::Render(_))),
+                "expected {drawing:?} with {width} pixels to be refused, got {got:?}"
+            );
+        }
     }
 }

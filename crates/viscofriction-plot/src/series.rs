@@ -1,4 +1,4 @@
-//! Data series: points, error bars, and the look of their line and markers.
+//! Data series: points, error bars, and how their line and markers are drawn.
 
 use crate::axis::Axis;
 use crate::colour::Colour;
@@ -21,7 +21,7 @@ pub struct Series {
     pub colour: Colour,
 }
 
-/// Look of a line.
+/// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     /// Pattern.
@@ -31,10 +31,6 @@ pub struct Line {
 }
 
 /// Pattern of a line.
-#[allow(
-    clippy::enum_variant_names,
-    reason = "a dash-dot line has no other name"
-)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
     /// Unbroken.
@@ -47,7 +43,7 @@ pub enum Dash {
     Dotted,
 }
 
-/// Look and spacing of markers.
+/// How markers are drawn, and on which points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Marker {
     /// Outline.
@@ -109,9 +105,8 @@ impl Marker {
     #[must_use]
     pub const fn filled(shape: Shape) -> Self {
         Self {
-            shape,
             fill: Fill::Filled,
-            every: 1,
+            ..Self::open(shape)
         }
     }
 }
@@ -143,10 +138,21 @@ impl Series {
         }
     }
 
-    /// Refuses points and error bars that the axes do not show.
+    /// The same with a text in the legend.
+    #[must_use]
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        Self {
+            label: Some(label.into()),
+            ..self
+        }
+    }
+
+    /// Refuses points and error bars that the axes do not show, and what leaves no trace.
     pub(crate) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
-        let name = self.name();
-        self.validate_look(name)?;
+        let name = self.label.as_deref().unwrap_or("a series without label");
+        if let Some(what) = self.unseen() {
+            return Err(PlotError::Empty(format!("the {what} of {name}")));
+        }
         for (index, &[at, value]) in self.points.iter().enumerate() {
             x.check(at, name, index)?;
             y.check(value, name, index)?;
@@ -163,8 +169,9 @@ impl Series {
         }
         for (index, (&[_, value], &error)) in self.points.iter().zip(errors).enumerate() {
             if error < 0.0 {
-                return Err(PlotError::NegativeError {
-                    of: name.into(),
+                return Err(PlotError::Value {
+                    of: format!("error bars of {name}"),
+                    needed: "not be negative".into(),
                     index,
                     value: error,
                 });
@@ -175,116 +182,19 @@ impl Series {
         Ok(())
     }
 
-    fn validate_look(&self, name: &str) -> Result<(), PlotError> {
-        let empty = |what: &str| {
-            Err(PlotError::Empty {
-                what: format!("the {what} of {name}"),
-            })
-        };
-        if self.points.is_empty() {
-            return empty("list of points");
-        }
-        if self.marker.is_some_and(|marker| marker.every == 0) {
-            return empty("marker spacing");
-        }
-        if self
-            .line
-            .is_some_and(|line| !line.width.is_finite() || line.width <= 0.0)
-        {
-            return empty("line width");
-        }
+    /// What is missing for the series to be seen.
+    fn unseen(&self) -> Option<&'static str> {
+        let has_no_width = |line: Line| !line.width.is_finite() || line.width <= 0.0;
         // A line through one point leaves no trace.
-        let visible = self.marker.is_some() || (self.line.is_some() && self.points.len() > 1);
-        if visible { Ok(()) } else { empty("look") }
-    }
-
-    fn name(&self) -> &str {
-        self.label.as_deref().unwrap_or("a series without label")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const STAR: Marker = Marker::filled(Shape::Plus);
-
-    fn refusal(series: &Series) -> Option<PlotError> {
-        let x = Axis::linear("x [m]", [0.0, 1.0]);
-        let y = Axis::log10("y [Pa]", [0.1, 10.0]);
-        series.validate(&x, &y).err()
-    }
-
-    #[test]
-    fn points_that_would_vanish_are_refused() {
-        for point in [
-            [f64::NAN, 1.0],
-            [0.5, f64::INFINITY],
-            [1.1, 1.0],
-            [0.5, 0.0],
-            [0.5, 11.0],
-        ] {
-            let got = refusal(&Series::markers(vec![[0.5, 1.0], point], STAR, Colour::Red));
-            assert!(
-                matches!(
-                    got,
-                    Some(
-                        PlotError::NotFinite { index: 1, .. }
-                            | PlotError::OutsideRange { index: 1, .. }
-                    )
-                ),
-                "expected point 1 = {point:?} to be refused, got {got:?}"
-            );
-        }
-    }
-
-    #[test]
-    fn error_bars_must_match_the_points_and_stay_inside() {
-        let with = |errors: Vec<f64>| {
-            refusal(&Series {
-                errors: Some(errors),
-                ..Series::markers(vec![[0.5, 1.0]], STAR, Colour::Red)
-            })
-        };
-        assert_eq!(
-            with(vec![0.5]),
-            None,
-            "an error bar inside the axis is drawn"
-        );
-        for errors in [
-            vec![],
-            vec![0.1, 0.1],
-            vec![-0.1],
-            vec![f64::NAN],
-            vec![1.0],
-            vec![9.5],
-        ] {
-            let text = format!("{errors:?}");
-            assert!(
-                with(errors).is_some(),
-                "expected error bars {text} to be refused"
-            );
-        }
-    }
-
-    #[test]
-    fn series_without_a_trace_are_refused() {
-        let line = Line::thick(Dash::Solid);
-        let unseen = [
-            Series::line(vec![], line, Colour::Blue),
-            Series::line(vec![[0.5, 1.0]], line, Colour::Blue),
-            Series::markers(vec![[0.5, 1.0]], Marker { every: 0, ..STAR }, Colour::Blue),
-            Series {
-                line: None,
-                ..Series::line(vec![[0.5, 1.0], [0.6, 1.0]], line, Colour::Blue)
-            },
-        ];
-        for series in unseen {
-            let got = refusal(&series);
-            assert!(
-                matches!(got, Some(PlotError::Empty { .. })),
-                "expected {series:?} to be refused as empty, got {got:?}"
-            );
+        let is_drawn = self.marker.is_some() || (self.line.is_some() && self.points.len() > 1);
+        if self.points.is_empty() {
+            Some("list of points")
+        } else if self.marker.is_some_and(|marker| marker.every == 0) {
+            Some("marker spacing")
+        } else if self.line.is_some_and(has_no_width) {
+            Some("line width")
+        } else {
+            (!is_drawn).then_some("line and markers")
         }
     }
 }

@@ -1,0 +1,132 @@
+//! What stands in the SVG of a figure.
+
+use viscofriction_plot::{
+    Axis, Cell, Chart, Colour, Dash, Figure, LegendPlace, Line, Panel, Series, draw,
+};
+
+use crate::{chart, map, matrix, points};
+
+fn svg(panel: impl Into<Panel>) -> String {
+    let drawing = draw(&Figure::single(panel));
+    drawing.expect("the figure is sound").svg
+}
+
+/// The number of the first attribute of this name after the n-th mark.
+fn number(svg: &str, name: &str) -> f64 {
+    let tail = svg.split(&format!(" {name}=\"")).nth(1);
+    let digits = tail.and_then(|tail| tail.split('"').next());
+    digits.and_then(|digits| digits.parse().ok()).expect(name)
+}
+
+#[test]
+fn several_panels_line_up_with_all_their_texts_and_are_the_same_every_time() {
+    let page = Figure {
+        panels: vec![chart().into(), map().into(), chart().into()],
+        columns: 2,
+    };
+    let got = draw(&page);
+    assert_eq!(got, draw(&page), "two pictures of one figure");
+    let text = got.expect("the figure is sound").svg;
+    for part in [
+        r#"width="960""#,
+        ">velocity v [m/s]</text>",
+        ">coefficient of friction μ [1]</text>",
+        ">Cone, c₁ = 0.1</text>",
+        ">theory, s &lt; 1 &amp; more</text>",
+        ">simulation</text>",
+        ">10⁻³</text>",
+        ">0.15</text>",
+        ">x [mm]</text>",
+        ">pressure p [MPa]</text>",
+    ] {
+        assert!(text.contains(part), "expected '{part}' in {text}");
+    }
+    let single = number(&svg(chart()), "width");
+    assert!((single - 480.0).abs() < 0.011, "one column has {single} px");
+}
+
+#[test]
+fn markers_stand_on_their_points() {
+    // The frame is 280 px high and begins 10 px below the upper edge.
+    for (y, expected) in [(0.2, 10.0), (0.1, 150.0), (0.0, 290.0)] {
+        let got = number(&svg(points(&[[1e-1, y]])), "cy");
+        assert!(
+            (got - expected).abs() < 0.011,
+            "expected μ = {y} at {expected} px, got {got}"
+        );
+    }
+}
+
+#[test]
+fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
+    let height = |chart: Chart| number(&svg(chart), "height");
+    let inside = height(chart());
+    let below = height(Chart {
+        legend: LegendPlace::Below,
+        ..chart()
+    });
+    assert!(
+        below > inside + 17.0,
+        "expected a row more than {inside} px, got {below}"
+    );
+    let zigzag = (0..40).map(|k| {
+        let x = 10_f64.powf(-3.0 + 0.1 * f64::from(k));
+        [x, 0.1 + 0.1 * f64::from(k % 3 - 1)]
+    });
+    let mut full = chart();
+    let line = Line::thin(Dash::Solid);
+    full.series
+        .push(Series::line(zigzag.collect(), line, Colour::Black));
+    let got = height(full);
+    assert!(
+        (got - below).abs() < 0.011,
+        "expected the legend below, {below} px, got {got}"
+    );
+}
+
+#[test]
+fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
+    let text = svg(map());
+    for cell in [
+        "M0 0h2v1h-2z",
+        "M2 0h1v1h-1z",
+        "M1 1h1v1h-1z",
+        "M2 1h1v1h-1z",
+    ] {
+        let path = format!(r#"d="{cell}""#);
+        assert!(text.contains(&path), "expected the cell {cell} in {text}");
+    }
+    let drawn = text.matches("v1h-").count();
+    assert_eq!(
+        drawn, 104,
+        "4 runs of cells and 100 steps of the colour bar"
+    );
+}
+
+#[test]
+fn labels_of_the_x_axis_stand_clear_of_each_other() {
+    let crowded = Chart {
+        x: Axis::linear("time t [s]", [0.0, 3e-12]),
+        ..points(&[[1e-12, 0.1]])
+    };
+    let text = svg(crowded);
+    let is_there = |label: &&str| text.contains(&format!(">{label}·10⁻¹²<"));
+    let got: Vec<&str> = ["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]
+        .into_iter()
+        .filter(is_there)
+        .collect();
+    // A step of half a unit is 65 px, less than a label of some 62 px and the gap of 6 px.
+    assert_eq!(got, ["1.0", "2.0", "3.0"], "labels in {text}");
+}
+
+#[test]
+fn a_matrix_colours_every_cell() {
+    let [value, plain] = [Cell::Value(-6.0), Cell::Plain(Colour::Grey)];
+    let text = svg(matrix(&[value, plain, value]));
+    assert!(
+        text.contains("M0 0h0.9v0.8h-0.9zM2 0h0.9v0.8h-0.9z"),
+        "two cells of one colour in {text}"
+    );
+    // One cell and one sample of the legend.
+    assert_eq!(text.matches("#b0b0b0").count(), 2, "grey in {text}");
+}
