@@ -40,7 +40,7 @@ impl Footprint {
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let depth = depth_scale_of_body(body, material, load)?;
-        let height = if body.apex_exponent() < 0.75 {
+        let height = if body.profile_exponent() < 0.75 {
             2.0
         } else {
             1.5
@@ -104,7 +104,7 @@ impl Footprint {
 }
 
 fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
-    let above = |radius: f64| body.height(radius) >= height;
+    let above = |radius: f64| body.profile_height(radius) >= height;
     let mut radius = if body.max_radius().is_finite() {
         body.max_radius()
     } else {
@@ -116,6 +116,6 @@ fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<
     while above(0.5 * radius) && radius > f64::MIN_POSITIVE {
         radius *= 0.5;
     }
-    let excess = |radius: f64| (body.height(radius) - height).clamp(-height, height);
+    let excess = |radius: f64| (body.profile_height(radius) - height).clamp(-height, height);
     bracketed_root(excess, [0.5 * radius, radius]).or(above(radius).then_some(radius))
 }

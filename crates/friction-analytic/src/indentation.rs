@@ -130,7 +130,7 @@ pub fn time_to_depth(
 pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Integral {
     let integrand = |psi: f64| {
         let cosine = psi.cos();
-        body.slope(radius * cosine) * cosine * cosine
+        body.profile_slope(radius * cosine) * cosine * cosine
     };
     let kinks = body.kinks().into_iter().map(|kink| kink.radius);
     let angle = |b: f64| ((radius - b) * (radius + b)).sqrt().atan2(b);

@@ -33,6 +33,7 @@ pub fn sinking_velocity(
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
+    load.require_normal_force()?;
     let depth = checked_depth(material, load)?;
     let length = contact_length(contact)?;
     let rise = rise(line, contact)?;
@@ -52,6 +53,7 @@ pub fn one_sided_sinking_velocity(
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
+    load.require_normal_force()?;
     let stationary_depth = checked_depth(material, load)?;
     let length = contact_length(contact)?;
     let rise = rise(line, contact)?;

@@ -16,7 +16,7 @@ pub(crate) fn divergence_cause(
     radius: f64,
     depth: f64,
 ) -> Option<DivergenceCause> {
-    let exponent = body.apex_exponent();
+    let exponent = body.profile_exponent();
     if exponent <= 0.5 {
         return Some(DivergenceCause::ApexExponent { exponent });
     }
@@ -58,7 +58,7 @@ pub(crate) fn ends_outside_apex(body: &(impl Axisymmetric + ?Sized), radius: f64
 /// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`.
 fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Integral {
     let square = |x: f64| body.line_slope(x).powi(2);
-    let exponent = body.apex_exponent();
+    let exponent = body.profile_exponent();
     if exponent >= 1.0 {
         return over_pieces(square, &[0.0, end]);
     }

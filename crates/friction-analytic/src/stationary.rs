@@ -4,7 +4,7 @@
 //! d = F_N / (4 η v)        (12)
 //! ```
 
-use indenters::SlidingLoad;
+use indenters::{Control, SlidingLoad};
 use rheology::Viscous;
 
 use crate::FrictionError;
@@ -36,17 +36,20 @@ impl StationarySliding {
     }
 }
 
-/// Stationary indentation depth F_N/(4 η v), (12), \[m]; it does not depend on the shape.
+/// Stationary indentation depth, \[m]: the one of the load, or F_N/(4 η v), (12), which does not depend on the shape.
 #[must_use]
 pub fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> f64 {
-    quotient(
-        0.25 * load.normal_force(),
-        [material.viscosity(), load.velocity()],
-    )
+    match load.control() {
+        Control::IndentationDepth(depth) => depth,
+        Control::NormalForce(force) => {
+            quotient(0.25 * force, [material.viscosity(), load.velocity()])
+        }
+    }
 }
 
 /// The stationary depth, or the reason why it is not a number.
 pub(crate) fn checked_depth(material: &Viscous, load: &SlidingLoad) -> Result<f64, FrictionError> {
+    load.require_stationary()?;
     representable("indentation depth", stationary_depth(material, load))
 }
 

@@ -136,6 +136,7 @@ impl Scales {
         material: &Viscous,
         load: &SlidingLoad,
     ) -> Result<Self, FrictionError> {
+        load.require_normal_force()?;
         let depth = checked_depth(material, load)?;
         Ok(Self {
             shape: Shape::of(profile)?,

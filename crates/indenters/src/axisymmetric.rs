@@ -22,19 +22,20 @@ pub struct Kink {
 /// A body of revolution, given by the height h(r) of its surface above its lowest point.
 ///
 /// Implementors give the profile and two derivatives; the equivalent line follows by quadrature. Shapes with a closed
-/// form override [`line_height`](Self::line_height) and [`line_slope`](Self::line_slope).
-pub trait Axisymmetric {
+/// form override [`line_height`](Self::line_height) and [`line_slope`](Self::line_slope). The macro
+/// [`surface_of_revolution!`](crate::surface_of_revolution) makes a body of revolution a [`Surface`](crate::Surface).
+pub trait Axisymmetric: Send + Sync {
     /// Height h(r) above the lowest point, \[m], at a `radius` r ≥ 0 \[m]; `+∞` where the body has ended.
-    fn height(&self, radius: f64) -> f64;
+    fn profile_height(&self, radius: f64) -> f64;
 
     /// Slope h'(r), at a `radius` r with 0 < r < [`max_radius`](Self::max_radius).
-    fn slope(&self, radius: f64) -> f64;
+    fn profile_slope(&self, radius: f64) -> f64;
 
     /// Second derivative h''(r), \[1/m], away from kinks.
-    fn curvature(&self, radius: f64) -> f64;
+    fn profile_curvature(&self, radius: f64) -> f64;
 
     /// Leading exponent p of h ∼ c r^p at the apex; `+∞` for a flat end.
-    fn apex_exponent(&self) -> f64;
+    fn profile_exponent(&self) -> f64;
 
     /// Radius at which the body ends, \[m]; `+∞` if it does not.
     fn max_radius(&self) -> f64 {
@@ -64,7 +65,7 @@ pub trait Axisymmetric {
     /// # Errors
     /// [`IndenterError::OutOfDomain`] when `radius` is negative, not a number, or the body has ended before it.
     fn checked_height(&self, radius: f64) -> Result<f64, IndenterError> {
-        within(self, radius).map(|radius| self.height(radius))
+        within(self, radius).map(|radius| self.profile_height(radius))
     }
 
     /// Height of the equivalent line h̃(x), \[m].
@@ -76,10 +77,51 @@ pub trait Axisymmetric {
     }
 }
 
+macro_rules! forward_to_body {
+    ($pointer:ty) => {
+        impl<P: Axisymmetric + ?Sized> Axisymmetric for $pointer {
+            fn profile_height(&self, radius: f64) -> f64 {
+                (**self).profile_height(radius)
+            }
+
+            fn profile_slope(&self, radius: f64) -> f64 {
+                (**self).profile_slope(radius)
+            }
+
+            fn profile_curvature(&self, radius: f64) -> f64 {
+                (**self).profile_curvature(radius)
+            }
+
+            fn profile_exponent(&self) -> f64 {
+                (**self).profile_exponent()
+            }
+
+            fn max_radius(&self) -> f64 {
+                (**self).max_radius()
+            }
+
+            fn kinks(&self) -> Vec<Kink> {
+                (**self).kinks()
+            }
+
+            fn line_height(&self, x: f64) -> f64 {
+                (**self).line_height(x)
+            }
+
+            fn line_slope(&self, x: f64) -> f64 {
+                (**self).line_slope(x)
+            }
+        }
+    };
+}
+
+forward_to_body!(&P);
+forward_to_body!(Box<P>);
+
 fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, IndenterError> {
     let upper = body.max_radius();
     // A body of finite radius without a finite height there (the sphere at its equator) has ended.
-    if radius >= 0.0 && radius <= upper && body.height(radius).is_finite() {
+    if radius >= 0.0 && radius <= upper && body.profile_height(radius).is_finite() {
         return Ok(radius);
     }
     Err(IndenterError::OutOfDomain {
@@ -101,7 +143,7 @@ pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     if x == 0.0 {
         return 0.0;
     }
-    x * quarter_turn(body, x, |radius| body.slope(radius))
+    x * quarter_turn(body, x, |radius| body.profile_slope(radius))
 }
 
 /// The derivative of the transform by quadrature: a kink of h' at b adds Δh' b / √(x² − b²) to
@@ -130,21 +172,21 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
 
 /// (r h')' = h' + r h''.
 fn slope_of_moment(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
-    let slope = body.slope(r);
-    let change = r * body.curvature(r);
+    let slope = body.profile_slope(r);
+    let change = r * body.profile_curvature(r);
     if change.is_finite() {
         return slope + change;
     }
     // Close to a sharp apex h'' overflows before r h'' does; there h' ∼ r^(p−1).
-    slope * body.apex_exponent()
+    slope * body.profile_exponent()
 }
 
 /// h̃'(+0), from the leading exponent.
 fn apex_slope(body: &(impl Axisymmetric + ?Sized)) -> f64 {
-    match body.apex_exponent() {
+    match body.profile_exponent() {
         sharp if sharp < 1.0 => f64::INFINITY,
         blunt if blunt > 1.0 => 0.0,
-        _ => FRAC_PI_2 * body.slope(f64::MIN_POSITIVE),
+        _ => FRAC_PI_2 * body.profile_slope(f64::MIN_POSITIVE),
     }
 }
 

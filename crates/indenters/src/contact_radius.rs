@@ -117,7 +117,7 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
 
     fn follows_apex(&self, x: f64, height: f64) -> bool {
         let exponent = x * self.body.line_slope(x) / height;
-        (exponent / self.body.apex_exponent() - 1.0).abs() <= APEX_DEVIATION
+        (exponent / self.body.profile_exponent() - 1.0).abs() <= APEX_DEVIATION
     }
 
     fn next_station(&self, x: f64) -> f64 {
@@ -183,7 +183,7 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
 
     fn end_of_body(&self, radius: f64) -> Result<f64, IndenterError> {
         let available = self.line(radius)?;
-        let flat = available == 0.0 && self.body.apex_exponent() == f64::INFINITY;
+        let flat = available == 0.0 && self.body.profile_exponent() == f64::INFINITY;
         if flat && radius >= self.end {
             return Ok(radius);
         }

@@ -44,6 +44,15 @@ impl Surface for Cylinder {
     fn mirrors(&self) -> [bool; 2] {
         [true; 2]
     }
+
+    fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+        let half = (2.0 * self.radius).sqrt() * height.max(0.0).sqrt();
+        [[-half, half], [f64::NEG_INFINITY, f64::INFINITY]]
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
 }
 
 #[cfg(test)]

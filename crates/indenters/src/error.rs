@@ -83,6 +83,22 @@ pub enum IndenterError {
         /// The depth asked for, \[m].
         depth: f64,
     },
+    /// A method needs a force, but the load prescribes a depth.
+    #[error(
+        "this method needs a normal force, but the load prescribes the indentation depth {indentation_depth}"
+    )]
+    NeedsNormalForce {
+        /// The depth of the load, \[m].
+        indentation_depth: f64,
+    },
+    /// A method gives the stationary state, but the load ends after a sliding distance.
+    #[error(
+        "this method gives the stationary state only, but the load ends after the sliding distance {sliding_distance}"
+    )]
+    OnlyStationary {
+        /// The sliding distance of the load, \[m].
+        sliding_distance: f64,
+    },
     /// An integral did not reach the accuracy asked for.
     #[error(
         "the integral {value} is known only to {reached} of itself, but {relative_tolerance} was asked for"

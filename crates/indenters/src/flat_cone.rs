@@ -6,7 +6,7 @@
 
 use crate::error::positive;
 use crate::right_triangle::{arc_cosine, leg};
-use crate::{Axisymmetric, IndenterError, Kink};
+use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
 
 /// A cone whose tip is cut off; flat up to its `radius`, then rising with its `slope`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,22 +42,22 @@ impl FlatCone {
 }
 
 impl Axisymmetric for FlatCone {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         self.slope * (radius - self.radius).max(0.0)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return 0.0;
         }
         self.slope
     }
 
-    fn curvature(&self, _radius: f64) -> f64 {
+    fn profile_curvature(&self, _radius: f64) -> f64 {
         0.0
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -85,3 +85,5 @@ impl Axisymmetric for FlatCone {
         x.signum() * self.slope * (arc_cosine(self.radius, distance) + singular)
     }
 }
+
+surface_of_revolution!(FlatCone);

@@ -1,7 +1,7 @@
 //! The cylindrical punch with a flat end.
 
 use crate::error::positive;
-use crate::{Axisymmetric, IndenterError};
+use crate::{Axisymmetric, IndenterError, surface_of_revolution};
 
 /// A flat end with a vertical wall around it; the contact circle is its rim at every depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,19 +37,19 @@ impl FlatPunch {
 }
 
 impl Axisymmetric for FlatPunch {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         self.inside_or_wall(radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         self.inside_or_wall(radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         self.inside_or_wall(radius)
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -65,3 +65,5 @@ impl Axisymmetric for FlatPunch {
         x.signum() * self.inside_or_wall(x.abs())
     }
 }
+
+surface_of_revolution!(FlatPunch);

@@ -79,25 +79,6 @@ impl HeightMap {
         [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))
     }
 
-    /// The rectangle along x and along y around all of the surface that is at most `height` \[m] above its lowest point,
-    /// \[m].
-    #[must_use]
-    pub fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
-        let mut nodes = self.lowest.map(|index| [index, index]);
-        for (index, _) in (self.heights.iter().enumerate()).filter(|(_, node)| **node <= height) {
-            let node = [index / self.shape[1], index % self.shape[1]];
-            for (nodes, index) in nodes.iter_mut().zip(node) {
-                *nodes = [nodes[0].min(index), nodes[1].max(index)];
-            }
-        }
-        // A cell reaches below a height only where one of its corners does.
-        [0, 1].map(|axis| {
-            let [first, last] = nodes[axis];
-            let end = (last + 1).min(self.shape[axis] - 1);
-            self.between(axis, [first.saturating_sub(1), end])
-        })
-    }
-
     fn between(&self, axis: usize, nodes: [usize; 2]) -> [f64; 2] {
         nodes.map(|node| (node as f64 - self.lowest[axis] as f64) * self.spacing[axis])
     }
@@ -166,6 +147,22 @@ impl Surface for HeightMap {
             (mix(ahead, t) - mix(behind, t)) / self.spacing[0],
             mix([behind[1] - behind[0], ahead[1] - ahead[0]], s) / self.spacing[1],
         ]
+    }
+
+    fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+        let mut nodes = self.lowest.map(|index| [index, index]);
+        for (index, _) in (self.heights.iter().enumerate()).filter(|(_, node)| **node <= height) {
+            let node = [index / self.shape[1], index % self.shape[1]];
+            for (nodes, index) in nodes.iter_mut().zip(node) {
+                *nodes = [nodes[0].min(index), nodes[1].max(index)];
+            }
+        }
+        // A cell reaches below a height only where one of its corners does.
+        [0, 1].map(|axis| {
+            let [first, last] = nodes[axis];
+            let end = (last + 1).min(self.shape[axis] - 1);
+            self.between(axis, [first.saturating_sub(1), end])
+        })
     }
 
     fn mirrors(&self) -> [bool; 2] {

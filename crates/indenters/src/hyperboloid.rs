@@ -5,7 +5,7 @@
 //! ```
 
 use crate::error::positive;
-use crate::{Axisymmetric, IndenterError};
+use crate::{Axisymmetric, IndenterError, surface_of_revolution};
 
 /// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,20 +41,20 @@ impl Hyperboloid {
 }
 
 impl Axisymmetric for Hyperboloid {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         self.slope * radius * (radius / (radius.hypot(self.radius) + self.radius))
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         self.slope * (radius / radius.hypot(self.radius))
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         let distance = radius.hypot(self.radius);
         self.slope * (self.radius / distance).powi(2) / distance
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 
@@ -67,3 +67,5 @@ impl Axisymmetric for Hyperboloid {
         self.slope * ((x / self.radius).atan() + (x / distance) * (self.radius / distance))
     }
 }
+
+surface_of_revolution!(Hyperboloid);

@@ -32,6 +32,7 @@ mod contact_radius;
 mod cylinder;
 mod discrete_edge;
 mod error;
+mod extent;
 mod flat_cone;
 mod flat_punch;
 mod height_map;
@@ -44,6 +45,8 @@ mod monotone_breaks;
 mod piecewise_linear;
 mod power;
 pub mod quadrature;
+#[doc(hidden)]
+pub mod revolution;
 mod right_triangle;
 mod root;
 mod round_tipped_cone;
@@ -71,7 +74,7 @@ pub use leading_edge::{
     leading_edge_with,
 };
 pub use line::{EquivalentLine, RigidLine};
-pub use load::SlidingLoad;
+pub use load::{Control, PressingLoad, SlidingLoad};
 pub use piecewise_linear::PiecewiseLinearProfile;
 pub use power::PowerProfile;
 pub use root::bracketed_root;

@@ -28,9 +28,47 @@ pub trait RigidLine {
     }
 }
 
+macro_rules! forward_to_line {
+    ($pointer:ty) => {
+        impl<L: RigidLine + ?Sized> RigidLine for $pointer {
+            fn height(&self, x: f64) -> f64 {
+                (**self).height(x)
+            }
+
+            fn slope(&self, x: f64) -> f64 {
+                (**self).slope(x)
+            }
+
+            fn domain(&self) -> [f64; 2] {
+                (**self).domain()
+            }
+
+            fn kinks(&self) -> Vec<f64> {
+                (**self).kinks()
+            }
+
+            fn monotone_breaks(&self, samples: usize) -> Vec<f64> {
+                (**self).monotone_breaks(samples)
+            }
+        }
+    };
+}
+
+forward_to_line!(&L);
+forward_to_line!(Box<L>);
+
 /// The equivalent line of a body of revolution, `h̃(x)`, with its apex at `x = 0`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct EquivalentLine<'a, P: ?Sized>(pub &'a P);
+
+// Not derived, because the body itself need not be one that can be copied.
+impl<P: ?Sized> Clone for EquivalentLine<'_, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: ?Sized> Copy for EquivalentLine<'_, P> {}
 
 impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
     fn height(&self, x: f64) -> f64 {

@@ -3,36 +3,160 @@
 use crate::IndenterError;
 use crate::error::positive;
 
-/// A constant normal force on a body that slides along x with constant speed.
+/// What is prescribed normal to the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Control {
+    /// Normal force F_N, \[N]; the depth follows.
+    NormalForce(f64),
+    /// Indentation depth d of the lowest point of the body, \[m]; the normal force follows.
+    IndentationDepth(f64),
+}
+
+impl Control {
+    fn checked(self) -> Result<Self, IndenterError> {
+        match self {
+            Self::NormalForce(force) => positive("normal_force", force).map(Self::NormalForce),
+            Self::IndentationDepth(depth) => {
+                positive("indentation_depth", depth).map(Self::IndentationDepth)
+            }
+        }
+    }
+}
+
+/// A body that is pressed and slides along x with constant speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlidingLoad {
-    normal_force: f64,
+    control: Control,
     velocity: f64,
+    sliding_distance: Option<f64>,
 }
 
 impl SlidingLoad {
-    /// Pressed with `normal_force` F_N > 0 \[N], moved with `velocity` v > 0 \[m/s] towards positive x.
+    /// Pressed with `normal_force` F_N > 0 \[N], moved with `velocity` v > 0 \[m/s] towards positive x, for so long that the
+    /// state is stationary.
     ///
     /// # Errors
     /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero. A body at rest never
     /// stops sinking into a viscous half space; see the functions for normal indentation.
     pub fn new(normal_force: f64, velocity: f64) -> Result<Self, IndenterError> {
+        Self::with(Control::NormalForce(normal_force), velocity)
+    }
+
+    /// Held at `indentation_depth` d > 0 \[m], moved with `velocity` v > 0 \[m/s] towards positive x, for so long that the
+    /// state is stationary.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
+    pub fn at_depth(indentation_depth: f64, velocity: f64) -> Result<Self, IndenterError> {
+        Self::with(Control::IndentationDepth(indentation_depth), velocity)
+    }
+
+    /// Pressed as `control` says, moved with `velocity` v > 0 \[m/s].
+    ///
+    /// # Errors
+    /// Like [`SlidingLoad::new`] and [`SlidingLoad::at_depth`].
+    pub fn with(control: Control, velocity: f64) -> Result<Self, IndenterError> {
         Ok(Self {
-            normal_force: positive("normal_force", normal_force)?,
+            control: control.checked()?,
             velocity: positive("velocity", velocity)?,
+            sliding_distance: None,
         })
     }
 
-    /// Normal force F_N, \[N].
+    /// The same load, seen when the body has slid `sliding_distance` > 0 \[m] since first touch.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the distance is not finite and greater than zero.
+    pub fn after(self, sliding_distance: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            sliding_distance: Some(positive("sliding_distance", sliding_distance)?),
+            ..self
+        })
+    }
+
+    /// Force or depth.
     #[must_use]
-    pub const fn normal_force(&self) -> f64 {
-        self.normal_force
+    pub const fn control(&self) -> Control {
+        self.control
     }
 
     /// Sliding speed v, \[m/s].
     #[must_use]
     pub const fn velocity(&self) -> f64 {
         self.velocity
+    }
+
+    /// Sliding distance since first touch, \[m]; none for the stationary state.
+    #[must_use]
+    pub const fn sliding_distance(&self) -> Option<f64> {
+        self.sliding_distance
+    }
+
+    /// Normal force F_N, \[N]; none where the depth is prescribed.
+    #[must_use]
+    pub const fn normal_force(&self) -> Option<f64> {
+        match self.control {
+            Control::NormalForce(force) => Some(force),
+            Control::IndentationDepth(_) => None,
+        }
+    }
+
+    /// Normal force F_N \[N], for methods that cannot prescribe the depth.
+    ///
+    /// # Errors
+    /// [`IndenterError::NeedsNormalForce`] where the depth is prescribed.
+    pub const fn require_normal_force(&self) -> Result<f64, IndenterError> {
+        match self.control {
+            Control::NormalForce(force) => Ok(force),
+            Control::IndentationDepth(indentation_depth) => {
+                Err(IndenterError::NeedsNormalForce { indentation_depth })
+            }
+        }
+    }
+
+    /// Force or depth, for methods that know the stationary state only.
+    ///
+    /// # Errors
+    /// [`IndenterError::OnlyStationary`] where a sliding distance is prescribed.
+    pub const fn require_stationary(&self) -> Result<Control, IndenterError> {
+        match self.sliding_distance {
+            None => Ok(self.control),
+            Some(sliding_distance) => Err(IndenterError::OnlyStationary { sliding_distance }),
+        }
+    }
+}
+
+/// A body that is pressed for a time, without sliding; the control is constant from first touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PressingLoad {
+    control: Control,
+    duration: f64,
+}
+
+impl PressingLoad {
+    /// Pressed as `control` says for a `duration` > 0 \[s].
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when force, depth or duration is not finite and greater than zero.
+    pub fn new(control: Control, duration: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            control: control.checked()?,
+            duration: positive("duration", duration)?,
+        })
+    }
+
+    /// Force or depth.
+    #[must_use]
+    pub const fn control(&self) -> Control {
+        self.control
+    }
+
+    /// Time since first touch, \[s].
+    #[must_use]
+    pub const fn duration(&self) -> f64 {
+        self.duration
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::right_triangle::{arc_sine_difference, leg};
 use crate::table::{Column, check_table};
-use crate::{Axisymmetric, IndenterError, Kink};
+use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
 
 /// A body of revolution with a straight profile between the rows of a table; it ends at the last radius.
 ///
@@ -130,7 +130,7 @@ fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Axisymmetric for PiecewiseLinearProfile {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         if radius > self.max_radius() {
             return f64::INFINITY;
         }
@@ -139,18 +139,18 @@ impl Axisymmetric for PiecewiseLinearProfile {
         self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i])
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         if radius > self.max_radius() {
             return f64::INFINITY;
         }
         self.slopes[self.piece(radius)]
     }
 
-    fn curvature(&self, _radius: f64) -> f64 {
+    fn profile_curvature(&self, _radius: f64) -> f64 {
         0.0
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         if self.slopes[0] == 0.0 {
             return f64::INFINITY;
         }
@@ -192,3 +192,5 @@ impl Axisymmetric for PiecewiseLinearProfile {
         x.signum() * (smooth + singular)
     }
 }
+
+surface_of_revolution!(PiecewiseLinearProfile);

@@ -6,7 +6,7 @@
 //! ```
 
 use crate::error::positive;
-use crate::{Axisymmetric, IndenterError, stretch};
+use crate::{Axisymmetric, IndenterError, stretch, surface_of_revolution};
 
 /// A body of revolution `h(r) = c r^p` with any p > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,11 +80,11 @@ impl PowerProfile {
 }
 
 impl Axisymmetric for PowerProfile {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         scaled_power(self.coefficient, radius, self.exponent)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         scaled_power(
             self.coefficient * self.exponent,
             radius,
@@ -92,23 +92,25 @@ impl Axisymmetric for PowerProfile {
         )
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         let factor = self.coefficient * self.exponent * (self.exponent - 1.0);
         scaled_power(factor, radius, self.exponent - 2.0)
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         self.exponent
     }
 
     fn line_height(&self, x: f64) -> f64 {
-        self.stretch * self.height(x.abs())
+        self.stretch * self.profile_height(x.abs())
     }
 
     fn line_slope(&self, x: f64) -> f64 {
-        x.signum() * self.stretch * self.slope(x.abs())
+        x.signum() * self.stretch * self.profile_slope(x.abs())
     }
 }
+
+surface_of_revolution!(PowerProfile);
 
 /// `factor · radius^exponent`, also where the power alone leaves the range of numbers and the product does not.
 pub(crate) fn scaled_power(factor: f64, radius: f64, exponent: f64) -> f64 {

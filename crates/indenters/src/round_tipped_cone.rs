@@ -7,7 +7,7 @@
 
 use crate::error::positive;
 use crate::right_triangle::{arc_cosine, leg};
-use crate::{Axisymmetric, IndenterError, Kink};
+use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
 
 /// A cone that touches a paraboloid at `radius`, where slope and height agree.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,25 +48,25 @@ impl RoundTippedCone {
 }
 
 impl Axisymmetric for RoundTippedCone {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return 0.5 * self.slope * radius * (radius / self.radius);
         }
         self.slope * (radius - 0.5 * self.radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         self.slope * (radius / self.radius).min(1.0)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return self.slope / self.radius;
         }
         0.0
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 
@@ -94,3 +94,5 @@ impl Axisymmetric for RoundTippedCone {
         x.signum() * self.slope * (angle + 2.0 * self.overhang(distance))
     }
 }
+
+surface_of_revolution!(RoundTippedCone);

@@ -6,7 +6,7 @@
 
 use crate::error::positive;
 use crate::right_triangle::leg;
-use crate::{Axisymmetric, IndenterError};
+use crate::{Axisymmetric, IndenterError, surface_of_revolution};
 
 /// The lower half of a sphere; it ends at the equator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,21 +34,21 @@ impl Sphere {
 }
 
 impl Axisymmetric for Sphere {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         if radius >= self.radius {
             return f64::INFINITY;
         }
         radius * (radius / (self.radius + leg(self.radius, radius)))
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         if radius >= self.radius {
             return f64::INFINITY;
         }
         radius / leg(self.radius, radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         if radius >= self.radius {
             return f64::INFINITY;
         }
@@ -56,7 +56,7 @@ impl Axisymmetric for Sphere {
         (self.radius / leg).powi(2) / leg
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 
@@ -81,6 +81,8 @@ impl Axisymmetric for Sphere {
         x.signum() * (inverse_hyperbolic_tangent(distance, self.radius) + rest)
     }
 }
+
+surface_of_revolution!(Sphere);
 
 /// artanh(x / R) for 0 ≤ x < R, from the exact difference R − x.
 fn inverse_hyperbolic_tangent(x: f64, radius: f64) -> f64 {

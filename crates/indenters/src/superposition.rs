@@ -6,7 +6,7 @@
 
 use crate::error::{finite, positive};
 use crate::power::scaled_power;
-use crate::{Axisymmetric, IndenterError, stretch};
+use crate::{Axisymmetric, IndenterError, stretch, surface_of_revolution};
 
 /// One term `coefficient · r^exponent` of a [`Superposition`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,19 +94,19 @@ fn line_term(term: &PowerTerm) -> Result<PowerTerm, IndenterError> {
 }
 
 impl Axisymmetric for Superposition {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         sum(&self.terms, 0.0, |_| 1.0, radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         sum(&self.terms, 1.0, |p| p, radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         sum(&self.terms, 2.0, |p| p * (p - 1.0), radius)
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         self.terms[0].exponent
     }
 
@@ -118,6 +118,8 @@ impl Axisymmetric for Superposition {
         x.signum() * sum(&self.line_terms, 1.0, |p| p, x.abs())
     }
 }
+
+surface_of_revolution!(Superposition);
 
 /// Σ c w(p) r^(p − order), the derivative of the given order.
 fn sum(terms: &[PowerTerm], order: f64, weight: impl Fn(f64) -> f64, radius: f64) -> f64 {

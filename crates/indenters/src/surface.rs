@@ -1,10 +1,12 @@
 //! Rigid surfaces in three dimensions.
 
 use crate::Axisymmetric;
+use crate::extent::search;
 
 /// The surface of a rigid body as the half space sees it: height and gradient over the plane.
 ///
-/// Every [`Axisymmetric`] body is one; other bodies implement it themselves.
+/// Only height and gradient have to be given; all bodies of this crate are surfaces, and
+/// [`surface_of_revolution!`](crate::surface_of_revolution) makes an own [`Axisymmetric`] body one.
 ///
 /// ```
 /// use indenters::{PowerProfile, Surface};
@@ -36,7 +38,7 @@ use crate::Axisymmetric;
 /// # Ok(())
 /// # }
 /// ```
-pub trait Surface {
+pub trait Surface: Send + Sync {
     /// Height h(x, y) above the lowest point, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
     fn height(&self, position: [f64; 2]) -> f64;
 
@@ -50,37 +52,60 @@ pub trait Surface {
     fn mirrors(&self) -> [bool; 2] {
         [false; 2]
     }
-}
 
-impl<P: Axisymmetric> Surface for P {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        Axisymmetric::height(self, x.hypot(y))
+    /// The rectangle `[[x_min, x_max], [y_min, y_max]]` \[m] that holds every point lower than `height` \[m]; infinite where
+    /// the surface stays low for ever.
+    ///
+    /// Unless a surface knows it, it is searched on grids from the origin outwards: parts narrower than a thirtieth of their
+    /// distance from it, or a thousand times as far away as the others, are not seen. The rectangle holds the origin too, and
+    /// is a tenth too large.
+    fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+        search(self, height)
     }
 
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let radius = x.hypot(y);
-        if radius == 0.0 || radius > self.max_radius() {
-            return [0.0, 0.0];
-        }
-        let slope = self.slope(radius);
-        // A vertical wall, as at the equator of the sphere: the body has ended.
-        if slope == f64::INFINITY {
-            return [0.0, 0.0];
-        }
-        // A slope that overflows must not meet a zero.
-        [x, y].map(|along| {
-            if along == 0.0 {
-                0.0
-            } else {
-                slope * (along / radius)
+    /// Leading exponent p of h ∼ c r^p at the lowest point; 1 where nothing is known.
+    fn apex_exponent(&self) -> f64 {
+        1.0
+    }
+
+    /// The surface as a body of revolution about the origin, if it is one.
+    fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        None
+    }
+}
+
+macro_rules! forward_to_surface {
+    ($pointer:ty) => {
+        impl<S: Surface + ?Sized> Surface for $pointer {
+            fn height(&self, position: [f64; 2]) -> f64 {
+                (**self).height(position)
             }
-        })
-    }
 
-    fn mirrors(&self) -> [bool; 2] {
-        [true; 2]
-    }
+            fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+                (**self).gradient(position)
+            }
+
+            fn mirrors(&self) -> [bool; 2] {
+                (**self).mirrors()
+            }
+
+            fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+                (**self).extent_below(height)
+            }
+
+            fn apex_exponent(&self) -> f64 {
+                (**self).apex_exponent()
+            }
+
+            fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+                (**self).as_axisymmetric()
+            }
+        }
+    };
 }
+
+forward_to_surface!(&S);
+forward_to_surface!(Box<S>);
 
 /// A surface that does not tell of its mirrors, so that solvers compute both sides of them.
 ///
@@ -96,5 +121,13 @@ impl<S: Surface + ?Sized> Surface for Unmirrored<'_, S> {
 
     fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
         self.0.gradient(position)
+    }
+
+    fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
+        self.0.extent_below(height)
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        self.0.apex_exponent()
     }
 }

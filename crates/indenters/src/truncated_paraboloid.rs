@@ -6,7 +6,7 @@
 
 use crate::error::positive;
 use crate::right_triangle::leg;
-use crate::{Axisymmetric, IndenterError, Kink};
+use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
 
 /// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,28 +43,28 @@ impl TruncatedParaboloid {
 }
 
 impl Axisymmetric for TruncatedParaboloid {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return 0.0;
         }
         self.curvature * (radius - self.radius) * (radius + self.radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return 0.0;
         }
         2.0 * self.curvature * radius
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
+    fn profile_curvature(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             return 0.0;
         }
         2.0 * self.curvature
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -92,3 +92,5 @@ impl Axisymmetric for TruncatedParaboloid {
         x.signum() * 2.0 * self.curvature * (leg + distance * (distance / leg))
     }
 }
+
+surface_of_revolution!(TruncatedParaboloid);

@@ -56,7 +56,8 @@ impl March {
         let n_elements = sampled.heights.len();
         let time_step = spacing / load.velocity();
         let chain = Chain::new(material, n_elements, [spacing, time_step])?;
-        let compression = chain.element().compression(load.normal_force());
+        let normal_force = load.require_normal_force()?;
+        let compression = chain.element().compression(normal_force);
         positive("compression", compression)?;
         let end_slopes = (0..n_elements)
             .map(|element| line.slope(sampled.position(element)))
@@ -70,7 +71,7 @@ impl March {
             mean_slopes,
             end_slopes,
             chain,
-            normal_force: load.normal_force(),
+            normal_force,
             time_step,
             spacing,
             n_steps: 0,

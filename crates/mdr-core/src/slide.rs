@@ -54,7 +54,7 @@ impl SlideOptions {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
-        let value = body.apex_exponent();
+        let value = body.profile_exponent();
         if value <= 0.5 && material.relaxation().viscosity() > 0.0 {
             // On any chain the friction is finite, but it grows without limit on refinement.
             let allowed = "above 1/2, where the friction integral (16) converges";
@@ -196,7 +196,7 @@ fn first_elements(
     spacing: f64,
 ) -> Result<ElementHeights, MdrError> {
     let creep = material.creep();
-    let quarter = 0.25 * load.normal_force() * material.half_space_factor();
+    let quarter = 0.25 * load.require_normal_force()? * material.half_space_factor();
     if creep.fluidity() > 0.0 {
         let depth = finite(
             "stationary depth",
@@ -227,9 +227,10 @@ fn check_leading_edge(
     if available >= least_depth {
         return Ok(());
     }
+    let normal_force = load.require_normal_force()?;
     Err(MdrError::NoStationaryState {
-        normal_force: load.normal_force(),
-        carried_force: load.normal_force() * (available / least_depth),
+        normal_force,
+        carried_force: normal_force * (available / least_depth),
         available,
     })
 }

@@ -83,3 +83,24 @@ pub trait Material: Debug + Send + Sync {
         self.relaxation().loss_tangent(angular_frequency)
     }
 }
+
+macro_rules! forward_to_material {
+    ($pointer:ty) => {
+        impl<M: Material + ?Sized> Material for $pointer {
+            fn relaxation(&self) -> RelaxationSpectrum {
+                (**self).relaxation()
+            }
+
+            fn creep(&self) -> CreepSpectrum {
+                (**self).creep()
+            }
+
+            fn poisson_ratio(&self) -> f64 {
+                (**self).poisson_ratio()
+            }
+        }
+    };
+}
+
+forward_to_material!(&M);
+forward_to_material!(Box<M>);

@@ -34,17 +34,9 @@ use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
 use folded::solve_in_front_of_mirrors;
+pub use indenters::Control;
 pub(crate) use solve::{Outcome, Question, solve_normalised};
 pub use state::ContactState;
-
-/// What is prescribed at the instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Control {
-    /// Normal force, \[N]; the depth follows.
-    NormalForce(f64),
-    /// Indentation depth d, \[m]; the normal force follows.
-    IndentationDepth(f64),
-}
 
 /// One contact problem.
 #[derive(Debug, Clone, Copy)]

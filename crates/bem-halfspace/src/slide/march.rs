@@ -68,7 +68,7 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         let [rows, columns] = options.resolution().layout(even)?.followed();
         // Refused before so many steps are made.
         Grid::new([rows + n_steps, columns], options.spacing)?;
-        let control = Control::NormalForce(load.normal_force());
+        let control = Control::NormalForce(load.require_normal_force()?);
         let route = Route::straight(n_steps, [spacing, load.velocity()], control)?;
         Self::on(route, surface, material, &options.resolution())
     }

@@ -37,8 +37,13 @@ pub(crate) fn depth_scale_of_body(
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
     let creep = SlidingCreep::new(material, load.velocity())?;
-    let height = |radius: f64| body.height(radius);
-    depth_scale(&creep, load.normal_force(), height, body.max_radius())
+    let height = |radius: f64| body.profile_height(radius);
+    depth_scale(
+        &creep,
+        load.require_normal_force()?,
+        height,
+        body.max_radius(),
+    )
 }
 
 /// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.

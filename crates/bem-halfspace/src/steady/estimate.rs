@@ -156,13 +156,13 @@ impl Ladder {
         let mut ladder = Self {
             footprint,
             coarsest_spacing: contact_radius(body, depth)? / COARSEST,
-            apex_exponent: body.apex_exponent(),
+            apex_exponent: body.profile_exponent(),
         };
         // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
         let [_, radius] = ladder.footprint.x;
         let flank_is_resolved = |refinement: &i32| {
             let inside = (radius - ladder.spacing(*refinement)).max(0.0);
-            body.height(inside) >= RESOLVED * body.height(radius)
+            body.profile_height(inside) >= RESOLVED * body.profile_height(radius)
         };
         if let Some(first) = (0..MAX_REFINEMENTS).find(flank_is_resolved) {
             ladder.coarsest_spacing = ladder.spacing(first);
@@ -203,7 +203,7 @@ impl Ladder {
 /// # Errors
 /// Those of [`Ladder::of_body`] and [`steady_friction_of_surface`].
 pub fn steady_friction(
-    body: &impl Axisymmetric,
+    body: &(impl Axisymmetric + Surface),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
     options: &FrictionOptions,

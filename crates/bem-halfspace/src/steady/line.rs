@@ -107,7 +107,7 @@ impl LineLadder {
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::new(material, load.velocity())?;
-        let [_, length] = scale_of_profile(profile, &creep, load.normal_force())?;
+        let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
         let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
         Ok(Self {
             footprint: [-REAR * length, front * length],

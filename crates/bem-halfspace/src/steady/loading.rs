@@ -79,9 +79,9 @@ impl Loading {
         let largest = ends.map(f64::abs).fold(0.0, f64::max);
         let largest = positive("half width of the footprint", largest)?;
         Ok(Self {
-            depth_scale: depth_scale(&creep, load.normal_force(), height, largest)?,
+            depth_scale: depth_scale(&creep, load.require_normal_force()?, height, largest)?,
             creep,
-            control: Control::Force(load.normal_force()),
+            control: Control::Force(load.require_normal_force()?),
             strip: None,
         })
     }
@@ -93,10 +93,10 @@ impl Loading {
         [rear, front]: [f64; 2],
     ) -> Result<(Self, f64), BemError> {
         let creep = SlidingCreep::new(material, load.velocity())?;
-        let [depth_scale, _] = scale_of_profile(profile, &creep, load.normal_force())?;
+        let [depth_scale, _] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
         let strip = STRIP * (front - rear + creep.memory());
         let strip = positive("length of a strip", strip)?;
-        let force = positive("force on a strip", load.normal_force() * strip)?;
+        let force = positive("force on a strip", load.require_normal_force()? * strip)?;
         let loading = Self {
             creep,
             depth_scale,

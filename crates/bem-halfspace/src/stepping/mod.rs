@@ -67,7 +67,7 @@ impl HalfSpace {
     /// \[m].
     pub(crate) fn depth_scale(&self, load: &SlidingLoad, length: f64) -> Result<f64, BemError> {
         let compliance = self.creep.creep_compliance(length / load.velocity())?;
-        Ok(0.25 * load.normal_force() * (self.factor * compliance) / length)
+        Ok(0.25 * load.require_normal_force()? * (self.factor * compliance) / length)
     }
 }
 

@@ -88,7 +88,7 @@ fn pressure_is_mirror_symmetric_and_balances_the_force() {
         }
     }
     let force = field.pressure.iter().sum::<f64>() * field.grid.element_area();
-    let expected = scene.load.normal_force();
+    let expected = scene.load.normal_force().expect("a force");
     assert!(
         (force / expected - 1.0).abs() < 1e-12,
         "force {force} instead of {expected}"

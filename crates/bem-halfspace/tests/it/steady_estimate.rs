@@ -185,7 +185,7 @@ fn the_friction_at_a_depth_is_that_under_its_force() {
     let held = steady_friction_at_depth(body, (material, &control), &ladder, &options)
         .expect("a force and a friction coefficient");
     // The depth is that of the last grid; it is about as exact as its friction.
-    let expected = scene.load.normal_force();
+    let expected = scene.load.normal_force().expect("a force");
     let allowed = held.normal_force_error + 2e-3 * expected;
     assert!(
         (held.normal_force - expected).abs() <= allowed,

@@ -44,7 +44,7 @@ fn pressure_is_positive_symmetric_and_balances_the_force() {
             "phase {phase:?}: tension"
         );
         let force = field.pressure.iter().sum::<f64>() * field.grid.element_area();
-        let expected = scene.load.normal_force();
+        let expected = scene.load.normal_force().expect("a force");
         assert!(
             (force / expected - 1.0).abs() < 1e-12,
             "phase {phase:?}: force {force} instead of {expected}"

@@ -89,8 +89,9 @@ impl Scene {
 
     /// Stationary contact length of the one-dimensional model, [m].
     pub(crate) fn contact_length(&self) -> f64 {
-        let depth =
-            0.25 * self.load.normal_force() / self.material.viscosity() / self.load.velocity();
+        let depth = 0.25 * self.load.normal_force().expect("a force")
+            / self.material.viscosity()
+            / self.load.velocity();
         self.body.line_position(depth)
     }
 

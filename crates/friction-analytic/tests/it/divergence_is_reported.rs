@@ -94,19 +94,19 @@ struct SteepeningCone {
 }
 
 impl Axisymmetric for SteepeningCone {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         self.slope * radius + self.jump * (radius - self.kink).max(0.0)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
+    fn profile_slope(&self, radius: f64) -> f64 {
         self.slope + if radius > self.kink { self.jump } else { 0.0 }
     }
 
-    fn curvature(&self, _radius: f64) -> f64 {
+    fn profile_curvature(&self, _radius: f64) -> f64 {
         0.0
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         1.0
     }
 

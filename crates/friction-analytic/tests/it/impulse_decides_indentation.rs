@@ -91,7 +91,7 @@ fn the_reciprocal_theorem_gives_the_same_force() {
         // ∫ 2π r p (d − h) dr with r = a sin φ.
         let integrand = |phi: f64| {
             let r = radius * phi.sin();
-            8.0 * r * (depth - body.height(r))
+            8.0 * r * (depth - body.profile_height(r))
         };
         let reciprocal = integrate(integrand, [0.0, std::f64::consts::FRAC_PI_2], 1e-13).value;
         case.check("F", reciprocal);

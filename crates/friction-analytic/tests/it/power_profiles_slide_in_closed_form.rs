@@ -80,7 +80,8 @@ fn friction_collapses_onto_one_number_per_exponent() {
         let (material, load) = sliding(&case);
         let state = power_sliding(&PowerProfile::new(c, p).unwrap(), &material, &load).unwrap();
         case.check("mu_mdr", state.friction_coefficient);
-        let load_length = load.normal_force() / (material.viscosity() * load.velocity());
+        let load_length =
+            load.normal_force().expect("a force") / (material.viscosity() * load.velocity());
         let unit = c.powf(p.recip()) * load_length.powf(1.0 - p.recip());
         case.check("collapsed", state.friction_coefficient / unit);
     }

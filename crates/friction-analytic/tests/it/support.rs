@@ -47,20 +47,20 @@ pub(crate) fn fixed_cases(cases: u32) -> Config {
 pub(crate) struct Bare<'a, P>(pub(crate) &'a P);
 
 impl<P: Axisymmetric> Axisymmetric for Bare<'_, P> {
-    fn height(&self, radius: f64) -> f64 {
-        self.0.height(radius)
+    fn profile_height(&self, radius: f64) -> f64 {
+        self.0.profile_height(radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
-        self.0.slope(radius)
+    fn profile_slope(&self, radius: f64) -> f64 {
+        self.0.profile_slope(radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
-        self.0.curvature(radius)
+    fn profile_curvature(&self, radius: f64) -> f64 {
+        self.0.profile_curvature(radius)
     }
 
-    fn apex_exponent(&self) -> f64 {
-        self.0.apex_exponent()
+    fn profile_exponent(&self) -> f64 {
+        self.0.profile_exponent()
     }
 
     fn max_radius(&self) -> f64 {
@@ -80,19 +80,19 @@ struct WavyParaboloid {
 }
 
 impl Axisymmetric for WavyParaboloid {
-    fn height(&self, r: f64) -> f64 {
+    fn profile_height(&self, r: f64) -> f64 {
         r * r / (2.0 * self.radius) + self.amplitude * (1.0 - (self.wavenumber * r).cos())
     }
 
-    fn slope(&self, r: f64) -> f64 {
+    fn profile_slope(&self, r: f64) -> f64 {
         r / self.radius + self.amplitude * self.wavenumber * (self.wavenumber * r).sin()
     }
 
-    fn curvature(&self, r: f64) -> f64 {
+    fn profile_curvature(&self, r: f64) -> f64 {
         self.radius.recip() + self.amplitude * self.wavenumber.powi(2) * (self.wavenumber * r).cos()
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 }

@@ -14,22 +14,22 @@ struct WavyParaboloid {
 }
 
 impl Axisymmetric for WavyParaboloid {
-    fn height(&self, r: f64) -> f64 {
+    fn profile_height(&self, r: f64) -> f64 {
         let half_phase = 0.5 * self.wave_number * r;
         0.5 * r * r / self.radius_of_curvature + 2.0 * self.amplitude * half_phase.sin().powi(2)
     }
 
-    fn slope(&self, r: f64) -> f64 {
+    fn profile_slope(&self, r: f64) -> f64 {
         let k = self.wave_number;
         r / self.radius_of_curvature + self.amplitude * k * (k * r).sin()
     }
 
-    fn curvature(&self, r: f64) -> f64 {
+    fn profile_curvature(&self, r: f64) -> f64 {
         let k = self.wave_number;
         1.0 / self.radius_of_curvature + self.amplitude * k * k * (k * r).cos()
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 }
@@ -40,21 +40,21 @@ pub(crate) struct GaussianDip {
 }
 
 impl Axisymmetric for GaussianDip {
-    fn height(&self, r: f64) -> f64 {
+    fn profile_height(&self, r: f64) -> f64 {
         -self.length * (-(r / self.length).powi(2)).exp_m1()
     }
 
-    fn slope(&self, r: f64) -> f64 {
+    fn profile_slope(&self, r: f64) -> f64 {
         let y = r / self.length;
         2.0 * y * (-y * y).exp()
     }
 
-    fn curvature(&self, r: f64) -> f64 {
+    fn profile_curvature(&self, r: f64) -> f64 {
         let y = r / self.length;
         (2.0 - 4.0 * y * y) * (-y * y).exp() / self.length
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 }

@@ -69,7 +69,7 @@ fn the_line_turns_before_the_body_does() {
     let body = superposition(&[(case.input("c2"), 2.0), (-case.input("c4"), 4.0)]);
     let [limit, depth] = ["x_limit", "g_max"].map(|name| case.expected(name).unwrap());
     case.check("F_max_G1", 8.0 * area_above(&body, depth, limit));
-    let turns_at = bracketed_root(|r| body.slope(r), [limit, 2.0 * limit]).unwrap();
+    let turns_at = bracketed_root(|r| body.profile_slope(r), [limit, 2.0 * limit]).unwrap();
     case.check("h_turns_at", turns_at);
 }
 
@@ -103,19 +103,19 @@ struct PittedParaboloid {
 }
 
 impl Axisymmetric for PittedParaboloid {
-    fn height(&self, radius: f64) -> f64 {
-        radius * radius + self.pit.height(radius)
+    fn profile_height(&self, radius: f64) -> f64 {
+        radius * radius + self.pit.profile_height(radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
-        2.0 * radius + self.pit.slope(radius)
+    fn profile_slope(&self, radius: f64) -> f64 {
+        2.0 * radius + self.pit.profile_slope(radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
-        2.0 + self.pit.curvature(radius)
+    fn profile_curvature(&self, radius: f64) -> f64 {
+        2.0 + self.pit.profile_curvature(radius)
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         2.0
     }
 }

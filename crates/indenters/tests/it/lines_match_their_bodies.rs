@@ -2,7 +2,7 @@ use casebook::Case;
 use indenters::{
     Axisymmetric, EquivalentLine, FlatCone, FlatPunch, Hyperboloid, PiecewiseLinearProfile,
     PowerProfile, RigidLine, RoundTippedCone, Sphere, Surface, TruncatedParaboloid, abel_height,
-    abel_slope,
+    abel_slope, surface_of_revolution,
 };
 
 use crate::casebook_bodies::{body, superposition};
@@ -11,7 +11,7 @@ use crate::casebook_bodies::{body, superposition};
 fn heights_and_lines_agree_with_the_casebook() {
     for case in casebook::group("IND-02") {
         let (body, x): (_, f64) = (body(&case), case.input("x"));
-        case.check("h", body.height(x));
+        case.check("h", body.profile_height(x));
         case.check("g", body.line_height(x));
         case.check("dg", body.line_slope(x));
         check_symmetry(&case, &*body, x);
@@ -108,7 +108,6 @@ fn gradients_are_the_derivatives_of_heights() {
     // Central differences of step δ: truncation h''' δ²/6 and rounding ε h / δ are both below 1e-9 at δ = 1e-5.
     let step = 1e-5;
     for (name, body) in all_shapes() {
-        let body = Boxed(body);
         for [x, y] in [
             [0.3, 0.1],
             [-0.2, 0.25],
@@ -116,7 +115,7 @@ fn gradients_are_the_derivatives_of_heights() {
             [-0.6, -0.6],
             [0.95, 0.1],
         ] {
-            let at = |dx, dy| Surface::height(&body, [x + dx, y + dy]);
+            let at = |dx, dy| body.height([x + dx, y + dy]);
             let expected = [
                 (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step),
                 (at(0.0, step) - at(0.0, -step)) / (2.0 * step),
@@ -137,38 +136,14 @@ fn curvatures_are_the_derivatives_of_slopes() {
     let step = 1e-5;
     for (name, body) in all_shapes() {
         for r in [0.1, 0.3, 0.6, 0.9] {
-            let expected = (body.slope(r + step) - body.slope(r - step)) / (2.0 * step);
-            let actual = body.curvature(r);
+            let expected =
+                (body.profile_slope(r + step) - body.profile_slope(r - step)) / (2.0 * step);
+            let actual = body.profile_curvature(r);
             assert!(
                 (actual - expected).abs() < 1e-7 * (1.0 + actual.abs()),
                 "{name} at {r}: curvature {actual}, by differences {expected}"
             );
         }
-    }
-}
-
-/// A boxed body with its own line, so that the blanket `Surface` applies.
-struct Boxed(Box<dyn Axisymmetric>);
-
-impl Axisymmetric for Boxed {
-    fn height(&self, radius: f64) -> f64 {
-        self.0.height(radius)
-    }
-
-    fn slope(&self, radius: f64) -> f64 {
-        self.0.slope(radius)
-    }
-
-    fn curvature(&self, radius: f64) -> f64 {
-        self.0.curvature(radius)
-    }
-
-    fn apex_exponent(&self) -> f64 {
-        self.0.apex_exponent()
-    }
-
-    fn max_radius(&self) -> f64 {
-        self.0.max_radius()
     }
 }
 
@@ -178,14 +153,13 @@ fn shapes_are_numbers_everywhere() {
     shapes.push(("flat punch", Box::new(FlatPunch::new(0.5).unwrap())));
     shapes.push(("steep", Box::new(PowerProfile::new(1e300, 1e6).unwrap())));
     for (name, body) in shapes {
-        let body = Boxed(body);
         for r in [0.0, 5e-324, 1e-300, 0.5, 1.1, 2.0, 1e12, 1e200] {
             let [x, y] = body.gradient([r, 0.0]);
             let values = [
-                Axisymmetric::height(&body, r),
-                body.0.line_height(r),
-                body.0.line_slope(r),
-                body.0.line_slope(-r),
+                body.profile_height(r),
+                body.line_height(r),
+                body.line_slope(r),
+                body.line_slope(-r),
                 x,
                 y,
             ];
@@ -239,19 +213,19 @@ fn lines_scale_with_the_unit_of_length() {
 struct Stub;
 
 impl Axisymmetric for Stub {
-    fn height(&self, radius: f64) -> f64 {
+    fn profile_height(&self, radius: f64) -> f64 {
         if radius > 1.0 { f64::INFINITY } else { radius }
     }
 
-    fn slope(&self, _radius: f64) -> f64 {
+    fn profile_slope(&self, _radius: f64) -> f64 {
         1.0
     }
 
-    fn curvature(&self, _radius: f64) -> f64 {
+    fn profile_curvature(&self, _radius: f64) -> f64 {
         0.0
     }
 
-    fn apex_exponent(&self) -> f64 {
+    fn profile_exponent(&self) -> f64 {
         1.0
     }
 
@@ -259,6 +233,8 @@ impl Axisymmetric for Stub {
         1.0
     }
 }
+
+surface_of_revolution!(Stub);
 
 #[test]
 fn gradients_vanish_where_there_is_no_body() {

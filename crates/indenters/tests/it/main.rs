@@ -9,4 +9,5 @@ mod inverse_transform_recovers_the_body;
 mod leading_edge_has_several_intervals;
 mod lines_match_their_bodies;
 mod stretch_matches_the_paper;
+mod surfaces_know_their_extent;
 mod tables_are_transformed_exactly;

@@ -204,7 +204,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
 
     /// The depth that carries the force.
     fn depth(&self, load: &SlidingLoad, tolerance: f64) -> Result<f64, MdrError> {
-        let target = positive("normal_force", 0.25 * load.normal_force())?;
+        let target = positive("normal_force", 0.25 * load.require_normal_force()?)?;
         let unit = self.foundation.unit;
         let carried =
             |depth, tolerance| Ok(unit * (depth * self.solve(depth, tolerance)?.sums.load));

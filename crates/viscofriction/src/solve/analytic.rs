@@ -31,7 +31,7 @@ pub(crate) fn viscous_line(
         Revolution::Sum(profile) => superposition_sliding(profile, material, &load),
         Revolution::Other(_) => axisymmetric_sliding(body, material, &load),
     }?;
-    let answer = Answer::new(Method::Analytic, Model::Line, load.normal_force())
+    let answer = Answer::new(Method::Analytic, Model::Line, load.require_normal_force()?)
         .with_friction(state.friction_coefficient, state.error);
     let mut answer = Answer {
         indentation_depth: Some(state.indentation_depth),
@@ -86,8 +86,12 @@ pub(crate) fn viscous_half_space(
 ) -> Result<Answer> {
     let friction = half_space_power_friction(profile, material, load)?;
     Ok(Answer {
-        ..Answer::new(Method::Analytic, Model::HalfSpace, load.normal_force())
-            .with_friction(friction.value, friction.error)
+        ..Answer::new(
+            Method::Analytic,
+            Model::HalfSpace,
+            load.require_normal_force()?,
+        )
+        .with_friction(friction.value, friction.error)
     })
 }
 
@@ -103,7 +107,7 @@ pub(crate) fn viscous_transient(
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
         contact_box: Some(ContactBox::along(state.contact_line)),
-        ..Answer::new(Method::Analytic, Model::Line, load.normal_force())
+        ..Answer::new(Method::Analytic, Model::Line, load.require_normal_force()?)
             .with_friction(friction, SEARCHED * friction)
     })
 }

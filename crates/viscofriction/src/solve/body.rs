@@ -5,6 +5,7 @@ use std::path::Path;
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError, Kink,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    surface_of_revolution,
 };
 
 use super::problem::ReadFile;
@@ -26,7 +27,7 @@ pub enum Body {
 pub enum Revolution {
     Power(PowerProfile),
     Sum(Superposition),
-    Other(Box<dyn Axisymmetric + Send + Sync>),
+    Other(Box<dyn Axisymmetric>),
 }
 
 impl std::fmt::Debug for Revolution {
@@ -40,7 +41,7 @@ impl std::fmt::Debug for Revolution {
 }
 
 impl Revolution {
-    fn shape(&self) -> &(dyn Axisymmetric + Send + Sync) {
+    fn shape(&self) -> &dyn Axisymmetric {
         match self {
             Self::Power(profile) => profile,
             Self::Sum(profile) => profile,
@@ -51,20 +52,20 @@ impl Revolution {
 
 /// Forwards all that a shape may override.
 impl Axisymmetric for Revolution {
-    fn height(&self, radius: f64) -> f64 {
-        self.shape().height(radius)
+    fn profile_height(&self, radius: f64) -> f64 {
+        self.shape().profile_height(radius)
     }
 
-    fn slope(&self, radius: f64) -> f64 {
-        self.shape().slope(radius)
+    fn profile_slope(&self, radius: f64) -> f64 {
+        self.shape().profile_slope(radius)
     }
 
-    fn curvature(&self, radius: f64) -> f64 {
-        self.shape().curvature(radius)
+    fn profile_curvature(&self, radius: f64) -> f64 {
+        self.shape().profile_curvature(radius)
     }
 
-    fn apex_exponent(&self) -> f64 {
-        self.shape().apex_exponent()
+    fn profile_exponent(&self) -> f64 {
+        self.shape().profile_exponent()
     }
 
     fn max_radius(&self) -> f64 {
@@ -83,6 +84,8 @@ impl Axisymmetric for Revolution {
         self.shape().line_slope(x)
     }
 }
+
+surface_of_revolution!(Revolution);
 
 /// The body of a table of the scene file.
 ///
@@ -123,7 +126,7 @@ fn power(key: &str, profile: Result<PowerProfile, IndenterError>) -> Result<Body
 
 fn other<S>(key: &str, shape: Result<S, IndenterError>) -> Result<Body, SceneError>
 where
-    S: Axisymmetric + Send + Sync + 'static,
+    S: Axisymmetric + 'static,
 {
     let shape = shape.map_err(|error| refused(key, error))?;
     Ok(Body::Revolution(Revolution::Other(Box::new(shape))))

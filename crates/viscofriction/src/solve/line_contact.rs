@@ -64,7 +64,7 @@ impl Sliding<'_> {
         let last = estimate.refinements.last();
         let spacing = last.context("no grid was refined")?.spacing;
         let friction = [estimate.friction_coefficient, estimate.error];
-        let answer = self.answer(friction, self.on_grid(spacing, COARSE)?);
+        let answer = self.answer(friction, self.on_grid(spacing, COARSE)?)?;
         Ok(answer.with_parts(ErrorParts {
             discretisation: Some(estimate.error - estimate.gap_error),
             iteration: Some(estimate.gap_error),
@@ -88,7 +88,7 @@ impl Sliding<'_> {
             ..
         } = resolve(&goal, solve, friction, |_, state| Ok([gaps(state)]))?;
         let friction = [value.friction_coefficient, error];
-        Ok(self.answer(friction, value).with_parts(parts))
+        Ok(self.answer(friction, value)?.with_parts(parts))
     }
 
     fn on_grid(&self, spacing: f64, tolerance: f64) -> Result<LineSliding> {
@@ -107,9 +107,9 @@ impl Sliding<'_> {
         )?)
     }
 
-    fn answer(&self, [friction, error]: [f64; 2], state: LineSliding) -> Answer {
+    fn answer(&self, [friction, error]: [f64; 2], state: LineSliding) -> Result<Answer> {
         let [rear, front] = state.contact;
-        let force = self.load.normal_force();
+        let force = self.load.require_normal_force()?;
         let mut answer = Answer {
             is_per_length: true,
             contact_area: Some(front - rear),
@@ -119,7 +119,7 @@ impl Sliding<'_> {
             ..Answer::new(Method::BemSteady, Model::HalfSpace, force).with_friction(friction, error)
         };
         answer.fields.line_pressure = state.pressure;
-        answer
+        Ok(answer)
     }
 }
 

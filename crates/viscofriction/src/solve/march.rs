@@ -225,7 +225,7 @@ impl<'a, S: Shape> Scene<'a, S> {
             let state = transient.stationary(DRIFT)?;
             (state.friction_coefficient, Some(state.distance_error))
         };
-        Ok(End::of(transient, load.normal_force(), reached))
+        Ok(End::of(transient, load.require_normal_force()?, reached))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
@@ -252,7 +252,7 @@ impl<'a, S: Shape> Scene<'a, S> {
         let left = slide.change * friction.abs();
         Ok(End::of(
             slide.transient,
-            load.normal_force(),
+            load.require_normal_force()?,
             (friction, Some(left)),
         ))
     }

@@ -85,7 +85,7 @@ pub(crate) fn transient(
     let goal = Goal {
         accuracy,
         largest: LARGEST_CHAIN,
-        order: order_of_apex(body.apex_exponent()),
+        order: order_of_apex(body.profile_exponent()),
     };
     let others = |elements: usize, rows: &Vec<SlideRow>| {
         Ok([ErrorParts {
@@ -102,9 +102,13 @@ pub(crate) fn transient(
         contact_box: Some(ContactBox::along(last.contact)),
         unknowns: last.n_contact,
         iterations: rows.len(),
-        ..Answer::new(Method::MdrTransient, Model::Line, load.normal_force())
-            .with_friction(ride.friction(&rows).value, error)
-            .with_parts(parts)
+        ..Answer::new(
+            Method::MdrTransient,
+            Model::Line,
+            load.require_normal_force()?,
+        )
+        .with_friction(ride.friction(&rows).value, error)
+        .with_parts(parts)
     };
     answer.fields.history = rows.iter().map(history).collect();
     Ok(answer)

@@ -117,7 +117,7 @@ fn force_and_depth(parts: &str, load: &str, [contact, time]: [f64; 2]) -> Result
     let Body::Revolution(body) = &question.body else {
         bail!("only bodies of revolution are drawn");
     };
-    let depth = match body.height(contact) {
+    let depth = match body.profile_height(contact) {
         height if height > 0.0 => height,
         _ => FLAT * contact,
     };

@@ -7,7 +7,7 @@ use friction_analytic::{
 };
 use indenters::{
     Axisymmetric, EquivalentLine, FlatCone, Hyperboloid, PowerProfile, RoundTippedCone,
-    SlidingLoad, Sphere, TruncatedParaboloid,
+    SlidingLoad, Sphere, Surface, TruncatedParaboloid,
 };
 use mdr_core::{MdrError, SteadyOptions, steady};
 use rheology::Viscous;
@@ -100,7 +100,11 @@ const ASKED: FrictionOptions = FrictionOptions {
 };
 
 /// Friction beside that of the power profile that the body becomes, from which its shape differs by `part`.
-fn nearly_power(body: &impl Axisymmetric, profile: &PowerProfile, part: f64) -> Result<Finding> {
+fn nearly_power(
+    body: &(impl Axisymmetric + Surface),
+    profile: &PowerProfile,
+    part: f64,
+) -> Result<Finding> {
     let (material, load) = load()?;
     let expected = half_space_power_friction(profile, &material, &load)?;
     let got = steady_friction(body, &material, &load, &ASKED)?;

@@ -5,7 +5,7 @@ use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
 use indenters::{
     Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, SlidingLoad,
-    Sphere, Superposition, TruncatedParaboloid,
+    Sphere, Superposition, Surface, TruncatedParaboloid,
 };
 use rheology::Viscous;
 
@@ -44,7 +44,7 @@ impl Case {
     fn new(
         name: impl Into<String>,
         exponent: Option<f64>,
-        body: impl Axisymmetric + 'static,
+        body: impl Axisymmetric + Surface + 'static,
     ) -> Result<Self> {
         let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
         Ok(Self {

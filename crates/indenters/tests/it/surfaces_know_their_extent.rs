@@ -1,0 +1,165 @@
+use indenters::{
+    Axisymmetric, Cylinder, FlatPunch, HeightMap, PowerProfile, RigidLine, Sphere, Surface,
+    Unmirrored,
+};
+
+/// Paraboloids of both curvatures, turned and moved, or none.
+struct Own {
+    curvatures: [f64; 2],
+    angle: f64,
+    moved: [f64; 2],
+}
+
+impl Surface for Own {
+    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        let (sine, cosine) = self.angle.sin_cos();
+        let [x, y] = [x - self.moved[0], y - self.moved[1]];
+        let [along, across] = [cosine * x + sine * y, cosine * y - sine * x];
+        self.curvatures[0] * along * along + self.curvatures[1] * across * across
+    }
+
+    fn gradient(&self, _position: [f64; 2]) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
+
+/// Half widths of {a u² + b v² < h} along x and y, for u, v turned by the angle.
+fn half_widths(own: &Own, height: f64) -> [f64; 2] {
+    let (sine, cosine) = own.angle.sin_cos();
+    let [along, across] = own.curvatures.map(|curvature| height / curvature);
+    [
+        (along * cosine * cosine + across * sine * sine).sqrt(),
+        (along * sine * sine + across * cosine * cosine).sqrt(),
+    ]
+}
+
+#[test]
+fn an_own_surface_is_searched_tightly_at_every_scale() {
+    for scale in [1e-100, 1e-6, 1.0, 1e80] {
+        for (aspect, angle, moved) in [
+            (1.0, 0.0, [0.0; 2]),
+            (1e6, 0.0, [0.0; 2]),
+            (1e-3, 0.7, [0.0; 2]),
+            (4.0, 1.9, [30.0, -7.0]),
+        ] {
+            let own = Own {
+                curvatures: [1.0 / scale, aspect / scale],
+                angle,
+                moved: moved.map(|length| length * scale),
+            };
+            let extent = own.extent_below(scale);
+            let half_widths = half_widths(&own, scale);
+            for axis in [0, 1] {
+                let [start, end] =
+                    [-1.0, 1.0].map(|side| own.moved[axis] + side * half_widths[axis]);
+                let spare = 0.1 * (end.max(0.0) - start.min(0.0));
+                let [low, high] = extent[axis];
+                assert!(
+                    low <= start && high >= end,
+                    "axis {axis} of {aspect}, {angle}, scale {scale}: {extent:?} does not hold [{start}, {end}]"
+                );
+                assert!(
+                    low >= start.min(0.0) - spare && high <= end.max(0.0) + spare,
+                    "axis {axis} of {aspect}, {angle}, scale {scale}: {extent:?} is too large for [{start}, {end}]"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn an_endless_surface_has_an_endless_extent() {
+    let ridge = Own {
+        curvatures: [2.0, 0.0],
+        angle: 0.0,
+        moved: [0.0; 2],
+    };
+    let cylinder = Cylinder::new(0.25).unwrap();
+    for (extent, spare) in [
+        (ridge.extent_below(0.5), 0.05),
+        (cylinder.extent_below(0.5), 1e-15),
+    ] {
+        let [[rear, front], across] = extent;
+        assert!(
+            across.iter().all(|end| end.is_infinite()),
+            "{across:?} along the ridge"
+        );
+        for end in [-rear, front] {
+            assert!((0.5..=0.5 + spare).contains(&end), "{end} instead of 0.5");
+        }
+    }
+}
+
+#[test]
+fn a_body_of_revolution_knows_its_extent() {
+    let sphere = Sphere::new(1.0).unwrap();
+    let punch = FlatPunch::new(0.3).unwrap();
+    let cone = PowerProfile::cone(0.1).unwrap();
+    let bodies: [(Box<dyn Surface>, f64, f64); 6] = [
+        (Box::new(sphere), 0.4, 0.8),
+        (Box::new(sphere), 7.0, 1.0),
+        (Box::new(punch), 0.4, 0.3),
+        (Box::new(cone), 1e-30, 1e-29),
+        (Box::new(cone), 1e30, 1e31),
+        (Box::new(cone), 0.0, 0.0),
+    ];
+    for (body, height, radius) in bodies {
+        for end in body.extent_below(height).as_flattened() {
+            assert!(
+                (end.abs() - radius).abs() <= 1e-14 * radius,
+                "{end} instead of {radius} below {height}"
+            );
+        }
+    }
+}
+
+#[test]
+fn references_and_boxes_say_what_their_body_says() {
+    let body = Sphere::new(2.0).unwrap();
+    let boxed: Box<dyn Axisymmetric> = Box::new(body);
+    let surfaces: [&dyn Surface; 4] = [&body, &&body, &boxed, &Box::new(body)];
+    for surface in surfaces {
+        let numbers = [
+            (surface.height([1.2, 0.0]), body.profile_height(1.2)),
+            (surface.gradient([1.2, 0.0])[0], body.profile_slope(1.2)),
+            (
+                surface.extent_below(0.1)[1][1],
+                body.extent_below(0.1)[1][1],
+            ),
+            (surface.apex_exponent(), 2.0),
+        ];
+        for (actual, expected) in numbers {
+            assert!((actual - expected).abs() <= 0.0, "{actual}, not {expected}");
+        }
+        assert_eq!(surface.mirrors(), [true; 2]);
+        let line = surface.as_axisymmetric().map(|body| body.line_height(1.0));
+        assert_eq!(line, Some(body.line_height(1.0)), "the line of the sphere");
+    }
+    let line = indenters::EquivalentLine(&*boxed);
+    let lines: [&dyn RigidLine; 2] = [&line, &Box::new(line)];
+    for line in lines {
+        let numbers = [line.height(-1.0), line.domain()[1]];
+        assert_eq!(
+            numbers.map(Some),
+            [Some(body.line_height(1.0)), Some(2.0)],
+            "of the line"
+        );
+    }
+}
+
+#[test]
+fn only_mirrors_are_hidden_by_unmirrored() {
+    let map = HeightMap::new(
+        [3, 3],
+        [1.0; 2],
+        vec![2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 2.0],
+    );
+    let map = map.unwrap();
+    let hidden = Unmirrored(&map);
+    assert_eq!((map.mirrors(), hidden.mirrors()), ([true; 2], [false; 2]));
+    assert_eq!(hidden.extent_below(0.5), map.extent_below(0.5));
+    assert!(
+        hidden.as_axisymmetric().is_none(),
+        "a body of revolution has its mirrors"
+    );
+}
