@@ -67,20 +67,6 @@ pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// An array as NumPy reads it, the last index fastest.
-pub(crate) fn to_npy(values: &[f64], shape: &[u64]) -> Result<Vec<u8>> {
-    use npyz::WriterBuilder as _;
-    let mut bytes = Vec::new();
-    let mut writer = npyz::WriteOptions::new()
-        .default_dtype()
-        .shape(shape)
-        .writer(&mut bytes)
-        .begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
 /// A file that is whole or not there.
 #[derive(Debug, Clone)]
 pub(crate) struct OutputFile {

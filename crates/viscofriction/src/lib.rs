@@ -1,6 +1,6 @@
 //! Friction.
 
-mod npy;
+pub mod npy;
 pub mod scene;
 pub mod solve;
 pub mod sweep;

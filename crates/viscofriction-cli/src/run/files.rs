@@ -2,11 +2,12 @@
 
 use anyhow::Result;
 use serde::Serialize;
+use viscofriction::npy::to_npy;
 use viscofriction::solve::Answer;
 use viscofriction_plot::Figure;
 
 use super::{Timed, pictures};
-use crate::output::{OutputFolder, to_csv, to_npy};
+use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
 pub(super) const NAMES: [&str; 15] = [
@@ -70,14 +71,14 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
     };
     let table: Vec<PressureRow> = field.pressure.iter().enumerate().map(row).collect();
     out.write("pressure.csv", to_csv(&table)?.as_bytes())?;
-    let pressure = to_npy(&field.pressure, &[rows as u64, columns as u64])?;
+    let pressure = to_npy(&field.pressure, &[rows, columns]);
     out.write("pressure.npy", &pressure)?;
     for (axis, (name, length)) in [("pressure_x.npy", rows), ("pressure_y.npy", columns)]
         .into_iter()
         .enumerate()
     {
         let places: Vec<f64> = (0..length).map(|index| place(axis, index)).collect();
-        out.write(name, &to_npy(&places, &[length as u64])?)?;
+        out.write(name, &to_npy(&places, &[length]))?;
     }
     out.draw("pressure", &pictures::pressure(field)?)
 }
@@ -110,7 +111,7 @@ fn write_along<R: Serialize>(
     }
     let rows: Vec<R> = points.iter().map(row).collect();
     out.write(&format!("{name}.csv"), to_csv(&rows)?.as_bytes())?;
-    let array = to_npy(&points.concat(), &[points.len() as u64, 2])?;
+    let array = to_npy(&points.concat(), &[points.len(), 2]);
     out.write(&format!("{name}.npy"), &array)?;
     out.draw(name, &figure(points))
 }
