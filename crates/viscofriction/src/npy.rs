@@ -6,6 +6,7 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 const VERSION: [u8; 2] = [1, 0];
 
 /// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
+#[must_use]
 pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
     let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");
@@ -24,6 +25,7 @@ pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
 /// Numbers in rows and columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NpyTable {
+    /// Rows and columns.
     pub shape: [usize; 2],
     /// Row by row.
     pub values: Vec<f64>,
@@ -37,22 +39,40 @@ pub enum NpyError {
     Format,
     /// The file ends before its numbers begin.
     #[error("the header ends after {needed} bytes, but the file has {length}")]
-    HeaderCut { needed: usize, length: usize },
+    HeaderCut {
+        /// Bytes up to the end of the header.
+        needed: usize,
+        /// Bytes of the file.
+        length: usize,
+    },
     /// Something that the header does not say as NumPy does.
     #[error("the header does not say {what}")]
-    Header { what: &'static str },
+    Header {
+        /// What is missing.
+        what: &'static str,
+    },
     /// Other numbers.
     #[error("little-endian floats are needed, '<f8' or '<f4', and not {descr}")]
-    DataType { descr: String },
+    DataType {
+        /// As the file writes it.
+        descr: String,
+    },
     /// Other than rows and columns.
     #[error("an array of 2 dimensions is needed, and not of {dimensions}")]
-    Dimensions { dimensions: usize },
+    Dimensions {
+        /// Those of the file.
+        dimensions: usize,
+    },
     /// Numbers are missing, or there are more.
     #[error("{rows} x {columns} numbers of {size} bytes are needed, but there are {length} bytes")]
     Length {
+        /// Rows by the header.
         rows: usize,
+        /// Columns by the header.
         columns: usize,
+        /// Bytes of a number.
         size: usize,
+        /// Bytes behind the header.
         length: usize,
     },
 }

@@ -42,6 +42,7 @@ pub enum SceneError {
 }
 
 impl SceneError {
+    /// Numbers that are wrong together, at the key that is best changed.
     pub fn together(key: impl Into<String>, problem: impl Into<String>) -> Self {
         Self::Together {
             key: key.into(),
@@ -50,6 +51,7 @@ impl SceneError {
     }
 
     /// The key, where there is one.
+    #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {
             Self::Value { key, .. } | Self::Form { key, .. } | Self::Together { key, .. } => {

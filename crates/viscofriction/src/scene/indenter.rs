@@ -130,6 +130,7 @@ pub struct HeightMapFile {
 
 impl Indenter {
     /// The key of the table.
+    #[must_use]
     pub const fn key(&self) -> &'static str {
         match self {
             Self::Power(_) => "indenter.power",

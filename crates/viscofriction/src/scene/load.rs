@@ -1,5 +1,6 @@
 //! `[load]`: how the body is pressed and moved.
 
+use indenters::Control;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,15 +17,6 @@ pub struct Load {
     pub indentation_depth: Option<f64>,
     /// Sliding speed ≥ 0 towards positive x, \[m/s]; 0 with `solve.duration` is pure indentation.
     pub velocity: f64,
-}
-
-/// What is held constant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Control {
-    /// F_N, \[N].
-    NormalForce(f64),
-    /// d, \[m].
-    IndentationDepth(f64),
 }
 
 impl Load {

@@ -103,6 +103,7 @@ const fn incompressible() -> f64 {
 
 impl MaterialTable {
     /// The key of the table.
+    #[must_use]
     pub const fn key(&self) -> &'static str {
         match self {
             Self::Viscous(_) => "material.viscous",
@@ -115,6 +116,7 @@ impl MaterialTable {
     }
 
     /// Poisson ratio ν.
+    #[must_use]
     pub const fn poisson_ratio(&self) -> f64 {
         match self {
             Self::Viscous(Viscous { poisson_ratio, .. })

@@ -55,6 +55,7 @@ pub enum Model {
 
 impl Model {
     /// The name in a scene file.
+    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Line => "line",
@@ -89,6 +90,7 @@ impl Method {
     }
 
     /// The name in a scene file.
+    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Analytic => "analytic",

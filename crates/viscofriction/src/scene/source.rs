@@ -29,11 +29,13 @@ impl Source {
     }
 
     /// The file.
+    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Where the files are that a scene names.
+    #[must_use]
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
@@ -50,6 +52,7 @@ impl Source {
     }
 
     /// The error with file and line.
+    #[must_use]
     pub fn locate(&self, error: &SceneError) -> WrongInput {
         let line = match error {
             SceneError::Syntax { line, .. } => Some(*line),
@@ -180,6 +183,7 @@ fn full_key(path: &str, problem: &str) -> String {
 }
 
 /// `branches[2]` as name and index.
+#[must_use]
 pub fn split_index(segment: &str) -> (&str, Option<usize>) {
     match segment.split_once('[') {
         Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),

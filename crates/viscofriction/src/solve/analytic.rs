@@ -1,31 +1,64 @@
 //! Answers in closed form, or by quadrature.
 
 use super::error::{Context as _, Result};
+use std::f64::consts::PI;
+
 use friction_analytic::{
-    SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
-    half_space_power_friction, kelvin_voigt_sliding, maxwell_sliding, power_sliding,
-    superposition_sliding, transient_sliding,
+    Indentation, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
+    half_space_power_friction, impulse_to_depth, indentation_after_impulse, kelvin_voigt_sliding,
+    maxwell_sliding, power_sliding, superposition_sliding, transient_sliding,
 };
-use indenters::{Axisymmetric, PowerProfile, SlidingLoad, bracketed_root};
-use rheology::Viscous;
+use indenters::{
+    Axisymmetric, PowerProfile, PressingLoad, SlidingLoad, bracketed_root, contact_radius,
+};
+use rheology::{Material, Viscous};
 
 use super::answer::{Answer, ContactBox};
 use super::body::Revolution;
-use super::half_space::Simple;
+use super::error::bail;
+use super::half_space::{Simple, simple};
+use super::pressing::{impulse, stiffness, unit_dashpot};
 use crate::scene::{Control, Method, Model};
 
 /// Points of the load along the contact.
 const N_POINTS: usize = 200;
+/// Relative error of the depth by quadrature.
+const QUADRATURE: f64 = 1e-10;
 /// Relative error that is stated for closed forms of which only the front had to be searched; far above their rounding.
 const SEARCHED: f64 = 1e-12;
 
-/// The stationary state on a viscous line.
-pub(crate) fn viscous_line(
+/// A body that slides, on the half space or on the one-dimensional model.
+pub(crate) fn slid(
     body: &Revolution,
-    material: &Viscous,
-    (control, velocity): (Control, f64),
+    material: &dyn Material,
+    load: &SlidingLoad,
+    model: Model,
 ) -> Result<Answer> {
-    let load = line_load(material, control, velocity)?;
+    let Some(simple) = simple(material)? else {
+        bail!("there is no closed form on this material");
+    };
+    match (simple, body) {
+        // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
+        (Simple::Elastic, body) => {
+            let load = PressingLoad::new(load.control(), 1.0)?;
+            Ok(pressed(body, material, &load)?.with_friction(0.0, 0.0))
+        }
+        (Simple::Viscous(material), Revolution::Power(profile)) if model == Model::HalfSpace => {
+            viscous_half_space(profile, &material, load)
+        }
+        (Simple::Viscous(material), body) => match (load.sliding_distance(), body) {
+            (Some(_), Revolution::Power(profile)) => viscous_transient(profile, &material, load),
+            _ => viscous_line(body, &material, load),
+        },
+        (material, Revolution::Power(profile)) => viscoelastic_line(profile, &material, load),
+        _ => bail!("there is no closed form for this body on this material"),
+    }
+}
+
+/// The stationary state on a viscous line.
+fn viscous_line(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Result<Answer> {
+    let velocity = load.velocity();
+    let load = line_load(material, load.control(), velocity)?;
     let state = match body {
         Revolution::Power(profile) => power_sliding(profile, material, &load),
         Revolution::Sum(profile) => superposition_sliding(profile, material, &load),
@@ -79,7 +112,7 @@ fn load_along(
 }
 
 /// The stationary state of a power profile on a viscous half space, from the table of s(p).
-pub(crate) fn viscous_half_space(
+fn viscous_half_space(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
@@ -96,12 +129,13 @@ pub(crate) fn viscous_half_space(
 }
 
 /// Cone and paraboloid on a viscous line, a distance after first touch.
-pub(crate) fn viscous_transient(
+fn viscous_transient(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
-    distance: f64,
 ) -> Result<Answer> {
+    let distance = load.sliding_distance().context("no sliding distance")?;
+    let load = &SlidingLoad::new(load.require_normal_force()?, load.velocity())?;
     let state = transient_sliding(profile, material, load, distance / load.velocity())?;
     let friction = state.friction_coefficient;
     Ok(Answer {
@@ -113,11 +147,12 @@ pub(crate) fn viscous_transient(
 }
 
 /// Cone and paraboloid on a Kelvin–Voigt or Maxwell line.
-pub(crate) fn viscoelastic_line(
+fn viscoelastic_line(
     profile: &PowerProfile,
     material: &Simple,
-    (control, velocity): (Control, f64),
+    load: &SlidingLoad,
 ) -> Result<Answer> {
+    let (control, velocity) = (load.control(), load.velocity());
     let at_front = |front: f64| -> Result<Option<ViscoelasticSliding>> {
         let contact = SlidingContact { front, velocity };
         Ok(match material {
@@ -159,4 +194,69 @@ fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     }
     let excess = |front: f64| ratio(front).map_or(0.0, f64::ln);
     bracketed_root(excess, [front, 2.0 * front])
+}
+
+/// A body that is pressed, in closed form or by quadrature: half space and line agree exactly.
+pub(crate) fn pressed(
+    body: &Revolution,
+    material: &dyn Material,
+    load: &PressingLoad,
+) -> Result<Answer> {
+    let (control, duration) = (load.control(), load.duration());
+    let (force, contact) = match control {
+        Control::NormalForce(force) => {
+            let impulse = impulse(material, force, duration)?;
+            let contact = indentation_after_impulse(body, &unit_dashpot()?, impulse)?;
+            (force, contact)
+        }
+        Control::IndentationDepth(depth) => held(body, material, depth, duration)?,
+    };
+    let radius = contact.contact_radius;
+    let depth = contact.indentation_depth;
+    let peak_pressure = match (body, simple(material)?) {
+        (Revolution::Power(profile), Some(Simple::Elastic)) => {
+            peak_of_power(profile, material, radius)?
+        }
+        _ => None,
+    };
+    Ok(Answer {
+        indentation_depth: Some(depth),
+        indentation_depth_error: Some(QUADRATURE * depth),
+        contact_area: Some(PI * radius * radius),
+        contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
+        peak_pressure,
+        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+    })
+}
+
+/// Force and contact of a body that is held at a depth.
+fn held(
+    body: &Revolution,
+    material: &dyn Material,
+    depth: f64,
+    duration: f64,
+) -> Result<(f64, Indentation)> {
+    let force = stiffness(material, duration)? * impulse_to_depth(body, &unit_dashpot()?, depth)?;
+    let contact = Indentation {
+        contact_radius: contact_radius(body, depth)?,
+        indentation_depth: depth,
+    };
+    Ok((force, contact))
+}
+
+/// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
+fn peak_of_power(
+    profile: &PowerProfile,
+    material: &dyn Material,
+    radius: f64,
+) -> Result<Option<f64>> {
+    let p = profile.exponent();
+    if p <= 1.0 {
+        return Ok(None);
+    }
+    let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
+    let height = profile.line_height(radius);
+    Ok(Some(
+        4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
+    ))
 }

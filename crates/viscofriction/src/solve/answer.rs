@@ -146,6 +146,7 @@ impl Answer {
     }
 
     /// The quantities by their names in JSON and CSV.
+    #[must_use]
     pub fn numbers(&self) -> [(&'static str, Option<f64>); 17] {
         let edges = self.contact_box;
         let parts = self.error_parts;
@@ -180,14 +181,6 @@ impl Answer {
         match known.find(|(_, value)| !value.is_finite()) {
             None => Ok(self),
             Some((name, value)) => bail!("{name} is {value} in units of SI: no number is as large"),
-        }
-    }
-
-    /// The model in words.
-    pub(crate) const fn model_name(&self) -> &'static str {
-        match self.model {
-            Model::Line => "one-dimensional model",
-            Model::HalfSpace => "half space",
         }
     }
 }

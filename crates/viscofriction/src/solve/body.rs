@@ -17,16 +17,21 @@ use crate::text::WrongInput;
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]
 pub enum Body {
+    /// A body of revolution.
     Revolution(Revolution),
     /// Infinite along y.
     Cylinder(Cylinder),
+    /// A grid of heights.
     HeightMap(HeightMap),
 }
 
 /// A body of revolution.
 pub enum Revolution {
+    /// h = c r^p.
     Power(PowerProfile),
+    /// A sum of powers.
     Sum(Superposition),
+    /// Any other.
     Other(Box<dyn Axisymmetric>),
 }
 

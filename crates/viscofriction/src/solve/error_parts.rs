@@ -43,6 +43,7 @@ impl ErrorParts {
     }
 
     /// The parts by their names in JSON and CSV.
+    #[must_use]
     pub const fn named(&self) -> [(&'static str, Option<f64>); 4] {
         [
             ("discretisation", self.discretisation),
@@ -50,16 +51,6 @@ impl ErrorParts {
             ("time_stepping", self.time_stepping),
             ("truncation", self.truncation),
         ]
-    }
-
-    /// For a person; nothing of a method without parts.
-    pub(crate) fn in_words(&self) -> Option<String> {
-        let known = self.named().into_iter();
-        let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
-        let parts: Vec<String> = known
-            .map(|(name, part)| format!("{name} {part:.1e}"))
-            .collect();
-        (!parts.is_empty()).then(|| parts.join(", "))
     }
 
     pub(crate) fn sum(&self) -> f64 {

@@ -11,7 +11,6 @@ use rheology::Material;
 use super::answer::{Answer, ContactBox};
 use super::error_parts::ErrorParts;
 use super::half_space::{Simple, simple};
-use super::load;
 use super::pressing;
 use super::problem::{Motion, Problem};
 use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
@@ -27,9 +26,8 @@ const COARSEST_ELEMENTS: f64 = 8.0;
 /// What a method answers that takes the cylinder.
 pub(crate) fn answer(problem: &Problem, cylinder: &Cylinder, accuracy: Accuracy) -> Result<Answer> {
     let material = &*problem.material;
-    match (problem.motion, problem.control) {
-        (Motion::Sliding { velocity, .. }, control) => {
-            let load = &load((control, velocity))?;
+    match (problem.motion, problem.motion.control()) {
+        (Motion::Sliding(ref load), _) => {
             let ladder = LineLadder::of_profile(cylinder, material, load)?;
             let sliding = Sliding {
                 cylinder,
@@ -42,8 +40,8 @@ pub(crate) fn answer(problem: &Problem, cylinder: &Cylinder, accuracy: Accuracy)
                 Accuracy::Elements(_) => sliding.on_elements(accuracy),
             }
         }
-        (Motion::Pressing { duration }, Control::NormalForce(force)) => {
-            pressed(cylinder, material, (force, duration))
+        (Motion::Pressing(load), Control::NormalForce(force)) => {
+            pressed(cylinder, material, (force, load.duration()))
         }
         (_, Control::IndentationDepth(_)) => bail!("a line contact has no depth"),
     }

@@ -288,7 +288,7 @@ impl<'a, S: Shape> Scene<'a, S> {
         let motion = |position: f64| Motion {
             time: position / self.drive.velocity,
             position,
-            control: bem_halfspace::Control::IndentationDepth(depth),
+            control: Control::IndentationDepth(depth),
         };
         before.chain([distance]).map(motion).collect()
     }

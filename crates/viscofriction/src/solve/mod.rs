@@ -30,12 +30,11 @@ pub use problem::{Motion, Problem, ReadFile, problem_of};
 pub use same_problem::SameProblem;
 
 use self::error::bail;
-use indenters::SlidingLoad;
+use indenters::{PressingLoad, SlidingLoad};
 
-use self::half_space::{Simple, simple};
 use self::omission::plan;
 use self::shape::{Drive, Shape};
-use crate::scene::{Accuracy, Control, Method, Model};
+use crate::scene::{Accuracy, Control, Method};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 pub fn solve(problem: &Problem) -> Result<Answer> {
@@ -72,17 +71,18 @@ fn by_elements(
     body: &impl Shape,
     (method, accuracy): (Method, Accuracy),
 ) -> Result<Answer> {
-    let (material, control) = (&*problem.material, problem.control);
-    let (velocity, distance) = match problem.motion {
-        Motion::Sliding { velocity, distance } => (velocity, distance),
-        Motion::Pressing { duration } => {
-            return pressing::boundary_elements(body, material, (control, duration), accuracy);
+    let material = &*problem.material;
+    let load = match problem.motion {
+        Motion::Sliding(load) => load,
+        Motion::Pressing(load) => {
+            let pressed = (load.control(), load.duration());
+            return pressing::boundary_elements(body, material, pressed, accuracy);
         }
     };
     let drive = Drive {
-        control,
-        velocity,
-        distance,
+        control: load.control(),
+        velocity: load.velocity(),
+        distance: load.sliding_distance(),
     };
     match method {
         Method::BemSteady => bem::stationary(body, (material, &drive), accuracy),
@@ -92,8 +92,8 @@ fn by_elements(
 
 fn of_revolution(problem: &Problem, body: &Revolution, way: (Method, Accuracy)) -> Result<Answer> {
     match problem.motion {
-        Motion::Pressing { duration } => pressed(problem, body, way, duration),
-        Motion::Sliding { velocity, distance } => slid(problem, body, way, (velocity, distance)),
+        Motion::Pressing(load) => pressed(problem, body, way, &load),
+        Motion::Sliding(load) => slid(problem, body, way, &load),
     }
 }
 
@@ -101,17 +101,14 @@ fn pressed(
     problem: &Problem,
     body: &Revolution,
     (method, accuracy): (Method, Accuracy),
-    duration: f64,
+    load: &PressingLoad,
 ) -> Result<Answer> {
     let material = &*problem.material;
-    match (method, problem.control) {
+    match (method, load.control()) {
         (Method::MdrTransient, Control::NormalForce(force)) => {
-            pressing::chain(body, material, (force, duration), accuracy)
+            pressing::chain(body, material, (force, load.duration()), accuracy)
         }
-        (_, control) => {
-            let simple = simple(material)?;
-            pressing::analytic(body, material, (control, duration), simple.as_ref())
-        }
+        _ => analytic::pressed(body, material, load),
     }
 }
 
@@ -119,57 +116,18 @@ fn slid(
     problem: &Problem,
     body: &Revolution,
     (method, accuracy): (Method, Accuracy),
-    (velocity, distance): (f64, Option<f64>),
+    load: &SlidingLoad,
 ) -> Result<Answer> {
     let material = &*problem.material;
-    let motion = (problem.control, velocity);
     match method {
-        Method::MdrSteady => mdr::stationary(body, material, motion, relative_error(accuracy)?),
+        Method::MdrSteady => {
+            let motion = (load.control(), load.velocity());
+            mdr::stationary(body, material, motion, relative_error(accuracy)?)
+        }
         Method::MdrTransient => {
-            let load = load(motion)?;
-            mdr::transient(body, material, (&load, distance), accuracy)
+            mdr::transient(body, material, (load, load.sliding_distance()), accuracy)
         }
-        _ => closed(problem, body, (velocity, distance)),
-    }
-}
-
-fn closed(
-    problem: &Problem,
-    body: &Revolution,
-    (velocity, distance): (f64, Option<f64>),
-) -> Result<Answer> {
-    let motion = (problem.control, velocity);
-    let half_space = problem.model == Model::HalfSpace;
-    match (simple(&*problem.material)?, body) {
-        (Some(elastic @ Simple::Elastic), body) => {
-            let pressed = pressing::analytic(
-                body,
-                &*problem.material,
-                (problem.control, 1.0),
-                Some(&elastic),
-            )?;
-            Ok(pressed.with_friction(0.0, 0.0))
-        }
-        (Some(Simple::Viscous(material)), Revolution::Power(profile)) if half_space => {
-            analytic::viscous_half_space(profile, &material, &load(motion)?)
-        }
-        (Some(Simple::Viscous(material)), body) => match (distance, body) {
-            (Some(distance), Revolution::Power(profile)) => {
-                analytic::viscous_transient(profile, &material, &load(motion)?, distance)
-            }
-            _ => analytic::viscous_line(body, &material, motion),
-        },
-        (Some(material), Revolution::Power(profile)) => {
-            analytic::viscoelastic_line(profile, &material, motion)
-        }
-        _ => bail!("there is no closed form for this body on this material"),
-    }
-}
-
-fn load((control, velocity): (Control, f64)) -> Result<SlidingLoad> {
-    match control {
-        Control::NormalForce(force) => Ok(SlidingLoad::new(force, velocity)?),
-        Control::IndentationDepth(_) => bail!("the method slides under a force, not at a depth"),
+        _ => analytic::slid(body, material, load, problem.model),
     }
 }
 

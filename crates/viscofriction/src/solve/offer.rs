@@ -24,13 +24,17 @@ pub enum NotOffered {
     /// The method that the scene names does not answer it.
     #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
     Method {
+        /// The method.
         method: Method,
+        /// Why it does not.
         why: &'static str,
+        /// Methods that do.
         offered: Vec<Method>,
     },
     /// No method does.
     #[error("no method answers this scene yet: {}", reasons(refusals))]
     AnyMethod {
+        /// Why each of them does not.
         refusals: Vec<(Method, &'static str)>,
     },
     /// The material cannot be reduced to the incompressible one with the same surface.
@@ -122,7 +126,7 @@ const NOTHING_SLIDES: &str =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
 fn at_depth(problem: &Problem) -> bool {
-    matches!(problem.control, Control::IndentationDepth(_))
+    matches!(problem.motion.control(), Control::IndentationDepth(_))
 }
 
 fn line_contact(method: Method, problem: &Problem) -> Option<&'static str> {
@@ -138,32 +142,32 @@ fn line_contact(method: Method, problem: &Problem) -> Option<&'static str> {
         _ if problem.model == Model::Line => Some(
             "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
         ),
-        (Method::Analytic, Motion::Sliding { .. }) => {
+        (Method::Analytic, Motion::Sliding(_)) => {
             Some("there is no closed form for a cylinder that slides")
         }
-        (Method::Analytic, Motion::Pressing { .. }) => {
+        (Method::Analytic, Motion::Pressing(_)) => {
             matches!(problem.accuracy, Accuracy::Elements(_)).then_some(NO_ELEMENTS)
         }
         (Method::BemTransient, _) => Some(
             "its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it",
         ),
-        (Method::BemSteady, Motion::Pressing { .. }) => Some(NOTHING_SLIDES),
-        (Method::BemSteady, Motion::Sliding { distance, .. }) => {
+        (Method::BemSteady, Motion::Pressing(_)) => Some(NOTHING_SLIDES),
+        (Method::BemSteady, Motion::Sliding(load)) => {
             if problem.material.creep().fluidity() > 0.0 {
                 return Some(
                     "under a line contact a half space that flows sinks the faster the longer it is, without limit",
                 );
             }
-            distance.is_some().then_some(STATIONARY)
+            load.sliding_distance().is_some().then_some(STATIONARY)
         }
     }
 }
 
 fn boundary_elements(method: Method, problem: &Problem) -> Option<&'static str> {
-    let Motion::Sliding { distance, .. } = problem.motion else {
+    let Motion::Sliding(load) = problem.motion else {
         return (method == Method::BemSteady).then_some(NOTHING_SLIDES);
     };
-    if !at_depth(problem) || distance.is_some() {
+    if !at_depth(problem) || load.sliding_distance().is_some() {
         return None;
     }
     if method == Method::BemTransient {
@@ -176,7 +180,7 @@ fn boundary_elements(method: Method, problem: &Problem) -> Option<&'static str> 
 }
 
 fn line(method: Method, problem: &Problem) -> Option<&'static str> {
-    let Motion::Sliding { distance, .. } = problem.motion else {
+    let Motion::Sliding(load) = problem.motion else {
         return match method {
             Method::MdrSteady => Some(NOTHING_SLIDES),
             _ => at_depth(problem).then_some("it presses with a force; analytic holds a depth"),
@@ -186,7 +190,7 @@ fn line(method: Method, problem: &Problem) -> Option<&'static str> {
         return at_depth(problem).then_some(UNDER_FORCE);
     }
     match problem.accuracy {
-        _ if distance.is_some() => Some(STATIONARY),
+        _ if load.sliding_distance().is_some() => Some(STATIONARY),
         Accuracy::Elements(_) => {
             Some("it chooses its polynomials itself; give relative_error instead of elements")
         }
@@ -198,13 +202,13 @@ fn closed(problem: &Problem, body: &Revolution, simple: Option<&Simple>) -> Opti
     if matches!(problem.accuracy, Accuracy::Elements(_)) {
         return Some(NO_ELEMENTS);
     }
-    let Motion::Sliding { distance, .. } = problem.motion else {
+    let Motion::Sliding(load) = problem.motion else {
         return None;
     };
     match problem.model {
         _ if matches!(simple, Some(Simple::Elastic)) => None,
-        Model::HalfSpace => closed_half_space(problem, body, simple, distance),
-        Model::Line => closed_line(problem, body, simple, distance),
+        Model::HalfSpace => closed_half_space(problem, body, simple, load.sliding_distance()),
+        Model::Line => closed_line(problem, body, simple, load.sliding_distance()),
     }
 }
 

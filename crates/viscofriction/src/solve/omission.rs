@@ -14,15 +14,25 @@ use crate::scene::{Control, Method, Model};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Omission {
+    /// Elements, where there is a closed form.
     NumericalSolution,
+    /// Steps in time, where only the state at the end is asked for.
     TimeSteps,
+    /// Elements of the half space, where the one-dimensional model has the same depth.
     HalfSpace,
+    /// One side of a plane of symmetry.
     MirrorHalf,
+    /// Elements that do not touch.
     OutsideContact,
+    /// Fourier transforms, where the contact is small.
     Transforms,
+    /// Rows of elements that the body has left for ever.
     RowsBehind,
+    /// Fields that remember a history, where the result does not depend on it.
     HistoryFields,
+    /// Slopes of the surface, where nothing slides.
     Gradients,
+    /// Files, where none are asked for.
     Files,
 }
 
@@ -65,16 +75,15 @@ impl Omission {
     #[must_use]
     pub const fn done_by(self, answer: &Answer, motion: Motion) -> Option<Method> {
         match (self, answer.model, motion) {
-            (Self::NumericalSolution, Model::Line, Motion::Sliding { .. }) => {
-                Some(Method::MdrSteady)
-            }
-            (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding { .. }) => {
+            (Self::NumericalSolution, Model::Line, Motion::Sliding(_)) => Some(Method::MdrSteady),
+            (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding(_)) => {
                 Some(Method::BemSteady)
             }
-            (Self::NumericalSolution, _, Motion::Pressing { .. })
+            (Self::NumericalSolution, _, Motion::Pressing(_))
             | (Self::TimeSteps, Model::Line, _) => Some(Method::MdrTransient),
-            (Self::TimeSteps, Model::HalfSpace, Motion::Sliding { .. })
-            | (Self::HalfSpace, _, _) => Some(Method::BemTransient),
+            (Self::TimeSteps, Model::HalfSpace, Motion::Sliding(_)) | (Self::HalfSpace, _, _) => {
+                Some(Method::BemTransient)
+            }
             _ => None,
         }
     }
@@ -96,37 +105,41 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         return Vec::new();
     }
     match (answer.method, problem.motion) {
-        (Method::Analytic, Motion::Sliding { .. }) => {
+        (Method::Analytic, Motion::Sliding(_)) => {
             vec![Omission::NumericalSolution, Omission::TimeSteps]
         }
-        (Method::Analytic, Motion::Pressing { .. }) => {
+        (Method::Analytic, Motion::Pressing(_)) => {
             vec![Omission::NumericalSolution, Omission::HalfSpace]
         }
         (Method::MdrSteady, _) => vec![Omission::TimeSteps],
-        (Method::MdrTransient, Motion::Pressing { .. }) => vec![Omission::HalfSpace],
-        (Method::MdrTransient, Motion::Sliding { .. }) => Vec::new(),
-        (Method::BemSteady, Motion::Sliding { distance, .. }) => {
+        (Method::MdrTransient, Motion::Pressing(_)) => vec![Omission::HalfSpace],
+        (Method::MdrTransient, Motion::Sliding(_)) => Vec::new(),
+        (Method::BemSteady, Motion::Sliding(load)) => {
             let mut left_out = Vec::new();
             left_out.extend(mirrors(&problem.body)[1].then_some(Omission::MirrorHalf));
             left_out.push(outside_or_transforms(answer));
             // After a distance the friction is not yet that of the stationary state.
-            left_out.extend(distance.is_none().then_some(Omission::TimeSteps));
+            left_out.extend(
+                load.sliding_distance()
+                    .is_none()
+                    .then_some(Omission::TimeSteps),
+            );
             left_out
         }
-        (Method::BemSteady, Motion::Pressing { .. }) => Vec::new(),
-        (Method::BemTransient, Motion::Sliding { .. }) => {
+        (Method::BemSteady, Motion::Pressing(_)) => Vec::new(),
+        (Method::BemTransient, Motion::Sliding(_)) => {
             let mut left_out = Vec::new();
             left_out.extend(mirrors(&problem.body)[1].then_some(Omission::MirrorHalf));
             left_out.extend([Omission::OutsideContact, Omission::RowsBehind]);
             left_out
         }
-        (Method::BemTransient, Motion::Pressing { .. }) => {
+        (Method::BemTransient, Motion::Pressing(_)) => {
             let mut left_out = vec![Omission::TimeSteps];
             let is_even = mirrors(&problem.body) != [false; 2];
             left_out.extend(is_even.then_some(Omission::MirrorHalf));
             left_out.push(Omission::Gradients);
             // A depth that is held needs another force at every time.
-            let constant = matches!(problem.control, Control::NormalForce(_));
+            let constant = matches!(problem.motion.control(), Control::NormalForce(_));
             let remembers = n_fields(&problem.material.creep()) > 1;
             left_out.extend((constant && remembers).then_some(Omission::HistoryFields));
             left_out

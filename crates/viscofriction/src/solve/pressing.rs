@@ -8,25 +8,19 @@
 //! F(t) = 8 G(t)/(2 (1 − ν)) ∫₀^a x h̃' dx    constant depth, contact radius a
 //! ```
 
-use std::f64::consts::PI;
-
 use super::error::{Result, bail};
 use bem_halfspace::ContactOptions;
 use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
-use friction_analytic::{Indentation, impulse_to_depth, indentation_after_impulse};
-use indenters::{Axisymmetric, EquivalentLine, PowerProfile, contact_radius};
+use friction_analytic::indentation_after_impulse;
+use indenters::{Axisymmetric, EquivalentLine};
 use rheology::{Material, RheologyError, Viscous};
 
 use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
 use super::error_parts::ErrorParts;
-use super::half_space::Simple;
 use super::resolution::{Goal, Quantity, Resolved, nothing_else, resolve};
 use super::shape::{Patch, Shape};
 use crate::scene::{Accuracy, Control, Method, Model};
-
-/// Relative error of the depth by quadrature.
-const QUADRATURE: f64 = 1e-10;
 
 /// The dashpot on which an impulse does what the material does with F J(t).
 pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
@@ -38,56 +32,8 @@ pub(crate) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Res
     Ok(force * compliance)
 }
 
-/// Closed form or quadrature.
-pub(crate) fn analytic(
-    body: &Revolution,
-    material: &dyn Material,
-    (control, duration): (Control, f64),
-    simple: Option<&Simple>,
-) -> Result<Answer> {
-    let (force, contact) = match control {
-        Control::NormalForce(force) => {
-            let impulse = impulse(material, force, duration)?;
-            let contact = indentation_after_impulse(body, &unit_dashpot()?, impulse)?;
-            (force, contact)
-        }
-        Control::IndentationDepth(depth) => held(body, material, depth, duration)?,
-    };
-    let radius = contact.contact_radius;
-    let depth = contact.indentation_depth;
-    let peak_pressure = match (body, simple) {
-        (Revolution::Power(profile), Some(Simple::Elastic)) => {
-            peak_of_power(profile, material, radius)?
-        }
-        _ => None,
-    };
-    Ok(Answer {
-        indentation_depth: Some(depth),
-        indentation_depth_error: Some(QUADRATURE * depth),
-        contact_area: Some(PI * radius * radius),
-        contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
-        peak_pressure,
-        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
-    })
-}
-
-/// Force and contact of a body that is held at a depth.
-fn held(
-    body: &Revolution,
-    material: &dyn Material,
-    depth: f64,
-    duration: f64,
-) -> Result<(f64, Indentation)> {
-    let force = stiffness(material, duration)? * impulse_to_depth(body, &unit_dashpot()?, depth)?;
-    let contact = Indentation {
-        contact_radius: contact_radius(body, depth)?,
-        indentation_depth: depth,
-    };
-    Ok((force, contact))
-}
-
 /// Force at a depth that was held for a duration, over the impulse that leads to it on the unit dashpot, [1/s].
-fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
+pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();
     if !(stiffness.is_finite() && stiffness > 0.0) {
@@ -96,23 +42,6 @@ fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
         );
     }
     Ok(stiffness)
-}
-
-/// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
-fn peak_of_power(
-    profile: &PowerProfile,
-    material: &dyn Material,
-    radius: f64,
-) -> Result<Option<f64>> {
-    let p = profile.exponent();
-    if p <= 1.0 {
-        return Ok(None);
-    }
-    let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
-    let height = profile.line_height(radius);
-    Ok(Some(
-        4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
-    ))
 }
 
 /// The chain of elements, in as many steps as elements.
@@ -279,10 +208,8 @@ pub(crate) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
     let step = |step: usize| {
         let time = step as f64 / n_steps as f64;
         let control = match control {
-            Control::NormalForce(force) => bem_halfspace::Control::NormalForce(force),
-            Control::IndentationDepth(depth) => {
-                bem_halfspace::Control::IndentationDepth(time * depth)
-            }
+            Control::NormalForce(force) => Control::NormalForce(force),
+            Control::IndentationDepth(depth) => Control::IndentationDepth(time * depth),
         };
         IndentStep { time, control }
     };
@@ -310,6 +237,9 @@ mod tests {
     use indenters::FlatCone;
     use rheology::Elastic;
 
+    use indenters::PressingLoad;
+
+    use super::super::analytic::pressed;
     use super::*;
 
     /// The flanks carry a little, and no element sees it: all resolutions agree, and are wrong.
@@ -319,8 +249,8 @@ mod tests {
         let cone = FlatCone::new(1.0, 0.4).expect("a body");
         let body = Revolution::Other(Box::new(cone));
         for force in [1e-3, 1e-2, 1e-1, 1.0, 10.0] {
-            let control = (Control::NormalForce(force), 1.0);
-            let exact = analytic(&body, &material, control, None).expect("a depth");
+            let load = PressingLoad::new(Control::NormalForce(force), 1.0).expect("a load");
+            let exact = pressed(&body, &material, &load).expect("a depth");
             for elements in [16, 64, 512] {
                 let accuracy = Accuracy::Elements(elements);
                 let got = chain(&body, &material, (force, 1.0), accuracy).expect("a depth");

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
 use rheology::Material;
 
 use super::body::{Body, body};
 use super::half_space::half_space;
 use super::offer::{NotOffered, choose};
-use crate::scene::{Accuracy, Control, Method, Model, Scene, SceneError, Source, scene_file};
+use crate::scene::{Accuracy, Method, Model, Scene, SceneError, Source, scene_file};
 use crate::text::WrongInput;
 
 /// Reads a file that a scene names; the sentence of a failure names it.
@@ -16,26 +17,40 @@ pub type ReadFile = fn(&Path) -> Result<Vec<u8>, WrongInput>;
 /// What is asked of the methods.
 #[derive(Debug)]
 pub struct Problem {
+    /// The rigid body.
     pub body: Body,
+    /// The elastomer.
     pub material: Box<dyn Material>,
-    pub control: Control,
+    /// How the body is pressed and moves.
     pub motion: Motion,
+    /// How well the answer is asked for.
     pub accuracy: Accuracy,
+    /// The method that the scene names; without it the cheapest is taken.
     pub method: Option<Method>,
+    /// What the elastomer is taken to be.
     pub model: Model,
+    /// Threads that the scene asks for; the caller provides them.
     pub threads: Option<usize>,
 }
 
 /// How the body moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// Slides with a velocity \[m/s], over a distance \[m] from first touch or for ever.
-    Sliding {
-        velocity: f64,
-        distance: Option<f64>,
-    },
-    /// Is pressed without sliding, for a duration \[s].
-    Pressing { duration: f64 },
+    /// Slides under a force or at a depth, for ever or over a distance.
+    Sliding(SlidingLoad),
+    /// Is pressed with a force or to a depth for a time, without sliding.
+    Pressing(PressingLoad),
+}
+
+impl Motion {
+    /// Force or depth.
+    #[must_use]
+    pub const fn control(&self) -> Control {
+        match self {
+            Self::Sliding(load) => load.control(),
+            Self::Pressing(load) => load.control(),
+        }
+    }
 }
 
 impl Problem {
@@ -44,21 +59,10 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
-        let velocity = scene.load.checked_velocity()?;
-        let motion = if velocity > 0.0 {
-            Motion::Sliding {
-                velocity,
-                distance: scene.solve.distance(velocity)?,
-            }
-        } else {
-            Motion::Pressing {
-                duration: scene.solve.indentation_time()?,
-            }
-        };
+        let motion = motion(scene)?;
         Ok(Self {
             body: body(&scene.indenter, folder, read)?,
             material: half_space(&scene.material)?,
-            control: scene.load.control()?,
             motion,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
@@ -66,6 +70,20 @@ impl Problem {
             threads: scene.solve.checked_threads()?,
         })
     }
+}
+
+fn motion(scene: &Scene) -> Result<Motion, SceneError> {
+    let wrong = |error: IndenterError| SceneError::together("load", error.to_string());
+    let (control, velocity) = (scene.load.control()?, scene.load.checked_velocity()?);
+    if velocity > 0.0 {
+        let load = SlidingLoad::with(control, velocity).map_err(wrong)?;
+        return Ok(Motion::Sliding(match scene.solve.distance(velocity)? {
+            Some(distance) => load.after(distance).map_err(wrong)?,
+            None => load,
+        }));
+    }
+    let load = PressingLoad::new(control, scene.solve.indentation_time()?);
+    load.map(Motion::Pressing).map_err(wrong)
 }
 
 /// What a scene file asks, and the method that answers it: the one given, that of the scene, or the cheapest.

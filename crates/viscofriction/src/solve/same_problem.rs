@@ -28,9 +28,10 @@ const CONTACT: ContactOptions = ContactOptions {
 const STEPS: usize = 8;
 
 /// A quantity and what it is compared relative to.
-pub type Number = [f64; 2];
+pub(crate) type Number = [f64; 2];
 
 /// The grid behind an answer.
+#[derive(Debug)]
 pub struct SameProblem<'a> {
     problem: &'a Problem,
     method: Method,
@@ -40,6 +41,10 @@ pub struct SameProblem<'a> {
 }
 
 impl<'a> SameProblem<'a> {
+    /// The grid on which the answer was found last.
+    ///
+    /// # Errors
+    /// [`super::SolveError`] for an answer without a grid.
     pub fn of(problem: &'a Problem, answer: &Answer) -> Result<Self> {
         let last = answer.fields.history.last();
         Ok(Self {
@@ -50,7 +55,11 @@ impl<'a> SameProblem<'a> {
         })
     }
 
-    /// What the grid answers when the work of an omission is done too.
+    /// What the grid answers when the work of an omission is done too: quantities, each with the scale by which its changes are
+    /// judged.
+    ///
+    /// # Errors
+    /// [`super::SolveError`] of the solver, and for work that the method does not have.
     pub fn solve(&self, kept: Option<Omission>) -> Result<Vec<Number>> {
         match &self.problem.body {
             Body::Revolution(body) => self.with_or_without_mirrors(body, kept),
@@ -71,14 +80,14 @@ impl<'a> SameProblem<'a> {
     }
 
     fn solve_for(&self, body: &impl Shape, kept: Option<Omission>) -> Result<Vec<Number>> {
-        let (velocity, distance) = match self.problem.motion {
-            Motion::Sliding { velocity, distance } => (velocity, distance),
-            Motion::Pressing { duration } => return self.press(body, duration, kept),
+        let load = match self.problem.motion {
+            Motion::Sliding(load) => load,
+            Motion::Pressing(load) => return self.press(body, load.duration(), kept),
         };
         let drive = Drive {
-            control: self.problem.control,
-            velocity,
-            distance,
+            control: load.control(),
+            velocity: load.velocity(),
+            distance: load.sliding_distance(),
         };
         match self.method {
             Method::BemSteady => self.stationary(body, &drive, kept),
@@ -139,7 +148,7 @@ impl<'a> SameProblem<'a> {
         duration: f64,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let (control, material) = (self.problem.control, &*self.problem.material);
+        let (control, material) = (self.problem.motion.control(), &*self.problem.material);
         let pressed = pressing::on_unit_dashpot(material, (control, duration))?;
         let options = IndentOptions {
             spacing: [self.grid.spacing; 2],

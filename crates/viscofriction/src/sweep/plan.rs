@@ -20,6 +20,10 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The points of a scene and of what varies in it; `read` reads the files that the scene names.
+    ///
+    /// # Errors
+    /// [`WrongInput`] for a key that varies twice, too many points, or a scene that is no TOML.
     pub fn new(source: Source, vary: &[Vary], read: ReadFile) -> Result<Self, WrongInput> {
         let table = source.table()?;
         for (index, one) in vary.iter().enumerate() {
@@ -51,19 +55,25 @@ impl Plan {
         })
     }
 
+    /// The scene.
+    #[must_use]
     pub const fn source(&self) -> &Source {
         &self.source
     }
 
+    /// Number of points, all combinations of the values.
+    #[must_use]
     pub fn n_points(&self) -> usize {
         self.vary.iter().map(|vary| vary.count).product()
     }
 
+    /// The keys that vary.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.vary.iter().map(|vary| vary.key.as_str())
     }
 
     /// The values of a point; the last key is fastest.
+    #[must_use]
     pub fn values(&self, point: usize) -> Vec<f64> {
         let mut rest = point;
         let mut values: Vec<f64> = Vec::new();
@@ -76,6 +86,9 @@ impl Plan {
     }
 
     /// Checks every point before the first is computed; returns on how many threads, none for all that there are.
+    ///
+    /// # Errors
+    /// [`WrongInput`] with the place in the scene and the values of the point.
     pub fn validate(&self) -> Result<Option<usize>, WrongInput> {
         let mut threads = None;
         for point in 0..self.n_points() {
@@ -87,6 +100,9 @@ impl Plan {
     }
 
     /// The row of a point; what a method could not reach is part of it.
+    ///
+    /// # Errors
+    /// [`WrongInput`] as of [`Self::validate`].
     pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
         let answer = solve(&self.problem(point)?);
         Ok(Row::new(self, point, answer))

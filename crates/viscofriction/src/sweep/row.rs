@@ -34,10 +34,13 @@ const AFTER: [&str; 21] = [
 pub struct Row {
     /// Counted from 0.
     pub point: usize,
+    /// Texts in the order of the [`header`].
     pub fields: Vec<String>,
 }
 
 impl Row {
+    /// The row of a point and its answer, or why there is none.
+    #[must_use]
     pub fn new(plan: &Plan, point: usize, answer: Result<Answer>) -> Self {
         let mut fields = identity(plan, point);
         match answer {
@@ -51,6 +54,8 @@ impl Row {
         Self { point, fields }
     }
 
+    /// Whether the point has no answer.
+    #[must_use]
     pub fn failed(&self) -> bool {
         self.fields
             .last()
@@ -59,12 +64,14 @@ impl Row {
 }
 
 /// The names of the columns.
+#[must_use]
 pub fn header(plan: &Plan) -> Vec<String> {
     let names = BEFORE.into_iter().chain(plan.keys()).chain(AFTER);
     names.map(str::to_owned).collect()
 }
 
 /// What tells a row from every other: sweep, point counted from 1, number of points, values.
+#[must_use]
 pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
     let values = plan.values(point);
     [

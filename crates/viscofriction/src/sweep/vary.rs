@@ -5,9 +5,11 @@ use std::str::FromStr;
 /// A key and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vary {
+    /// Such as `load.velocity`.
     pub key: String,
     start: f64,
     stop: f64,
+    /// Number of values.
     pub count: usize,
     log: bool,
 }
@@ -17,11 +19,12 @@ pub struct Vary {
 pub struct Shard {
     /// From 1 to `count`.
     pub number: usize,
+    /// Number of shards.
     pub count: usize,
 }
 
 /// More points than this are a mistake.
-pub const MOST_POINTS: usize = 1_000_000;
+pub(super) const MOST_POINTS: usize = 1_000_000;
 
 impl FromStr for Vary {
     type Err = String;
@@ -73,6 +76,7 @@ fn whole(name: &str, text: &str, most: usize) -> Result<usize, String> {
 
 impl Vary {
     /// The value of a given index; both ends are met exactly.
+    #[must_use]
     pub fn value(&self, index: usize) -> f64 {
         if index == 0 {
             return self.start;
@@ -101,6 +105,7 @@ impl FromStr for Shard {
 
 impl Shard {
     /// Whether a point, counted from 0, belongs to this shard.
+    #[must_use]
     pub const fn holds(self, point: usize) -> bool {
         point % self.count == self.number - 1
     }

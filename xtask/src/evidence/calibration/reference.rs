@@ -142,7 +142,7 @@ fn ask(scene: &Scene, way: &Way) -> Result<Reference> {
 fn power_pressed(scene: &Scene) -> Result<Option<Reference>> {
     let question = Question::new(&scene.file, Path::new(""), crate::run::no_files)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =
-        (&question.body, question.control)
+        (&question.body, question.motion.control())
     else {
         return Ok(None);
     };
