@@ -1,6 +1,7 @@
 //! Where contact may occur, seen from the indenter.
 
-use indenters::{Axisymmetric, SlidingLoad, bracketed_root};
+use indenters::{Axisymmetric, SlidingLoad};
+use numerics::bracketed_root;
 use rheology::Material;
 
 use crate::BemError;

@@ -7,8 +7,8 @@
 //! So force enters only through its impulse, and any force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
 //! 15, 270, for power profiles; Radok 1957 for the principle). Where the force vanishes, the body rests.
 
-use indenters::quadrature::Integral;
-use indenters::{Axisymmetric, PowerProfile, bracketed_root, contact_radius};
+use indenters::{Axisymmetric, PowerProfile, contact_radius};
+use numerics::{Estimate, bracketed_root};
 use rheology::Viscous;
 
 use crate::FrictionError;
@@ -127,7 +127,7 @@ pub fn time_to_depth(
 /// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.
 ///
 /// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs neither the line nor a difference of heights.
-pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Integral {
+pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
     let integrand = |psi: f64| {
         let cosine = psi.cos();
         body.profile_slope(radius * cosine) * cosine * cosine
@@ -141,7 +141,7 @@ pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Integr
     angles.reverse();
     let angular = over_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
-    Integral {
+    Estimate {
         value: radius * (radius * angular.value),
         error: radius * (radius * angular.error),
     }

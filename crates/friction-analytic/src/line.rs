@@ -4,8 +4,8 @@
 //! d = F_N/(4 η v)        (12)        μ = (1/d) Σ_i ∫_{A_i} h̃'(x)² dx,   A_d = ∪ A_i        (11), (16)
 //! ```
 
-use indenters::quadrature::Integral;
 use indenters::{RigidLine, SlidingLoad, contact_line};
+use numerics::Estimate;
 use rheology::Viscous;
 
 use crate::axisymmetric::no_stationary_state;
@@ -52,10 +52,10 @@ fn end_term(line: &(impl RigidLine + ?Sized), end: f64) -> f64 {
 fn slope_energy(
     line: &(impl RigidLine + ?Sized),
     intervals: &[[f64; 2]],
-) -> Result<Integral, FrictionError> {
+) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);
-    let mut sum = Integral {
+    let mut sum = Estimate {
         value: 0.0,
         error: 0.0,
     };

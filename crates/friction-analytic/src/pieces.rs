@@ -1,6 +1,6 @@
 //! Integrals over several pieces, and when they count as known.
 
-use indenters::quadrature::{Integral, integrate};
+use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
 
@@ -11,8 +11,8 @@ const REQUESTED_ACCURACY: f64 = 1e-12;
 const ACCEPTED_ACCURACY: f64 = 1e-10;
 
 /// The integral over the pieces between successive `ends`.
-pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Integral {
-    let mut sum = Integral {
+pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
+    let mut sum = Estimate {
         value: 0.0,
         error: 0.0,
     };
@@ -27,9 +27,9 @@ pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Integ
 /// The integral, if its error is small enough to count as an answer.
 pub(crate) fn accepted(
     quantity: &'static str,
-    integral: Integral,
-) -> Result<Integral, FrictionError> {
-    let Integral { value, error } = integral;
+    integral: Estimate,
+) -> Result<Estimate, FrictionError> {
+    let Estimate { value, error } = integral;
     if value.is_finite() && error <= ACCEPTED_ACCURACY * value.abs() {
         return Ok(integral);
     }

@@ -1,7 +1,7 @@
 //! The integral behind friction, ∫ h̃'² dx, of a body of revolution.
 
 use indenters::Axisymmetric;
-use indenters::quadrature::Integral;
+use numerics::Estimate;
 
 use crate::pieces::{accepted, over_pieces};
 use crate::{DivergenceCause, FrictionError};
@@ -35,11 +35,11 @@ pub(crate) fn divergence_cause(
 pub(crate) fn slope_energy(
     body: &(impl Axisymmetric + ?Sized),
     radius: f64,
-) -> Result<Integral, FrictionError> {
+) -> Result<Estimate, FrictionError> {
     let ends = ends_outside_apex(body, radius);
     let inner = from_apex(body, ends[0]);
     let outer = over_pieces(|x| body.line_slope(x).powi(2), &ends);
-    let sum = Integral {
+    let sum = Estimate {
         value: inner.value + outer.value,
         error: inner.error + outer.error,
     };
@@ -56,7 +56,7 @@ pub(crate) fn ends_outside_apex(body: &(impl Axisymmetric + ?Sized), radius: f64
 }
 
 /// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`.
-fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Integral {
+fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Estimate {
     let square = |x: f64| body.line_slope(x).powi(2);
     let exponent = body.profile_exponent();
     if exponent >= 1.0 {

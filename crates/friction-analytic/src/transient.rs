@@ -12,9 +12,10 @@
 //!
 //! This is the solution of the balance behind (15) with the load of the trailing flank, which (15) leaves out.
 
+use numerics::bracketed_root;
 use std::f64::consts::LN_2;
 
-use indenters::{PowerProfile, SlidingLoad, bracketed_root};
+use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
 use crate::FrictionError;

@@ -10,7 +10,8 @@
 //! ```
 //! The integrals are written so that nothing cancels at any ratio of l and x_r.
 
-use indenters::{PowerProfile, bracketed_root};
+use indenters::PowerProfile;
+use numerics::bracketed_root;
 use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;

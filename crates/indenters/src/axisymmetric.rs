@@ -7,8 +7,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::IndenterError;
-use crate::quadrature::integrate_from_ends;
 use crate::right_triangle::arc_cosine;
+use numerics::integrate_from_ends;
 
 /// A jump of the slope h', or of the curvature h'', at a radius greater than zero.
 #[derive(Debug, Clone, Copy, PartialEq)]

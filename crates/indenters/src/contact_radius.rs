@@ -5,7 +5,8 @@
 //! ```
 
 use crate::error::positive;
-use crate::{Axisymmetric, IndenterError, bracketed_root};
+use crate::{Axisymmetric, IndenterError};
+use numerics::bracketed_root;
 
 /// Step of the search, the eighth part of an octave.
 const STEP: f64 = 1.090_507_732_665_257_7;

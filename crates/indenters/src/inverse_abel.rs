@@ -7,8 +7,8 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 use crate::error::{finite, positive};
-use crate::quadrature::integrate;
 use crate::{IndenterError, RigidLine};
+use numerics::integrate;
 
 /// How often intervals may be halved, all in all, in search of kinks nobody told about; one kink takes about 30.
 const MAX_BISECTIONS: usize = 1000;

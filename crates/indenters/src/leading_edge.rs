@@ -8,7 +8,8 @@
 //! The paper writes Definition 2 with d instead of `h_0 + d`; its proof of Theorem 3 uses `h_0 + d`.
 
 use crate::error::{finite, positive};
-use crate::{IndenterError, RigidLine, bracketed_root};
+use crate::{IndenterError, RigidLine};
+use numerics::bracketed_root;
 
 /// How closely a line is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! Where a rigid line turns up or down.
 
-use crate::{RigidLine, bracketed_root};
+use crate::RigidLine;
+use numerics::bracketed_root;
 
 /// Halvings of an interval whose slopes contradict its heights before it is taken as it is.
 const MAX_BISECTIONS: u32 = 40;

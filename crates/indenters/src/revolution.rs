@@ -1,6 +1,7 @@
 //! Bodies of revolution as surfaces.
 
-use crate::{Axisymmetric, bracketed_root};
+use crate::Axisymmetric;
+use numerics::bracketed_root;
 
 /// Makes a body of revolution a [`Surface`](crate::Surface): the type implements [`Axisymmetric`](crate::Axisymmetric), and
 /// this gives it everything else.

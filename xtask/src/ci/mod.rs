@@ -18,7 +18,8 @@ pub(crate) use dependencies::{Dependencies, measure};
 use test_counts::TestCounts;
 
 /// What can be published.
-const LIBRARIES: [&str; 5] = [
+const LIBRARIES: [&str; 6] = [
+    "viscofriction-numerics",
     "indenters",
     "rheology",
     "friction-analytic",

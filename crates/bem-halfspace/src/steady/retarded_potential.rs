@@ -314,7 +314,7 @@ fn dot(weights: &[f64], potentials: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use indenters::quadrature::integrate;
+    use numerics::integrate;
 
     use super::*;
     use crate::steady::sliding_creep::Delay;

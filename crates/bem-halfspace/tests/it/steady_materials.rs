@@ -8,8 +8,8 @@ use bem_halfspace::steady::{
 };
 use bem_halfspace::{BemError, Footprint, influence};
 use casebook::{Case, group};
-use indenters::quadrature::integrate;
 use indenters::{PowerProfile, SlidingLoad, Surface};
+use numerics::integrate;
 use rheology::{
     Compressible, Elastic, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch,
     RelaxationSpectrum, StandardSolid, StandardSolidParameters, Viscous,

@@ -2,10 +2,10 @@ use friction_analytic::{
     FrictionError, Indentation, impulse_to_depth, indentation_after_impulse,
     power_indentation_after_impulse, time_to_depth,
 };
-use indenters::quadrature::integrate;
 use indenters::{
     Axisymmetric, FlatPunch, IndenterError, PowerProfile, PowerTerm, Sphere, Superposition,
 };
+use numerics::integrate;
 use proptest::prelude::*;
 use rheology::Viscous;
 

@@ -148,7 +148,7 @@ fn friction_of(
         let slope = profile.line_slope(x);
         4.0 * material.viscosity() * (velocity + load.velocity() * slope) * slope
     };
-    let part = |interval| indenters::quadrature::integrate(force, interval, 1e-13).value;
+    let part = |interval| numerics::integrate(force, interval, 1e-13).value;
     let behind = if rear < 0.0 { part([rear, 0.0]) } else { 0.0 };
     (behind + part([0.0, front])) / load.normal_force().expect("a force")
 }

@@ -1,8 +1,8 @@
-use indenters::quadrature::integrate;
 use indenters::{
     Axisymmetric, FlatCone, FlatPunch, IndenterError, PiecewiseLinearProfile, PowerProfile, Sphere,
-    bracketed_root, contact_radius,
+    contact_radius,
 };
+use numerics::{bracketed_root, integrate};
 use proptest::prelude::*;
 
 use crate::casebook_bodies::{GaussianDip, body, superposition};

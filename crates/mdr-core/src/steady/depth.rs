@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 
-use indenters::bracketed_root;
+use numerics::bracketed_root;
 
 use crate::MdrError;
 

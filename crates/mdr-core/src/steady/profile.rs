@@ -4,7 +4,8 @@
 //! polynomial are negligible; towards a cusp this grades the pieces geometrically. Heights are in units of the depth, so
 //! that their squares stay numbers.
 
-use indenters::{RigidLine, bracketed_root};
+use indenters::RigidLine;
+use numerics::bracketed_root;
 
 use super::legendre::{
     DEGREE, Interpolation, Polynomial, derivative, end_value, start_value, value,

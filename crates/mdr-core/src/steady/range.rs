@@ -1,6 +1,7 @@
 //! The part of a line that can touch at a depth.
 
-use indenters::{RigidLine, bracketed_root};
+use indenters::RigidLine;
+use numerics::bracketed_root;
 
 use crate::MdrError;
 use crate::element_heights::{checked_height, lowest_candidate};

@@ -2,7 +2,7 @@
 //!
 //! All displacements are in units of the depth, all stresses in that of the foundation.
 
-use indenters::bracketed_root;
+use numerics::bracketed_root;
 
 use super::foundation::{Foundation, Passage, Recovery};
 use super::profile::{Piece, Profile};

@@ -20,7 +20,8 @@ pub use indenter::{HeightMapFile, Indenter, Term};
 pub use indenters::Control;
 pub use load::Load;
 pub use material::{Branch, MaterialTable};
-pub use solve::{Accuracy, Method, Model, Solve};
+pub use numerics::Accuracy;
+pub use solve::{Method, Model, Solve};
 pub use source::{Source, scene_file, split_index};
 pub use table_file::profile;
 

@@ -1,5 +1,6 @@
 //! `[solve]`: what is asked, and how well.
 
+use numerics::Accuracy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -62,15 +63,6 @@ impl Model {
             Self::HalfSpace => "half-space",
         }
     }
-}
-
-/// How well the answer is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Accuracy {
-    /// Relative error of the friction coefficient, or of the depth.
-    RelativeError(f64),
-    /// Number of elements along the contact.
-    Elements(usize),
 }
 
 /// Unless the scene says otherwise.

@@ -8,9 +8,8 @@ use friction_analytic::{
     half_space_power_friction, impulse_to_depth, indentation_after_impulse, kelvin_voigt_sliding,
     maxwell_sliding, power_sliding, superposition_sliding, transient_sliding,
 };
-use indenters::{
-    Axisymmetric, PowerProfile, PressingLoad, SlidingLoad, bracketed_root, contact_radius,
-};
+use indenters::{Axisymmetric, PowerProfile, PressingLoad, SlidingLoad, contact_radius};
+use numerics::bracketed_root;
 use rheology::{Material, Viscous};
 
 use super::answer::{Answer, ContactBox};

@@ -4,9 +4,9 @@ use super::error::{Result, bail};
 use bem_halfspace::slide::PressureField;
 use serde::Serialize;
 
-use super::error_parts::ErrorParts;
 use super::omission::Omission;
 use crate::scene::{Method, Model};
+use numerics::ErrorParts;
 
 /// One result, all SI; what a method does not know is left out.
 #[derive(Debug, Clone, PartialEq, Serialize)]

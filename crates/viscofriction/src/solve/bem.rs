@@ -11,10 +11,10 @@ use indenters::SlidingLoad;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, Grid};
-use super::error_parts::ErrorParts;
-use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
+use super::order_of_apex;
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene::{Accuracy, Control, Method, Model};
+use numerics::{ErrorParts, Goal, Quantity, Refined, refine};
 
 const TOLERANCE: f64 = 1e-9;
 const MAX_ITERATIONS: usize = 500;
@@ -94,12 +94,12 @@ impl<'a, S: Shape> Scene<'a, S> {
             largest: usize::MAX,
             order: order_of_apex(self.ladder.apex_exponent),
         };
-        let Resolved {
+        let Refined {
             value,
             error: [friction_error, force_error],
             parts: [parts, _],
             ..
-        } = resolve(&goal, solve, on_one_grid, |_, state| Ok(gaps(state)))?;
+        } = refine(&goal, solve, on_one_grid, |_, state| Ok(gaps(state)))?;
         let answer = Answer::new(Method::BemSteady, Model::HalfSpace, value.normal_force)
             .with_friction(value.friction_coefficient, friction_error)
             .with_parts(parts);

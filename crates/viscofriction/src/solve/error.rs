@@ -28,6 +28,9 @@ pub enum SolveError {
     /// No method was asked.
     #[error(transparent)]
     NotOffered(#[from] super::NotOffered),
+    /// The error asked for was not reached on the finest resolution.
+    #[error(transparent)]
+    TooCoarse(#[from] numerics::NotReached),
     /// What was asked for was not reached; the sentence says what was.
     #[error("{0}")]
     NotReached(String),

@@ -9,12 +9,12 @@ use indenters::{Cylinder, SlidingLoad};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox};
-use super::error_parts::ErrorParts;
 use super::half_space::{Simple, simple};
+use super::order_of_apex;
 use super::pressing;
 use super::problem::{Motion, Problem};
-use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
 use crate::scene::{Accuracy, Control, Method, Model};
+use numerics::{ErrorParts, Goal, Quantity, Refined, refine};
 
 /// Gaps relative to the depth scale that disturb a small friction little, and those that do not show in the width.
 const FINE: f64 = 1e-9;
@@ -79,12 +79,12 @@ impl Sliding<'_> {
             order: order_of_apex(self.ladder.apex_exponent),
         };
         let friction = |state: &LineSliding| [Quantity::from(state.friction_coefficient)];
-        let Resolved {
+        let Refined {
             value,
             error: [error],
             parts: [parts],
             ..
-        } = resolve(&goal, solve, friction, |_, state| Ok([gaps(state)]))?;
+        } = refine(&goal, solve, friction, |_, state| Ok([gaps(state)]))?;
         let friction = [value.friction_coefficient, error];
         Ok(self.answer(friction, value)?.with_parts(parts))
     }

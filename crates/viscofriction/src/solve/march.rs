@@ -11,10 +11,10 @@ use rheology::{CreepSpectrum, Material};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::bem::widened;
-use super::error_parts::ErrorParts;
-use super::resolution::{Goal, Quantity, Resolved, order_of_apex, resolve};
+use super::order_of_apex;
 use super::shape::{COARSEST_ELEMENTS, Drive, Shape};
 use crate::scene::{Accuracy, Control, Method, Model};
+use numerics::{ErrorParts, Goal, Quantity, Refined, refine};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const LARGEST_GRID: usize = 32;
@@ -72,7 +72,7 @@ pub(crate) fn transient(
         order: order_of_apex(scene.apex_exponent),
     };
     let others = |_, end: &End| Ok([scene.other_parts(end), ErrorParts::NONE]);
-    let resolved = resolve(&goal, solve, |end| scene.quantities(end), others)?;
+    let resolved = refine(&goal, solve, |end| scene.quantities(end), others)?;
     Ok(scene.answer(resolved))
 }
 
@@ -121,7 +121,7 @@ impl<'a, S: Shape> Scene<'a, S> {
         }
     }
 
-    fn answer(&self, resolved: Resolved<End, 2>) -> Answer {
+    fn answer(&self, resolved: Refined<End, 2>) -> Answer {
         let (end, [error, force_error]) = (resolved.value, resolved.error);
         // The friction of an elastic half space is what the elements leave of none.
         let (friction_error, parts) = if self.is_elastic() {

@@ -9,10 +9,10 @@ use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::body::Revolution;
-use super::error_parts::ErrorParts;
 use super::memory::ahead;
-use super::resolution::{Goal, Quantity, order_of_apex, resolve};
+use super::order_of_apex;
 use crate::scene::{Accuracy, Control, Method, Model};
+use numerics::{ErrorParts, Goal, Quantity, refine};
 
 /// Elements along the contact after which a march in time gives up.
 const LARGEST_CHAIN: usize = 4096;
@@ -94,7 +94,7 @@ pub(crate) fn transient(
             ..ErrorParts::NONE
         }])
     };
-    let resolved = resolve(&goal, solve, |rows| [ride.friction(rows)], others)?;
+    let resolved = refine(&goal, solve, |rows| [ride.friction(rows)], others)?;
     let (rows, [error], [parts]) = (resolved.value, resolved.error, resolved.parts);
     let last = last(&rows)?;
     let mut answer = Answer {

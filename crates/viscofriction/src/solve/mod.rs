@@ -5,7 +5,6 @@ mod answer;
 mod bem;
 mod body;
 mod error;
-mod error_parts;
 mod half_space;
 mod line_contact;
 mod march;
@@ -15,14 +14,13 @@ mod offer;
 mod omission;
 mod pressing;
 mod problem;
-mod resolution;
 mod same_problem;
 mod shape;
 
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
 pub use error::{Result, SolveError};
-pub use error_parts::ErrorParts;
+pub use numerics::ErrorParts;
 pub use offer::{NotOffered, choose};
 pub use omission::Omission;
 pub(crate) use problem::not_offered;
@@ -137,4 +135,13 @@ fn relative_error(accuracy: Accuracy) -> Result<f64> {
         Accuracy::RelativeError(error) => Ok(error),
         Accuracy::Elements(elements) => bail!("the method has no {elements} elements"),
     }
+}
+
+/// Orders of friction: smooth bodies are better than the first, which their outline on the elements makes safe to assume;
+/// below the smallest one nothing converges.
+const ORDERS: [f64; 2] = [0.1, 1.0];
+
+/// The order 2p − 1 of the friction under an apex h ∼ r^p, or the first where that is slower.
+fn order_of_apex(exponent: f64) -> f64 {
+    (2.0 * exponent - 1.0).clamp(ORDERS[0], ORDERS[1])
 }

@@ -17,10 +17,9 @@ use rheology::{Material, RheologyError, Viscous};
 
 use super::answer::{Answer, ContactBox, Grid};
 use super::body::Revolution;
-use super::error_parts::ErrorParts;
-use super::resolution::{Goal, Quantity, Resolved, nothing_else, resolve};
 use super::shape::{Patch, Shape};
 use crate::scene::{Accuracy, Control, Method, Model};
+use numerics::{ErrorParts, Goal, Quantity, Refined, no_other_error, refine};
 
 /// The dashpot on which an impulse does what the material does with F J(t).
 pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
@@ -69,12 +68,12 @@ pub(crate) fn chain(
             ..Quantity::from(row.indentation_depth)
         }]
     };
-    let Resolved {
+    let Refined {
         value: row,
         error: [error],
         parts: [parts],
         elements,
-    } = resolve(&goal, solve, depth, nothing_else)?;
+    } = refine(&goal, solve, depth, no_other_error)?;
     Ok(Answer {
         indentation_depth: Some(row.indentation_depth),
         indentation_depth_error: Some(error),
@@ -119,19 +118,19 @@ pub(crate) fn boundary_elements(
     let quantities =
         |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
     let goal = goal(accuracy, LARGEST_GRID);
-    let resolved = resolve(&goal, solve, quantities, gaps)?;
+    let resolved = refine(&goal, solve, quantities, gaps)?;
     let spacing = spacing(resolved.elements);
     pressed_answer(resolved, spacing, material, (control, duration))
 }
 
 /// What the dashpot says of the material: the same depth, or a force that is the stiffness times its own.
 fn pressed_answer(
-    resolved: Resolved<IndentRow, 2>,
+    resolved: Refined<IndentRow, 2>,
     spacing: f64,
     material: &dyn Material,
     (control, duration): (Control, f64),
 ) -> Result<Answer> {
-    let Resolved {
+    let Refined {
         value,
         error: [depth_error, force_error],
         parts: [depth_parts, force_parts],

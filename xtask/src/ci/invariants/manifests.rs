@@ -16,10 +16,16 @@ struct Rule {
     in_tests: &'static [&'static str],
 }
 
-const RULES: [Rule; 7] = [
+const RULES: [Rule; 8] = [
+    Rule {
+        name: "viscofriction-numerics",
+        required: &["thiserror"],
+        optional: &["serde"],
+        in_tests: &[],
+    },
     Rule {
         name: "indenters",
-        required: &["libm", "thiserror"],
+        required: &["libm", "numerics", "thiserror"],
         optional: &["serde"],
         in_tests: &["casebook"],
     },
@@ -31,13 +37,13 @@ const RULES: [Rule; 7] = [
     },
     Rule {
         name: "friction-analytic",
-        required: &["indenters", "rheology", "thiserror"],
+        required: &["indenters", "numerics", "rheology", "thiserror"],
         optional: &["serde"],
         in_tests: &["casebook"],
     },
     Rule {
         name: "mdr-core",
-        required: &["indenters", "rheology", "thiserror"],
+        required: &["indenters", "numerics", "rheology", "thiserror"],
         optional: &["rayon", "serde"],
         in_tests: &["casebook", "friction-analytic"],
     },
@@ -46,6 +52,7 @@ const RULES: [Rule; 7] = [
         required: &[
             "faer",
             "indenters",
+            "numerics",
             "realfft",
             "rheology",
             "rustfft",
@@ -124,8 +131,9 @@ fn entries<'a>(manifest: &'a Table, kind: &str) -> impl Iterator<Item = Entry<'a
         .flatten()
 }
 
+/// Crates of this workspace may have a longer name on the registry.
 fn is_renamed((_, value): &Entry<'_>) -> bool {
-    value.get("package").is_some()
+    value.get("package").is_some() && value.get("path").is_none()
 }
 
 impl Rule {

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use comfy_table::Table;
-use indenters::bracketed_root;
+use numerics::bracketed_root;
 use serde::Serialize;
 
 use crate::evidence::speed_range::sliding::{Sliding, plateau};

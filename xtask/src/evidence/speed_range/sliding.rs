@@ -17,8 +17,9 @@ use anyhow::{Context, Result};
 use bem_halfspace::BemError;
 use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
 use friction_analytic::{power_sliding, scaling_factor};
-use indenters::{EquivalentLine, PowerProfile, SlidingLoad, bracketed_root, stretch};
+use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
 use mdr_core::{SlidingDepth, SteadyOptions, steady_at_depth};
+use numerics::bracketed_root;
 use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
 
 /// Relative error asked of the line.

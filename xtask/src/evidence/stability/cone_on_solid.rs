@@ -9,7 +9,7 @@
 //! ```
 
 use anyhow::{Context, Result};
-use indenters::bracketed_root;
+use numerics::bracketed_root;
 use rheology::RelaxationSpectrum;
 
 /// Stationary sliding of a cone.

@@ -5,14 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// An integral with the estimate of its error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Integral {
-    /// Value of the integral.
-    pub value: f64,
-    /// Estimated absolute error: the change made by the last halving of the step.
-    pub error: f64,
-}
+use crate::Estimate;
 
 /// Step of the coarsest trapezoidal sum, and how often it may be halved.
 const COARSEST_STEP: f64 = 0.5;
@@ -24,13 +17,13 @@ const LAST_NODE: f64 = 6.1;
 ///
 /// The integrand receives its argument as the pair (nearer end, distance from that end with its sign), so that a
 /// singularity at an end can be resolved below the rounding of `x`; [`integrate`] is the plain form. Halving stops
-/// when the estimate of the error falls below `relative_tolerance` times the integral of the modulus; the caller
-/// reads from [`Integral::error`] what was reached.
+/// when the estimate of the error, which is the change by the last halving, falls below `relative_tolerance` times the
+/// integral of the modulus; the caller reads from [`Estimate::error`] what was reached.
 pub fn integrate_from_ends(
     integrand: impl Fn(f64, f64) -> f64,
     interval: [f64; 2],
     relative_tolerance: f64,
-) -> Integral {
+) -> Estimate {
     let half_width = 0.5 * (interval[1] - interval[0]);
     let mut step = COARSEST_STEP;
     let mut sums = node_sums(&integrand, interval, [0.0, step]);
@@ -48,7 +41,7 @@ pub fn integrate_from_ends(
             break;
         }
     }
-    Integral {
+    Estimate {
         value: previous,
         error,
     }
@@ -61,7 +54,7 @@ pub fn integrate(
     integrand: impl Fn(f64) -> f64,
     interval: [f64; 2],
     relative_tolerance: f64,
-) -> Integral {
+) -> Estimate {
     integrate_from_ends(
         |end, distance| integrand(end + distance),
         interval,

@@ -1,29 +1,28 @@
 //! What an error bar consists of.
 
-use serde::Serialize;
-
 /// Parts of an error bar, absolute, of the same unit as its value; a part that a method does not have is left out.
 ///
 /// The bar is not smaller than their sum.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ErrorParts {
     /// Of the elements, and of the steps in time where their size follows from that of the elements.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub discretisation: Option<f64>,
     /// Of a system of equations that is solved to a tolerance.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub iteration: Option<f64>,
     /// Of the memory of the material over a step.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub time_stepping: Option<f64>,
     /// Of the distance that is left to the stationary state.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub truncation: Option<f64>,
 }
 
 impl ErrorParts {
     /// Of a method that has no such parts.
-    pub(crate) const NONE: Self = Self {
+    pub const NONE: Self = Self {
         discretisation: None,
         iteration: None,
         time_stepping: None,
@@ -31,14 +30,17 @@ impl ErrorParts {
     };
 
     /// An error of elements only.
-    pub(crate) const fn of_elements(error: f64) -> Self {
+    #[must_use]
+    pub const fn of_elements(error: f64) -> Self {
         Self {
             discretisation: Some(error),
             ..Self::NONE
         }
     }
 
-    pub(crate) fn is_none(&self) -> bool {
+    /// Whether no part is known.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
@@ -53,12 +55,15 @@ impl ErrorParts {
         ]
     }
 
-    pub(crate) fn sum(&self) -> f64 {
+    /// Sum of the known parts.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }
 
     /// Of a value that is so many times as large.
-    pub(crate) fn times(self, factor: f64) -> Self {
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
         let scaled = |part: Option<f64>| part.map(|part| factor * part);
         Self {
             discretisation: scaled(self.discretisation),
@@ -69,7 +74,8 @@ impl ErrorParts {
     }
 
     /// All parts of both; what both have is added.
-    pub(crate) fn and(self, other: Self) -> Self {
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
         let both = |part: Option<f64>, other: Option<f64>| match (part, other) {
             (Some(part), Some(other)) => Some(part + other),
             (part, other) => part.or(other),

@@ -3,28 +3,42 @@
 //! Chandrupatla's method: inverse quadratic interpolation where it is safe, bisection elsewhere (Chandrupatla 1997,
 //! Adv. Eng. Softw. 28, 145).
 
+use std::convert::Infallible;
+
 /// Finds x with `function(x) = 0` between two positions at which the function has opposite signs (or is zero).
 ///
 /// The position is found to a few units in the last place. Returns `None` when the signs at both ends agree or one of
 /// them is NaN.
 pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
+    let function = |x| Ok::<f64, Infallible>(function(x));
+    try_bracketed_root(function, bracket).unwrap_or_else(|never| match never {})
+}
+
+/// Like [`bracketed_root`], of a function that may fail.
+///
+/// # Errors
+/// The first error of the function.
+pub fn try_bracketed_root<E>(
+    function: impl Fn(f64) -> Result<f64, E>,
+    bracket: [f64; 2],
+) -> Result<Option<f64>, E> {
     let [mut b, mut a] = bracket;
-    let (mut fa, mut fb) = (function(a), function(b));
+    let (mut fa, mut fb) = (function(a)?, function(b)?);
     if fa == 0.0 {
-        return Some(a);
+        return Ok(Some(a));
     }
     if fb == 0.0 {
-        return Some(b);
+        return Ok(Some(b));
     }
     // False also when one of them is NaN.
     let opposite = fa * fb.signum() < 0.0;
     if !opposite {
-        return None;
+        return Ok(None);
     }
     let mut fraction = 0.5;
     for _ in 0..MAX_ITERATIONS {
         let x = a + fraction * (b - a);
-        let fx = function(x);
+        let fx = function(x)?;
         let (c, fc);
         if (fx > 0.0) == (fa > 0.0) {
             (c, fc) = (a, fa);
@@ -36,7 +50,7 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Optio
         let best = if fa.abs() < fb.abs() { a } else { b };
         let tolerance = f64::EPSILON * best.abs() / (b - a).abs();
         if fa == 0.0 || tolerance >= 0.5 || b - a == 0.0 {
-            return Some(best);
+            return Ok(Some(best));
         }
         let position = (a - b) / (c - b);
         let phi = (fa - fb) / (fc - fb);
@@ -50,7 +64,7 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Optio
         };
         fraction = fraction.clamp(tolerance, 1.0 - tolerance);
     }
-    Some(if fa.abs() < fb.abs() { a } else { b })
+    Ok(Some(if fa.abs() < fb.abs() { a } else { b }))
 }
 
 /// Bisection alone needs about 2100 halvings between the smallest and the largest number.

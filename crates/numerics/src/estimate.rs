@@ -1,0 +1,57 @@
+//! A value with its error.
+
+use std::iter::Sum;
+use std::ops::{Add, Mul};
+
+/// A computed number and what it may be off by.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Estimate {
+    /// The computed number.
+    pub value: f64,
+    /// Estimated absolute error, in the unit of the value.
+    pub error: f64,
+}
+
+impl Estimate {
+    /// A number without error.
+    #[must_use]
+    pub const fn exact(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+
+    /// Whether the value is finite and its error at most the relative one.
+    #[must_use]
+    pub fn is_within(&self, relative_error: f64) -> bool {
+        self.value.is_finite() && self.error <= relative_error * self.value.abs()
+    }
+}
+
+/// Errors add up: they need not be independent.
+impl Add for Estimate {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            error: self.error + other.error,
+        }
+    }
+}
+
+impl Sum for Estimate {
+    fn sum<I: Iterator<Item = Self>>(estimates: I) -> Self {
+        estimates.fold(Self::default(), Self::add)
+    }
+}
+
+impl Mul<f64> for Estimate {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self {
+            value: factor * self.value,
+            error: factor.abs() * self.error,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Legendre polynomials, and the points and weights of Gauss and Lobatto.
+//!
+//! ```text
+//! ∫ f dt over [−1, 1] = Σ w_j f(t_j)        t_j = −1, 1 and the zeros of P'_n,  w_j = 2/(n (n + 1) P_n(t_j)²)
+//! ```
+//! exactly for polynomials up to the degree 2n − 1 (NIST DLMF 3.5).
+
+/// Every step of Newton's method doubles the two digits of the first guess.
+const NEWTON_STEPS: usize = 8;
+
+/// P_0(t), P_1(t), … of as many degrees as the array is long.
+#[must_use]
+pub fn legendre_values<const N: usize>(t: f64) -> [f64; N] {
+    let mut pair = [0.0, 1.0];
+    std::array::from_fn(|degree| {
+        let value = pair[1];
+        pair = next(degree, t, pair);
+        value
+    })
+}
+
+/// From the polynomials of the degree before and of this one to those of this one and the next.
+fn next(degree: usize, t: f64, [before, this]: [f64; 2]) -> [f64; 2] {
+    let n = degree as f64;
+    [this, ((2.0 * n + 1.0) * t * this - n * before) / (n + 1.0)]
+}
+
+/// Points, increasing, and weights of a Gauss–Lobatto rule on [−1, 1].
+#[derive(Debug, Clone, PartialEq)]
+pub struct LobattoRule {
+    /// Points t_j; both ends are among them.
+    pub nodes: Vec<f64>,
+    /// Weights w_j.
+    pub weights: Vec<f64>,
+}
+
+/// The Gauss–Lobatto rule of at least two points.
+#[must_use]
+pub fn lobatto_rule(n_points: usize) -> LobattoRule {
+    let degree = n_points.max(2) - 1;
+    let n = degree as f64;
+    let last_two = |t: f64| (0..degree).fold([0.0, 1.0], |pair, degree| next(degree, t, pair));
+    let node = |index: usize| {
+        let first_guess = -(std::f64::consts::PI * index as f64 / n).cos();
+        (0..NEWTON_STEPS).fold(first_guess, |t, _| {
+            let [before, last] = last_two(t);
+            t - (t * last - before) / ((n + 1.0) * last)
+        })
+    };
+    let nodes: Vec<f64> = (0..=degree).map(node).collect();
+    let weight = |t: &f64| {
+        let [_, last] = last_two(*t);
+        2.0 / (n * (n + 1.0) * last * last)
+    };
+    LobattoRule {
+        weights: nodes.iter().map(weight).collect(),
+        nodes,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rule_integrates_products_of_its_polynomials_exactly() {
+        // Degrees up to 2n − 1: ∫ P_i P_k = 2/(2k + 1) for i = k, else 0.
+        let LobattoRule { nodes, weights } = lobatto_rule(12);
+        let values: Vec<[f64; 12]> = nodes.iter().map(|t| legendre_values(*t)).collect();
+        for i in 0..12 {
+            for k in 0..=i.min(10) {
+                let products = values.iter().zip(&weights).map(|(p, w)| w * p[i] * p[k]);
+                let actual: f64 = products.sum();
+                let expected = if i == k { 1.0 / (k as f64 + 0.5) } else { 0.0 };
+                assert!(
+                    (actual - expected).abs() < 1e-14,
+                    "degrees {i} and {k}: {actual} instead of {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn points_are_those_of_the_tables() {
+        // NIST DLMF 3.5: for five points 0 and √(3/7), with the weights 32/45 and 49/90.
+        let LobattoRule { nodes, weights } = lobatto_rule(5);
+        let inner = (3.0_f64 / 7.0).sqrt();
+        let expected = [
+            (-1.0, 0.1),
+            (-inner, 49.0 / 90.0),
+            (0.0, 32.0 / 45.0),
+            (inner, 49.0 / 90.0),
+            (1.0, 0.1),
+        ];
+        for ((node, weight), (t, w)) in nodes.iter().zip(&weights).zip(expected) {
+            assert!(
+                (node - t).abs() < 2e-16 && (weight - w).abs() < 2e-16,
+                "{node}, {weight} instead of {t}, {w}"
+            );
+        }
+    }
+}

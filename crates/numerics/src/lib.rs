@@ -1,0 +1,34 @@
+//! Mathematics without physics: integrals, roots, Legendre polynomials, and refinement to a stated error.
+//!
+//! ```
+//! use numerics::{Accuracy, Goal, NotReached, Quantity, no_other_error, refine};
+//!
+//! // The circumference of a circle from polygons, to six digits.
+//! let half_perimeter = |corners: usize| -> Result<f64, NotReached> {
+//!     let n = corners as f64;
+//!     Ok(n * (std::f64::consts::PI / n).sin())
+//! };
+//! let goal = Goal {
+//!     accuracy: Accuracy::RelativeError(1e-6),
+//!     largest: 100_000,
+//!     order: 2.0,
+//! };
+//! let pi = refine(&goal, half_perimeter, |value| [Quantity::from(*value)], no_other_error)?;
+//! assert!((pi.value - std::f64::consts::PI).abs() < pi.error[0]);
+//! assert!(pi.error[0] < 1e-6 * pi.value);
+//! # Ok::<(), NotReached>(())
+//! ```
+
+mod error_parts;
+mod estimate;
+mod legendre;
+mod quadrature;
+mod refinement;
+mod root;
+
+pub use error_parts::ErrorParts;
+pub use estimate::Estimate;
+pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
+pub use quadrature::{integrate, integrate_from_ends};
+pub use refinement::{Accuracy, Goal, NotReached, Quantity, Refined, no_other_error, refine};
+pub use root::{bracketed_root, try_bracketed_root};
