@@ -8,10 +8,10 @@
 //! exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial,
 //! whatever the rate, because the weight is positive with the sum 1 − e^(−rate).
 
+use numerics::{LobattoRule, legendre_values, lobatto_rule};
+
 /// Points of the longest rule.
 pub(super) const MAX_POINTS: usize = 12;
-/// Newton's method doubles the digits of the points at every step.
-const NEWTON_STEPS: usize = 8;
 /// Above this argument the recurrence of the Bessel functions is run upwards, below downwards.
 const UPWARD: f64 = 60.0;
 /// Degrees above the argument at which the downward recurrence starts: what is left out is below rounding.
@@ -29,30 +29,21 @@ impl ExponentialRule {
     /// The rule of 2 to [`MAX_POINTS`] points.
     pub(super) fn new(n_points: usize) -> Self {
         let degree = n_points - 1;
-        let position = |index: usize| {
-            let mut x = -(std::f64::consts::PI * index as f64 / degree as f64).cos();
-            for _ in 0..NEWTON_STEPS {
-                let [before, last] = last_two(degree, x);
-                x -= (x * last - before) / (n_points as f64 * last);
-            }
-            x
-        };
-        let positions: Vec<f64> = (0..n_points).map(position).collect();
+        let LobattoRule { nodes, weights } = lobatto_rule(n_points);
         let mut projection = vec![[0.0; MAX_POINTS]; n_points];
-        for (index, &x) in positions.iter().enumerate() {
-            let [_, last] = last_two(degree, x);
-            let weight = 2.0 / (degree as f64 * n_points as f64 * last * last);
+        for (index, (&x, weight)) in nodes.iter().zip(weights).enumerate() {
+            let values: [f64; MAX_POINTS] = legendre_values(x);
             for (order, coefficients) in projection.iter_mut().enumerate() {
                 let norm = if order == degree {
                     0.5 * degree as f64
                 } else {
                     order as f64 + 0.5
                 };
-                coefficients[index] = norm * weight * last_two(order, x)[1];
+                coefficients[index] = norm * weight * values[order];
             }
         }
         Self {
-            nodes: positions.iter().map(|x| 0.5 * (1.0 + x)).collect(),
+            nodes: nodes.iter().map(|x| 0.5 * (1.0 + x)).collect(),
             projection,
         }
     }
@@ -96,19 +87,6 @@ fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
     others
         .map(|(_, node)| (x - node) / (nodes[index] - node))
         .product()
-}
-
-/// Legendre polynomials of the degree before, and of this one.
-fn last_two(degree: usize, x: f64) -> [f64; 2] {
-    let mut pair = [0.0, 1.0];
-    for n in 0..degree {
-        let n = n as f64;
-        pair = [
-            pair[1],
-            ((2.0 * n + 1.0) * x * pair[1] - n * pair[0]) / (n + 1.0),
-        ];
-    }
-    pair
 }
 
 /// rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z), z = rate/2.

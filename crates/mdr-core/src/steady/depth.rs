@@ -3,9 +3,7 @@
 //! The force grows with the depth at least in proportion, and between two speeds or sizes like a power; so the root is
 //! sought in logarithms, from a bracket that proportion gives.
 
-use std::cell::RefCell;
-
-use numerics::bracketed_root;
+use numerics::try_bracketed_root;
 
 use crate::MdrError;
 
@@ -25,20 +23,10 @@ pub(super) fn depth_of_load(
     target: f64,
 ) -> Result<f64, MdrError> {
     let bracket = bracket(&load, target)?;
-    let failure = RefCell::new(None);
     // The ends of the bracket are depths that the line has; one more digit may be too much.
     let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
-    let excess = |logarithm: f64| match load(depth(logarithm)) {
-        Ok(load) => (load / target).ln(),
-        Err(error) => {
-            failure.replace(Some(error));
-            f64::NAN
-        }
-    };
-    let root = bracketed_root(excess, bracket.map(f64::ln));
-    if let Some(error) = failure.into_inner() {
-        return Err(error);
-    }
+    let excess = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
+    let root = try_bracketed_root(excess, bracket.map(f64::ln))?;
     root.map(depth).ok_or(MdrError::NonFinite {
         quantity: "normal force",
         value: load(bracket[0])?,

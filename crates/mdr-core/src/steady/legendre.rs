@@ -1,5 +1,7 @@
 //! Polynomials on [−1, 1] as sums of Legendre polynomials, `p(t) = Σ c_k P_k(t)`.
 
+use numerics::{legendre_values, lobatto_rule};
+
 /// Degree of the polynomial that stands for one piece of a line.
 pub(super) const DEGREE: usize = 10;
 
@@ -16,17 +18,16 @@ pub(super) struct Interpolation {
 
 impl Interpolation {
     pub(super) fn new() -> Self {
+        let rule = lobatto_rule(DEGREE + 1);
         let mut nodes = [0.0; DEGREE + 1];
         let mut rows = [[0.0; DEGREE + 1]; DEGREE + 1];
-        let n = DEGREE as f64;
-        for (j, node) in nodes.iter_mut().enumerate() {
-            *node = lobatto_node(j);
-            let values = legendre_values(*node);
-            let weight = 2.0 / (n * (n + 1.0) * values[DEGREE] * values[DEGREE]);
+        for (j, (node, weight)) in rule.nodes.into_iter().zip(rule.weights).enumerate() {
+            nodes[j] = node;
+            let values: Polynomial = legendre_values(node);
             for (k, row) in rows.iter_mut().enumerate() {
                 // The discrete norm of the last polynomial differs from that of the integral.
                 let norm = if k == DEGREE {
-                    2.0 / n
+                    2.0 / DEGREE as f64
                 } else {
                     2.0 / (2 * k + 1) as f64
                 };
@@ -45,34 +46,6 @@ impl Interpolation {
 
 fn dot(first: &Polynomial, second: &Polynomial) -> f64 {
     first.iter().zip(second).map(|(a, b)| a * b).sum()
-}
-
-/// Node j from −1 to 1, by Newton's method from that of Chebyshev.
-fn lobatto_node(j: usize) -> f64 {
-    if j == 0 || j == DEGREE {
-        return if j == 0 { -1.0 } else { 1.0 };
-    }
-    // Newton's method doubles the two digits of the first guess with every pass.
-    const PASSES: usize = 6;
-    let n = DEGREE as f64;
-    let mut t = -(std::f64::consts::PI * j as f64 / n).cos();
-    for _ in 0..PASSES {
-        let values = legendre_values(t);
-        t -= (t * values[DEGREE] - values[DEGREE - 1]) / ((n + 1.0) * values[DEGREE]);
-    }
-    t
-}
-
-/// P_0(t) … P_n(t).
-fn legendre_values(t: f64) -> Polynomial {
-    let mut values = [1.0; DEGREE + 1];
-    values[1] = t;
-    for k in 1..DEGREE {
-        let degree = k as f64;
-        values[k + 1] =
-            ((2.0 * degree + 1.0) * t * values[k] - degree * values[k - 1]) / (degree + 1.0);
-    }
-    values
 }
 
 /// p(t), by Clenshaw's recurrence.
