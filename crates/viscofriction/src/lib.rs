@@ -1,4 +1,30 @@
-//! Friction.
+//! Friction of rigid bodies that slide over rubber and other viscoelastic materials.
+//!
+//! A [`Scene`](scene::Scene) says which body is pressed into which material, how it moves, and how well the answer is asked
+//! for; as a text it is a scene file of the program `viscofriction`. [`solve`] takes the cheapest method of the model that
+//! answers it, and returns an [`Answer`] with its errors. The model is the half space unless the scene asks for the
+//! one-dimensional model (`model = "line"`). [`sweep`] solves a scene for many values of its keys.
+//!
+//! The five crates that do the work can be used alone, and are re-exported: [`indenters`] and [`rheology`] for bodies and
+//! materials, [`friction_analytic`], [`mdr_core`] and [`bem_halfspace`] for the three methods.
+//!
+//! A steel ball on a rubber of one relaxation time, on the half space:
+//!
+//! ```
+//! use viscofriction::{Problem, Scene, solve};
+//!
+//! let scene: Scene = r#"
+//!     indenter.sphere = { radius = 5e-3 }
+//!     material.prony = { equilibrium_modulus = 1e6, branches = [{ modulus = 1e7, relaxation_time = 1e-3 }] }
+//!     load = { normal_force = 2.0, velocity = 0.1 }
+//! "#
+//! .parse()?;
+//! let answer = solve(&Problem::try_from(&scene)?)?;
+//! let friction = answer.friction_coefficient.expect("it slides");
+//! let error = answer.friction_coefficient_error.expect("an error bar");
+//! assert!(error < 1e-3 * friction, "{friction} ± {error}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod npy;
 pub mod scene;
@@ -7,4 +33,10 @@ pub mod sweep;
 mod text;
 
 pub use bem_halfspace::slide::PressureField;
+pub use scene::Scene;
+pub use solve::{
+    Answer, Body, ContactBox, ErrorParts, Fields, Grid, HistoryRow, Motion, NotOffered, Omission,
+    Problem, ReadFile, Revolution, SameProblem, SolveError, choose, problem_of, solve, solve_by,
+};
 pub use text::{WrongInput, line_of, line_of_record};
+pub use {bem_halfspace, friction_analytic, indenters, mdr_core, rheology};

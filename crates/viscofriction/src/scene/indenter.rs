@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The rigid body; its lowest point is the origin, lengths in metres.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Indenter {
     /// h = coefficient r^exponent.
@@ -38,7 +38,7 @@ pub enum Indenter {
 }
 
 /// h = coefficient r^exponent.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Power {
     /// Coefficient c > 0, \[m^(1 − p)].
@@ -48,7 +48,7 @@ pub struct Power {
 }
 
 /// h = slope r.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
     /// Slope of the flank, > 0.
@@ -56,7 +56,7 @@ pub struct Cone {
 }
 
 /// h = curvature r².
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Paraboloid {
     /// Coefficient of r², > 0, \[1/m]; half the inverse of the radius of curvature.
@@ -64,7 +64,7 @@ pub struct Paraboloid {
 }
 
 /// A body that is known by a radius.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Round {
     /// Radius > 0, \[m].
@@ -72,7 +72,7 @@ pub struct Round {
 }
 
 /// A body that is known by the radius of its tip and the slope of its flank.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoundAndSlope {
     /// Radius of the tip > 0, \[m].
@@ -82,7 +82,7 @@ pub struct RoundAndSlope {
 }
 
 /// A body that is known by the radius of its flat end and the curvature of its flank.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RoundAndCurvature {
     /// Radius of the flat end > 0, \[m].
@@ -92,7 +92,7 @@ pub struct RoundAndCurvature {
 }
 
 /// A sum of powers.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sum {
     /// The terms; that of the lowest exponent has a positive coefficient.
@@ -100,7 +100,7 @@ pub struct Sum {
 }
 
 /// One term of a sum.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Term {
     /// Coefficient c ≠ 0, \[m^(1 − p)].
@@ -110,7 +110,7 @@ pub struct Term {
 }
 
 /// A table of radii and heights.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TableFile {
     /// CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
@@ -118,7 +118,7 @@ pub struct TableFile {
 }
 
 /// A grid of heights.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightMapFile {
     /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column

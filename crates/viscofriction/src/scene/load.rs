@@ -2,18 +2,20 @@
 
 use indenters::Control;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::SceneError;
 use super::error::{not_negative, positive};
 
 /// A force or a depth, and a speed.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Normal force > 0, \[N]; or `indentation_depth`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_force: Option<f64>,
     /// Depth of the lowest point > 0, \[m]; or `normal_force`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub indentation_depth: Option<f64>,
     /// Sliding speed ≥ 0 towards positive x, \[m/s]; 0 with `solve.duration` is pure indentation.
     pub velocity: f64,

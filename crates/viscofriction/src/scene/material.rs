@@ -1,10 +1,10 @@
 //! `[material.…]`: the half space.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The half space; every kind may have a Poisson ratio.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MaterialTable {
     /// A dashpot.
@@ -22,7 +22,7 @@ pub enum MaterialTable {
 }
 
 /// A dashpot.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Viscous {
     /// Shear viscosity η > 0, [Pa s].
@@ -33,7 +33,7 @@ pub struct Viscous {
 }
 
 /// A spring.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Elastic {
     /// Shear modulus G > 0, \[Pa].
@@ -44,7 +44,7 @@ pub struct Elastic {
 }
 
 /// A spring and a dashpot.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringAndDashpot {
     /// Shear modulus G > 0, \[Pa].
@@ -57,7 +57,7 @@ pub struct SpringAndDashpot {
 }
 
 /// A spring in parallel with a Maxwell element.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StandardSolid {
     /// Shear modulus of the spring > 0, \[Pa].
@@ -72,7 +72,7 @@ pub struct StandardSolid {
 }
 
 /// Spring, dashpot and Maxwell branches in parallel.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Prony {
     /// Shear modulus of the lone spring ≥ 0, \[Pa].
@@ -88,7 +88,7 @@ pub struct Prony {
 }
 
 /// A Maxwell branch.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Branch {
     /// Shear modulus ≥ 0, \[Pa].

@@ -11,22 +11,32 @@ mod solve;
 mod source;
 mod table_file;
 
+use std::path::Path;
+use std::str::FromStr;
+
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 pub use error::{SceneError, in_range, not_negative, positive};
 pub use height_map_file::height_map;
-pub use indenter::{HeightMapFile, Indenter, Term};
+pub use indenter::{
+    Cone, HeightMapFile, Indenter, Paraboloid, Power, Round, RoundAndCurvature, RoundAndSlope, Sum,
+    TableFile, Term,
+};
 pub use indenters::Control;
 pub use load::Load;
-pub use material::{Branch, MaterialTable};
+pub use material::{
+    Branch, Elastic, MaterialTable, Prony, SpringAndDashpot, StandardSolid, Viscous,
+};
 pub use numerics::Accuracy;
 pub use solve::{Method, Model, Solve};
 pub use source::{Source, scene_file, split_index};
 pub use table_file::profile;
 
+use crate::text::WrongInput;
+
 /// A rigid body on a half space, and what is asked about it.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The rigid body.
@@ -40,7 +50,21 @@ pub struct Scene {
     pub solve: Solve,
 }
 
+/// The scene that a text in TOML describes, as a scene file holds it; numbers are checked by
+/// [`Problem`](crate::Problem).
+impl FromStr for Scene {
+    type Err = WrongInput;
+
+    fn from_str(text: &str) -> Result<Self, WrongInput> {
+        let source = Source::new(Path::new("scene"), text.as_bytes().to_vec())?;
+        scene_file(source.table()?).map_err(|error| source.locate(&error))
+    }
+}
+
 /// The JSON Schema of the scene file, as docs/scene.schema.json holds it.
+///
+/// # Errors
+/// When the schema cannot be written as JSON.
 pub fn json_schema() -> Result<String, serde_json::Error> {
     let mut text = serde_json::to_string_pretty(&schemars::schema_for!(Scene))?;
     text.push('\n');

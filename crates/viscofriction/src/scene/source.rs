@@ -17,6 +17,9 @@ pub struct Source {
 
 impl Source {
     /// A file of the given contents.
+    ///
+    /// # Errors
+    /// [`WrongInput`] where the text is no UTF-8.
     pub fn new(path: &Path, contents: Vec<u8>) -> Result<Self, WrongInput> {
         let text = String::from_utf8(contents).map_err(|error| {
             let line = line_of(error.as_bytes(), error.utf8_error().valid_up_to());
@@ -41,6 +44,9 @@ impl Source {
     }
 
     /// The keys and values of the file.
+    ///
+    /// # Errors
+    /// [`WrongInput`] where the text is no TOML.
     pub fn table(&self) -> Result<Table, WrongInput> {
         self.text.parse::<Table>().map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);

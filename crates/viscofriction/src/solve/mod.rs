@@ -35,11 +35,17 @@ use self::shape::{Drive, Shape};
 use crate::scene::{Accuracy, Control, Method};
 
 /// Asks the method of the scene, or the cheapest that answers it.
+///
+/// # Errors
+/// [`SolveError`] where no method answers the scene, or what was asked for was not reached; it says what was.
 pub fn solve(problem: &Problem) -> Result<Answer> {
     solve_by(problem, choose(problem)?, problem.accuracy)
 }
 
 /// Asks a method that answers the scene.
+///
+/// # Errors
+/// [`SolveError`] where what was asked for was not reached.
 pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
     let way = (method, accuracy);
     let answer = match (&problem.body, method) {

@@ -72,6 +72,19 @@ impl Problem {
     }
 }
 
+/// A scene that names no file.
+impl TryFrom<&Scene> for Problem {
+    type Error = SceneError;
+
+    fn try_from(scene: &Scene) -> Result<Self, SceneError> {
+        let no_files = |path: &Path| {
+            let problem = "a scene in memory names no file; Problem::new reads one";
+            Err(WrongInput(format!("{}: {problem}", path.display())))
+        };
+        Self::new(scene, Path::new(""), no_files)
+    }
+}
+
 fn motion(scene: &Scene) -> Result<Motion, SceneError> {
     let wrong = |error: IndenterError| SceneError::together("load", error.to_string());
     let (control, velocity) = (scene.load.control()?, scene.load.checked_velocity()?);
