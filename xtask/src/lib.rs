@@ -18,27 +18,6 @@ mod scaling;
 mod scene;
 mod tasks;
 
-/// Names of the library under which the experiments know them.
-mod run {
-    pub(crate) use viscofriction::solve::{
-        Answer, Body, Problem as Question, Revolution, choose, solve,
-    };
-
-    /// The scenes of experiments name no files.
-    pub(crate) fn no_files(path: &std::path::Path) -> Result<Vec<u8>, viscofriction::WrongInput> {
-        Err(viscofriction::WrongInput(format!(
-            "{}: no file is read",
-            path.display()
-        )))
-    }
-}
-
-mod scene_file {
-    pub(crate) use viscofriction::scene::{
-        Accuracy, Control, Indenter, MaterialTable, Method, Model, Scene as SceneFile, scene_file,
-    };
-}
-
 use std::path::PathBuf;
 use std::process::ExitCode;
 

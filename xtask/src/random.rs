@@ -20,4 +20,21 @@ impl Random {
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// A number between two others.
+    pub(crate) fn between(&mut self, [low, high]: [f64; 2]) -> f64 {
+        low + (high - low) * self.uniform()
+    }
+
+    /// 10^x with x between −n and n.
+    pub(crate) fn decades(&mut self, n: f64) -> f64 {
+        10_f64.powf(self.between([-n, n]))
+    }
+
+    /// One of the items, each as likely as any other.
+    pub(crate) fn choice<T: Copy, const N: usize>(&mut self, items: &[T; N]) -> T {
+        let mark = self.uniform() * N as f64;
+        let index = (1..N).take_while(|&index| index as f64 <= mark).count();
+        items[index]
+    }
 }

@@ -3,6 +3,8 @@
 //! Every experiment turns cases into tables, pictures and a summary; here they are written.
 
 mod calibration;
+mod fit;
+mod request;
 mod speed_range;
 mod stability;
 mod stationary;

@@ -1,21 +1,26 @@
-//! `calibrate`: do the error bars of every method hold on random scenes?
+//! Do the error bars of every method hold on random scenes?
 
-mod draw;
-mod judged;
-mod picture;
+mod judge;
 mod reference;
-mod table;
-mod ways;
+mod requests;
+mod scenes;
 
-use crate::random::Random;
+use std::collections::BTreeMap;
+
 use anyhow::Result;
 use clap::Args;
+use viscofriction::scene::Method;
+use viscofriction_plot::{
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
+};
 
 use super::{Report, Table};
-use crate::output::WrongInput;
+use crate::meter::median;
+use crate::output::{WrongInput, markdown_table};
+use crate::random::Random;
 use crate::tasks::in_parallel;
-use judged::{Examination, Judged};
-use ways::{FULL, QUICK};
+use judge::{Judged, Row, judge};
+use requests::{FULL, QUICK, Requests};
 
 /// Which scenes.
 #[derive(Debug, Args)]
@@ -42,27 +47,8 @@ const SCENES: usize = 300;
 const QUICK_SCENES: usize = 40;
 const MOST_SCENES: usize = 100_000;
 
-/// Judges the bars of every method on random scenes; a quick run takes fewer, with larger errors and fewer elements on
-/// the half space.
+/// Judges the bars of every method; a quick run takes fewer scenes, larger errors and fewer elements on the half space.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let judged = judge(&examinations(options, quick)?)?;
-    Ok(Report {
-        name: "calibration",
-        tables: vec![
-            Table::new("calibration", &judged.rows)?,
-            Table::new("calibration_refused", &judged.refusals)?,
-        ],
-        pictures: vec![("calibration", picture::figure(&judged.rows))],
-        summary: format!(
-            "{}\n{}",
-            table::table(&judged),
-            table::left_out(&judged.left_out)
-        ),
-        failure: None,
-    })
-}
-
-fn examinations(options: &Options, quick: bool) -> Result<Vec<Examination>> {
     let (usual, extent) = if quick {
         (QUICK_SCENES, QUICK)
     } else {
@@ -74,19 +60,170 @@ fn examinations(options: &Options, quick: bool) -> Result<Vec<Examination>> {
         return Err(WrongInput(problem).into());
     }
     let mut random = Random::new(options.seed);
-    (1..=count)
-        .map(|number| Examination::new(&mut random, number, &extent))
-        .collect()
+    let scenes: Result<Vec<_>> = (1..=count)
+        .map(|number| {
+            let scene = scenes::scene(number, &mut random)?;
+            let requests = Requests::new(&mut random, &scene, &extent);
+            Ok((scene, requests))
+        })
+        .collect();
+    let judged: Result<Vec<Judged>> = in_parallel("calibration", &scenes?, |(scene, requests)| {
+        judge(scene, requests)
+    });
+    let judged = Judged::merged(judged?);
+    Ok(Report {
+        name: "calibration",
+        tables: vec![
+            Table::new("calibration", &judged.rows)?,
+            Table::new("calibration_refused", &judged.refusals)?,
+        ],
+        pictures: vec![("calibration", figure(&judged.rows))],
+        summary: format!("{}\n{}", table(&judged), left_out(&judged.left_out)),
+        failure: None,
+    })
 }
 
-/// All scenes at the same time, in the order of their numbers.
-fn judge(examinations: &[Examination]) -> Result<Judged> {
-    let parts: Result<Vec<Judged>> = in_parallel("calibration", examinations, Examination::judge);
-    let mut judged = Judged::default();
-    for part in parts? {
-        judged.rows.extend(part.rows);
-        judged.refusals.extend(part.refusals);
-        judged.left_out.extend(part.left_out);
+/// One line per method: how many bars hold, and how wide they are.
+fn table(judged: &Judged) -> comfy_table::Table {
+    let mut methods: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
+    for row in &judged.rows {
+        methods.entry(&row.method).or_default().push(row);
     }
-    Ok(judged)
+    let header = [
+        "method",
+        "results",
+        "bars that hold",
+        "with a sharp reference",
+        "of these within the bar alone",
+        "median of bar/deviation",
+        "worst deviation/bar",
+        "refused",
+    ];
+    let lines = methods.into_iter().map(|(method, rows)| {
+        let refused = judged.refusals.iter();
+        let refused = refused.filter(|refusal| refusal.method == method).count();
+        line(method, &rows, refused)
+    });
+    let all: Vec<&Row> = judged.rows.iter().collect();
+    markdown_table(
+        header,
+        lines.chain([line("all", &all, judged.refusals.len())]),
+    )
+}
+
+fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 8] {
+    let held = rows.iter().filter(|row| row.holds).count();
+    let sharp: Vec<_> = rows.iter().filter(|row| row.is_sharply_judged()).collect();
+    let held_alone = sharp.iter().filter(|row| row.holds_alone).count();
+    let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
+    let worst = parts.iter().copied().reduce(f64::max);
+    let middle = (!parts.is_empty()).then(|| 1.0 / median(parts));
+    [
+        method.to_owned(),
+        rows.len().to_string(),
+        percentage(held, rows.len()),
+        sharp.len().to_string(),
+        percentage(held_alone, sharp.len()),
+        middle.map_or_else(String::new, short),
+        worst.map_or_else(String::new, short),
+        refused.to_string(),
+    ]
+}
+
+fn percentage(held: usize, all: usize) -> String {
+    if all == 0 {
+        return String::new();
+    }
+    format!("{:.1} %", 100.0 * held as f64 / all as f64)
+}
+
+/// Two digits, or a power of ten.
+fn short(value: f64) -> String {
+    match value {
+        _ if !value.is_finite() => "∞".to_owned(),
+        _ if value == 0.0 || (1e-2..1e4).contains(&value) => format!("{value:.2}"),
+        _ => format!("{value:.0e}"),
+    }
+}
+
+/// What was left out, and how often.
+fn left_out(reasons: &[&'static str]) -> String {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for reason in reasons {
+        *counts.entry(reason).or_default() += 1;
+    }
+    let lines = counts
+        .iter()
+        .map(|(reason, count)| format!("- {count} × {reason}\n"));
+    format!("\nleft out:\n{}", lines.collect::<String>())
+}
+
+/// Smaller relative errors are drawn here.
+const FLOOR: f64 = 1e-16;
+
+const STYLES: [(Method, Shape, Colour); 5] = [
+    (Method::Analytic, Shape::Diamond, Colour::Black),
+    (Method::MdrSteady, Shape::Circle, Colour::Blue),
+    (Method::MdrTransient, Shape::Square, Colour::Magenta),
+    (Method::BemSteady, Shape::Circle, Colour::Red),
+    (Method::BemTransient, Shape::Square, Colour::Green),
+];
+
+/// Deviation over bar, one point per result that is not zero; bars that hold are below the diagonal.
+fn figure(rows: &[Row]) -> Figure {
+    let points: Vec<(Method, [f64; 2])> = rows.iter().filter_map(point).collect();
+    // Both axes show the same decades, so that the diagonal is one.
+    let axis = |label| Axis::decades(label, points.iter().flat_map(|(_, point)| *point));
+    let [x, y] = ["error bar / value", "deviation / value"].map(axis);
+    let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
+        let points = points.iter().filter(|(of, _)| *of == method);
+        let points: Vec<[f64; 2]> = points.map(|(_, point)| *point).collect();
+        (!points.is_empty()).then(|| Series {
+            label: Some(method.name().to_owned()),
+            ..Series::markers(points, Marker::open(shape), colour)
+        })
+    });
+    let ends = x.range.map(|end| [end; 2]).to_vec();
+    let diagonal = Series {
+        label: Some("deviation = bar".into()),
+        ..Series::line(ends, Line::thin(Dash::Solid), Colour::Black)
+    };
+    Figure::single(Chart {
+        title: Some(format!("{} error bars", points.len())),
+        series: methods.chain([diagonal]).collect(),
+        x,
+        y,
+        legend: LegendPlace::Below,
+    })
+}
+
+/// Relative bar and deviation; an elastic body has no friction to which they could be related.
+fn point(row: &Row) -> Option<(Method, [f64; 2])> {
+    let value = row.reference.abs();
+    let point = [row.error_bar, row.deviation].map(|error| (error / value).max(FLOOR));
+    let drawn = value > row.error_bar && point.iter().all(|error| error.is_finite());
+    drawn.then_some((row.solver, point))
+}
+
+#[cfg(test)]
+mod tests {
+    use viscofriction_plot::draw;
+
+    use super::judge::Refusal;
+    use super::*;
+
+    #[test]
+    fn where_every_request_is_refused_cells_are_empty_and_the_picture_has_no_points() {
+        let refused = Judged {
+            refusals: vec![Refusal::default()],
+            ..Judged::default()
+        };
+        let printed = table(&refused).to_string();
+        let cells = printed.lines().last().map(|line| line.split('|'));
+        let cells: Vec<&str> = cells.into_iter().flatten().map(str::trim).collect();
+        let expected = ["", "all", "0", "", "0", "", "", "", "1", ""];
+        assert_eq!(cells, expected, "the line of all in\n{printed}");
+        let svg = draw(&figure(&[])).expect("a picture").svg;
+        assert!(svg.contains("0 error bars"), "the title in {svg}");
+    }
 }

@@ -7,12 +7,11 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
 };
+use viscofriction::scene::Model;
 
-use super::asked::DEPTH;
 use super::rough::self_affine;
 use super::scenes::HERTZ;
-use super::series::{Attempt, Outcome, Reference, Resolution, Series, Solver};
-use crate::scene_file::Model;
+use super::series::{DEPTH, Found, Run, Series, deviation};
 
 /// Tolerance of the Hertz contact, far below the error of its grids.
 const TOLERANCE: f64 = 1e-9;
@@ -24,12 +23,13 @@ const RADIUS: f64 = 0.3;
 
 /// The depth of the Hertz contact on grids with these edges; the convolution is made in the time that is measured.
 pub(super) fn hertz(edges: &[usize]) -> Series {
-    let attempt = |&edge: &usize| Attempt {
-        resolution: Resolution::Elements(edge),
+    let run = |&edge: &usize| Run {
+        kind: "elements",
+        resolution: Some(edge as f64),
         solve: Box::new(move || {
             let (contact, state) = hertz_scene(edge)?.solve(TOLERANCE)?;
-            Ok(Outcome {
-                values: vec![contact.indentation_depth],
+            Ok(Found {
+                error: deviation(&[contact.indentation_depth], &[RADIUS * RADIUS]),
                 error_bar: None,
                 unknowns: state.pressure().len(),
             })
@@ -39,28 +39,28 @@ pub(super) fn hertz(edges: &[usize]) -> Series {
         scene: HERTZ,
         model: Model::HalfSpace,
         quantity: DEPTH,
-        solver: Solver::Contact,
-        reference: Arc::new(Reference {
-            values: vec![RADIUS * RADIUS],
-            error: f64::EPSILON,
-            source: "closed form".to_owned(),
-        }),
-        attempts: edges.iter().map(attempt).collect(),
+        method: None,
+        reference: "closed form".to_owned(),
+        reference_error: f64::EPSILON,
+        runs: edges.iter().map(run).collect(),
     }
 }
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 pub(super) fn rough(edge: usize) -> Result<Series> {
-    let scene = Arc::new(rough_scene(edge)?);
+    let scene = rough_scene(edge)?;
     let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
-    let attempt = |&tolerance: &f64| {
+    let scene = Arc::new((scene, exact.pressure().to_vec()));
+    let run = |&tolerance: &f64| {
         let scene = Arc::clone(&scene);
-        Attempt {
-            resolution: Resolution::Tolerance(tolerance),
+        Run {
+            kind: "tolerance",
+            resolution: Some(tolerance),
             solve: Box::new(move || {
+                let (scene, exact) = &*scene;
                 let (_, state) = scene.solve(tolerance)?;
-                Ok(Outcome {
-                    values: state.pressure().to_vec(),
+                Ok(Found {
+                    error: deviation(state.pressure(), exact),
                     error_bar: None,
                     unknowns: state.pressure().len(),
                 })
@@ -71,13 +71,10 @@ pub(super) fn rough(edge: usize) -> Result<Series> {
         scene: "rough surface",
         model: Model::HalfSpace,
         quantity: "pressure",
-        solver: Solver::Contact,
-        reference: Arc::new(Reference {
-            values: exact.pressure().to_vec(),
-            error: contact.residual.max(REFERENCE_TOLERANCE),
-            source: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
-        }),
-        attempts: TOLERANCES.iter().map(attempt).collect(),
+        method: None,
+        reference: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
+        reference_error: contact.residual.max(REFERENCE_TOLERANCE),
+        runs: TOLERANCES.iter().map(run).collect(),
     })
 }
 

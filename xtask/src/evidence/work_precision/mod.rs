@@ -1,23 +1,20 @@
-//! `work-precision`: error against run time of every method on every benchmark scene.
+//! Error against run time of every method on every benchmark scene.
 
-mod asked;
 mod contacts;
-mod fit;
-mod measured;
 mod picture;
 mod rough;
 mod scenes;
 mod series;
-mod table;
 
 use anyhow::Result;
+use serde::Serialize;
 
+use super::fit::clear_exponent;
 use super::{Report, Table};
-use crate::progress;
-use fit::{Fit, fit};
-use measured::{Row, Timing};
+use crate::output::markdown_table;
+use crate::tasks::in_turn;
 use scenes::{QUICK_SCENES, SCENES, Scene};
-use series::{Plan, Refusal, Series};
+use series::{Outcome, Row, Series, series_of};
 
 /// How much is measured.
 #[derive(Debug)]
@@ -25,7 +22,7 @@ struct Extent {
     scenes: &'static [Scene],
     /// Runs of each method, from the coarsest on.
     runs: usize,
-    timing: Timing,
+    timed_once: bool,
     /// Elements along the edges of the grids of the Hertz contact, and of the rough surface.
     edges: &'static [usize],
     rough_edge: usize,
@@ -34,7 +31,7 @@ struct Extent {
 const FULL: Extent = Extent {
     scenes: &SCENES,
     runs: usize::MAX,
-    timing: Timing::Median,
+    timed_once: false,
     edges: &[128, 256, 512, 1024, 2048],
     rough_edge: 512,
 };
@@ -42,36 +39,49 @@ const FULL: Extent = Extent {
 const QUICK: Extent = Extent {
     scenes: &QUICK_SCENES,
     runs: 3,
-    timing: Timing::Once,
+    timed_once: true,
     edges: &[32, 64, 128],
     rough_edge: 64,
 };
 
-/// All that was measured.
-#[derive(Debug, Default)]
-struct Measured {
-    series: Vec<(Vec<Row>, Fit)>,
-    refusals: Vec<Refusal>,
-}
+/// Relative errors whose time is printed, and their names.
+const PRINTED: [(f64, &str); 5] = [
+    (1e-2, "1 %"),
+    (1e-3, "0.1 %"),
+    (1e-4, "0.01 %"),
+    (1e-6, "10⁻⁶"),
+    (1e-9, "10⁻⁹"),
+];
 
 /// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let extent = if quick { QUICK } else { FULL };
-    let plan = plan(&extent)?;
+    let planned: Result<Vec<Outcome<Series>>> = in_turn("references", extent.scenes, |scene| {
+        series_of(scene, extent.runs)
+    });
+    let (mut series, mut refused) = (Vec::new(), Vec::new());
+    for planned in planned? {
+        series.extend(planned.done);
+        refused.extend(planned.refused);
+    }
+    series.push(contacts::hertz(extent.edges));
+    series.push(contacts::rough(extent.rough_edge)?);
     // On one thread processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let Measured { series, refusals } = pool.install(|| carry_out(plan, extent.timing));
-    let rows: Vec<&Row> = series.iter().flat_map(|(rows, _)| rows).collect();
-    let fits: Vec<&Fit> = series.iter().map(|(_, fit)| fit).collect();
+    let measure = |series: &Series| series.measure(extent.timed_once);
+    let measured: Vec<Outcome<Row>> =
+        pool.install(|| in_turn("work and precision", &series, measure));
+    refused.extend(measured.iter().flat_map(|series| series.refused.clone()));
+    let refused: String = refused
+        .iter()
+        .map(|refused| format!("\nrefused: {refused}"))
+        .collect();
+    let fits: Vec<Fit> = measured
+        .iter()
+        .filter_map(|series| Fit::of(&series.done))
+        .collect();
+    let rows: Vec<&Row> = measured.iter().flat_map(|series| &series.done).collect();
     let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
-    let refused = refusals.iter().map(|refusal| {
-        let Refusal {
-            scene,
-            what,
-            reason,
-        } = refusal;
-        format!("\nrefused: {scene}, {what}: {reason}")
-    });
     Ok(Report {
         name: "work_precision",
         tables: vec![
@@ -82,45 +92,112 @@ pub(super) fn report(quick: bool) -> Result<Report> {
             ("work_precision_sliding", picture::figure(&sliding)),
             ("work_precision_at_rest", picture::figure(&at_rest)),
         ],
-        summary: format!("{}{}", table::table(&series), refused.collect::<String>()),
+        summary: format!("{}{refused}", table(&measured)),
         failure: None,
     })
 }
 
-/// All series, with their references.
-fn plan(extent: &Extent) -> Result<Plan> {
-    let bar = progress::bar("references", extent.scenes.len() + 1);
-    let mut plan = Plan::default();
-    for scene in extent.scenes {
-        let Plan { series, refusals } = asked::plan(scene, extent.runs)?;
-        plan.series.extend(series);
-        plan.refusals.extend(refusals);
-        bar.inc(1);
-    }
-    plan.series.push(contacts::hertz(extent.edges));
-    plan.series.push(contacts::rough(extent.rough_edge)?);
-    bar.finish_and_clear();
-    Ok(plan)
+/// How one method converges on one scene, and what that costs.
+#[derive(Debug, Clone, Serialize)]
+struct Fit {
+    scene: &'static str,
+    model: &'static str,
+    method: String,
+    resolution_kind: &'static str,
+    /// Runs that the order is fitted to, whose errors are larger than that of the reference and than rounding.
+    runs_fitted: usize,
+    /// q of error ∼ (1/elements)^q, or ∼ tolerance^q.
+    order: Option<f64>,
+    /// Standard error of the order.
+    order_error: Option<f64>,
+    /// q of processor time ∼ unknowns^q.
+    cost_exponent: Option<f64>,
+    /// Standard error of this exponent.
+    cost_exponent_error: Option<f64>,
 }
 
-fn carry_out(plan: Plan, timing: Timing) -> Measured {
-    let runs = plan.series.iter().map(|series| series.attempts.len());
-    let bar = progress::bar("work and precision", runs.sum());
-    let mut measured = Measured {
-        refusals: plan.refusals,
-        ..Measured::default()
-    };
-    for series in plan.series {
-        add(&mut measured, &series, timing, &|| bar.inc(1));
+impl Fit {
+    /// The fit of the runs of one series.
+    fn of(rows: &[Row]) -> Option<Self> {
+        let first = rows.first()?;
+        let resolved = rows.iter().filter(|row| row.is_resolved());
+        let errors: Vec<[f64; 2]> = resolved
+            .filter_map(|row| Some([row.fineness()?, row.error]))
+            .collect();
+        let numerical = rows.iter().filter(|row| row.unknowns > 0);
+        let costs: Vec<[f64; 2]> = numerical
+            .map(|row| [row.unknowns as f64, row.processor_seconds])
+            .collect();
+        let [order, cost] = [clear_exponent(&errors), clear_exponent(&costs)];
+        Some(Self {
+            scene: first.scene,
+            model: first.model,
+            method: first.method.clone(),
+            resolution_kind: first.resolution_kind,
+            runs_fitted: errors.len(),
+            order: order.map(|order| order.value),
+            order_error: order.map(|order| order.error),
+            cost_exponent: cost.map(|cost| cost.value),
+            cost_exponent_error: cost.map(|cost| cost.error),
+        })
     }
-    bar.finish_and_clear();
-    measured
 }
 
-fn add(measured: &mut Measured, series: &Series, timing: Timing, advance: &dyn Fn()) {
-    let (rows, refusals) = measured::rows(series, timing, advance);
-    measured.refusals.extend(refusals);
-    if let Some(fit) = fit(&rows) {
-        measured.series.push((rows, fit));
+/// Order, exponent of cost, and the time to an error: one row per series, one column per error.
+fn table(measured: &[Outcome<Row>]) -> comfy_table::Table {
+    let [one, two, three, four, five] = PRINTED.map(|(_, name)| name);
+    let header = [
+        "scene",
+        "model",
+        "method",
+        "over",
+        "order",
+        "cost exponent",
+        one,
+        two,
+        three,
+        four,
+        five,
+    ];
+    let rows = measured.iter().filter_map(|series| {
+        let fit = Fit::of(&series.done)?;
+        let [one, two, three, four, five] = PRINTED.map(|(error, _)| time_to(&series.done, error));
+        Some([
+            fit.scene.to_owned(),
+            fit.model.to_owned(),
+            fit.method.clone(),
+            fit.resolution_kind.to_owned(),
+            exponent(fit.order, fit.order_error),
+            exponent(fit.cost_exponent, fit.cost_exponent_error),
+            one,
+            two,
+            three,
+            four,
+            five,
+        ])
+    });
+    markdown_table(header, rows)
+}
+
+fn exponent(value: Option<f64>, error: Option<f64>) -> String {
+    value.zip(error).map_or_else(String::new, |(value, error)| {
+        format!("{value:.2} ± {error:.2}")
+    })
+}
+
+/// The time of the coarsest run from which on all finer ones are as exact, because one alone may be so by chance.
+fn time_to(rows: &[Row], error: f64) -> String {
+    let bad = rows.iter().rposition(|row| row.visible_error() > error);
+    rows.get(bad.map_or(0, |bad| bad + 1))
+        .map_or_else(String::new, |row| duration(row.processor_seconds))
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 1e-5 => format!("{:.1} µs", 1e6 * seconds),
+        seconds if seconds < 1e-3 => format!("{:.0} µs", 1e6 * seconds),
+        seconds if seconds < 1e-2 => format!("{:.1} ms", 1e3 * seconds),
+        seconds if seconds < 1.0 => format!("{:.0} ms", 1e3 * seconds),
+        seconds => format!("{seconds:.1} s"),
     }
 }

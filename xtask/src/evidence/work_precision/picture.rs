@@ -1,8 +1,8 @@
 //! Error over run time, one panel per scene.
 
-use super::measured::Row;
-use super::series::Solver;
-use crate::scene_file::{Method, Model};
+use viscofriction::scene::{Method, Model};
+
+use super::series::Row;
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
@@ -50,13 +50,13 @@ fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
 
 fn label(row: &Row) -> String {
     match row.solver {
-        Solver::Of(Method::Analytic) if row.slides() => format!("{}, {}", row.method, row.model),
+        Some(Method::Analytic) if row.slides() => format!("{}, {}", row.method, row.model),
         _ => row.method.clone(),
     }
 }
 
 fn curve(rows: &[&Row]) -> Option<Series> {
-    let (colour, marker) = look(rows.first()?);
+    let (colour, marker) = style(rows.first()?);
     Some(Series {
         label: rows.first().map(|row| label(row)),
         points: rows.iter().map(|row| point(row)).collect(),
@@ -68,18 +68,18 @@ fn curve(rows: &[&Row]) -> Option<Series> {
 }
 
 /// Line and stationary states are filled, elements are open.
-fn look(row: &Row) -> (Colour, Marker) {
+fn style(row: &Row) -> (Colour, Marker) {
     let is_line = row.model == Model::Line.name();
     let by_elements = row.resolution_kind == "elements";
     match row.solver {
-        Solver::Of(Method::Analytic) if is_line => (Colour::Black, Marker::filled(Shape::Diamond)),
-        Solver::Of(Method::Analytic) => (Colour::Black, Marker::open(Shape::Diamond)),
-        Solver::Of(Method::MdrSteady) => (Colour::Blue, Marker::filled(Shape::Circle)),
-        Solver::Of(Method::MdrTransient) => (Colour::Blue, Marker::open(Shape::Square)),
-        Solver::Of(Method::BemSteady) if by_elements => (Colour::Red, Marker::open(Shape::Square)),
-        Solver::Of(Method::BemSteady) => (Colour::Red, Marker::filled(Shape::Circle)),
-        Solver::Of(Method::BemTransient) => (Colour::Green, Marker::open(Shape::Square)),
-        Solver::Contact => (Colour::Magenta, Marker::filled(Shape::Circle)),
+        Some(Method::Analytic) if is_line => (Colour::Black, Marker::filled(Shape::Diamond)),
+        Some(Method::Analytic) => (Colour::Black, Marker::open(Shape::Diamond)),
+        Some(Method::MdrSteady) => (Colour::Blue, Marker::filled(Shape::Circle)),
+        Some(Method::MdrTransient) => (Colour::Blue, Marker::open(Shape::Square)),
+        Some(Method::BemSteady) if by_elements => (Colour::Red, Marker::open(Shape::Square)),
+        Some(Method::BemSteady) => (Colour::Red, Marker::filled(Shape::Circle)),
+        Some(Method::BemTransient) => (Colour::Green, Marker::open(Shape::Square)),
+        None => (Colour::Magenta, Marker::filled(Shape::Circle)),
     }
 }
 

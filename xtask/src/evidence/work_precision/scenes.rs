@@ -1,7 +1,8 @@
-//! The scenes, and what their methods are asked.
+//! The scenes, and how they are solved.
 
-use super::series::Resolution;
-use crate::scene_file::{Method, Model};
+use viscofriction::scene::{Accuracy, Method, Model};
+
+use crate::evidence::request::Request;
 
 /// A scene with its name and, where the file leaves it open, the speed \[m/s].
 #[derive(Debug, Clone, Copy)]
@@ -47,49 +48,53 @@ pub(super) const QUICK_SCENES: [Scene; 2] = [PARABOLOID, INDENTATION];
 /// All such contacts are similar.
 pub(super) const HERTZ: &str = "Hertz";
 
-/// A method, and the resolutions that it is asked for.
-pub(super) type Way = (Method, Vec<Resolution>);
-
+/// Closed forms are asked for this, so that the table of s(p) takes part.
+pub(super) const CLOSED: f64 = 1e-2;
 /// Relative errors asked of the stationary solvers.
 const LINE_ERRORS: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 const HALF_SPACE_ERRORS: [f64; 5] = [1e-2, 1e-3, 3e-4, 1e-4, 5e-5];
 /// Elements along the contact.
-const CHAINS: [usize; 5] = [16, 48, 144, 432, 1296];
+const LINES: [usize; 5] = [16, 48, 144, 432, 1296];
 const GRIDS: [usize; 5] = [6, 12, 24, 48, 96];
 const MARCHES: [usize; 5] = [6, 8, 12, 16, 24];
-const PRESSES: [usize; 5] = [16, 32, 64, 128, 256];
+const PRESSED: [usize; 5] = [16, 32, 64, 128, 256];
 
-/// Without sliding both models are the same, and all answers count for the half space.
-pub(super) fn when_pressed() -> Vec<(Model, Vec<Way>)> {
-    let ways = vec![
-        (Method::Analytic, vec![Resolution::ClosedForm]),
-        (Method::MdrTransient, elements(&CHAINS)),
-        (Method::BemTransient, elements(&PRESSES)),
-    ];
-    vec![(Model::HalfSpace, ways)]
-}
-
-/// Line and half space differ.
-pub(super) fn when_slid() -> Vec<(Model, Vec<Way>)> {
+/// Series of resolutions, by model; without sliding both models are the same, and all results are of the half space.
+pub(super) fn requests(presses: bool) -> Vec<(Model, Vec<Vec<Request>>)> {
+    if presses {
+        let pressed = vec![
+            errors(Model::HalfSpace, Method::Analytic, &[CLOSED]),
+            elements(Model::HalfSpace, Method::MdrTransient, &LINES),
+            elements(Model::HalfSpace, Method::BemTransient, &PRESSED),
+        ];
+        return vec![(Model::HalfSpace, pressed)];
+    }
     let line = vec![
-        (Method::Analytic, vec![Resolution::ClosedForm]),
-        (Method::MdrSteady, errors(&LINE_ERRORS)),
-        (Method::MdrTransient, elements(&CHAINS)),
+        errors(Model::Line, Method::Analytic, &[CLOSED]),
+        errors(Model::Line, Method::MdrSteady, &LINE_ERRORS),
+        elements(Model::Line, Method::MdrTransient, &LINES),
     ];
     let half_space = vec![
-        (Method::Analytic, vec![Resolution::ClosedForm]),
-        (Method::BemSteady, errors(&HALF_SPACE_ERRORS)),
-        (Method::BemSteady, elements(&GRIDS)),
-        (Method::BemTransient, elements(&MARCHES)),
+        errors(Model::HalfSpace, Method::Analytic, &[CLOSED]),
+        errors(Model::HalfSpace, Method::BemSteady, &HALF_SPACE_ERRORS),
+        elements(Model::HalfSpace, Method::BemSteady, &GRIDS),
+        elements(Model::HalfSpace, Method::BemTransient, &MARCHES),
     ];
     vec![(Model::Line, line), (Model::HalfSpace, half_space)]
 }
 
-fn elements(counts: &[usize]) -> Vec<Resolution> {
-    counts.iter().copied().map(Resolution::Elements).collect()
+fn errors(model: Model, method: Method, errors: &[f64]) -> Vec<Request> {
+    let errors = errors.iter();
+    errors
+        .map(|&error| Request::to_error(model, method, error))
+        .collect()
 }
 
-fn errors(asked: &[f64]) -> Vec<Resolution> {
-    let asked = asked.iter().copied();
-    asked.map(Resolution::RelativeError).collect()
+fn elements(model: Model, method: Method, counts: &[usize]) -> Vec<Request> {
+    let request = |&count: &usize| Request {
+        model,
+        method,
+        accuracy: Accuracy::Elements(count),
+    };
+    counts.iter().map(request).collect()
 }

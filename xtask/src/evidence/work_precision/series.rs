@@ -1,113 +1,257 @@
-//! What is measured: series of runs that differ in their resolution only.
+//! What is measured: series of runs of one method on one scene that differ in their resolution only.
 
 use std::sync::Arc;
 
 use anyhow::Result;
+use serde::Serialize;
+use viscofriction::scene::{self, Method, Model};
 
-use crate::scene_file::{Method, Model};
+use super::scenes::{Scene, requests};
+use crate::evidence::request::{Reference, Request, first_reached, parsed, presses};
+use crate::meter::{measure, measure_median};
 
-/// Who answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Solver {
-    /// A method of scene files.
-    Of(Method),
-    /// The half space at one instant, on a given grid.
-    Contact,
+/// What is compared where something slides, and where nothing does.
+pub(super) const FRICTION: &str = "friction coefficient";
+pub(super) const DEPTH: &str = "indentation depth";
+/// Relative errors of references without closed form; the first that is reached is taken.
+const LINE_REFERENCE: [f64; 2] = [1e-12, 1e-11];
+const HALF_SPACE_REFERENCE: [f64; 3] = [2e-5, 5e-5, 1e-4];
+/// Rounding of closed forms.
+const CLOSED_ROUNDING: f64 = 1e-15;
+/// Errors up to this come from rounding in long sums, and follow no power.
+const ROUNDING: f64 = 1e-12;
+
+/// Runs of one method on one scene, from coarse to fine.
+pub(super) struct Series {
+    pub(super) scene: &'static str,
+    pub(super) model: Model,
+    pub(super) quantity: &'static str,
+    /// None for the half space at one instant, on a given grid.
+    pub(super) method: Option<Method>,
+    pub(super) reference: String,
+    /// Relative; a smaller error cannot be told from it.
+    pub(super) reference_error: f64,
+    pub(super) runs: Vec<Run>,
 }
 
-/// How fine a run is.
+/// One run, to be timed.
+pub(super) struct Run {
+    /// What the resolution is a number of, and the number, if there is anything to choose.
+    pub(super) kind: &'static str,
+    pub(super) resolution: Option<f64>,
+    pub(super) solve: Box<dyn Fn() -> Result<Found> + Send + Sync>,
+}
+
+/// What a run finds; errors are relative.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Resolution {
-    /// There is nothing to choose.
-    ClosedForm,
-    /// Elements along the contact, or along the edge of the grid.
-    Elements(usize),
-    /// Relative error that is asked for.
-    RelativeError(f64),
-    /// Tolerance of the contact conditions.
-    Tolerance(f64),
-}
-
-impl Resolution {
-    /// What the number means.
-    pub(super) const fn kind(self) -> &'static str {
-        match self {
-            Self::ClosedForm => "closed form",
-            Self::Elements(_) => "elements",
-            Self::RelativeError(_) => "relative error",
-            Self::Tolerance(_) => "tolerance",
-        }
-    }
-
-    /// The number.
-    pub(super) const fn number(self) -> Option<f64> {
-        match self {
-            Self::ClosedForm => None,
-            Self::Elements(elements) => Some(elements as f64),
-            Self::RelativeError(number) | Self::Tolerance(number) => Some(number),
-        }
-    }
-
-    /// A number that falls with refinement, and that errors follow like a power.
-    ///
-    /// The relative error that is asked for is none: what is reached may be far smaller.
-    pub(super) fn fineness(self) -> Option<f64> {
-        match self {
-            Self::Elements(elements) => Some(1.0 / elements as f64),
-            Self::Tolerance(tolerance) => Some(tolerance),
-            Self::ClosedForm | Self::RelativeError(_) => None,
-        }
-    }
-}
-
-/// What a run finds.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Outcome {
-    /// One number, or a field.
-    pub(super) values: Vec<f64>,
-    /// Relative error that the method claims.
+pub(super) struct Found {
+    /// Deviation from the reference; of a field in the mean square.
+    pub(super) error: f64,
+    /// What the method claims.
     pub(super) error_bar: Option<f64>,
     /// Unknown pressures, elements or polynomials; none in a closed form.
     pub(super) unknowns: usize,
 }
 
-/// What is taken for the truth.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Reference {
-    pub(super) values: Vec<f64>,
-    /// Relative; no smaller error can be seen.
-    pub(super) error: f64,
-    /// Where it comes from.
-    pub(super) source: String,
-}
-
-/// One run, to be timed.
-pub(super) struct Attempt {
-    pub(super) resolution: Resolution,
-    pub(super) solve: Box<dyn Fn() -> Result<Outcome> + Send>,
-}
-
-/// Runs of one solver on one scene, from coarse to fine.
-pub(super) struct Series {
+/// One run in the table.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Row {
     pub(super) scene: &'static str,
-    pub(super) model: Model,
+    pub(super) model: &'static str,
     pub(super) quantity: &'static str,
-    pub(super) solver: Solver,
-    pub(super) reference: Arc<Reference>,
-    pub(super) attempts: Vec<Attempt>,
+    pub(super) method: String,
+    /// What `resolution` is a number of.
+    pub(super) resolution_kind: &'static str,
+    pub(super) resolution: Option<f64>,
+    pub(super) unknowns: usize,
+    pub(super) error: f64,
+    error_bar: Option<f64>,
+    reference: String,
+    pub(super) reference_error: f64,
+    seconds: f64,
+    pub(super) processor_seconds: f64,
+    #[serde(skip)]
+    pub(super) solver: Option<Method>,
 }
 
-/// A run that its method refused, or a scene without a reference.
-#[derive(Debug, Clone)]
-pub(super) struct Refusal {
-    pub(super) scene: &'static str,
-    pub(super) what: String,
-    pub(super) reason: String,
+/// What is to be measured, or was, and what cannot be.
+#[derive(Debug)]
+pub(super) struct Outcome<T> {
+    pub(super) done: Vec<T>,
+    pub(super) refused: Vec<String>,
 }
 
-/// What is to be measured, and what cannot be.
-#[derive(Default)]
-pub(super) struct Plan {
-    pub(super) series: Vec<Series>,
-    pub(super) refusals: Vec<Refusal>,
+impl<T> Default for Outcome<T> {
+    fn default() -> Self {
+        Self {
+            done: Vec::new(),
+            refused: Vec::new(),
+        }
+    }
+}
+
+impl Row {
+    /// Whether the error comes from the resolution, and not from rounding or from the reference.
+    pub(super) fn is_resolved(&self) -> bool {
+        self.error > self.reference_error.max(ROUNDING)
+    }
+
+    /// The error, or that of the reference where it cannot be told from it.
+    pub(super) fn visible_error(&self) -> f64 {
+        self.error.max(self.reference_error)
+    }
+
+    /// Whether the scene slides, so that line and half space differ.
+    pub(super) fn slides(&self) -> bool {
+        self.quantity == FRICTION
+    }
+
+    /// A number that falls with refinement, and that errors follow like a power.
+    ///
+    /// The relative error that is asked for is none: what is reached may be far smaller.
+    pub(super) fn fineness(&self) -> Option<f64> {
+        match self.resolution_kind {
+            "elements" => Some(1.0 / self.resolution?),
+            "tolerance" => self.resolution,
+            _ => None,
+        }
+    }
+}
+
+/// The series of a scene, each with at most `runs` runs; a model whose reference is not reached is refused.
+pub(super) fn series_of(scene: &Scene, runs: usize) -> Result<Outcome<Series>> {
+    let mut file = parsed(scene.text)?;
+    file.load.velocity = scene.velocity.unwrap_or(file.load.velocity);
+    let file = Arc::new(file);
+    let mut planned = Outcome::default();
+    for (model, methods) in requests(presses(&file)) {
+        let reference = match reference(&file, model, &methods[0][0]) {
+            Ok(reference) => reference,
+            Err(error) => {
+                let (name, model) = (scene.name, model.name());
+                planned
+                    .refused
+                    .push(format!("{name}, reference of the {model}: {error:#}"));
+                continue;
+            }
+        };
+        for mut requests in methods {
+            requests.truncate(runs);
+            if requests[0].is_offered(&file)? {
+                planned
+                    .done
+                    .push(series(scene.name, &file, &requests, &reference));
+            }
+        }
+    }
+    Ok(planned)
+}
+
+/// The closed form; without one the stationary solver of the model with a far smaller error.
+///
+/// On the half space the table of s(p) is no closed form: it is measured too.
+fn reference(scene: &scene::Scene, model: Model, closed_form: &Request) -> Result<Reference> {
+    let may_be_closed = model == Model::Line || presses(scene);
+    if may_be_closed && closed_form.is_offered(scene)? {
+        return closed_form.reference(scene, CLOSED_ROUNDING);
+    }
+    match model {
+        Model::Line => first_reached(scene, model, &LINE_REFERENCE),
+        Model::HalfSpace => first_reached(scene, model, &HALF_SPACE_REFERENCE),
+    }
+}
+
+fn series(
+    name: &'static str,
+    scene: &Arc<scene::Scene>,
+    requests: &[Request],
+    reference: &Reference,
+) -> Series {
+    let expected = reference.value;
+    let run = |request: &Request| {
+        let (request, scene) = (*request, Arc::clone(scene));
+        let kind = match request.method {
+            Method::Analytic => "closed form",
+            _ if request.is_by_elements() => "elements",
+            _ => "relative error",
+        };
+        Run {
+            kind,
+            resolution: (request.method != Method::Analytic).then(|| request.number()),
+            solve: Box::new(move || {
+                let solved = request.solve(&scene)?;
+                Ok(Found {
+                    error: deviation(&[solved.value], &[expected]),
+                    error_bar: Some(solved.error / solved.value.abs()),
+                    unknowns: solved.unknowns,
+                })
+            }),
+        }
+    };
+    Series {
+        scene: name,
+        model: requests[0].model,
+        quantity: if presses(scene) { DEPTH } else { FRICTION },
+        method: Some(requests[0].method),
+        reference: reference.source.clone(),
+        reference_error: reference.error / expected.abs(),
+        runs: requests.iter().map(run).collect(),
+    }
+}
+
+/// Relative difference in the mean square.
+pub(super) fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
+    let pairs = actual.iter().zip(expected);
+    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
+}
+
+impl Series {
+    /// Times all runs, each by the median of several or, for no more than a hint, once.
+    pub(super) fn measure(&self, once: bool) -> Outcome<Row> {
+        let mut measured = Outcome::default();
+        for run in &self.runs {
+            let timed = if once {
+                let (found, cost) = measure(&run.solve);
+                found.map(|found| (found, cost))
+            } else {
+                measure_median(&run.solve)
+            };
+            match timed {
+                Ok((found, cost)) => measured.done.push(Row {
+                    scene: self.scene,
+                    model: self.model.name(),
+                    quantity: self.quantity,
+                    method: self.name(),
+                    resolution_kind: run.kind,
+                    resolution: run.resolution,
+                    unknowns: found.unknowns,
+                    error: found.error,
+                    error_bar: found.error_bar,
+                    reference: self.reference.clone(),
+                    reference_error: self.reference_error,
+                    seconds: cost.seconds,
+                    processor_seconds: cost.processor_seconds,
+                    solver: self.method,
+                }),
+                Err(error) => {
+                    let number = run.resolution.unwrap_or_default();
+                    let what = format!("{}, {}, {} {number}", self.scene, self.name(), run.kind);
+                    measured.refused.push(format!("{what}: {error:#}"));
+                }
+            }
+        }
+        measured
+    }
+
+    /// The stationary half space may be asked for an error or given its elements.
+    fn name(&self) -> String {
+        match self.method {
+            None => "bem contact".to_owned(),
+            Some(Method::BemSteady) if self.runs[0].kind == "elements" => {
+                format!("{}, elements", Method::BemSteady.name())
+            }
+            Some(method) => method.name().to_owned(),
+        }
+    }
 }

@@ -1,0 +1,185 @@
+//! The bars of one scene beside its deviations.
+
+use anyhow::{Result, anyhow};
+use serde::Serialize;
+use viscofriction::scene::{Method, Model};
+
+use super::reference::{of_closed_form, reference};
+use super::requests::Requests;
+use super::scenes::Scene;
+use crate::evidence::request::{Reference, Request, presses};
+
+/// One bar; all errors are absolute.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct Row {
+    scene: usize,
+    indenter: String,
+    material: String,
+    load: String,
+    pub(super) method: String,
+    /// Unit of `asked`.
+    asked_kind: &'static str,
+    asked: f64,
+    value: f64,
+    pub(super) error_bar: f64,
+    pub(super) reference: f64,
+    reference_error: f64,
+    reference_source: String,
+    pub(super) deviation: f64,
+    /// Whether the deviation is within the bar and the error of the reference.
+    pub(super) holds: bool,
+    /// Whether it is within the bar alone.
+    pub(super) holds_alone: bool,
+    #[serde(skip)]
+    pub(super) solver: Method,
+}
+
+impl Row {
+    /// Whether the reference is much more exact than the bar says of the result.
+    pub(super) fn is_sharply_judged(&self) -> bool {
+        self.reference_error <= SHARP * self.error_bar
+    }
+
+    /// Deviation over bar; a bar of zero holds for a deviation of zero only.
+    pub(super) fn part_of_bar(&self) -> f64 {
+        if self.deviation > 0.0 {
+            self.deviation / self.error_bar
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Errors of references are at most this part of the bars that they judge sharply.
+const SHARP: f64 = 1.0 / 3.0;
+
+/// A result or a reference that could not be computed.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct Refusal {
+    scene: usize,
+    indenter: String,
+    material: String,
+    load: String,
+    pub(super) method: String,
+    reason: String,
+}
+
+/// What comes of scenes.
+#[derive(Debug, Default)]
+pub(super) struct Judged {
+    pub(super) rows: Vec<Row>,
+    pub(super) refusals: Vec<Refusal>,
+    /// Reasons for what is not computed.
+    pub(super) left_out: Vec<&'static str>,
+}
+
+impl Judged {
+    pub(super) fn merged(parts: Vec<Self>) -> Self {
+        let mut merged = Self::default();
+        for part in parts {
+            merged.rows.extend(part.rows);
+            merged.refusals.extend(part.refusals);
+            merged.left_out.extend(part.left_out);
+        }
+        merged
+    }
+}
+
+/// Solves a scene by every method that can, closed forms first, which are compared with no other closed form.
+pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
+    let mut judged = Judged {
+        left_out: requests.left_out.clone(),
+        ..Judged::default()
+    };
+    for model in [Model::Line, Model::HalfSpace] {
+        let of_model = requests
+            .made
+            .iter()
+            .filter(|request| request.model == model);
+        let errors = of_model.clone().filter(|request| !request.is_by_elements());
+        let least = errors.map(Request::number).fold(1e-2, f64::min);
+        let mut offered = Vec::new();
+        for request in of_model {
+            if request.is_offered(&scene.file)? {
+                offered.push(request);
+            }
+        }
+        let (closed, others): (Vec<&Request>, Vec<_>) = offered
+            .into_iter()
+            .partition(|request| request.method == Method::Analytic);
+        if !closed.is_empty() {
+            let reference = of_closed_form(scene, model, least);
+            if let Some(reference) = reference.transpose() {
+                judged.add(scene, &closed, &reference);
+            }
+        }
+        if !others.is_empty() {
+            judged.add(scene, &others, &reference(scene, model, least));
+        }
+    }
+    Ok(judged)
+}
+
+impl Judged {
+    fn add(&mut self, scene: &Scene, requests: &[&Request], reference: &Result<Reference>) {
+        for request in requests {
+            let row = match reference {
+                Ok(reference) => row(scene, request, reference),
+                Err(error) => Err(anyhow!("no reference: {error:#}")),
+            };
+            match row {
+                Ok(row) => self.rows.push(row),
+                Err(error) => self.refusals.push(Refusal {
+                    scene: scene.number,
+                    indenter: scene.indenter.clone(),
+                    material: scene.material.clone(),
+                    load: scene.load.clone(),
+                    method: name(request, scene),
+                    reason: format!("{error:#}"),
+                }),
+            }
+        }
+    }
+}
+
+fn row(scene: &Scene, request: &Request, reference: &Reference) -> Result<Row> {
+    let solved = request.solve(&scene.file)?;
+    let deviation = (solved.value - reference.value).abs();
+    Ok(Row {
+        scene: scene.number,
+        indenter: scene.indenter.clone(),
+        material: scene.material.clone(),
+        load: scene.load.clone(),
+        method: name(request, scene),
+        asked_kind: if request.is_by_elements() {
+            "elements"
+        } else {
+            "relative error"
+        },
+        asked: request.number(),
+        value: solved.value,
+        error_bar: solved.error,
+        reference: reference.value,
+        reference_error: reference.error,
+        reference_source: reference.source.clone(),
+        deviation,
+        holds: deviation <= solved.error + reference.error,
+        holds_alone: deviation <= solved.error,
+        solver: request.method,
+    })
+}
+
+/// What the table of the results calls a method.
+fn name(request: &Request, scene: &Scene) -> String {
+    let motion = match (request.method, request.model) {
+        _ if presses(&scene.file) => ", pressed",
+        (Method::Analytic, Model::HalfSpace) => ", half space",
+        _ => "",
+    };
+    let resolution = if request.is_by_elements() {
+        ", elements"
+    } else {
+        ""
+    };
+    format!("{}{motion}{resolution}", request.method.name())
+}

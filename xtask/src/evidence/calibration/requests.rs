@@ -1,0 +1,154 @@
+//! By which methods a scene is solved, and how accurately.
+
+use viscofriction::scene::{Accuracy, Method, Model};
+
+use super::scenes::Scene;
+use crate::evidence::request::{Request, presses};
+use crate::random::Random;
+
+/// How much is computed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// Every n-th scene is also solved on the half space, which costs most.
+    half_space_every: usize,
+    /// Decimal logarithms of the relative errors asked of the stationary half space.
+    half_space_errors: [f64; 2],
+    /// The same of a march on the line.
+    march_errors: [f64; 2],
+    /// Elements along the contact.
+    grids: [usize; 5],
+    marches: [usize; 5],
+    /// Where nothing but flow is slow, so that the sliding distance is shorter.
+    marches_on_dashpot: [usize; 5],
+}
+
+pub(super) const FULL: Extent = Extent {
+    half_space_every: 3,
+    half_space_errors: [-2.5, -2.0],
+    march_errors: [-2.0, -1.4],
+    grids: [8, 12, 16, 24, 32],
+    marches: [8, 8, 10, 10, 12],
+    marches_on_dashpot: [8, 12, 16, 20, 24],
+};
+
+pub(super) const QUICK: Extent = Extent {
+    half_space_every: 4,
+    half_space_errors: [-2.0, -2.0],
+    march_errors: [-1.6, -1.3],
+    grids: [8, 8, 12, 12, 16],
+    marches: [8; 5],
+    marches_on_dashpot: [8; 5],
+};
+
+/// Elements along the contact on the line, and of a body that is pressed on the half space.
+const LINES: [usize; 6] = [16, 32, 64, 128, 256, 512];
+const PRESSED: [usize; 3] = [16, 32, 64];
+/// Closed forms are asked for this, so that the table of s(p) takes part.
+const CLOSED: Accuracy = Accuracy::RelativeError(1e-2);
+
+/// What is asked of a scene, and why some is not.
+#[derive(Debug)]
+pub(super) struct Requests {
+    /// Not every one is offered there.
+    pub(super) made: Vec<Request>,
+    /// One reason per request that is left out.
+    pub(super) left_out: Vec<&'static str>,
+}
+
+const SLOW: &str = "a chain to an error at a cusp or an edge, where errors fall too slowly";
+const SLOW_EDGE: &str = "the half space at an edge, where errors fall too slowly for a reference";
+const NO_REFERENCE: &str =
+    "the half space before the stationary state, of which there is no reference";
+const EXPENSIVE: &str = "the half space in the scenes between, because it costs most";
+
+impl Requests {
+    pub(super) fn new(random: &mut Random, scene: &Scene, extent: &Extent) -> Self {
+        let mut requests = Self {
+            made: Vec::new(),
+            left_out: Vec::new(),
+        };
+        if presses(&scene.file) {
+            requests.made = pressed(random);
+            return requests;
+        }
+        for request in line(random, extent) {
+            let is_slow = request.method == Method::MdrTransient && !request.is_by_elements();
+            requests.add(request, (scene.is_sharp() && is_slow).then_some(SLOW));
+        }
+        let why_not = if scene.file.solve.sliding_distance.is_some() {
+            Some(NO_REFERENCE)
+        } else if !scene.number.is_multiple_of(extent.half_space_every) {
+            Some(EXPENSIVE)
+        } else {
+            scene.has_edge().then_some(SLOW_EDGE)
+        };
+        for request in half_space(random, scene, extent) {
+            requests.add(request, why_not);
+        }
+        requests
+    }
+
+    fn add(&mut self, request: Request, why_not: Option<&'static str>) {
+        match why_not {
+            None => self.made.push(request),
+            Some(reason) => self.left_out.push(reason),
+        }
+    }
+}
+
+/// Both models are the same where nothing slides.
+fn pressed(random: &mut Random) -> Vec<Request> {
+    let line = error(random, [-4.0, -2.0]);
+    let grid = error(random, [-2.5, -2.0]);
+    let asked = [
+        (Method::Analytic, CLOSED),
+        (Method::MdrTransient, line),
+        (Method::MdrTransient, elements(random, &LINES)),
+        (Method::BemTransient, grid),
+        (Method::BemTransient, elements(random, &PRESSED)),
+    ];
+    of_model(Model::HalfSpace, &asked)
+}
+
+fn line(random: &mut Random, extent: &Extent) -> Vec<Request> {
+    let asked = [
+        (Method::Analytic, CLOSED),
+        (Method::MdrSteady, error(random, [-6.0, -2.0])),
+        (Method::MdrTransient, error(random, extent.march_errors)),
+        (Method::MdrTransient, elements(random, &LINES)),
+    ];
+    of_model(Model::Line, &asked)
+}
+
+fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Request> {
+    let marches = if scene.is_viscous() {
+        &extent.marches_on_dashpot
+    } else {
+        &extent.marches
+    };
+    let asked = [
+        (Method::Analytic, CLOSED),
+        (Method::BemSteady, error(random, extent.half_space_errors)),
+        (Method::BemSteady, elements(random, &extent.grids)),
+        (Method::BemTransient, elements(random, marches)),
+    ];
+    of_model(Model::HalfSpace, &asked)
+}
+
+fn of_model(model: Model, asked: &[(Method, Accuracy)]) -> Vec<Request> {
+    let request = |&(method, accuracy): &(Method, Accuracy)| Request {
+        model,
+        method,
+        accuracy,
+    };
+    asked.iter().map(request).collect()
+}
+
+/// A relative error, evenly distributed in its logarithm.
+fn error(random: &mut Random, logarithms: [f64; 2]) -> Accuracy {
+    Accuracy::RelativeError(10_f64.powf(random.between(logarithms)))
+}
+
+fn elements<const N: usize>(random: &mut Random, counts: &[usize; N]) -> Accuracy {
+    Accuracy::Elements(random.choice(counts))
+}

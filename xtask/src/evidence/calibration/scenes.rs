@@ -1,0 +1,259 @@
+//! Random scenes: bodies, materials, loads and units over decades, as a person would type them.
+
+use anyhow::{Result, bail};
+use indenters::Axisymmetric;
+use viscofriction::scene::{self, Indenter, MaterialTable};
+use viscofriction::solve::Body;
+
+use crate::evidence::request::{parsed, problem};
+use crate::random::Random;
+
+/// A scene; its parts are inline tables of a scene file.
+#[derive(Debug)]
+pub(super) struct Scene {
+    pub(super) number: usize,
+    pub(super) indenter: String,
+    pub(super) material: String,
+    pub(super) load: String,
+    /// The same, read.
+    pub(super) file: scene::Scene,
+}
+
+/// What is done with the body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Motion {
+    Pressed,
+    /// Cone or paraboloid on a dashpot, over a distance from first touch, which has a closed form.
+    FromFirstTouch,
+    Stationary,
+}
+
+const MOTIONS: [Motion; 6] = [
+    Motion::Pressed,
+    Motion::FromFirstTouch,
+    Motion::Stationary,
+    Motion::Stationary,
+    Motion::Stationary,
+    Motion::Stationary,
+];
+/// Bodies whose motion from first touch is known.
+const KNOWN_FROM_FIRST_TOUCH: [&str; 2] = ["cone", "paraboloid"];
+const BODIES: [&str; 11] = [
+    "power",
+    "power",
+    "cusp",
+    "cone",
+    "paraboloid",
+    "sphere",
+    "superposition",
+    "flat-cone",
+    "round-tipped-cone",
+    "hyperboloid",
+    "truncated-paraboloid",
+];
+/// Bodies with an edge, at which the friction of a dashpot is infinite.
+const WITH_EDGE: [&str; 2] = ["flat-cone", "truncated-paraboloid"];
+/// The dashpot more often: every method solves it.
+const MATERIALS: [&str; 8] = [
+    "viscous",
+    "viscous",
+    "viscous",
+    "elastic",
+    "kelvin-voigt",
+    "maxwell",
+    "standard-solid",
+    "prony",
+];
+const WITHOUT_DASHPOT: [&str; 4] = ["elastic", "maxwell", "standard-solid", "prony"];
+/// Depth over the length of a contact within a flat end.
+const FLAT: f64 = 0.1;
+/// Part of the stationary scenes that are held at a depth instead of under a force.
+const AT_DEPTH: f64 = 0.1;
+
+/// The scene with this number, from the next numbers of the generator.
+pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
+    let mut sample = Sample {
+        length: random.decades(4.0),
+        stress: random.decades(6.0),
+        time: random.decades(4.0),
+        random,
+    };
+    let motion = sample.random.choice(&MOTIONS);
+    let body = match motion {
+        Motion::FromFirstTouch => sample.random.choice(&KNOWN_FROM_FIRST_TOUCH),
+        _ => sample.random.choice(&BODIES),
+    };
+    let indenter = format!("{{ {} }}", sample.body(body));
+    let material = match motion {
+        Motion::FromFirstTouch => "viscous",
+        Motion::Stationary if WITH_EDGE.contains(&body) => sample.random.choice(&WITHOUT_DASHPOT),
+        _ => sample.random.choice(&MATERIALS),
+    };
+    let keys = sample.material(material);
+    let compressible = sample.random.between([-0.9, 0.5]);
+    let ratio = sample.random.choice(&[0.5, compressible]);
+    let material = format!("{{ {material} = {{ {keys}, poisson_ratio = {ratio:?} }} }}");
+    let parts = format!("indenter = {indenter}\nmaterial = {material}\n");
+    let load = sample.load(motion, &parts)?;
+    Ok(Scene {
+        number,
+        file: parsed(&format!("{parts}{load}\n"))?,
+        indenter,
+        material,
+        load,
+    })
+}
+
+/// Units of length \[m], stress \[Pa] and time \[s], in which all numbers of a scene are moderate.
+struct Sample<'a> {
+    random: &'a mut Random,
+    length: f64,
+    stress: f64,
+    time: f64,
+}
+
+impl Sample<'_> {
+    /// A table of a scene file.
+    fn body(&mut self, kind: &str) -> String {
+        let (length, random) = (self.length, &mut *self.random);
+        match kind {
+            "power" => format!("power = {{ {} }}", self.term([1.0, 5.0])),
+            // The slope is infinite at the lowest point.
+            "cusp" => format!("power = {{ {} }}", self.term([0.6, 1.0])),
+            "cone" => format!("cone = {{ slope = {:?} }}", random.decades(2.0)),
+            "paraboloid" => {
+                let curvature = random.decades(1.0) / length;
+                format!("paraboloid = {{ curvature = {curvature:?} }}")
+            }
+            // The radius is at least twice that of the largest contact.
+            "sphere" => {
+                let radius = 4.0 * 10_f64.powf(random.uniform()) * length;
+                format!("sphere = {{ radius = {radius:?} }}")
+            }
+            "superposition" => {
+                let exponents = [[1.0, 2.0], [2.0, 4.0]].map(|range| random.between(range));
+                let [low, high] = exponents.map(|p| power_term(p, length));
+                format!("superposition = {{ terms = [{{ {low} }}, {{ {high} }}] }}")
+            }
+            "truncated-paraboloid" => {
+                let radius = 0.3 * random.decades(0.5) * length;
+                let curvature = random.decades(0.5) / length;
+                format!("{kind} = {{ radius = {radius:?}, curvature = {curvature:?} }}")
+            }
+            // Cones with a tip.
+            _ => {
+                let radius = 0.3 * random.decades(0.5) * length;
+                let slope = 0.5 * random.decades(0.5);
+                format!("{kind} = {{ radius = {radius:?}, slope = {slope:?} }}")
+            }
+        }
+    }
+
+    fn term(&mut self, exponents: [f64; 2]) -> String {
+        power_term(self.random.between(exponents), self.length)
+    }
+
+    /// The keys of a table of a scene file.
+    fn material(&mut self, kind: &str) -> String {
+        let (stress, time, random) = (self.stress, self.time, &mut *self.random);
+        match kind {
+            "viscous" => format!("viscosity = {:?}", stress * time),
+            "elastic" => format!("shear_modulus = {stress:?}"),
+            "standard-solid" => {
+                let glassy = stress * random.decades(2.0);
+                let viscosity = glassy * time * random.decades(1.0);
+                format!(
+                    "equilibrium_modulus = {stress:?}, maxwell_modulus = {glassy:?}, viscosity = {viscosity:?}"
+                )
+            }
+            "prony" => {
+                let count = random.choice(&[1, 2, 3, 4]);
+                let branch = |_| {
+                    let (modulus, time) =
+                        (stress * random.decades(2.0), time * random.decades(2.0));
+                    format!("{{ modulus = {modulus:?}, relaxation_time = {time:?} }}")
+                };
+                let branches: Vec<String> = (0..count).map(branch).collect();
+                let branches = branches.join(", ");
+                format!("equilibrium_modulus = {stress:?}, branches = [{branches}]")
+            }
+            // Kelvin–Voigt and Maxwell.
+            _ => {
+                let viscosity = stress * time * random.decades(1.0);
+                format!("shear_modulus = {stress:?}, viscosity = {viscosity:?}")
+            }
+        }
+    }
+
+    /// A force or depth under which the contact is about half as long as the unit of length.
+    fn load(&mut self, motion: Motion, parts: &str) -> Result<String> {
+        let random = &mut *self.random;
+        let contact = 0.5 * random.decades(0.5) * self.length;
+        let time = random.decades(2.0) * self.time;
+        let distance = 3.0 * random.decades(0.5) * contact;
+        let at_depth = motion == Motion::Stationary && random.uniform() < AT_DEPTH;
+        let sliding = contact / time;
+        let (velocity, solve) = match motion {
+            Motion::Pressed => (0.0, format!("\nsolve = {{ duration = {time:?} }}")),
+            Motion::FromFirstTouch => (
+                sliding,
+                format!("\nsolve = {{ sliding_distance = {distance:?} }}"),
+            ),
+            Motion::Stationary => (sliding, String::new()),
+        };
+        let with = |control: &str, value: f64| {
+            format!("load = {{ {control} = {value:?}, velocity = {velocity:?} }}{solve}")
+        };
+        let unit_force = format!("{parts}{}", with("normal_force", 1.0));
+        let [force, depth] = force_and_depth(&unit_force, contact, time)?;
+        Ok(if at_depth {
+            with("indentation_depth", depth)
+        } else {
+            with("normal_force", force)
+        })
+    }
+}
+
+fn power_term(exponent: f64, length: f64) -> String {
+    let coefficient = length.powf(1.0 - exponent);
+    format!("coefficient = {coefficient:?}, exponent = {exponent:?}")
+}
+
+/// D = h(a) = 2 (1 − ν) F J(t)/(4 a); at least a tenth of the contact where the end is flat.
+fn force_and_depth(scene: &str, contact: f64, time: f64) -> Result<[f64; 2]> {
+    let problem = problem(&parsed(scene)?)?;
+    let Body::Revolution(body) = &problem.body else {
+        bail!("all random bodies are bodies of revolution");
+    };
+    let depth = match body.profile_height(contact) {
+        height if height > 0.0 => height,
+        _ => FLAT * contact,
+    };
+    let material = &*problem.material;
+    let compliance = material.half_space_factor() * material.creep_compliance(time)?;
+    Ok([4.0 * contact * depth / compliance, depth])
+}
+
+impl Scene {
+    /// Whether the equivalent line is infinitely steep somewhere.
+    pub(super) fn is_sharp(&self) -> bool {
+        let has_cusp =
+            matches!(&self.file.indenter, Indenter::Power(power) if power.exponent < 1.0);
+        has_cusp || self.has_edge()
+    }
+
+    /// Whether the slope jumps upwards.
+    pub(super) fn has_edge(&self) -> bool {
+        let key = self.file.indenter.key();
+        WITH_EDGE.iter().any(|name| key.ends_with(name))
+    }
+
+    /// Whether the half space has no friction, whatever slides over it.
+    pub(super) fn is_elastic(&self) -> bool {
+        matches!(&self.file.material, MaterialTable::Elastic(_))
+    }
+
+    pub(super) fn is_viscous(&self) -> bool {
+        matches!(&self.file.material, MaterialTable::Viscous(_))
+    }
+}

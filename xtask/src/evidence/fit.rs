@@ -1,0 +1,77 @@
+//! Exponents of power laws: straight lines of least squares through logarithms.
+
+/// A line needs more points than it has parameters.
+const FEWEST: usize = 3;
+/// Abscissae must span this factor before a power of them means anything.
+const LEAST_SPAN: f64 = 2.0;
+
+/// An exponent and its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Exponent {
+    pub(super) value: f64,
+    pub(super) error: f64,
+}
+
+/// The exponent, where there are points enough and they scatter by less than the line rises.
+pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Exponent> {
+    let abscissae = || points.iter().map(|point| point[0]);
+    let span = abscissae().fold(0.0, f64::max) / abscissae().fold(f64::INFINITY, f64::min);
+    if points.len() < FEWEST || span < LEAST_SPAN {
+        return None;
+    }
+    let exponent = exponent(points);
+    (exponent.error < exponent.value.abs()).then_some(exponent)
+}
+
+/// The exponent of y ∼ x^q.
+pub(super) fn exponent(points: &[[f64; 2]]) -> Exponent {
+    let logarithms: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::ln)).collect();
+    let count = points.len() as f64;
+    let mean = |axis: usize| logarithms.iter().map(|point| point[axis]).sum::<f64>() / count;
+    let [x, y] = [mean(0), mean(1)];
+    let centred = || logarithms.iter().map(|point| [point[0] - x, point[1] - y]);
+    let squares: f64 = centred().map(|[x, _]| x * x).sum();
+    let value = centred().map(|[x, y]| x * y).sum::<f64>() / squares;
+    let misfit: f64 = centred().map(|[x, y]| (y - value * x).powi(2)).sum();
+    let error = (misfit / ((count - 2.0) * squares)).sqrt();
+    Exponent { value, error }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_has_its_exponent() {
+        let points = [1.0, 2.0, 5.0, 20.0].map(|x: f64| [x, 3.0 * x.powf(-1.5)]);
+        let got = clear_exponent(&points).expect("an exponent");
+        assert!(
+            (got.value + 1.5).abs() < 1e-12 && got.error < 1e-12,
+            "expected -1.5 without error, got {got:?}"
+        );
+    }
+
+    /// In logarithms y = 0, 1, 5 over x = 0, 1, 2: slope 5/2, misfits 1/2, −1, 1/2, variance 3/2 over one degree of
+    /// freedom and a sum of squares of 2.
+    #[test]
+    fn the_standard_error_is_that_of_least_squares() {
+        let points = [[0.0, 0.0], [1.0, 1.0], [2.0, 5.0]].map(|point| point.map(f64::exp));
+        let got = clear_exponent(&points).expect("an exponent");
+        let expected = [2.5, 0.75_f64.sqrt()];
+        assert!(
+            (got.value - expected[0]).abs() < 1e-12 && (got.error - expected[1]).abs() < 1e-12,
+            "expected {expected:?}, got {got:?}"
+        );
+    }
+
+    #[test]
+    fn too_few_points_too_small_a_span_or_mere_scatter_have_none() {
+        for points in [
+            vec![[1.0, 1.0], [4.0, 2.0]],
+            vec![[1.0, 1.0], [1.2, 2.0], [1.9, 3.0]],
+            vec![[1.0, 1.0], [2.0, 9.0], [4.0, 1.1]],
+        ] {
+            assert_eq!(clear_exponent(&points), None, "{points:?}");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! A scene file, solved by one method after the other, and the reference that they are compared with.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use viscofriction::WrongInput;
+use viscofriction::scene::{Accuracy, Method, Model, Scene, scene_file};
+use viscofriction::solve::{Problem, choose, solve};
+
+/// A method of one model, and how accurate its result is to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Request {
+    pub(super) model: Model,
+    pub(super) method: Method,
+    pub(super) accuracy: Accuracy,
+}
+
+/// Friction, or the depth where nothing slides, with its absolute error bar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Solved {
+    pub(super) value: f64,
+    pub(super) error: f64,
+    pub(super) unknowns: usize,
+}
+
+/// What a result is compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reference {
+    pub(super) value: f64,
+    /// Absolute.
+    pub(super) error: f64,
+    /// Where it comes from.
+    pub(super) source: String,
+}
+
+impl Request {
+    pub(super) const fn to_error(model: Model, method: Method, relative_error: f64) -> Self {
+        Self {
+            model,
+            method,
+            accuracy: Accuracy::RelativeError(relative_error),
+        }
+    }
+
+    pub(super) fn is_by_elements(&self) -> bool {
+        matches!(self.accuracy, Accuracy::Elements(_))
+    }
+
+    /// The relative error or the number of elements asked for.
+    pub(super) const fn number(&self) -> f64 {
+        match self.accuracy {
+            Accuracy::RelativeError(error) => error,
+            Accuracy::Elements(elements) => elements as f64,
+        }
+    }
+
+    /// The scene as this method has to solve it; where nothing slides both models are the same.
+    fn problem(&self, scene: &Scene) -> Result<Problem> {
+        let of_method = self.method.model().filter(|_| presses(scene));
+        Ok(Problem {
+            method: Some(self.method),
+            model: of_method.unwrap_or(self.model),
+            accuracy: self.accuracy,
+            ..problem(scene)?
+        })
+    }
+
+    /// Whether the method solves such scenes.
+    pub(super) fn is_offered(&self, scene: &Scene) -> Result<bool> {
+        Ok(choose(&self.problem(scene)?).is_ok())
+    }
+
+    pub(super) fn solve(&self, scene: &Scene) -> Result<Solved> {
+        let answer = solve(&self.problem(scene)?)?;
+        let pair = if presses(scene) {
+            answer.indentation_depth.zip(answer.indentation_depth_error)
+        } else {
+            let bar = answer.friction_coefficient_error;
+            answer.friction_coefficient.zip(bar)
+        };
+        let (value, error) = pair.context("the result has no number with an error bar")?;
+        let unknowns = answer.unknowns;
+        Ok(Solved {
+            value,
+            error,
+            unknowns,
+        })
+    }
+
+    /// The result as a reference; `rounding` is the smallest relative error of a closed form.
+    pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
+        let Solved { value, error, .. } = self.solve(scene)?;
+        let source = match self.method {
+            Method::Analytic => "closed form".to_owned(),
+            method => format!("{} to {:.1e}", method.name(), self.number()),
+        };
+        Ok(Reference {
+            value,
+            error: error.max(rounding * value.abs()),
+            source,
+        })
+    }
+}
+
+/// The scene of a text.
+pub(super) fn parsed(text: &str) -> Result<Scene> {
+    Ok(scene_file(text.parse()?)?)
+}
+
+/// The problem of a scene that names no files.
+pub(super) fn problem(scene: &Scene) -> Result<Problem> {
+    let no_files = |path: &Path| Err(WrongInput(format!("{}: no file is read", path.display())));
+    Ok(Problem::new(scene, Path::new(""), no_files)?)
+}
+
+/// Whether nothing slides.
+pub(super) fn presses(scene: &Scene) -> bool {
+    scene.load.velocity <= 0.0
+}
+
+/// The stationary state of a model to the first of some relative errors that is reached.
+pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Result<Reference> {
+    let method = match model {
+        Model::Line => Method::MdrSteady,
+        Model::HalfSpace => Method::BemSteady,
+    };
+    let mut failure = None;
+    for &error in errors {
+        match Request::to_error(model, method, error).reference(scene, ROUNDING) {
+            Ok(reference) => return Ok(reference),
+            Err(error) => failure = Some(error),
+        }
+    }
+    match failure {
+        Some(failure) => Err(failure),
+        None => bail!("no error was asked for"),
+    }
+}
+
+/// Rounding of closed forms.
+pub(super) const ROUNDING: f64 = 1e-13;
