@@ -1,13 +1,12 @@
 //! Time and memory of this process.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Repeats of what takes little time, and how much is little.
+/// Most runs of one median.
 const REPEATS: usize = 5;
-const SHORT: Duration = Duration::from_millis(500);
 /// Processor time that the repeats of one run for a median may take together \[s].
 const REPEATED: f64 = 3.0;
 /// Shortest time that is read off the clock \[s], and most runs that share it.
@@ -31,21 +30,6 @@ pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
         processor_seconds: processor.elapsed().as_secs_f64(),
     };
     (value, cost)
-}
-
-/// Runs `work`, several times if it is short, and returns the least cost.
-pub(crate) fn measure_best<T>(work: impl Fn() -> T) -> (T, Cost) {
-    let (mut value, mut best) = measure(&work);
-    for _ in 1..REPEATS {
-        if best.seconds > SHORT.as_secs_f64() {
-            break;
-        }
-        let (again, cost) = measure(&work);
-        value = again;
-        best.seconds = best.seconds.min(cost.seconds);
-        best.processor_seconds = best.processor_seconds.min(cost.processor_seconds);
-    }
-    (value, best)
 }
 
 /// The median cost of up to five runs of `work`, each repeated until it is long enough for the clock; long ones are

@@ -1,10 +1,14 @@
-//! One power profile on a viscous half space, answered by all three methods.
+//! One power profile on a viscous half space, solved by all three methods.
 
 use anyhow::Result;
 use bem_halfspace::slide::{SlideOptions, Transient, slide};
-use bem_halfspace::{ContactOptions, Footprint};
+use bem_halfspace::steady::{
+    FrictionEstimate, FrictionOptions, SteadyOptions, SteadySliding, steady, steady_friction,
+};
+use bem_halfspace::{BemError, ContactOptions, Footprint};
 use friction_analytic::{StationarySliding, power_sliding};
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
+use numerics::Estimate;
 use rheology::Viscous;
 
 /// A profile h = c r^p, pressed and slid.
@@ -58,6 +62,69 @@ impl Scene {
             contact: ContactOptions::default(),
         };
         Ok(slide(&self.body, &self.material, &self.load, &options)?)
+    }
+
+    /// The stationary half space to a relative error, with elements of an aspect Δy/Δx.
+    pub(crate) fn friction(
+        &self,
+        relative_error: f64,
+        aspect: f64,
+    ) -> Result<FrictionEstimate, BemError> {
+        let options = FrictionOptions {
+            relative_error,
+            aspect,
+            ..FrictionOptions::default()
+        };
+        steady_friction(&self.body, &self.material, &self.load, &options)
+    }
+
+    /// The stationary half space on one grid; the tolerance is that of the residual over F_N/(4ηv).
+    pub(crate) fn on_one_grid(
+        &self,
+        spacing: [f64; 2],
+        phase: [f64; 2],
+        tolerance: f64,
+    ) -> Result<SteadySliding> {
+        let options = SteadyOptions {
+            spacing,
+            phase,
+            footprint: Footprint::of_body(&self.body, &self.material, &self.load)?,
+            tolerance,
+            max_iterations: 500,
+        };
+        Ok(steady(&self.body, &self.material, &self.load, &options)?)
+    }
+}
+
+/// Friction of the half space as far as it was computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Reached {
+    pub(crate) friction: Estimate,
+    /// On the finest grid, where the error asked for was reached.
+    pub(crate) unknowns: Option<usize>,
+}
+
+/// Friction with the error bar that was reached, which is right even where it is wider than what was asked for.
+pub(crate) fn as_far_as_reached(
+    result: Result<FrictionEstimate, BemError>,
+) -> Result<Reached, BemError> {
+    match result {
+        Ok(estimate) => Ok(Reached {
+            friction: Estimate {
+                value: estimate.friction_coefficient,
+                error: estimate.error,
+            },
+            unknowns: estimate.refinements.last().map(|last| last.unknowns),
+        }),
+        Err(BemError::FrictionNotReached {
+            friction_coefficient: value,
+            error,
+            ..
+        }) => Ok(Reached {
+            friction: Estimate { value, error },
+            unknowns: None,
+        }),
+        Err(other) => Err(other),
     }
 }
 

@@ -14,13 +14,14 @@
 //! ```
 
 use anyhow::{Context, Result};
-use bem_halfspace::BemError;
-use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
-use friction_analytic::{power_sliding, scaling_factor};
+use bem_halfspace::steady::{FrictionOptions, steady_friction};
+use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
 use mdr_core::{SlidingDepth, SteadyOptions, steady_at_depth};
-use numerics::bracketed_root;
+use numerics::{Estimate, bracketed_root};
 use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
+
+use crate::scene::as_far_as_reached;
 
 /// Relative error asked of the line.
 const LINE_ERROR: f64 = 1e-6;
@@ -38,22 +39,8 @@ pub(super) struct Sliding {
     pub(super) speed: f64,
 }
 
-/// A value with its absolute error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Friction {
-    pub(super) value: f64,
-    pub(super) error: f64,
-}
-
-/// The one-dimensional model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Line {
-    pub(super) normal_force: f64,
-    pub(super) friction: Friction,
-}
-
 /// G₂ = τ = 1.
-fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
+pub(super) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
     Ok(StandardSolid::new(StandardSolidParameters {
         equilibrium_modulus: stiffness_ratio,
         maxwell_modulus: 1.0,
@@ -62,27 +49,22 @@ fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
 }
 
 impl Sliding {
+    pub(super) fn at_speed(self, speed: f64) -> Self {
+        Self { speed, ..self }
+    }
+
     fn body(&self) -> Result<PowerProfile> {
         let coefficient = stretch(self.exponent)?.recip();
         Ok(PowerProfile::new(coefficient, self.exponent)?)
     }
 
-    fn solid(&self) -> Result<StandardSolid> {
-        solid(self.stiffness_ratio)
-    }
-
-    /// The speeds between which tan δ > 1 at ω = v/a.
-    pub(super) fn viscous_window(stiffness_ratio: f64) -> Result<Option<[f64; 2]>> {
-        Ok(solid(stiffness_ratio)?.viscous_window())
-    }
-
     /// Loss tangent of the solid at ω = v/a.
     pub(super) fn loss_tangent(&self) -> Result<f64> {
-        Ok(self.solid()?.loss_tangent(self.speed)?)
+        Ok(solid(self.stiffness_ratio)?.loss_tangent(self.speed)?)
     }
 
     /// Friction of the line whose contact reaches to a, and the force that this takes.
-    pub(super) fn line(&self) -> Result<Line> {
+    pub(super) fn line(&self) -> Result<(Estimate, f64)> {
         let motion = SlidingDepth {
             indentation_depth: 1.0,
             velocity: self.speed,
@@ -90,42 +72,27 @@ impl Sliding {
         let options = SteadyOptions {
             relative_error: LINE_ERROR,
         };
-        let body = self.body()?;
-        let state = steady_at_depth(&EquivalentLine(&body), &self.solid()?, &motion, &options)
+        let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
+        let state = steady_at_depth(&EquivalentLine(&body), &solid, &motion, &options)
             .with_context(|| format!("the line of {self:?}"))?;
-        Ok(Line {
-            normal_force: state.normal_force,
-            friction: Friction {
-                value: state.friction_coefficient,
-                error: state.friction_coefficient_error,
-            },
-        })
+        let friction = Estimate {
+            value: state.friction_coefficient,
+            error: state.friction_coefficient_error,
+        };
+        Ok((friction, state.normal_force))
     }
 
-    /// Friction of the half space under a force.
-    pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Friction> {
+    /// Friction of the half space under a force; what was reached has an honest bar, if a wider one.
+    pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Estimate> {
         let options = FrictionOptions {
             relative_error,
             ..FrictionOptions::default()
         };
+        let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
-        match steady_friction(&self.body()?, &self.solid()?, &load, &options) {
-            Ok(FrictionEstimate {
-                friction_coefficient,
-                error,
-                ..
-            })
-            // What was reached has an honest bar, only a wider one.
-            | Err(BemError::FrictionNotReached {
-                friction_coefficient,
-                error,
-                ..
-            }) => Ok(Friction {
-                value: friction_coefficient,
-                error,
-            }),
-            Err(error) => Err(error).with_context(|| format!("the half space of {self:?}")),
-        }
+        let reached = as_far_as_reached(steady_friction(&body, &solid, &load, &options));
+        let reached = reached.with_context(|| format!("the half space of {self:?}"))?;
+        Ok(reached.friction)
     }
 
     /// Friction of the line under a force by the viscous law of the same loss modulus.
@@ -137,12 +104,11 @@ impl Sliding {
 
     /// η = G''(ω)/ω at ω = v/b.
     fn viscosity(&self, normal_force: f64) -> Result<f64> {
-        let solid = self.solid()?;
+        let solid = solid(self.stiffness_ratio)?;
         let loss = |length: f64| solid.loss_modulus(self.speed / length);
         // ln of F_N = 4 G'' b h̃(b), which rises with b: G'' falls at most like 1/b.
         let excess = |logarithm: f64| {
-            let length = logarithm.exp();
-            loss(length).map_or(f64::NAN, |loss| {
+            loss(logarithm.exp()).map_or(f64::NAN, |loss| {
                 (4.0 * loss / normal_force).ln() + (1.0 + self.exponent) * logarithm
             })
         };
@@ -151,9 +117,4 @@ impl Sliding {
             .exp();
         Ok(loss(length)? * length / self.speed)
     }
-}
-
-/// s_p, the plateau between 1/2 and 1.
-pub(super) fn plateau(exponent: f64) -> Result<f64> {
-    Ok(scaling_factor(exponent)?.value)
 }

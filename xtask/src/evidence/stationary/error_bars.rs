@@ -2,14 +2,37 @@
 
 use anyhow::{Context, Result};
 use bem_halfspace::BemError;
-use bem_halfspace::steady::{FrictionEstimate, FrictionOptions};
+use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use indenters::{
+    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, SlidingLoad,
+    Sphere, Superposition, Surface, TruncatedParaboloid,
+};
+use numerics::Estimate;
+use rheology::Viscous;
 use serde::Serialize;
 
-use crate::evidence::stationary::bodies::{self, Case};
-use crate::meter::{measure, median};
+use super::Table;
+use crate::meter::{measure as metered, median};
 use crate::output::markdown_table;
-use crate::progress;
+use crate::scene::{Reached, as_far_as_reached};
+use crate::tasks::in_turn;
 
+/// Exponents of the power profiles.
+const EXPONENTS: [f64; 14] = [
+    0.6, 0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 20.0, 30.0,
+];
+/// Sizes of tips and flat ends; the depth scale is 1.
+const RADII: [f64; 3] = [0.1, 0.3, 1.0];
+/// From this exponent on the contact is a narrow crescent, for which narrow elements are no help.
+const CRESCENT: f64 = 4.0;
+/// Up to the first and from the second exponent on a small error costs a minute or more.
+const COSTLY: [f64; 2] = [0.7, 12.0];
+/// Relative errors asked for, and those of the references over them.
+const ASKED: f64 = 1e-3;
+const ASKED_WHERE_COSTLY: f64 = 3e-3;
+const FINER: f64 = 0.1;
+const FINER_WHERE_COSTLY: f64 = 0.2;
+const QUICK_ASKED: f64 = 3e-3;
 /// Shapes of the elements.
 const ASPECTS: [f64; 3] = [0.5, 1.0, 2.0];
 /// What is asked of the bars: the fraction that holds, and how much wider than needed they may be at the median.
@@ -18,15 +41,148 @@ const WIDEST_MEDIAN: f64 = 30.0;
 /// Cases with the largest deviations that are printed even if their bars hold.
 const WORST: usize = 8;
 
+type Solve = Box<dyn Fn(&FrictionOptions) -> Result<FrictionEstimate, BemError>>;
+
+/// A body, and how its friction is computed in a scene whose depth scale F_N/(4ηv) is 1.
+struct Case {
+    name: String,
+    /// p of a power profile.
+    exponent: Option<f64>,
+    /// Relative error asked for.
+    relative_error: f64,
+    /// Relative error of the reference over that.
+    finer: f64,
+    solve: Solve,
+}
+
+impl Case {
+    fn new(name: impl Into<String>, body: impl Axisymmetric + Surface + 'static) -> Result<Self> {
+        let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
+        Ok(Self {
+            name: name.into(),
+            exponent: None,
+            relative_error: ASKED,
+            finer: FINER,
+            solve: Box::new(move |options| steady_friction(&body, &material, &load, options)),
+        })
+    }
+
+    fn power(exponent: f64) -> Result<Self> {
+        let body = PowerProfile::new(1.0, exponent)?;
+        let costly = exponent <= COSTLY[0] || exponent >= COSTLY[1];
+        Ok(Self {
+            exponent: Some(exponent),
+            relative_error: if costly { ASKED_WHERE_COSTLY } else { ASKED },
+            finer: if costly { FINER_WHERE_COSTLY } else { FINER },
+            ..Self::new(format!("r^{exponent}"), body)?
+        })
+    }
+
+    /// r^low/2 + coefficient r^high.
+    fn sum(name: &str, low: f64, coefficient: f64, high: f64) -> Result<Self> {
+        let terms = [(0.5, low), (coefficient, high)].map(|(coefficient, exponent)| PowerTerm {
+            coefficient,
+            exponent,
+        });
+        Self::new(name, Superposition::new(terms.to_vec())?)
+    }
+
+    /// Power profiles, and bodies whose shape depends on the load.
+    fn all() -> Result<Vec<Self>> {
+        let mut cases: Vec<Self> = EXPONENTS
+            .into_iter()
+            .map(Self::power)
+            .collect::<Result<_>>()?;
+        cases.extend([
+            Self::new("sphere, radius 5", Sphere::new(5.0)?)?,
+            Self::new("sphere, radius 2", Sphere::new(2.0)?)?,
+            Self::sum("r/2 + r²/2", 1.0, 0.5, 2.0)?,
+            Self::sum("r²/2 + 2 r⁶", 2.0, 2.0, 6.0)?,
+        ]);
+        for radius in RADII {
+            let name = |body: &str| format!("{body}, radius {radius}");
+            let round = RoundTippedCone::new(radius, 1.0)?;
+            let worn = TruncatedParaboloid::new(radius, 1.0)?;
+            cases.extend([
+                Self::new(name("cone with round tip"), round)?,
+                Self::new(name("hyperboloid"), Hyperboloid::new(radius, 1.0)?)?,
+                Self::new(name("paraboloid with flat end"), worn)?,
+                Self::new(name("cone with flat end"), FlatCone::new(radius, 1.0)?)?,
+            ]);
+        }
+        Ok(cases)
+    }
+
+    /// Four bodies that are solved in milliseconds.
+    fn quick() -> Result<Vec<Self>> {
+        let mut cases = vec![
+            Self::power(1.0)?,
+            Self::power(1.5)?,
+            Self::power(2.0)?,
+            Self::new("hyperboloid, radius 0.3", Hyperboloid::new(0.3, 1.0)?)?,
+        ];
+        for case in &mut cases {
+            case.relative_error = QUICK_ASKED;
+        }
+        Ok(cases)
+    }
+
+    /// A bar for each shape of the elements.
+    fn rows(&self) -> Result<Vec<Row>> {
+        let is_crescent = self.exponent.is_some_and(|p| p >= CRESCENT);
+        let aspect = if is_crescent { 1.0 } else { 0.5 };
+        let reference = self
+            .solve(self.finer * self.relative_error, aspect)?
+            .friction;
+        ASPECTS
+            .into_iter()
+            .map(|aspect| self.row(aspect, reference))
+            .collect()
+    }
+
+    fn row(&self, aspect: f64, reference: Estimate) -> Result<Row> {
+        let (solved, cost) = metered(|| self.solve(self.relative_error, aspect));
+        let Reached { friction, unknowns } = solved?;
+        let deviation = (friction.value - reference.value).abs();
+        Ok(Row {
+            case: self.name.clone(),
+            exponent: self.exponent,
+            aspect,
+            relative_error_asked: self.relative_error,
+            reached: unknowns.is_some(),
+            friction: friction.value,
+            error_bar: friction.error,
+            reference_friction: reference.value,
+            reference_error: reference.error,
+            deviation,
+            deviation_over_bar: deviation / friction.error,
+            holds: deviation <= friction.error + reference.error,
+            unknowns,
+            seconds: cost.seconds,
+            processor_seconds: cost.processor_seconds,
+        })
+    }
+
+    fn solve(&self, relative_error: f64, aspect: f64) -> Result<Reached> {
+        let options = FrictionOptions {
+            relative_error,
+            aspect,
+            ..FrictionOptions::default()
+        };
+        let friction = as_far_as_reached((self.solve)(&options));
+        friction.with_context(|| format!("{}, {options:?}", self.name))
+    }
+}
+
 /// One bar. Friction coefficients belong to F_N/(4ηv) = 1 and bodies of the size 1.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Row {
+struct Row {
     case: String,
     /// Of a power profile.
     exponent: Option<f64>,
     aspect: f64,
     relative_error_asked: f64,
-    /// Whether the error asked for was reached; the bar counts either way.
+    /// Whether the error asked for was reached; the bar is judged either way.
     reached: bool,
     friction: f64,
     error_bar: f64,
@@ -41,128 +197,51 @@ pub(super) struct Row {
     processor_seconds: f64,
 }
 
-/// A friction coefficient with the error claimed, reached or not.
-struct Answer {
-    friction: f64,
-    error: f64,
-    unknowns: Option<usize>,
-}
-
-/// Tests the bars of all bodies, or of a few.
-pub(super) fn compute(quick: bool) -> Result<Vec<Row>> {
-    let cases = if quick {
-        bodies::quick()?
-    } else {
-        bodies::all()?
-    };
-    let bar = progress::bar("error bars", cases.len() * (1 + ASPECTS.len()));
-    let mut rows = Vec::new();
-    for case in &cases {
-        let reference = solve(case, &case.reference())?;
-        bar.inc(1);
-        for aspect in ASPECTS {
-            rows.push(row(case, &reference, aspect)?);
-            bar.inc(1);
-        }
-    }
-    bar.finish_and_clear();
-    Ok(rows)
-}
-
-fn row(case: &Case, reference: &Answer, aspect: f64) -> Result<Row> {
-    let options = FrictionOptions {
-        relative_error: case.relative_error,
-        aspect,
-        ..FrictionOptions::default()
-    };
-    let (answer, cost) = measure(|| solve(case, &options));
-    let Answer {
-        friction,
-        error,
-        unknowns,
-    } = answer?;
-    let deviation = (friction - reference.friction).abs();
-    Ok(Row {
-        case: case.name.clone(),
-        exponent: case.exponent,
-        aspect,
-        relative_error_asked: case.relative_error,
-        reached: unknowns.is_some(),
-        friction,
-        error_bar: error,
-        reference_friction: reference.friction,
-        reference_error: reference.error,
-        deviation,
-        deviation_over_bar: deviation / error,
-        holds: deviation <= error + reference.error,
-        unknowns,
-        seconds: cost.seconds,
-        processor_seconds: cost.processor_seconds,
-    })
-}
-
-fn solve(case: &Case, options: &FrictionOptions) -> Result<Answer> {
-    match (case.solve)(options) {
-        Ok(estimate) => Ok(Answer {
-            friction: estimate.friction_coefficient,
-            error: estimate.error,
-            unknowns: last_unknowns(&estimate),
-        }),
-        Err(BemError::FrictionNotReached {
-            friction_coefficient,
-            error,
-            ..
-        }) => Ok(Answer {
-            friction: friction_coefficient,
-            error,
-            unknowns: None,
-        }),
-        Err(other) => Err(other).with_context(|| format!("{}, {options:?}", case.name)),
-    }
-}
-
-fn last_unknowns(estimate: &FrictionEstimate) -> Option<usize> {
-    estimate.refinements.last().map(|last| last.unknowns)
+/// Judges the bars of all bodies, or of a few.
+pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
+    let cases = if quick { Case::quick() } else { Case::all() };
+    let rows: Result<Vec<Vec<Row>>> = in_turn("error bars", &cases?, Case::rows);
+    let rows = rows?.concat();
+    Ok((Table::new("error_bars", &rows)?, summary(&rows)))
 }
 
 /// How many bars hold, how wide they are, and the cases that fail or come closest to it.
-pub(super) fn summary(rows: &[Row]) -> String {
+fn summary(rows: &[Row]) -> String {
     let held = rows.iter().filter(|row| row.holds).count();
     let fraction = held as f64 / rows.len() as f64;
     let width = 1.0 / median(rows.iter().map(|row| row.deviation_over_bar).collect());
     let verdict = |good: bool| if good { "as asked" } else { "NOT as asked" };
     let mut worst: Vec<&Row> = rows.iter().collect();
     worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
-    let shown = WORST.max(rows.len() - held);
-    let table = markdown_table(
+    worst.truncate(WORST.max(rows.len() - held));
+    let header = [
+        "case",
+        "Δy/Δx",
+        "asked",
+        "μ",
+        "bar",
+        "deviation",
+        "ratio",
+        "holds",
+    ];
+    let lines = worst.into_iter().map(|row| {
         [
-            "case",
-            "Δy/Δx",
-            "asked",
-            "μ",
-            "bar",
-            "deviation",
-            "ratio",
-            "holds",
-        ],
-        worst.into_iter().take(shown).map(|row| {
-            [
-                row.case.clone(),
-                row.aspect.to_string(),
-                format!("{:e}", row.relative_error_asked),
-                format!("{:.6}", row.friction),
-                format!("{:.1e}", row.error_bar),
-                format!("{:.1e}", row.deviation),
-                format!("{:.2}", row.deviation_over_bar),
-                if row.holds { "yes" } else { "NO" }.to_owned(),
-            ]
-        }),
-    );
+            row.case.clone(),
+            row.aspect.to_string(),
+            format!("{:e}", row.relative_error_asked),
+            format!("{:.6}", row.friction),
+            format!("{:.1e}", row.error_bar),
+            format!("{:.1e}", row.deviation),
+            format!("{:.2}", row.deviation_over_bar),
+            if row.holds { "yes" } else { "NO" }.to_owned(),
+        ]
+    });
     format!(
-        "{held} of {} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{table}",
+        "{held} of {} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
         rows.len(),
         100.0 * fraction,
         verdict(fraction >= NEEDED_FRACTION),
         verdict(width <= WIDEST_MEDIAN),
+        markdown_table(header, lines)
     )
 }

@@ -1,34 +1,32 @@
 //! Time and memory over the number of elements in contact, for one paraboloid on one grid.
 
 use anyhow::{Context, Result};
-use bem_halfspace::Footprint;
-use bem_halfspace::steady::{
-    FrictionOptions, SteadyOptions, SteadySliding, steady, steady_friction,
-};
+use bem_halfspace::steady::SteadySliding;
 use serde::Serialize;
 
-use crate::meter::{measure, peak_memory};
+use super::Table;
+use crate::evidence::fit::exponent;
+use crate::meter::{measure as metered, peak_memory};
 use crate::output::markdown_table;
 use crate::scene::Scene;
 use crate::tasks::in_turn;
 
 /// Elements in contact on the smallest grid.
 const SMALLEST: f64 = 1e3;
-/// Δy/Δx, as `steady_friction` has it unless told otherwise.
+/// Δy/Δx, as the stationary solver has it unless told otherwise.
 const ASPECT: f64 = 0.5;
-/// Gaps left in contact relative to F_N/(4ηv), as `steady_friction` has them for a relative error of 1e-3.
+/// Residual in contact relative to F_N/(4ηv), as the stationary solver has it for a relative error of 1e-3.
 const TOLERANCE: f64 = 1e-7;
-const MAX_ITERATIONS: usize = 500;
 /// Smaller grids are left out of the exponent of growth where larger ones suffice for it.
 const FITTED_FROM: f64 = 9e3;
 /// Elements along the contact length on the grid that the area of the contact is taken from.
-const PILOT: f64 = 40.0;
+const COARSE: f64 = 40.0;
 /// Relative error of the friction coefficient that the others are compared with.
 const REFERENCE_ERROR: f64 = 1e-4;
 
 /// One grid, from a cold start; coarser grids that the solver starts from are in its cost.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Row {
+struct Row {
     elements_in_contact: f64,
     unknowns: usize,
     contact_sets: usize,
@@ -42,17 +40,22 @@ pub(super) struct Row {
 }
 
 /// Grids from the smallest to the largest, √10 times as many elements each.
-pub(super) fn compute(largest: f64) -> Result<Vec<Row>> {
+pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
     let scene = Scene::unit(2.0)?;
-    let options = FrictionOptions {
-        relative_error: REFERENCE_ERROR,
-        ..FrictionOptions::default()
+    let limit = scene
+        .friction(REFERENCE_ERROR, ASPECT)?
+        .friction_coefficient;
+    let solve = |spacing: f64| -> Result<SteadySliding> {
+        scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
-    let limit = steady_friction(&scene.body, &scene.material, &scene.load, &options)?;
-    let area = solve(&scene, scene.theory()?.contact_length() / PILOT)?.contact_area;
-    let sizes = sizes(largest);
-    in_turn("growth", &sizes, |&size| {
-        let (solution, cost) = measure(|| solve(&scene, (area / (size * ASPECT)).sqrt()));
+    let area = solve(scene.theory()?.contact_length() / COARSE)?.contact_area;
+    let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
+    let ratio = (largest / SMALLEST).powf(1.0 / steps);
+    let sizes: Vec<f64> = std::iter::successors(Some(SMALLEST), |size| Some(size * ratio))
+        .take_while(|size| *size < 1.01 * largest)
+        .collect();
+    let rows: Result<Vec<Row>> = in_turn("growth", &sizes, |size| {
+        let (solution, cost) = metered(|| solve((area / (size * ASPECT)).sqrt()));
         let solution = solution.with_context(|| format!("{size:.0} elements in contact"))?;
         let [dx, dy] = solution.pressure.grid.spacing();
         Ok(Row {
@@ -63,85 +66,47 @@ pub(super) fn compute(largest: f64) -> Result<Vec<Row>> {
             processor_seconds: cost.processor_seconds,
             peak_memory_mib: peak_memory(),
             residual: solution.residual,
-            relative_deviation: solution.friction_coefficient / limit.friction_coefficient - 1.0,
+            relative_deviation: solution.friction_coefficient / limit - 1.0,
         })
-    })
-}
-
-fn sizes(largest: f64) -> Vec<f64> {
-    let steps = (2.0 * (largest / SMALLEST).log10()).round().max(1.0);
-    let ratio = (largest / SMALLEST).powf(1.0 / steps);
-    std::iter::successors(Some(SMALLEST), |size| Some(size * ratio))
-        .take_while(|size| *size < 1.01 * largest)
-        .collect()
-}
-
-fn solve(scene: &Scene, spacing: f64) -> Result<SteadySliding> {
-    let Scene {
-        body,
-        material,
-        load,
-    } = scene;
-    let options = SteadyOptions {
-        spacing: [spacing, ASPECT * spacing],
-        phase: [0.0, 0.0],
-        footprint: Footprint::of_body(body, material, load)?,
-        tolerance: TOLERANCE,
-        max_iterations: MAX_ITERATIONS,
-    };
-    Ok(steady(body, material, load, &options)?)
+    });
+    let rows = rows?;
+    Ok((Table::new("growth", &rows)?, summary(&rows)))
 }
 
 /// The table, and the exponent of growth.
-pub(super) fn summary(rows: &[Row]) -> String {
-    let table = markdown_table(
+fn summary(rows: &[Row]) -> String {
+    let header = [
+        "elements",
+        "unknowns",
+        "sets",
+        "s",
+        "processor s",
+        "MiB",
+        "deviation of μ",
+    ];
+    let lines = rows.iter().map(|row| {
+        let memory = row.peak_memory_mib;
         [
-            "elements",
-            "unknowns",
-            "sets",
-            "s",
-            "processor s",
-            "MiB",
-            "deviation of μ",
-        ],
-        rows.iter().map(|row| {
-            [
-                format!("{:.0}", row.elements_in_contact),
-                row.unknowns.to_string(),
-                row.contact_sets.to_string(),
-                format!("{:.3}", row.seconds),
-                format!("{:.3}", row.processor_seconds),
-                row.peak_memory_mib
-                    .map_or_else(String::new, |memory| format!("{memory:.0}")),
-                format!("{:.1e}", row.relative_deviation),
-            ]
-        }),
-    );
-    let large = rows
+            format!("{:.0}", row.elements_in_contact),
+            row.unknowns.to_string(),
+            row.contact_sets.to_string(),
+            format!("{:.3}", row.seconds),
+            format!("{:.3}", row.processor_seconds),
+            memory.map_or_else(String::new, |memory| format!("{memory:.0}")),
+            format!("{:.1e}", row.relative_deviation),
+        ]
+    });
+    let points = rows
         .iter()
-        .filter(|row| row.elements_in_contact > FITTED_FROM);
-    let fitted = if large.count() > 1 { FITTED_FROM } else { 0.0 };
-    let points: Vec<[f64; 2]> = rows
-        .iter()
-        .filter(|row| row.elements_in_contact > fitted)
-        .map(|row| [row.elements_in_contact.ln(), row.processor_seconds.ln()])
-        .collect();
+        .map(|row| [row.elements_in_contact, row.processor_seconds]);
+    let mut points: Vec<[f64; 2]> = points.collect();
+    if points.iter().filter(|point| point[0] > FITTED_FROM).count() > 1 {
+        points.retain(|point| point[0] > FITTED_FROM);
+    }
     format!(
-        "{table}\nexponent of growth of the processor time over the last {} grids: {:.2}",
+        "{}\nexponent of growth of the processor time over the last {} grids: {:.2}",
+        markdown_table(header, lines),
         points.len(),
-        slope(&points)
+        exponent(&points).value
     )
-}
-
-/// Slope of the line through the points by least squares.
-fn slope(points: &[[f64; 2]]) -> f64 {
-    let count = points.len() as f64;
-    let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / count;
-    let [x, y] = [mean(0), mean(1)];
-    let covariance: f64 = points
-        .iter()
-        .map(|point| (point[0] - x) * (point[1] - y))
-        .sum();
-    let variance: f64 = points.iter().map(|point| (point[0] - x).powi(2)).sum();
-    covariance / variance
 }

@@ -1,6 +1,5 @@
-//! `measure-stationary`: how far the stationary solver can be trusted, and what it costs.
+//! How far the stationary solver can be trusted, and what it costs.
 
-mod bodies;
 mod error_bars;
 mod growth;
 mod speed;
@@ -48,32 +47,28 @@ const QUICK_LARGEST: f64 = 4e3;
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
+    let largest = if quick {
+        QUICK_LARGEST
+    } else {
+        options.largest
+    };
     if !(2e3..=1e7).contains(&options.largest) {
         let (range, given) = ("between 2e3 and 1e7", options.largest);
         return Err(WrongInput(format!("--largest must be {range}, but is {given}")).into());
     }
-    let wanted = |part| options.tables.is_empty() || options.tables.contains(&part);
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
     // Growth comes first, because the memory that it reports is the largest that the process has had.
-    if wanted(Part::Growth) {
-        let largest = if quick {
-            QUICK_LARGEST
-        } else {
-            options.largest
+    for part in [Part::Growth, Part::Speed, Part::ErrorBars] {
+        if !options.tables.is_empty() && !options.tables.contains(&part) {
+            continue;
+        }
+        let (table, summary) = match part {
+            Part::Growth => growth::measure(largest)?,
+            Part::Speed => speed::measure(quick)?,
+            Part::ErrorBars => error_bars::measure(quick)?,
         };
-        let rows = growth::compute(largest)?;
-        tables.push(Table::new("growth", &rows)?);
-        summaries.push(growth::summary(&rows));
-    }
-    if wanted(Part::Speed) {
-        let rows = speed::compute(quick)?;
-        tables.push(Table::new("speed", &rows)?);
-        summaries.push(speed::summary(&rows));
-    }
-    if wanted(Part::ErrorBars) {
-        let rows = error_bars::compute(quick)?;
-        tables.push(Table::new("error_bars", &rows)?);
-        summaries.push(error_bars::summary(&rows));
+        tables.push(table);
+        summaries.push(summary);
     }
     Ok(Report {
         name: "stationary",

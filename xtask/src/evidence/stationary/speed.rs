@@ -2,51 +2,58 @@
 //!
 //! The march has one grid, whose error comes from the outline that follows the elements and from the singular front, and
 //! a finite sliding distance. It uses the same discretisation as the stationary solver with square elements, so that the
-//! ladder of that solver tells the error of each spacing; the distance is doubled on a coarse grid until the
+//! refinements of that solver tell the error of each spacing; the distance is doubled on a coarse grid until the
 //! extrapolation to an infinite one is exact enough.
 
-use anyhow::{Context, Result};
-use bem_halfspace::Footprint;
-use bem_halfspace::steady::{
-    FrictionEstimate, FrictionOptions, SteadyOptions, steady, steady_friction,
-};
+use anyhow::{Context, Result, bail};
 use serde::Serialize;
 
-use crate::meter::{Cost, measure, measure_best};
+use super::Table;
+use crate::meter::{Cost, measure as metered, measure_median};
 use crate::output::markdown_table;
-use crate::progress;
 use crate::scene::Scene;
+use crate::tasks::in_turn;
 
-/// Exponents and the relative errors asked for.
-const STATIONARY: [(f64, f64); 5] = [
-    (1.0, 1e-3),
-    (1.0, 1e-4),
-    (2.0, 1e-3),
-    (2.0, 1e-4),
-    (1.5, 1e-5),
+/// Who solves a problem.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Solver {
+    Stationary,
+    OneGrid,
+    March,
+}
+
+/// A solver, the exponent of the profile, and the relative error asked for.
+type Run = (Solver, f64, f64);
+
+const RUNS: [Run; 7] = [
+    (Solver::Stationary, 1.0, 1e-3),
+    (Solver::Stationary, 1.0, 1e-4),
+    (Solver::Stationary, 2.0, 1e-3),
+    (Solver::Stationary, 2.0, 1e-4),
+    (Solver::Stationary, 1.5, 1e-5),
+    (Solver::OneGrid, 2.0, 1e-3),
+    (Solver::March, 2.0, 1e-3),
 ];
-const STATIONARY_WITH_BAR: &str = "stationary";
-const SINGLE_GRID: &str = "stationary, one grid";
-/// The race is run with the paraboloid.
-const RACE: f64 = 2.0;
-const RACE_ERROR: f64 = 1e-3;
-const QUICK_RACE_ERROR: f64 = 1e-2;
+const QUICK_RUNS: [Run; 4] = [
+    (Solver::Stationary, 2.0, 1e-2),
+    (Solver::Stationary, 2.0, 1e-3),
+    (Solver::OneGrid, 2.0, 1e-2),
+    (Solver::March, 2.0, 1e-2),
+];
 /// Part of the error that may come from the distance; the rest is for the grid.
-const DISTANCE_SHARE: f64 = 0.25;
-/// Elements along the contact length on the grid that finds the distance, and the shortest and longest distance in such
-/// lengths.
-const PILOT_ELEMENTS: f64 = 8.0;
-const SHORTEST: i32 = 2;
-const LONGEST: i32 = 8;
-/// Gaps left on a single grid relative to the error asked for, and contact sets tried.
-const GAP_SHARE: f64 = 1e-3;
-const MAX_ITERATIONS: usize = 500;
-/// Any change over the second half of the distance counts as stationary, because the error is what is looked at.
+const DISTANCE_PART: f64 = 0.25;
+/// Elements along the contact length on the grid that finds the distance, and the distances in such lengths, as powers
+/// of two.
+const COARSE: f64 = 8.0;
+const DISTANCES: std::ops::RangeInclusive<i32> = 2..=8;
+/// Residual on a single grid relative to the error asked for.
+const RESIDUAL_PART: f64 = 1e-3;
+/// Any change over the second half of the distance is taken as stationary, because its error is estimated.
 const ANY_DRIFT: f64 = 1.0;
 
 /// One run; friction belongs to F_N/(4ηv) = 1 and the coefficient 1 of the profile.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Row {
+struct Row {
     solver: &'static str,
     exponent: f64,
     relative_error_asked: f64,
@@ -57,175 +64,139 @@ pub(super) struct Row {
     deviation: Option<f64>,
     /// Unknowns on the finest grid, or elements that were followed in time.
     unknowns: usize,
-    /// Of the march in time, both in contact lengths of the one-dimensional model.
+    /// Of a single grid and of the march, in contact lengths of the one-dimensional model.
     elements_along_contact: Option<f64>,
     sliding_distance: Option<f64>,
     seconds: f64,
     processor_seconds: f64,
 }
 
+/// What a solver found.
+struct Solved {
+    friction: f64,
+    estimated_error: f64,
+    unknowns: usize,
+    spacing: Option<f64>,
+    distance: Option<f64>,
+    cost: Cost,
+}
+
 /// Runs of the stationary solver, then it on a single grid and the march in time for the paraboloid.
-pub(super) fn compute(quick: bool) -> Result<Vec<Row>> {
-    let (runs, race_error) = if quick {
-        (
-            vec![(RACE, QUICK_RACE_ERROR), (RACE, RACE_ERROR)],
-            QUICK_RACE_ERROR,
-        )
-    } else {
-        (STATIONARY.to_vec(), RACE_ERROR)
-    };
-    let bar = progress::bar("speed", runs.len() + 2);
-    let mut rows = Vec::new();
-    for (exponent, relative_error) in runs {
-        rows.push(stationary(exponent, relative_error)?);
-        bar.inc(1);
-    }
-    rows.push(single_grid(race_error)?);
-    bar.inc(1);
-    rows.push(march(race_error)?);
-    bar.finish_and_clear();
+pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
+    let runs = if quick { &QUICK_RUNS[..] } else { &RUNS };
+    let rows: Result<Vec<Row>> = in_turn("speed", runs, row);
+    let mut rows = rows?;
     compare(&mut rows);
-    Ok(rows)
+    Ok((Table::new("speed", &rows)?, summary(&rows)))
+}
+
+fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
+    let scene = Scene::unit(exponent)?;
+    let length = scene.theory()?.contact_length();
+    let solved = match solver {
+        Solver::Stationary => stationary(&scene, relative_error)?,
+        Solver::OneGrid => single_grid(&scene, relative_error)?,
+        Solver::March => march(&scene, relative_error)?,
+    };
+    Ok(Row {
+        solver: solver.name(),
+        exponent,
+        relative_error_asked: relative_error,
+        friction: solved.friction,
+        estimated_error: solved.estimated_error,
+        deviation: None,
+        unknowns: solved.unknowns,
+        elements_along_contact: solved.spacing.map(|spacing| length / spacing),
+        sliding_distance: solved.distance,
+        seconds: solved.cost.seconds,
+        processor_seconds: solved.cost.processor_seconds,
+    })
+}
+
+impl Solver {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Stationary => "stationary",
+            Self::OneGrid => "stationary, one grid",
+            Self::March => "march in time",
+        }
+    }
 }
 
 /// Fills in the deviations.
 fn compare(rows: &mut [Row]) {
     let all = rows.to_vec();
     for row in rows {
-        let best = all
-            .iter()
-            .filter(|other| other.exponent.total_cmp(&row.exponent).is_eq())
-            .filter(|other| other.solver == STATIONARY_WITH_BAR)
-            .min_by(|one, other| {
-                one.relative_error_asked
-                    .total_cmp(&other.relative_error_asked)
-            });
+        let same = all.iter().filter(|other| {
+            other.exponent.total_cmp(&row.exponent).is_eq()
+                && other.solver == Solver::Stationary.name()
+        });
+        let best = same.min_by(|one, other| {
+            one.relative_error_asked
+                .total_cmp(&other.relative_error_asked)
+        });
         row.deviation = best
             .filter(|best| best.relative_error_asked < row.relative_error_asked)
             .map(|best| (row.friction / best.friction - 1.0).abs());
     }
 }
 
-fn friction(scene: &Scene, options: &FrictionOptions) -> Result<FrictionEstimate> {
-    Ok(steady_friction(
-        &scene.body,
-        &scene.material,
-        &scene.load,
-        options,
-    )?)
-}
-
-fn stationary(exponent: f64, relative_error: f64) -> Result<Row> {
-    let scene = Scene::unit(exponent)?;
-    let options = FrictionOptions {
-        relative_error,
-        ..FrictionOptions::default()
-    };
-    let (
-        estimate,
-        Cost {
-            seconds,
-            processor_seconds,
-        },
-    ) = measure_best(|| friction(&scene, &options));
-    let estimate = estimate?;
+fn stationary(scene: &Scene, relative_error: f64) -> Result<Solved> {
+    let (estimate, cost) = measure_median(|| scene.friction(relative_error, 0.5))?;
     let last = estimate.refinements.last().context("no refinement")?;
-    Ok(Row {
-        solver: STATIONARY_WITH_BAR,
-        exponent,
-        relative_error_asked: relative_error,
+    Ok(Solved {
         friction: estimate.friction_coefficient,
         estimated_error: estimate.error / estimate.friction_coefficient,
-        deviation: None,
         unknowns: last.unknowns,
-        elements_along_contact: None,
-        sliding_distance: None,
-        seconds,
-        processor_seconds,
+        spacing: None,
+        distance: None,
+        cost,
     })
 }
 
 /// The stationary equations on one grid that is fine enough, chosen as that of the march is, and as that without a bar.
-fn single_grid(relative_error: f64) -> Result<Row> {
-    let scene = Scene::unit(RACE)?;
-    let spacing = spacing(&scene, relative_error)?;
-    let Scene {
-        body,
-        material,
-        load,
-    } = &scene;
-    let options = SteadyOptions {
-        spacing: [spacing.length; 2],
-        phase: [0.0, 0.0],
-        footprint: Footprint::of_body(body, material, load)?,
-        tolerance: GAP_SHARE * relative_error,
-        max_iterations: MAX_ITERATIONS,
-    };
-    let (
-        solution,
-        Cost {
-            seconds,
-            processor_seconds,
-        },
-    ) = measure_best(|| steady(body, material, load, &options));
-    let solution = solution?;
-    Ok(Row {
-        solver: SINGLE_GRID,
-        exponent: RACE,
-        relative_error_asked: relative_error,
+fn single_grid(scene: &Scene, relative_error: f64) -> Result<Solved> {
+    let spacing = spacing(scene, relative_error)?;
+    let tolerance = RESIDUAL_PART * relative_error;
+    let solve = || scene.on_one_grid([spacing.length; 2], [0.0; 2], tolerance);
+    let (solution, cost) = measure_median(solve)?;
+    Ok(Solved {
         friction: solution.friction_coefficient,
         estimated_error: spacing.error,
-        deviation: None,
         unknowns: solution.unknowns,
-        elements_along_contact: Some(scene.theory()?.contact_length() / spacing.length),
-        sliding_distance: None,
-        seconds,
-        processor_seconds,
+        spacing: Some(spacing.length),
+        distance: None,
+        cost,
     })
 }
 
-fn march(relative_error: f64) -> Result<Row> {
-    let scene = Scene::unit(RACE)?;
-    let length = scene.theory()?.contact_length();
-    let distance = distance(&scene, DISTANCE_SHARE * relative_error)?;
-    let spacing = spacing(&scene, (1.0 - DISTANCE_SHARE) * relative_error)?;
-    let (
-        transient,
-        Cost {
-            seconds,
-            processor_seconds,
-        },
-    ) = measure(|| scene.half_space(spacing.length, distance));
+fn march(scene: &Scene, relative_error: f64) -> Result<Solved> {
+    let distance = distance(scene, DISTANCE_PART * relative_error)?;
+    let spacing = spacing(scene, (1.0 - DISTANCE_PART) * relative_error)?;
+    let (transient, cost) = metered(|| scene.half_space(spacing.length, distance));
     let transient = transient?;
     let far = transient.stationary(ANY_DRIFT)?;
-    Ok(Row {
-        solver: "march in time",
-        exponent: RACE,
-        relative_error_asked: relative_error,
+    Ok(Solved {
         friction: far.friction_coefficient,
         estimated_error: spacing.error + far.distance_error / far.friction_coefficient,
-        deviation: None,
         unknowns: transient.n_elements,
-        elements_along_contact: Some(length / spacing.length),
-        sliding_distance: Some(distance),
-        seconds,
-        processor_seconds,
+        spacing: Some(spacing.length),
+        distance: Some(distance),
+        cost,
     })
 }
 
 /// The shortest distance, doubled each time, whose extrapolation is exact enough.
 fn distance(scene: &Scene, relative_error: f64) -> Result<f64> {
-    let spacing = scene.theory()?.contact_length() / PILOT_ELEMENTS;
-    for power in SHORTEST..=LONGEST {
+    let spacing = scene.theory()?.contact_length() / COARSE;
+    for power in DISTANCES {
         let lengths = f64::from(power).exp2();
         let far = scene.half_space(spacing, lengths)?.stationary(ANY_DRIFT)?;
         if far.distance_error < relative_error * far.friction_coefficient {
             return Ok(lengths);
         }
     }
-    anyhow::bail!(
-        "no sliding distance up to 2^{LONGEST} contact lengths has the relative error {relative_error:e}"
-    )
+    bail!("no sliding distance up to 2^8 contact lengths has the relative error {relative_error:e}")
 }
 
 /// A spacing with its relative error.
@@ -234,79 +205,64 @@ struct Spacing {
     error: f64,
 }
 
-/// The coarsest spacing of a ladder with square elements at which mean and scatter of single grids are exact enough.
+/// The coarsest spacing of a refinement with square elements at which mean and scatter of single grids are exact enough.
 fn spacing(scene: &Scene, relative_error: f64) -> Result<Spacing> {
-    let options = FrictionOptions {
-        relative_error: 0.1 * relative_error,
-        aspect: 1.0,
-        ..FrictionOptions::default()
-    };
-    let estimate = friction(scene, &options)?;
+    let estimate = scene.friction(0.1 * relative_error, 1.0)?;
     let limit = estimate.friction_coefficient;
-    let errors = estimate.refinements.iter().map(|refinement| Spacing {
+    // A coarse grid that is exact by accident is not taken: all finer ones must be exact enough too.
+    let refinements = estimate.refinements.iter().rev().map(|refinement| Spacing {
         length: refinement.spacing,
         error: ((refinement.friction_coefficient - limit).abs() + refinement.scatter) / limit,
     });
-    // A coarse grid that is exact by accident does not count: all finer ones must be exact enough too.
-    let mut errors: Vec<Spacing> = errors.collect();
-    errors.reverse();
-    let exact = errors
-        .into_iter()
-        .take_while(|spacing| spacing.error < relative_error);
+    let exact = refinements.take_while(|spacing| spacing.error < relative_error);
     exact
         .last()
-        .context("no grid of the ladder is exact enough")
+        .context("no grid of the refinement is exact enough")
 }
 
 /// The table, and how much faster the stationary solver is.
-pub(super) fn summary(rows: &[Row]) -> String {
+fn summary(rows: &[Row]) -> String {
     let number = |value: Option<f64>, digits: usize| {
         value.map_or_else(String::new, |value| format!("{value:.digits$}"))
     };
-    let table = markdown_table(
+    let header = [
+        "solver",
+        "p",
+        "asked",
+        "estimated",
+        "deviation",
+        "unknowns",
+        "Δx per length",
+        "distance",
+        "s",
+        "processor s",
+    ];
+    let lines = rows.iter().map(|row| {
+        let deviation = row.deviation;
         [
-            "solver",
-            "p",
-            "asked",
-            "estimated",
-            "deviation",
-            "unknowns",
-            "Δx per length",
-            "distance",
-            "s",
-            "processor s",
-        ],
-        rows.iter().map(|row| {
-            [
-                row.solver.to_owned(),
-                row.exponent.to_string(),
-                format!("{:e}", row.relative_error_asked),
-                format!("{:.1e}", row.estimated_error),
-                row.deviation
-                    .map_or_else(String::new, |value| format!("{value:.1e}")),
-                row.unknowns.to_string(),
-                number(row.elements_along_contact, 1),
-                number(row.sliding_distance, 0),
-                format!("{:.3}", row.seconds),
-                format!("{:.3}", row.processor_seconds),
-            ]
-        }),
-    );
-    format!("{table}\n{}", race(rows))
+            row.solver.to_owned(),
+            row.exponent.to_string(),
+            format!("{:e}", row.relative_error_asked),
+            format!("{:.1e}", row.estimated_error),
+            deviation.map_or_else(String::new, |value| format!("{value:.1e}")),
+            row.unknowns.to_string(),
+            number(row.elements_along_contact, 1),
+            number(row.sliding_distance, 0),
+            format!("{:.3}", row.seconds),
+            format!("{:.3}", row.processor_seconds),
+        ]
+    });
+    format!("{}\n{}", markdown_table(header, lines), ratios(rows))
 }
 
-fn race(rows: &[Row]) -> String {
+/// Processor times of the stationary solver over that of the march, which is last.
+fn ratios(rows: &[Row]) -> String {
     let Some((march, others)) = rows.split_last() else {
         return String::new();
     };
-    let same = |row: &&Row| {
-        row.exponent.total_cmp(&march.exponent).is_eq()
-            && row
-                .relative_error_asked
-                .total_cmp(&march.relative_error_asked)
-                .is_eq()
-    };
-    let ratio = |row: &Row| {
+    let key = |row: &Row| [row.exponent, row.relative_error_asked].map(f64::to_bits);
+    let same = others.iter().filter(|row| key(row) == key(march));
+    let ratios = same.map(|row| {
         format!(
             "p = {}, relative error {:e}: {} takes 1/{:.0} of the processor time of the march in time",
             row.exponent,
@@ -314,7 +270,6 @@ fn race(rows: &[Row]) -> String {
             row.solver,
             march.processor_seconds / row.processor_seconds
         )
-    };
-    let ratios: Vec<String> = others.iter().filter(same).map(ratio).collect();
-    ratios.join("\n")
+    });
+    ratios.collect::<Vec<_>>().join("\n")
 }
