@@ -114,10 +114,8 @@ fn every_command_explains_itself() {
     for command in [
         "reproduce-figures",
         "scaling-factors",
-        "fit-material",
+        "scaling-table",
         "evidence",
-        "run",
-        "sweep",
         "dependencies",
         "ci",
     ] {
