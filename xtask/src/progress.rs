@@ -11,13 +11,3 @@ pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     bar.enable_steady_tick(std::time::Duration::from_millis(200));
     bar
 }
-
-/// A sign of life for one task without steps.
-pub(crate) fn spinner(task: String) -> ProgressBar {
-    let bar = ProgressBar::new_spinner().with_message(task);
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}  {elapsed}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    bar
-}
