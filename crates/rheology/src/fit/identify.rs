@@ -1,5 +1,7 @@
 //! The Prony series behind a measured curve.
 
+use nalgebra::{DMatrix, DMatrixView, DVector};
+
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
@@ -118,25 +120,26 @@ impl Problem {
 
     /// The best moduli at given times; `smoothing` weighs their second differences.
     fn solved(&self, times: Vec<f64>, smoothing: f64) -> Result<Series, RheologyError> {
-        let mut target: Vec<f64> = self.rows.iter().map(|row| row.weight * row.value).collect();
-        let column = |response: &dyn Fn(&Row) -> f64| -> Vec<f64> {
-            let weighted = self.rows.iter().map(|row| row.weight * response(row));
-            weighted.collect()
-        };
-        let mut columns: Vec<Vec<f64>> = times
-            .iter()
-            .map(|&time| column(&|row| row.branch(time)[0]))
-            .collect();
-        smooth(&mut columns, &mut target, smoothing);
-        if self.ending == Ending::Solid {
-            let mut spring = column(&Row::spring);
-            spring.resize(target.len(), 0.0);
-            columns.push(spring);
+        let is_solid = self.ending == Ending::Solid;
+        let [n_rows, n_branches] = [self.rows.len(), times.len()];
+        let n_columns = n_branches + usize::from(is_solid);
+        let mut matrix = DMatrix::from_fn(n_rows, n_columns, |index, k| {
+            let row = &self.rows[index];
+            let response = times.get(k).map(|&time| row.branch(time)[0]);
+            row.weight * response.unwrap_or_else(|| row.spring())
+        });
+        let mut target =
+            DVector::from_iterator(n_rows, self.rows.iter().map(|row| row.weight * row.value));
+        if smoothing > 0.0 && n_branches > 2 {
+            let differences = second_differences(&matrix.columns(0, n_branches)) * smoothing;
+            matrix = matrix.resize_vertically(n_rows + n_branches - 2, 0.0);
+            matrix
+                .view_mut((n_rows, 0), differences.shape())
+                .copy_from(&differences);
+            target = target.resize_vertically(matrix.nrows(), 0.0);
         }
-        let mut moduli = nnls(&columns, &target)?;
-        let spring = (self.ending == Ending::Solid)
-            .then(|| moduli.pop())
-            .flatten();
+        let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
+        let spring = is_solid.then(|| moduli.pop()).flatten();
         Ok(Series {
             spring,
             moduli,
@@ -217,30 +220,18 @@ impl Series {
     }
 }
 
-/// Adds one row for every second difference of neighbouring moduli, in units of what each does to the weighted data.
-fn smooth(columns: &mut [Vec<f64>], target: &mut Vec<f64>, weight: f64) {
-    if weight == 0.0 || columns.len() < 3 {
-        return;
-    }
-    let n_rows = target.len();
-    let norms = columns
-        .iter()
-        .map(|column| column.iter().map(|x| x * x).sum::<f64>().sqrt());
-    let norms: Vec<f64> = norms.collect();
-    target.resize(n_rows + columns.len() - 2, 0.0);
-    for (index, column) in columns.iter_mut().enumerate() {
-        column.resize(target.len(), 0.0);
-        // Row k holds x_k − 2 x_(k+1) + x_(k+2).
-        let differences = &mut column[n_rows..];
-        for (place, factor) in [1.0, -2.0, 1.0].into_iter().enumerate() {
-            if let Some(entry) = index
-                .checked_sub(place)
-                .and_then(|k| differences.get_mut(k))
-            {
-                *entry = weight * factor * norms[index];
-            }
-        }
-    }
+/// One row x_k − 2 x_(k+1) + x_(k+2) for every second difference of neighbouring moduli, in units of what each does to the
+/// weighted data.
+fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
+    let n_branches = columns.ncols();
+    DMatrix::from_fn(n_branches - 2, n_branches, |row, k| {
+        let factor = match k.checked_sub(row) {
+            Some(0 | 2) => 1.0,
+            Some(1) => -2.0,
+            _ => 0.0,
+        };
+        factor * columns.column(k).norm()
+    })
 }
 
 fn legal(n_branches: usize) -> Result<usize, RheologyError> {

@@ -4,29 +4,33 @@
 //! 10.1137/1.9781611971217), with orthogonal factorisations throughout: columns of neighbouring relaxation times are
 //! too alike for normal equations.
 
+use nalgebra::{DMatrix, DVector};
+
 use crate::RheologyError;
 
-/// The x ≥ 0 that minimises |A x − b|, for A given by its `columns`, none of them zero.
+/// The x ≥ 0 that minimises |A x − b|, for a matrix without a column of zeros.
 ///
 /// # Errors
 /// [`RheologyError::FitNotConverged`] when the active set does not settle.
-pub(super) fn nnls(columns: &[Vec<f64>], target: &[f64]) -> Result<Vec<f64>, RheologyError> {
-    let norms: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    let (columns, target) = compressed(columns, &norms, target);
-    let tolerance = 1e2 * f64::EPSILON * norm(&target);
+pub(super) fn nnls(
+    matrix: &DMatrix<f64>,
+    target: &DVector<f64>,
+) -> Result<DVector<f64>, RheologyError> {
+    let norms = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|a| a.norm()));
+    let (matrix, target) = compressed(matrix, &norms, target);
+    let tolerance = 1e2 * f64::EPSILON * target.norm();
     let mut set = ActiveSet {
-        columns: &columns,
-        target: &target,
-        solution: vec![0.0; columns.len()],
+        solution: DVector::zeros(matrix.ncols()),
+        matrix,
+        target,
         passive: Vec::new(),
     };
-    let max_changes = 10 * columns.len() + 10;
+    let max_changes = 10 * norms.len() + 10;
     // Rounding can call for an unknown that then wants to be negative; it waits until the others have moved.
     let mut refused = Vec::new();
     for _ in 0..max_changes {
         let Some(entering) = set.steepest(&refused, tolerance) else {
-            let scaled = set.solution.iter().zip(&norms);
-            return Ok(scaled.map(|(x, norm)| x / norm).collect());
+            return Ok(set.solution.component_div(&norms));
         };
         set.enter(entering);
         if set.solution[entering] > 0.0 {
@@ -40,56 +44,47 @@ pub(super) fn nnls(columns: &[Vec<f64>], target: &[f64]) -> Result<Vec<f64>, Rhe
     })
 }
 
-struct ActiveSet<'a> {
-    columns: &'a [Vec<f64>],
-    target: &'a [f64],
-    solution: Vec<f64>,
+struct ActiveSet {
+    matrix: DMatrix<f64>,
+    target: DVector<f64>,
+    solution: DVector<f64>,
     /// The unknowns that may differ from zero.
     passive: Vec<usize>,
 }
 
-impl ActiveSet<'_> {
-    fn residual(&self) -> Vec<f64> {
-        let mut residual = self.target.to_vec();
-        for &index in &self.passive {
-            add_multiple(&mut residual, -self.solution[index], &self.columns[index]);
-        }
-        residual
-    }
-
+impl ActiveSet {
     /// The unknown at zero whose growth lowers the residual most.
     fn steepest(&self, refused: &[usize], tolerance: f64) -> Option<usize> {
-        let residual = self.residual();
-        let gradients = (0..self.columns.len())
+        let gradients = self
+            .matrix
+            .tr_mul(&(&self.target - &self.matrix * &self.solution));
+        let best = (0..gradients.len())
             .filter(|index| !self.passive.contains(index) && !refused.contains(index))
-            .map(|index| (index, dot(&self.columns[index], &residual)));
-        let best = gradients.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (best.1 > tolerance).then_some(best.0)
+            .max_by(|&a, &b| gradients[a].total_cmp(&gradients[b]))?;
+        (gradients[best] > tolerance).then_some(best)
     }
 
     /// Lets one more unknown grow, then moves to the unconstrained minimum, dropping what becomes negative on the way.
     fn enter(&mut self, index: usize) {
         self.passive.push(index);
         while !self.passive.is_empty() {
-            let columns = self.passive.iter().map(|&i| self.columns[i].clone());
-            let minimum = least_squares(columns.collect(), self.target);
-            let Some((blocking, fraction)) = self.first_to_vanish(&minimum) else {
-                for (&i, &goal) in self.passive.iter().zip(&minimum) {
-                    self.solution[i] = goal;
-                }
-                return;
-            };
+            let minimum = least_squares(self.matrix.select_columns(&self.passive), &self.target);
+            let blocking = self.first_to_vanish(&minimum);
+            let fraction = blocking.map_or(1.0, |(_, fraction)| fraction);
             for (&i, &goal) in self.passive.iter().zip(&minimum) {
                 self.solution[i] += fraction * (goal - self.solution[i]);
             }
-            let dropped = self.passive.remove(blocking);
+            let Some((place, _)) = blocking else {
+                return;
+            };
+            let dropped = self.passive.remove(place);
             self.solution[dropped] = 0.0;
         }
     }
 
     /// The place among the passive unknowns of the one that reaches zero first on the way to `minimum`, and the
     /// fraction of the way.
-    fn first_to_vanish(&self, minimum: &[f64]) -> Option<(usize, f64)> {
+    fn first_to_vanish(&self, minimum: &DVector<f64>) -> Option<(usize, f64)> {
         let on_the_way = self.passive.iter().zip(minimum).enumerate();
         on_the_way
             .filter(|(_, (_, goal))| **goal <= 0.0)
@@ -103,79 +98,42 @@ impl ActiveSet<'_> {
     }
 }
 
-/// The same problem with unit columns and as many rows as columns and target together.
-fn compressed(columns: &[Vec<f64>], norms: &[f64], target: &[f64]) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let unit = columns.iter().zip(norms);
-    let mut all: Vec<Vec<f64>> = unit
-        .map(|(column, norm)| column.iter().map(|x| x / norm).collect())
-        .collect();
-    all.push(target.to_vec());
-    if target.len() > all.len() {
-        triangularise(&mut all);
-        let n_rows = all.len();
-        for column in &mut all {
-            column.truncate(n_rows);
-        }
+/// The same problem with unit columns and at most as many rows as columns and target together.
+fn compressed(
+    matrix: &DMatrix<f64>,
+    norms: &DVector<f64>,
+    target: &DVector<f64>,
+) -> (DMatrix<f64>, DVector<f64>) {
+    let last = matrix.ncols();
+    let mut all = matrix.clone().insert_column(last, 0.0);
+    for (index, norm) in norms.iter().enumerate() {
+        all.column_mut(index).unscale_mut(*norm);
     }
-    let target = all.pop().unwrap_or_default();
-    (all, target)
+    all.set_column(last, target);
+    if all.nrows() > all.ncols() {
+        all = all.qr().unpack_r();
+    }
+    let target = all.column(last).into_owned();
+    (all.remove_column(last), target)
 }
 
 /// The x that minimises |A x − b|.
-pub(super) fn least_squares(mut columns: Vec<Vec<f64>>, target: &[f64]) -> Vec<f64> {
-    let n = columns.len();
-    columns.push(target.to_vec());
-    triangularise(&mut columns);
-    let right = columns.pop().unwrap_or_default();
-    let mut solution = vec![0.0; n];
-    for row in (0..n).rev() {
-        let known: f64 = (row + 1..n).map(|k| columns[k][row] * solution[k]).sum();
-        let diagonal = columns[row][row];
+fn least_squares(matrix: DMatrix<f64>, target: &DVector<f64>) -> DVector<f64> {
+    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    let qr = matrix.qr();
+    let mut right = target.clone();
+    qr.q_tr_mul(&mut right);
+    let triangle = qr.unpack_r();
+    let mut solution = DVector::zeros(triangle.ncols());
+    for row in (0..triangle.nrows()).rev() {
+        let diagonal = triangle[(row, row)];
         // A column that depends on those before it adds nothing.
-        if diagonal.abs() > f64::EPSILON * norm(&columns[row]) {
+        if diagonal.abs() > f64::EPSILON * norms[row] {
+            let known = triangle.row(row).transpose().dot(&solution);
             solution[row] = (right[row] - known) / diagonal;
         }
     }
     solution
-}
-
-/// Makes the matrix upper triangular by Householder reflections.
-fn triangularise(columns: &mut [Vec<f64>]) {
-    for pivot in 0..columns.len() {
-        let (done, rest) = columns.split_at_mut(pivot + 1);
-        let column = &mut done[pivot];
-        if pivot + 1 >= column.len() {
-            return;
-        }
-        let length = norm(&column[pivot..]);
-        if length == 0.0 {
-            continue;
-        }
-        let head = -length.copysign(column[pivot]);
-        let mut mirror = column[pivot..].to_vec();
-        mirror[0] -= head;
-        let square = dot(&mirror, &mirror);
-        for other in rest {
-            let factor = -2.0 * dot(&mirror, &other[pivot..]) / square;
-            add_multiple(&mut other[pivot..], factor, &mirror);
-        }
-        column[pivot..].fill(0.0);
-        column[pivot] = head;
-    }
-}
-
-fn norm(values: &[f64]) -> f64 {
-    dot(values, values).sqrt()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn add_multiple(values: &mut [f64], factor: f64, other: &[f64]) {
-    for (value, other) in values.iter_mut().zip(other) {
-        *value += factor * other;
-    }
 }
 
 #[cfg(test)]
@@ -189,17 +147,12 @@ mod tests {
             let entry = |i: usize, k: usize| {
                 (f64::from(seed) * (1.3 * i as f64 + 7.7 * k as f64 + 0.4)).sin()
             };
-            let columns: Vec<Vec<f64>> = (0..8)
-                .map(|k| (0..20).map(|i| entry(i, k)).collect())
-                .collect();
-            let target: Vec<f64> = (0..20).map(|i| entry(i, 99)).collect();
-            let solution = nnls(&columns, &target).expect("the active set settles");
-            let mut residual = target.clone();
-            for (x, column) in solution.iter().zip(&columns) {
-                add_multiple(&mut residual, -x, column);
-            }
-            for (k, (&x, column)) in solution.iter().zip(&columns).enumerate() {
-                let gradient = dot(column, &residual) / norm(column) / norm(&target);
+            let matrix = DMatrix::from_fn(20, 8, entry);
+            let target = DVector::from_fn(20, |i, _| entry(i, 99));
+            let solution = nnls(&matrix, &target).expect("the active set settles");
+            let residual = &target - &matrix * &solution;
+            for (k, (&x, column)) in solution.iter().zip(matrix.column_iter()).enumerate() {
+                let gradient = column.dot(&residual) / column.norm() / target.norm();
                 // A hundred roundings of numbers below one.
                 let met = if x > 0.0 {
                     gradient.abs() <= 1e-13
@@ -217,12 +170,10 @@ mod tests {
     /// Two equal columns, and one that is their sum: any of the solutions fits.
     #[test]
     fn dependent_columns_are_no_obstacle() {
-        let columns = [
-            vec![1.0, 2.0, 0.0],
-            vec![1.0, 2.0, 0.0],
-            vec![2.0, 4.0, 0.0],
-        ];
-        let solution = nnls(&columns, &[3.0, 6.0, 1.0]).expect("the active set settles");
+        let columns = [[1.0, 2.0, 0.0], [1.0, 2.0, 0.0], [2.0, 4.0, 0.0]];
+        let matrix = DMatrix::from_fn(3, 3, |i, k| columns[k][i]);
+        let target = DVector::from_vec(vec![3.0, 6.0, 1.0]);
+        let solution = nnls(&matrix, &target).expect("the active set settles");
         let sum = solution[0] + solution[1] + 2.0 * solution[2];
         assert!((sum - 3.0).abs() <= 1e-14, "{solution:?} sums to {sum}");
     }

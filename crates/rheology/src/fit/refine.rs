@@ -2,7 +2,8 @@
 //!
 //! Levenberg's and Marquardt's method (Marquardt 1963, DOI 10.1137/0111030) with the damping on the diagonal.
 
-use super::nnls::least_squares;
+use nalgebra::{DMatrix, DVector, DVectorViewMut};
+
 use super::system::Row;
 
 /// A series while it is refined: the lone spring, if there is one, and the branches.
@@ -27,14 +28,16 @@ pub(super) fn refine(rows: &[Row], start: Series, window: [f64; 2]) -> Series {
         let linear = series.linearised(rows);
         let mut gained = None;
         while gained.is_none() && damping < 1e9 {
-            let trial = series.moved(&linear.step(damping), window);
-            let trial_squares = trial.squares(rows);
-            if trial_squares < squares {
-                gained = Some(1.0 - trial_squares / squares);
-                (series, squares) = (trial, trial_squares);
-                damping *= 0.2;
-            } else {
-                damping *= 4.0;
+            let step = linear.step(damping);
+            let trial = step.map(|step| series.moved(step.as_slice(), window));
+            let trial = trial.map(|trial| (trial.squares(rows), trial));
+            match trial.filter(|(trial, _)| *trial < squares) {
+                Some((trial_squares, trial)) => {
+                    gained = Some(1.0 - trial_squares / squares);
+                    (series, squares) = (trial, trial_squares);
+                    damping *= 0.2;
+                }
+                None => damping *= 4.0,
             }
         }
         if gained.is_none_or(|fraction| fraction < SUFFICIENT) {
@@ -46,18 +49,17 @@ pub(super) fn refine(rows: &[Row], start: Series, window: [f64; 2]) -> Series {
 
 /// Normal matrix and gradient.
 struct Linearised {
-    normal: Vec<Vec<f64>>,
-    gradient: Vec<f64>,
+    normal: DMatrix<f64>,
+    gradient: DVector<f64>,
 }
 
 impl Linearised {
-    /// The damped step of all logarithms.
-    fn step(&self, damping: f64) -> Vec<f64> {
-        let mut columns = self.normal.clone();
-        for (index, column) in columns.iter_mut().enumerate() {
-            column[index] *= 1.0 + damping;
-        }
-        least_squares(columns, &self.gradient)
+    /// The damped step of all logarithms; none where the damping is too small for the matrix.
+    fn step(&self, damping: f64) -> Option<DVector<f64>> {
+        let mut damped = self.normal.clone();
+        let diagonal = self.normal.diagonal() * (1.0 + damping);
+        damped.set_diagonal(&diagonal);
+        Some(damped.cholesky()?.solve(&self.gradient))
     }
 }
 
@@ -80,32 +82,33 @@ impl Series {
 
     fn linearised(&self, rows: &[Row]) -> Linearised {
         let n = self.moduli.len() * 2 + usize::from(self.spring.is_some());
-        let mut normal = vec![vec![0.0; n]; n];
-        let mut gradient = vec![0.0; n];
-        let mut slopes = Vec::with_capacity(n);
-        for row in rows {
-            let error = row.weight * (row.value - self.slopes(row, &mut slopes));
-            for ((column, entry), slope) in normal.iter_mut().zip(&mut gradient).zip(&slopes) {
-                *entry += slope * error;
-                for (entry, other) in column.iter_mut().zip(&slopes) {
-                    *entry += slope * other;
-                }
-            }
+        let mut slopes = DMatrix::zeros(n, rows.len());
+        let errors = rows.iter().zip(slopes.column_iter_mut());
+        let errors =
+            errors.map(|(row, slopes)| row.weight * (row.value - self.slopes(row, slopes)));
+        let errors = DVector::from_vec(errors.collect());
+        Linearised {
+            normal: &slopes * slopes.transpose(),
+            gradient: slopes * errors,
         }
-        Linearised { normal, gradient }
     }
 
     /// Value of the series; into `slopes` go its weighted derivatives by the logarithms of spring, moduli and times.
-    fn slopes(&self, row: &Row, slopes: &mut Vec<f64>) -> f64 {
-        slopes.clear();
+    fn slopes(&self, row: &Row, mut slopes: DVectorViewMut<f64>) -> f64 {
+        let mut entries = slopes.iter_mut();
+        let mut put = |slope: f64| {
+            if let Some(entry) = entries.next() {
+                *entry = row.weight * slope;
+            }
+        };
         let spring = self.spring.map(|modulus| modulus * row.spring());
-        slopes.extend(spring.map(|value| row.weight * value));
+        spring.into_iter().for_each(&mut put);
         let mut value = spring.unwrap_or_default();
         for (modulus, &time) in self.moduli.iter().zip(&self.times) {
             let [response, by_log_time] = row.branch(time);
             value += modulus * response;
-            slopes.push(row.weight * modulus * response);
-            slopes.push(row.weight * modulus * by_log_time);
+            put(modulus * response);
+            put(modulus * by_log_time);
         }
         value
     }

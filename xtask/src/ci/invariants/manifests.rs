@@ -32,7 +32,7 @@ const RULES: [Rule; 8] = [
     Rule {
         name: "rheology",
         required: &["libm", "thiserror"],
-        optional: &["serde"],
+        optional: &["nalgebra", "serde"],
         in_tests: &["casebook"],
     },
     Rule {
