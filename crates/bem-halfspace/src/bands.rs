@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use crate::parts::{Parts, Starts, fold_parts};
-use crate::sharing::MIN_ELEMENTS;
+use crate::chunks::{Chunked, MIN_ELEMENTS, Starts, fold_chunks};
 
 /// The rows of a grid in bands, which depend on the shape of the grid alone.
 #[derive(Debug, Clone, Copy)]
@@ -57,19 +56,19 @@ impl Bands {
     }
 
     /// Does the work of every band on its part of fields that may be divided in different ways.
-    pub(crate) fn fold<const N: usize, T: Send, R: Default + Send>(
+    pub(crate) fn fold<const N: usize, T: Send, R: Send>(
         &self,
-        fields: Parts<T, N>,
+        fields: Chunked<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,
     ) -> R {
-        fold_parts(0..self.n_bands(), fields, &work, &combine)
+        fold_chunks(0..self.n_bands(), fields, &work, &combine)
     }
 
     /// Does the work of every band on its part of fields that may be divided in different ways.
     pub(crate) fn for_each_part<const N: usize, T: Send>(
         &self,
-        fields: Parts<T, N>,
+        fields: Chunked<T, N>,
         work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
         self.fold(fields, work, |(), ()| ());
@@ -85,7 +84,7 @@ impl Bands {
     }
 
     /// What the bands contribute, combined pairwise.
-    pub(crate) fn gather<R: Default + Send>(
+    pub(crate) fn gather<R: Send>(
         &self,
         work: impl Fn(usize) -> R + Sync,
         combine: impl Fn(R, R) -> R + Sync,

@@ -36,6 +36,7 @@
 
 mod bands;
 mod bounds;
+mod chunks;
 pub mod contact;
 mod convolution;
 mod error;
@@ -45,11 +46,9 @@ mod grid;
 pub mod indent;
 mod influence;
 mod mirror;
-mod parts;
 mod plane_transform;
 mod rectangle;
 mod resolution;
-mod sharing;
 pub mod slide;
 pub mod steady;
 mod stepping;

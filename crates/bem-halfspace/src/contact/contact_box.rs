@@ -2,8 +2,8 @@
 
 use crate::bands::Bands;
 use crate::bounds::Bounds;
+use crate::chunks::in_pool;
 use crate::contact::{Accuracy, ContactState, Control, Outcome, solve_normalised};
-use crate::sharing::in_pool;
 use crate::{BemError, ContactOptions, Convolution, Grid};
 
 /// Contact solver on a box of elements around the contact.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::bands::Bands;
-use crate::parts::Starts;
+use crate::chunks::Starts;
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]

@@ -28,8 +28,8 @@ mod violations;
 use std::f64::consts::PI;
 
 use crate::bands::Bands;
+use crate::chunks::in_pool;
 use crate::convolution::Surroundings;
-use crate::sharing::in_pool;
 use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;

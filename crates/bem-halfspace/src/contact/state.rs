@@ -1,12 +1,12 @@
 //! What a contact solve overwrites.
 
 use crate::bands::{Bands, resize};
+use crate::chunks::Starts;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
 use crate::contact::load::Load;
 use crate::convolution::Surroundings;
-use crate::parts::Starts;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next. With the

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
-use crate::parts::{Starts, fold_parts};
+use crate::chunks::{Starts, fold_chunks};
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 
@@ -154,5 +154,5 @@ fn for_each_group(values: &mut [f64], length: usize, work: impl Fn(usize, &mut [
     let groups = 0..values.len().div_ceil(GROUP * length);
     let in_group = |group, [values]: [&mut [f64]; 1]| work(group * GROUP, values);
     let values = [(values, Starts::Every(GROUP * length))];
-    fold_parts(groups, values, &in_group, &|(), ()| ());
+    fold_chunks(groups, values, &in_group, &|(), ()| ());
 }

@@ -42,7 +42,7 @@ pub(super) struct Cosines {
 
 /// What the sums overwrite.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Buffers {
+pub(super) struct CosineBuffers {
     reals: Vec<f64>,
     coefficients: Vec<Complex<f64>>,
 }
@@ -72,8 +72,8 @@ impl Cosines {
         self.plan.get_scratch_len()
     }
 
-    pub(super) fn buffers(&self) -> Buffers {
-        Buffers {
+    pub(super) fn buffers(&self) -> CosineBuffers {
+        CosineBuffers {
             reals: vec![0.0; self.plan.len()],
             coefficients: vec![ZERO; self.plan.len() / 2 + 1],
         }
@@ -83,9 +83,9 @@ impl Cosines {
     pub(super) fn apply(
         &self,
         numbers: &mut [f64],
-        (buffers, scratch): (&mut Buffers, &mut [Complex<f64>]),
+        (buffers, scratch): (&mut CosineBuffers, &mut [Complex<f64>]),
     ) {
-        let Buffers {
+        let CosineBuffers {
             reals,
             coefficients,
         } = buffers;

@@ -19,12 +19,12 @@ use std::ops::Range;
 
 use rustfft::num_complex::Complex;
 
+use crate::chunks::join;
 use crate::mirror::{Mirror, NO_MIRRORS};
-use crate::sharing::join;
 use columns::ColumnTransform;
 use rows::RowTransform;
 pub(crate) use workspace::Workspace;
-use workspace::{Lane, share_among_lanes};
+use workspace::{Buffers, for_each_chunk};
 
 /// Columns that pass together: eight complex numbers fill two cache lines.
 const TILE: usize = 8;
@@ -112,16 +112,18 @@ impl PlaneTransform {
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
     pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
         let width = workspace.shape[1];
-        let Workspace { strips, lanes, .. } = workspace;
+        let Workspace {
+            strips, buffers, ..
+        } = workspace;
         let unit = self.n_tiles() * STRIP;
         let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
         let strips = &mut strips[used.start * unit..used.end * unit];
-        share_among_lanes(lanes, (strips, unit), |first, lane, strips| {
+        for_each_chunk(buffers, (strips, unit), |first, buffers, strips| {
             for (strip, pieces) in (used.start + first..).zip(strips.chunks_exact_mut(unit)) {
                 for row in rows_of_strip(strip, loaded) {
                     self.rows
-                        .forward(lane, &field[row * width..(row + 1) * width]);
-                    let coefficients = &lane.half_row[..self.n_columns()];
+                        .forward(buffers, &field[row * width..(row + 1) * width]);
+                    let coefficients = &buffers.half_row[..self.n_columns()];
                     let mut pieces = pieces[row % STRIP..].iter_mut().step_by(STRIP);
                     let (whole, rest) = coefficients.as_chunks::<TILE>();
                     for (values, piece) in whole.iter().zip(&mut pieces) {
@@ -146,17 +148,17 @@ impl PlaneTransform {
         let Workspace {
             strips,
             tiles,
-            lanes,
+            buffers,
             ..
         } = workspace;
-        share_among_lanes(lanes, (tiles, stride), |first, lane, tiles| {
+        for_each_chunk(buffers, (tiles, stride), |first, buffers, tiles| {
             for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());
-                self.gather_columns(lane, strips, (tile, loaded));
-                self.multiply_columns(lane, &columns, &multiply);
+                self.gather_columns(buffers, strips, (tile, loaded));
+                self.multiply_columns(buffers, &columns, &multiply);
                 for (row, piece) in wanted.clone().zip(&mut pieces[wanted.clone()]) {
                     let place = self.columns.place(row);
-                    let columns = lane.columns.chunks_exact(self.column_stride());
+                    let columns = buffers.columns.chunks_exact(self.column_stride());
                     for (value, column) in piece.iter_mut().zip(columns) {
                         *value = column[place];
                     }
@@ -167,19 +169,19 @@ impl PlaneTransform {
 
     fn gather_columns(
         &self,
-        lane: &mut Lane,
+        buffers: &mut Buffers,
         strips: &[[Complex<f64>; TILE]],
         (tile, loaded): (usize, &Range<usize>),
     ) {
         let stride = self.column_stride();
-        for column in lane.columns.chunks_exact_mut(stride) {
+        for column in buffers.columns.chunks_exact_mut(stride) {
             self.columns.clear_beside(loaded, column);
         }
         for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
             let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
             for row in rows_of_strip(strip, loaded) {
                 let place = self.columns.place(row);
-                let columns = lane.columns.chunks_exact_mut(stride);
+                let columns = buffers.columns.chunks_exact_mut(stride);
                 for (column, value) in columns.zip(&pieces[row % STRIP]) {
                     column[place] = *value;
                 }
@@ -189,16 +191,16 @@ impl PlaneTransform {
 
     fn multiply_columns(
         &self,
-        lane: &mut Lane,
+        buffers: &mut Buffers,
         columns: &Range<usize>,
         multiply: impl Fn(usize, &mut [Complex<f64>]),
     ) {
-        let stored = lane.columns.chunks_exact_mut(self.column_stride());
+        let stored = buffers.columns.chunks_exact_mut(self.column_stride());
         for (column, values) in columns.clone().zip(stored) {
             let values = &mut values[..self.columns.len()];
-            self.columns.forward(&mut lane.scratch, values);
+            self.columns.forward(&mut buffers.scratch, values);
             multiply(column, values);
-            self.columns.inverse(&mut lane.scratch, values);
+            self.columns.inverse(&mut buffers.scratch, values);
         }
     }
 
@@ -210,12 +212,12 @@ impl PlaneTransform {
         wanted: &Range<usize>,
     ) {
         let (stride, width) = (workspace.tile_stride(), workspace.shape[1]);
-        let Workspace { tiles, lanes, .. } = workspace;
+        let Workspace { tiles, buffers, .. } = workspace;
         let result = &mut result[wanted.start * width..wanted.end * width];
-        share_among_lanes(lanes, (result, width), |first, lane, result| {
+        for_each_chunk(buffers, (result, width), |first, buffers, result| {
             for (row, values) in (wanted.start + first..).zip(result.chunks_exact_mut(width)) {
                 let mut pieces = tiles[row..].iter().step_by(stride);
-                let coefficients = &mut lane.half_row[..self.n_columns()];
+                let coefficients = &mut buffers.half_row[..self.n_columns()];
                 let (whole, rest) = coefficients.as_chunks_mut::<TILE>();
                 for (values, piece) in whole.iter_mut().zip(&mut pieces) {
                     *values = *piece;
@@ -223,7 +225,7 @@ impl PlaneTransform {
                 for (value, found) in rest.iter_mut().zip(pieces.flatten()) {
                     *value = *found;
                 }
-                self.rows.inverse(lane, values);
+                self.rows.inverse(buffers, values);
             }
         });
     }

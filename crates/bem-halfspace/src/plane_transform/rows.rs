@@ -6,9 +6,9 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::mirror::Mirror;
-use crate::plane_transform::about_centre::{Buffers, Cosines};
+use crate::plane_transform::about_centre::{CosineBuffers, Cosines};
 use crate::plane_transform::about_edge;
-use crate::plane_transform::workspace::Lane;
+use crate::plane_transform::workspace::Buffers;
 
 /// The transforms of a row, or of the part of it in front of a mirror.
 ///
@@ -81,10 +81,10 @@ impl RowTransform {
     }
 
     /// What the sums about a centre overwrite; nothing elsewhere.
-    pub(super) fn buffers(&self) -> Buffers {
+    pub(super) fn buffers(&self) -> CosineBuffers {
         match self {
             Self::AboutCentre(cosines) => cosines.buffers(),
-            Self::Whole { .. } | Self::AboutEdge { .. } => Buffers::default(),
+            Self::Whole { .. } | Self::AboutEdge { .. } => CosineBuffers::default(),
         }
     }
 
@@ -98,49 +98,55 @@ impl RowTransform {
     }
 
     /// Transforms the values at the beginning of a row that is zero behind them; the coefficients are in the half row of
-    /// the lane.
-    pub(super) fn forward(&self, lane: &mut Lane, values: &[f64]) {
+    /// the buffers.
+    pub(super) fn forward(&self, buffers: &mut Buffers, values: &[f64]) {
         match self {
             Self::Whole { forward, .. } => {
-                fill(&mut lane.row, values);
-                let fields = (&mut lane.row[..], &mut lane.half_row[..]);
-                forward_real(&**forward, fields, &mut lane.scratch);
+                fill(&mut buffers.row, values);
+                let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
+                forward_real(&**forward, fields, &mut buffers.scratch);
             }
             Self::AboutCentre(cosines) => {
-                fill(&mut lane.row, values);
-                lane.row[0] *= 2.0;
-                cosines.apply(&mut lane.row, (&mut lane.buffers, &mut lane.scratch));
-                pair(&lane.row, &mut lane.half_row);
+                fill(&mut buffers.row, values);
+                buffers.row[0] *= 2.0;
+                cosines.apply(
+                    &mut buffers.row,
+                    (&mut buffers.cosines, &mut buffers.scratch),
+                );
+                pair(&buffers.row, &mut buffers.half_row);
             }
             Self::AboutEdge { forward, turns, .. } => {
-                about_edge::order(values, &mut lane.row);
-                let fields = (&mut lane.row[..], &mut lane.half_row[..]);
-                forward_real(&**forward, fields, &mut lane.scratch);
-                about_edge::turn(turns, &lane.half_row, &mut lane.row);
-                pair(&lane.row, &mut lane.half_row);
+                about_edge::order(values, &mut buffers.row);
+                let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
+                forward_real(&**forward, fields, &mut buffers.scratch);
+                about_edge::turn(turns, &buffers.half_row, &mut buffers.row);
+                pair(&buffers.row, &mut buffers.half_row);
             }
         }
     }
 
-    /// The way back, without normalisation, of the coefficients in the half row of the lane.
-    pub(super) fn inverse(&self, lane: &mut Lane, values: &mut [f64]) {
+    /// The way back, without normalisation, of the coefficients in the half row of the buffers.
+    pub(super) fn inverse(&self, buffers: &mut Buffers, values: &mut [f64]) {
         match self {
             Self::Whole { inverse, .. } => {
-                let fields = (&mut lane.half_row[..], &mut lane.row[..]);
-                inverse_real(&**inverse, fields, &mut lane.scratch);
-                values.copy_from_slice(&lane.row[..values.len()]);
+                let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
+                inverse_real(&**inverse, fields, &mut buffers.scratch);
+                values.copy_from_slice(&buffers.row[..values.len()]);
             }
             Self::AboutCentre(cosines) => {
-                unpair(&lane.half_row, &mut lane.row);
-                cosines.apply(&mut lane.row, (&mut lane.buffers, &mut lane.scratch));
-                values.copy_from_slice(&lane.row[..values.len()]);
+                unpair(&buffers.half_row, &mut buffers.row);
+                cosines.apply(
+                    &mut buffers.row,
+                    (&mut buffers.cosines, &mut buffers.scratch),
+                );
+                values.copy_from_slice(&buffers.row[..values.len()]);
             }
             Self::AboutEdge { inverse, turns, .. } => {
-                unpair(&lane.half_row, &mut lane.row);
-                about_edge::turn_back(turns, &lane.row, &mut lane.half_row);
-                let fields = (&mut lane.half_row[..], &mut lane.row[..]);
-                inverse_real(&**inverse, fields, &mut lane.scratch);
-                about_edge::order_back(&lane.row, values);
+                unpair(&buffers.half_row, &mut buffers.row);
+                about_edge::turn_back(turns, &buffers.row, &mut buffers.half_row);
+                let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
+                inverse_real(&**inverse, fields, &mut buffers.scratch);
+                about_edge::order_back(&buffers.row, values);
             }
         }
     }

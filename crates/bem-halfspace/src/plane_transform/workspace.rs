@@ -1,11 +1,11 @@
-//! What a filter overwrites, divided into lanes that work side by side.
+//! What a filter overwrites.
 
 use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
-use crate::plane_transform::about_centre::Buffers;
+use crate::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
+use crate::plane_transform::about_centre::CosineBuffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
-use crate::sharing::{MIN_ELEMENTS, n_tasks, n_threads, share};
 
 /// What a filter of fields of one shape overwrites. With the feature `rayon`, buffers for the threads of the pool in
 /// which it was made.
@@ -17,18 +17,18 @@ pub(crate) struct Workspace {
     pub(super) strips: Vec<[Complex<f64>; TILE]>,
     /// Columns after the product, [tile][row].
     pub(super) tiles: Vec<[Complex<f64>; TILE]>,
-    pub(super) lanes: Vec<Lane>,
+    pub(super) buffers: PerThread<Buffers>,
 }
 
-/// The buffers of one lane.
+/// What the transforms of one thread overwrite.
 #[derive(Debug, Clone)]
-pub(super) struct Lane {
+pub(super) struct Buffers {
     pub(super) row: Vec<f64>,
     pub(super) half_row: Vec<Complex<f64>>,
     pub(super) columns: Vec<Complex<f64>>,
     pub(super) scratch: Vec<Complex<f64>>,
     /// Of rows in front of a mirror about a centre.
-    pub(super) buffers: Buffers,
+    pub(super) cosines: CosineBuffers,
 }
 
 impl Workspace {
@@ -41,9 +41,7 @@ impl Workspace {
                 shape[0].next_multiple_of(STRIP) * transform.n_tiles(),
             ),
             tiles: copies([ZERO; TILE], tile_stride(shape) * transform.n_tiles()),
-            lanes: (0..n_lanes(shape[0] * shape[1]))
-                .map(|_| Lane::new(transform))
-                .collect(),
+            buffers: PerThread::new(shape[0] * shape[1], || Buffers::new(transform)),
         }
     }
 
@@ -63,7 +61,7 @@ const fn tile_stride(shape: [usize; 2]) -> usize {
     shape[0] + 1
 }
 
-impl Lane {
+impl Buffers {
     fn new(transform: &PlaneTransform) -> Self {
         let scratch = transform.rows.scratch_len();
         Self {
@@ -71,26 +69,24 @@ impl Lane {
             half_row: vec![ZERO; transform.rows.len() / 2 + 1],
             columns: vec![ZERO; TILE * transform.column_stride()],
             scratch: vec![ZERO; scratch.max(transform.columns.scratch_len())],
-            buffers: transform.rows.buffers(),
+            cosines: transform.rows.buffers(),
         }
     }
 }
 
-fn n_lanes(elements: usize) -> usize {
-    n_threads().min(1 + elements / MIN_ELEMENTS)
-}
-
-/// Divides `values` into parts of whole units and does the work of each on one of the lanes: `work` gets the number of
-/// the first unit of a part, the lane and the part. A unit is worked on the same way in any lane, so that the result does
-/// not depend on their number.
-pub(super) fn share_among_lanes<T: Send>(
-    lanes: &mut [Lane],
+/// Divides `values` into chunks of whole units and does the work of each with the buffers of its thread: `work` gets the
+/// number of the first unit of a chunk, the buffers and the chunk.
+pub(super) fn for_each_chunk<T: Send>(
+    buffers: &PerThread<Buffers>,
     (values, unit): (&mut [T], usize),
-    work: impl Fn(usize, &mut Lane, &mut [T]) + Sync,
+    work: impl Fn(usize, &mut Buffers, &mut [T]) + Sync,
 ) {
-    let units = (values.len() / unit).div_ceil(n_tasks(lanes.len())).max(1);
-    let parts = values.chunks_mut(units * unit).enumerate();
-    share(lanes, parts, |lane, (part, values)| {
-        work(part * units, lane, values);
-    });
+    let numbers_per_unit = unit * size_of::<T>() / size_of::<f64>();
+    let units = MIN_ELEMENTS.div_ceil(numbers_per_unit);
+    let n_chunks = values.len().div_ceil(units * unit);
+    let in_chunk = |chunk, [values]: [&mut [T]; 1]| {
+        buffers.with(|buffers| work(chunk * units, buffers, values));
+    };
+    let values = [(values, Starts::Every(units * unit))];
+    fold_chunks(0..n_chunks, values, &in_chunk, &|(), ()| ());
 }

@@ -42,8 +42,8 @@ mod wiener_hopf;
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
+use crate::chunks::in_pool;
 use crate::error::{below_one, positive};
-use crate::sharing::in_pool;
 use crate::{BemError, Footprint};
 pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
