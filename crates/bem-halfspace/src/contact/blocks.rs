@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use crate::contact::contact_set::ContactSet;
+use crate::contact::active_set::ActiveSet;
 
 /// Sums over the elements of each block of a band that are in contact, of the terms that their places in the part of a
 /// list have that belongs to the band.
 pub(super) fn sum_blocks<const EDGE: usize>(
-    contact: &ContactSet,
+    contact: &ActiveSet,
     band: usize,
     term: impl Fn(usize) -> f64,
     sums: &mut [f64],

@@ -1,51 +1,44 @@
 //! A first guess from grids of larger elements.
 
 use crate::bands::Bands;
-use crate::contact::halves::Halves;
-use crate::contact::{Accuracy, ContactState, Control, Question, solve_normalised};
+use crate::contact::mirror_weights::MirrorWeights;
+use crate::contact::solve::LoadProblem;
+use crate::contact::{Accuracy, ContactState, map_force, solve_loads};
 use crate::convolution::Surroundings;
 
 /// A grid with fewer elements along an edge is solved without a guess.
 const SMALLEST_EDGE: usize = 32;
 
 /// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
-pub(super) fn start_from_coarser(
-    (convolution, separation, control): Question,
-    state: &mut ContactState,
-) {
+pub(super) fn start_from_coarser(problem: LoadProblem, state: &mut ContactState) {
+    let convolution = problem.convolution;
     let grid = convolution.grid();
     let [rows, columns] = grid.shape();
-    let halves = rows.is_multiple_of(2) && columns.is_multiple_of(2);
-    if grid
-        .unfolded(convolution.mirrors())
-        .shape()
-        .into_iter()
-        .min()
-        < Some(SMALLEST_EDGE)
-        || (convolution.surroundings() == Surroundings::Periodic && !halves)
-    {
+    let whole = grid.unfolded(convolution.mirrors()).shape();
+    let is_even = rows.is_multiple_of(2) && columns.is_multiple_of(2);
+    let has_period = convolution.surroundings() == Surroundings::Periodic;
+    if whole.into_iter().any(|n| n < SMALLEST_EDGE) || (has_period && !is_even) {
         return;
     }
-    let control = match control {
-        Control::NormalForce(total) => Control::NormalForce(0.25 * total),
-        depth @ Control::IndentationDepth(_) => depth,
-    };
-    let coarse_separation = mean_of_four(separation, [rows, columns]);
     let coarse_convolution = convolution.between_blocks();
     let mut coarse = ContactState::new(&coarse_convolution);
-    let question = (&coarse_convolution, &coarse_separation[..], control);
+    let problem = LoadProblem {
+        convolution: &coarse_convolution,
+        separation: &mean_of_four(problem.separation, [rows, columns]),
+        control: map_force(problem.control, |total| 0.25 * total),
+    };
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
-    let _guess = solve_normalised(question, &mut coarse, &Accuracy::GUESS);
+    let _guess = solve_loads(problem, &mut coarse, &Accuracy::GUESS);
     let bands = Bands::new([rows, columns]);
-    bands.for_each([state.load.values_mut()], |band, [loads]| {
+    bands.for_each([&mut state.load], |band, [loads]| {
         for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
-            let coarse = &coarse.load.values()[row / 2 * columns.div_ceil(2)..];
+            let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
             for (column, load) in loads.iter_mut().enumerate() {
                 *load = coarse[column / 2];
             }
         }
     });
-    Halves::of(convolution).keep_front(state.load.values_mut());
+    MirrorWeights::of(convolution).apply(&mut state.load);
 }
 
 /// Mean of the finite heights of two by two elements; `+∞` where there are none.

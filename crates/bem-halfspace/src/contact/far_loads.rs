@@ -26,8 +26,8 @@
 use std::f64::consts::PI;
 
 use crate::bands::{Bands, resize};
+use crate::contact::active_set::ActiveSet;
 use crate::contact::blocks::sum_blocks;
-use crate::contact::contact_set::ContactSet;
 use crate::{Grid, influence};
 
 /// Part of the displacement under the own load of a block that counts as k. A half is what the block of twice the edges
@@ -80,14 +80,14 @@ impl FarLoads {
     }
 
     /// Takes another contact, of which nothing is known yet: all loads count as nothing.
-    pub(super) fn forget(&mut self, contact: &ContactSet) {
+    pub(super) fn forget(&mut self, contact: &ActiveSet) {
         self.weights.clear();
         resize(&mut self.weights, 0.0, contact.len());
         self.find_sums(contact);
     }
 
     /// Takes the list of the `answer` of the inverse to the gap one.
-    pub(super) fn weigh(&mut self, contact: &ContactSet, answer: &[f64]) {
+    pub(super) fn weigh(&mut self, contact: &ActiveSet, answer: &[f64]) {
         contact
             .bands()
             .for_each_part([contact.list(&mut self.weights)], |band, [weights]| {
@@ -98,7 +98,7 @@ impl FarLoads {
         self.find_sums(contact);
     }
 
-    fn find_sums(&mut self, contact: &ContactSet) {
+    fn find_sums(&mut self, contact: &ActiveSet) {
         let Self {
             weights,
             smallest,

@@ -1,61 +1,56 @@
 //! Contacts that are their own mirror images.
 //!
 //! Where the separation is the same on both sides of a plane, so are load and displacement, and the part of the grid in
-//! front of the plane tells them all. Of an element through whose centre the plane passes, half the load is in front.
+//! front of the plane determines them all. Of an element through whose centre the plane passes, half the load is in front.
 
+use crate::BemError;
 use crate::bands::Bands;
-use crate::bounds::Bounds;
-use crate::contact::halves::Halves;
-use crate::contact::{Accuracy, ContactState, Control, Outcome, Question, solve_normalised};
-use crate::convolution::Surroundings;
+use crate::contact::contact_box::ContactBox;
+use crate::contact::mirror_weights::MirrorWeights;
+use crate::contact::solve::LoadProblem;
+use crate::contact::{Accuracy, ContactState, Solved, map_force, solve_loads};
+use crate::convolution::{Convolution, Surroundings};
 use crate::mirror::{Mirror, NO_MIRRORS, images};
-use crate::{BemError, Convolution};
-
-/// The part of a grid in front of mirrors, and its contact.
-#[derive(Debug, Clone)]
-pub(super) struct Folded {
-    convolution: Convolution,
-    separation: Vec<f64>,
-    state: ContactState,
-}
 
 /// Solves the contact on the part of the grid that the mirrors of separation and first guess leave.
 pub(super) fn solve_in_front_of_mirrors(
-    question: Question,
+    problem: LoadProblem,
     state: &mut ContactState,
     accuracy: &Accuracy,
-) -> Result<Outcome, BemError> {
-    let (convolution, separation, control) = question;
-    let mirrors = match state.load.touched() {
-        Some(load) => find_mirrors(convolution, [separation, load]),
-        None => find_mirrors(convolution, [separation]),
-    };
+) -> Result<Solved, BemError> {
+    let convolution = problem.convolution;
+    let mirrors = find_mirrors(convolution, [problem.separation, &state.load]);
     if mirrors == NO_MIRRORS {
-        return solve_normalised(question, state, accuracy);
+        return solve_loads(problem, state, accuracy);
     }
-    let mut folded = match state.folded.take() {
-        Some(folded) if folded.convolution.mirrors() == mirrors => folded,
-        _ => Box::new(Folded::new(convolution.folded(mirrors))),
+    let mut front = match state.front.take() {
+        Some(front) if front.convolution.mirrors() == mirrors => front,
+        _ => Box::new(ContactBox::in_front_of(mirrors, convolution)),
     };
-    folded.take_from(separation, state.load.touched());
-    let outcome = folded.solve(control, accuracy);
-    folded.give_to([state.load.values_mut(), &mut state.displacement]);
-    state.folded = Some(folded);
-    outcome
+    let whole = convolution.grid().shape();
+    front.take_from([problem.separation, &state.load], whole[1]);
+    MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
+    let images = images(mirrors);
+    let control = map_force(problem.control, |total| total / images);
+    let solved = front.solve_to(control, accuracy);
+    front.unfold([&mut state.load, &mut state.displacement], whole);
+    state.front = Some(front);
+    solved.map(|solved| Solved {
+        total_load: images * solved.total_load,
+        ..solved
+    })
 }
 
 /// The mirrors in the middle of the grid about which fields are their own images, to the last bit.
-fn find_mirrors<const N: usize>(convolution: &Convolution, fields: [&[f64]; N]) -> [Mirror; 2] {
+fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     let shape = convolution.grid().shape();
     let [rows, columns] = shape;
     let lines = |row: usize| fields.map(|field| &field[row * columns..][..columns]);
     let bands = Bands::new(shape);
     let in_band = |band| {
         let mut rows_of_band = bands.rows(band);
-        let behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
-        let along_x = behind
-            .into_iter()
-            .all(|row| lines(row) == lines(rows - 1 - row));
+        let mut behind = rows_of_band.start..rows_of_band.end.min(rows / 2);
+        let along_x = behind.all(|row| lines(row) == lines(rows - 1 - row));
         let along_y = rows_of_band.all(|row| lines(row).into_iter().all(is_palindrome));
         [along_x, along_y]
     };
@@ -76,71 +71,32 @@ fn is_palindrome(line: &[f64]) -> bool {
     line[..half].iter().eq(line.iter().rev().take(half))
 }
 
-impl Folded {
-    fn new(convolution: Convolution) -> Self {
-        Self {
-            separation: vec![0.0; convolution.grid().n_elements()],
-            state: ContactState::new(&convolution),
-            convolution,
-        }
-    }
-
-    fn solve(&mut self, control: Control, accuracy: &Accuracy) -> Result<Outcome, BemError> {
-        let images = images(self.convolution.mirrors());
-        let control = match control {
-            Control::NormalForce(total) => Control::NormalForce(total / images),
-            depth @ Control::IndentationDepth(_) => depth,
-        };
-        let question = (&self.convolution, &self.separation[..], control);
-        let outcome = solve_normalised(question, &mut self.state, accuracy)?;
-        Ok(Outcome {
-            total_load: images * outcome.total_load,
-            ..outcome
-        })
-    }
-
-    /// Copies what lies in front of the mirrors from the separation of the whole grid, and from its load if that was ever
-    /// touched; otherwise that of the part was not either.
-    fn take_from(&mut self, separation: &[f64], load: Option<&[f64]>) {
-        let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
-        let whole = self.convolution.grid().unfolded(mirrors).shape();
-        let front = Bounds {
-            lower: [0, 1].map(|axis| whole[axis] - shape[axis]),
-            upper: whole,
-        };
-        front.cut((separation, whole[1]), &mut self.separation);
-        if let Some(load) = load {
-            let loads = self.state.load.values_mut();
-            front.cut((load, whole[1]), loads);
-            Halves::of(&self.convolution).keep_front(loads);
-        }
-    }
-
-    /// Writes load and displacement of the whole grid.
-    fn give_to(&self, fields: [&mut [f64]; 2]) {
-        let (shape, mirrors) = (self.convolution.grid().shape(), self.convolution.mirrors());
-        let whole = self.convolution.grid().unfolded(mirrors).shape();
-        let halves = Halves::of(&self.convolution);
+impl ContactBox {
+    /// Writes load and displacement of the whole grid, of which this is the part in front of mirrors.
+    fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
+        let (mirrors, columns) = (self.convolution.mirrors(), self.bounds.shape()[1]);
+        let weights = MirrorWeights::of(&self.convolution);
         let bands = Bands::new(whole);
         bands.for_each(fields, |band, [loads, displacements]| {
             let loads = loads.chunks_exact_mut(whole[1]);
             let displacements = displacements.chunks_exact_mut(whole[1]);
             for (row, (loads, displacements)) in bands.rows(band).zip(loads.zip(displacements)) {
                 let row = in_front(row, whole[0], mirrors[0]);
-                let part = row * shape[1]..(row + 1) * shape[1];
-                unfold(&self.state.displacement[part.clone()], displacements);
-                let front = whole[1] - shape[1];
-                loads[front..].copy_from_slice(&self.state.load.values()[part.clone()]);
-                for (column, part) in halves.in_line(part) {
-                    loads[front + column] /= part;
+                let part = row * columns..(row + 1) * columns;
+                let front = whole[1] - columns;
+                displacements[front..].copy_from_slice(&self.state.displacement[part.clone()]);
+                loads[front..].copy_from_slice(&self.state.load[part.clone()]);
+                for (column, weight) in weights.in_line(part) {
+                    loads[front + column] /= weight;
                 }
-                mirror_behind(loads, shape[1]);
+                mirror_behind(displacements, columns);
+                mirror_behind(loads, columns);
             }
         });
     }
 }
 
-/// The row of the part that shows a row of the whole.
+/// The row of the part in front of the mirror that is, or shows, a row of the whole.
 const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
     let half = rows / 2;
     match mirror {
@@ -149,13 +105,6 @@ const fn in_front(row: usize, rows: usize, mirror: Mirror) -> usize {
         Mirror::Edge if row < half => half - 1 - row,
         Mirror::Edge => row - half,
     }
-}
-
-/// Writes a line from its part in front of a mirror, or from itself.
-fn unfold(part: &[f64], line: &mut [f64]) {
-    let behind = line.len() - part.len();
-    line[behind..].copy_from_slice(part);
-    mirror_behind(line, part.len());
 }
 
 /// Completes a line of which so many values are in front of a mirror.

@@ -11,13 +11,14 @@
 mod direction;
 mod heights;
 
-use crate::contact::contact_set::{ContactSet, Run};
-use crate::contact::halves::Halves;
-use crate::contact::lanes::sum;
+use crate::contact::active_set::{ActiveSet, Run};
 use crate::contact::listed::Listed;
+use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::Preconditioner;
+use crate::contact::reductions::sum;
+use crate::contact::solve::LoadProblem;
 use crate::contact::violations::Violations;
-use crate::contact::{Accuracy, ContactState, Control, Outcome, Question};
+use crate::contact::{Accuracy, ContactState, Control, Solved};
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::Heights;
 
@@ -31,7 +32,7 @@ const PRIORITY: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub(super) struct Fields {
     preconditioner: Preconditioner,
-    contact: ContactSet,
+    contact: ActiveSet,
     listed: Listed,
     /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
     spread: Vec<f64>,
@@ -45,7 +46,7 @@ impl Fields {
         let n = grid.n_elements();
         Self {
             preconditioner: Preconditioner::new(convolution),
-            contact: ContactSet::new(grid.shape()),
+            contact: ActiveSet::new(grid.shape()),
             listed: Listed::new(n),
             spread: vec![0.0; n],
             image: vec![0.0; n],
@@ -76,16 +77,14 @@ pub(super) struct Iteration<'a> {
 }
 
 impl<'a> Iteration<'a> {
-    pub(super) fn new(
-        (convolution, separation, control): Question<'a>,
-        state: &'a mut ContactState,
-    ) -> Self {
+    pub(super) fn new(problem: LoadProblem<'a>, state: &'a mut ContactState) -> Self {
+        let convolution = problem.convolution;
         Self {
             convolution,
-            separation,
-            control,
+            separation: problem.separation,
+            control: problem.control,
             tolerance: 0.0,
-            load: state.load.values_mut(),
+            load: &mut state.load,
             displacement: &mut state.displacement,
             workspace: state
                 .workspace
@@ -103,7 +102,7 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Outcome, BemError> {
+    pub(super) fn run(mut self, accuracy: &Accuracy) -> Result<Solved, BemError> {
         self.start();
         let mut iterations = 0;
         loop {
@@ -115,7 +114,7 @@ impl<'a> Iteration<'a> {
             }
             if residual <= self.tolerance && violations.tension <= 0.0 {
                 if self.fresh {
-                    return Ok(self.outcome(iterations, &violations));
+                    return Ok(self.solved(iterations, &violations));
                 }
                 self.refresh();
                 continue;
@@ -139,8 +138,8 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    fn outcome(&self, iterations: usize, violations: &Violations) -> Outcome {
-        Outcome {
+    fn solved(&self, iterations: usize, violations: &Violations) -> Solved {
+        Solved {
             indentation_depth: self.indentation_depth,
             total_load: self.total_load(),
             iterations,
@@ -167,16 +166,14 @@ impl<'a> Iteration<'a> {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
-        let halves = Halves::of(self.convolution);
+        let weights = MirrorWeights::of(self.convolution);
         let bands = contact.bands();
         bands.for_each([&mut *self.load, spread], |band, [load, spread]| {
             spread.fill(0.0);
             for (load, element) in load.iter_mut().zip(bands.elements(band)) {
                 *load = match (contact.contains(element), loaded) {
                     (true, true) => *load,
-                    (true, false) => {
-                        uniform * halves.part_of_row(element) * halves.part_of_column(element)
-                    }
+                    (true, false) => uniform * weights.of_element(element),
                     (false, _) => 0.0,
                 };
             }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::bands::resize;
-use crate::contact::contact_set::ContactSet;
-use crate::contact::lanes::sum;
+use crate::contact::active_set::ActiveSet;
+use crate::contact::reductions::sum;
 
 /// One value per element in contact, in the order of the field.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ impl Listed {
     }
 
     /// Takes another contact, with the values of the fields of separation and load there.
-    pub(super) fn take(&mut self, contact: &ContactSet, [separation, load]: [&[f64]; 2]) {
+    pub(super) fn take(&mut self, contact: &ActiveSet, [separation, load]: [&[f64]; 2]) {
         let lists = [
             &mut self.separation,
             &mut self.displacement,
@@ -51,7 +51,7 @@ impl Listed {
     }
 
     /// Mean height of the deformed surface above a level; there is contact.
-    pub(super) fn mean_height_above(&self, contact: &ContactSet, level: f64) -> f64 {
+    pub(super) fn mean_height_above(&self, contact: &ActiveSet, level: f64) -> f64 {
         let sum_in = |places: Range<usize>| {
             let (separation, displacement) =
                 (&self.separation[places.clone()], &self.displacement[places]);

@@ -9,18 +9,17 @@
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
 mod accuracy;
+mod active_set;
 mod blocks;
 mod coarser;
 mod contact_box;
-mod contact_set;
 mod far_loads;
 mod folded;
-mod halves;
 mod iteration;
-mod lanes;
 mod listed;
-mod load;
+mod mirror_weights;
 mod preconditioner;
+mod reductions;
 mod solve;
 mod state;
 mod violations;
@@ -35,7 +34,8 @@ use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
 use folded::solve_in_front_of_mirrors;
 pub use indenters::Control;
-pub(crate) use solve::{Outcome, Question, solve_normalised};
+pub(crate) use solve::Solved;
+use solve::{LoadProblem, solve_loads};
 pub use state::ContactState;
 
 /// One contact problem.
@@ -124,24 +124,32 @@ fn solve_here(
     let load_per_pressure = problem.compliance / (4.0 * PI);
     let grid = problem.convolution.grid();
     let area = grid.element_area();
-    let control = match problem.control {
-        Control::NormalForce(force) => Control::NormalForce(force * load_per_pressure / area),
-        depth @ Control::IndentationDepth(_) => depth,
+    let loads = LoadProblem {
+        convolution: problem.convolution,
+        separation: problem.separation,
+        control: map_force(problem.control, |force| force * load_per_pressure / area),
     };
     state.serve(problem.convolution);
     state.take_guess(grid, load_per_pressure);
-    let question = (problem.convolution, problem.separation, control);
-    let outcome = solve_in_front_of_mirrors(question, state, &options.into());
+    let solved = solve_in_front_of_mirrors(loads, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);
     state.list_contact(grid);
-    let outcome = outcome?;
+    let solved = solved?;
     Ok(Contact {
-        indentation_depth: outcome.indentation_depth,
-        normal_force: outcome.total_load * area / load_per_pressure,
+        indentation_depth: solved.indentation_depth,
+        normal_force: solved.total_load * area / load_per_pressure,
         n_contact: state.contact().len(),
-        iterations: outcome.iterations,
-        residual: outcome.residual,
+        iterations: solved.iterations,
+        residual: solved.residual,
     })
+}
+
+/// The same control with another force.
+fn map_force(control: Control, other: impl Fn(f64) -> f64) -> Control {
+    match control {
+        Control::NormalForce(force) => Control::NormalForce(other(force)),
+        depth @ Control::IndentationDepth(_) => depth,
+    }
 }
 
 impl ContactOptions {

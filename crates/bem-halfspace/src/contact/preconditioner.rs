@@ -13,11 +13,11 @@
 
 use std::ops::Range;
 
+use crate::contact::active_set::{ActiveSet, Run};
 use crate::contact::blocks::sum_blocks;
-use crate::contact::contact_set::{ContactSet, Run};
 use crate::contact::far_loads::{FarLoads, SMALLEST};
-use crate::contact::halves::Halves;
-use crate::contact::lanes::add;
+use crate::contact::mirror_weights::MirrorWeights;
+use crate::contact::reductions::add;
 use crate::mirror::Mirror;
 use crate::{Convolution, ConvolutionWorkspace};
 
@@ -33,7 +33,7 @@ pub(super) struct Preconditioner {
     weights: [f64; 2],
     shape: [usize; 2],
     mirrors: [Mirror; 2],
-    halves: Halves,
+    mirror_weights: MirrorWeights,
     blocks: Convolution,
     workspace: ConvolutionWorkspace,
     /// Means of the residual over the blocks, and what the convolution makes of them.
@@ -56,7 +56,7 @@ impl Preconditioner {
             weights,
             shape: grid.shape(),
             mirrors: convolution.mirrors(),
-            halves: Halves::of(convolution),
+            mirror_weights: MirrorWeights::of(convolution),
             workspace: blocks.workspace(),
             blocks,
             means: vec![0.0; n_blocks],
@@ -68,7 +68,7 @@ impl Preconditioner {
     /// Prepares for another contact; overwrites the field, which must vanish outside it, and both lists.
     pub(super) fn prepare(
         &mut self,
-        contact: &ContactSet,
+        contact: &ActiveSet,
         field: &mut [f64],
         [one, answer]: [&mut [f64]; 2],
     ) {
@@ -81,7 +81,7 @@ impl Preconditioner {
     /// Lists what the inverse makes of a list of residuals; writes these into a field that vanishes outside the contact.
     pub(super) fn apply(
         &mut self,
-        contact: &ContactSet,
+        contact: &ActiveSet,
         (residual, field): (&[f64], &mut [f64]),
         result: &mut [f64],
     ) {
@@ -107,8 +107,8 @@ impl Preconditioner {
     }
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
-    fn spread(&mut self, contact: &ContactSet, residual: &[f64], field: &mut [f64]) {
-        let (halves, columns) = (self.halves, self.shape[1]);
+    fn spread(&mut self, contact: &ActiveSet, residual: &[f64], field: &mut [f64]) {
+        let (mirror_weights, columns) = (self.mirror_weights, self.shape[1]);
         let (weights, loads) = self.far_loads.weights_and_loads();
         let fields = [
             contact.field(field),
@@ -124,11 +124,11 @@ impl Preconditioner {
                 sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
                 let first = contact.bands().elements(band).start;
                 for run in contact.runs(band) {
-                    for (index, part) in halves.in_run(run) {
+                    for (index, weight) in mirror_weights.in_line(run.elements()) {
                         let element = run.elements_from(first).start + index;
                         let [row, column] = [element / columns, element % columns];
                         means[row / BLOCK * columns.div_ceil(BLOCK) + column / BLOCK] -=
-                            0.25 * (1.0 - part) * residual[run.places().start + index];
+                            0.25 * (1.0 - weight) * residual[run.places().start + index];
                     }
                 }
                 let load = |place: usize| weights[place] * residual[place];
@@ -137,7 +137,7 @@ impl Preconditioner {
     }
 
     /// Takes the answer to long waves, less what belongs to far loads.
-    fn take_blocks(&self, (contact, band): (&ContactSet, usize), result: &mut [f64]) {
+    fn take_blocks(&self, (contact, band): (&ActiveSet, usize), result: &mut [f64]) {
         let columns = self.shape[1];
         let (weights, displacements) = self.far_loads.weights_and_displacements();
         let weights = &weights[contact.places(band)];
@@ -150,8 +150,8 @@ impl Preconditioner {
             for (column, (value, weight)) in (column..).zip(result.iter_mut().zip(weights)) {
                 *value = images[column / BLOCK] - weight * displacements[column / SMALLEST];
             }
-            for (index, part) in self.halves.in_run(run) {
-                result[index] -= (1.0 - part) * images[(column + index) / BLOCK];
+            for (index, weight) in self.mirror_weights.in_line(run.elements()) {
+                result[index] -= (1.0 - weight) * images[(column + index) / BLOCK];
             }
         }
     }
@@ -161,7 +161,7 @@ impl Preconditioner {
         let [rows, columns] = self.shape;
         let mirrors = self.mirrors;
         let along_x = self.weights[0];
-        let along_y = self.weights[1] * self.halves.part_of_row(run.elements().start);
+        let along_y = self.weights[1] * self.mirror_weights.of_row(run.elements().start);
         let Range { start, end } = run.elements();
         let row = start / columns;
         add(result, 2.0 * (along_x + along_y), residual);
@@ -178,7 +178,7 @@ impl Preconditioner {
             (!mirrors[0].is_none()).then_some(residual)
         };
         let ahead = (row + 1 < rows).then(|| &field[start + columns..end + columns]);
-        let missing = 1.0 - self.halves.part_of_column(run.elements().start);
+        let missing = 1.0 - self.mirror_weights.of_column(run.elements().start);
         result[0] -= missing * 2.0 * along_x * residual[0];
         for beside in [behind, ahead].into_iter().flatten() {
             add(result, -along_x, beside);
@@ -214,7 +214,7 @@ mod tests {
     }
 
     /// The matrix of the preconditioner on a contact.
-    fn matrix(preconditioner: &mut Preconditioner, contact: &ContactSet, n: usize) -> Mat<f64> {
+    fn matrix(preconditioner: &mut Preconditioner, contact: &ActiveSet, n: usize) -> Mat<f64> {
         let [mut one, mut answer] = [0, 1].map(|_| vec![0.0; contact.len()]);
         let mut field = vec![0.0; n];
         preconditioner.prepare(contact, &mut field, [&mut one, &mut answer]);
@@ -234,7 +234,7 @@ mod tests {
     fn check(convolution: &Convolution, in_part: impl Fn(usize) -> bool + Sync) {
         let (shape, mirrors) = (convolution.grid().shape(), convolution.mirrors());
         for (number, pattern) in patterns(shape).into_iter().enumerate() {
-            let mut contact = ContactSet::new(shape);
+            let mut contact = ActiveSet::new(shape);
             contact.assign(|element| pattern[element] && in_part(element / shape[1]));
             contact.find_runs();
             let mut preconditioner = Preconditioner::new(convolution);
@@ -281,7 +281,7 @@ mod tests {
         let grid = Grid::new([2000, 9], [1.0, 0.7])?;
         let whole = Convolution::new(&grid);
         for convolution in [&whole, &whole.folded([Mirror::None, Mirror::Centre])] {
-            let border = ContactSet::new(convolution.grid().shape());
+            let border = ActiveSet::new(convolution.grid().shape());
             let border = border.bands().rows(1).start;
             assert!(
                 (1..1988).contains(&border),

@@ -8,13 +8,19 @@ use crate::contact::{Accuracy, ContactState, Control};
 use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 
-/// What is asked on a grid: its convolution, the separation \[m] and the control, a force as the sum of the loads
-/// `x = α P / (4π)`.
-pub(crate) type Question<'a> = (&'a Convolution, &'a [f64], Control);
+/// A contact problem for the load `x = α P / (4π)`, whose displacement is `K x`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LoadProblem<'a> {
+    pub(super) convolution: &'a Convolution,
+    /// One value per element, \[m].
+    pub(super) separation: &'a [f64],
+    /// A force is the sum of the loads.
+    pub(super) control: Control,
+}
 
 /// What a solve found beside the load.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Outcome {
+pub(crate) struct Solved {
     pub(crate) indentation_depth: f64,
     pub(crate) total_load: f64,
     pub(crate) iterations: usize,
@@ -23,94 +29,94 @@ pub(crate) struct Outcome {
     pub(crate) residual: f64,
 }
 
-/// A box pays when it is smaller than this part of the grid.
+/// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
+/// at its end, a larger one takes as long as the grid.
 const LARGEST_BOX: f64 = 0.6;
 
-/// Solves the contact for the load `x = α P / (4π)`, whose displacement is `K x`.
-pub(crate) fn solve_normalised(
-    question: Question,
+/// Solves the contact, from the load of the state or, where that is zero, from coarser grids.
+pub(super) fn solve_loads(
+    problem: LoadProblem,
     state: &mut ContactState,
     accuracy: &Accuracy,
-) -> Result<Outcome, BemError> {
-    let shape = question.0.grid().shape();
-    let loaded = |state: &ContactState| {
-        let load = state.load.touched()?;
-        Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0)
-    };
-    let mut bounds = loaded(state);
+) -> Result<Solved, BemError> {
+    let shape = problem.convolution.grid().shape();
+    let loaded =
+        |load: &[f64]| Bounds::of_field(shape, |[row, column]| load[row * shape[1] + column] > 0.0);
+    let mut bounds = loaded(&state.load);
     if bounds.is_none() {
-        start_from_coarser(question, state);
-        bounds = loaded(state);
+        start_from_coarser(problem, state);
+        bounds = loaded(&state.load);
     }
-    solve_around(bounds, question, state, accuracy)
+    solve_around(bounds, problem, state, accuracy)
 }
 
-/// Iterates on a box around the bounds if that pays, else on the whole grid.
+/// Iterates on a box around the bounds if that saves time, else on the whole grid.
 fn solve_around(
     bounds: Option<Bounds>,
-    question: Question,
+    problem: LoadProblem,
     state: &mut ContactState,
     accuracy: &Accuracy,
-) -> Result<Outcome, BemError> {
-    let (convolution, ..) = question;
+) -> Result<Solved, BemError> {
+    let convolution = problem.convolution;
     let grid = convolution.grid();
-    let in_parts = state.in_parts;
-    let pays = |bounds: &Bounds| {
+    let may_have_box = state.may_have_box && convolution.surroundings() == Surroundings::Free;
+    let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
-        in_parts && part < LARGEST_BOX && convolution.surroundings() == Surroundings::Free
+        may_have_box && part < LARGEST_BOX
     };
     let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors()));
-    let Some((bounds, outer)) = bounds.zip(with_margin.filter(pays)) else {
-        return Iteration::new(question, state).run(accuracy);
+    let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {
+        return Iteration::new(problem, state).run(accuracy);
     };
     let mut inner = match state.inner.take() {
-        Some(inner) if suits(&inner, &bounds, &outer) => inner,
+        Some(inner) if can_serve(&inner, &bounds, &outer) => inner,
         _ => Box::new(ContactBox::of(convolution, outer)?),
     };
-    inner.take_from((question.1, state.load.values()), grid.shape()[1]);
-    let outcome = inner.solve_to(question.2, accuracy);
-    inner.give_to(state.load.values_mut(), grid.shape()[1]);
-    let solved = inner.bounds;
+    let columns = grid.shape()[1];
+    inner.take_from([problem.separation, &state.load], columns);
+    let solved = inner.solve_to(problem.control, accuracy);
+    inner.give_load_to(&mut state.load, columns);
+    let bounds = inner.bounds;
     state.inner = Some(inner);
-    check_around(&solved, question, (state, outcome?), accuracy)
+    check_around(&bounds, problem, (state, solved?), accuracy)
 }
 
 /// Whether a box can serve again: the bounds are inside, and it is not much larger than a new one.
-fn suits(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
+fn can_serve(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
     inner.bounds.contains_all(bounds) && inner.bounds.n_elements() <= 2 * outer.n_elements()
 }
 
 /// Computes the displacement of the whole grid; where it penetrates outside the box, the box grows.
 fn check_around(
-    solved: &Bounds,
-    question: Question,
-    (state, outcome): (&mut ContactState, Outcome),
+    bounds: &Bounds,
+    problem: LoadProblem,
+    (state, solved): (&mut ContactState, Solved),
     accuracy: &Accuracy,
-) -> Result<Outcome, BemError> {
-    let (convolution, separation, _) = question;
+) -> Result<Solved, BemError> {
+    let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
     let workspace = state
         .workspace
         .get_or_insert_with(|| convolution.workspace());
     convolution.apply(
         workspace,
-        (state.load.values(), solved.rows()),
+        (&state.load, bounds.rows()),
         (&mut state.displacement, 0..rows),
     );
     // The box and the grid round differently, so the tolerance of the box would be too sharp here.
-    let highest = outcome.indentation_depth - 2.0 * accuracy.tolerance * outcome.deflection;
+    let highest = solved.indentation_depth - 2.0 * accuracy.tolerance * solved.deflection;
     let displacement = &state.displacement;
     let penetrates = |element: [usize; 2]| {
         let index = element[0] * columns + element[1];
-        separation[index] + displacement[index] < highest && !solved.contains(element)
+        problem.separation[index] + displacement[index] < highest && !bounds.contains(element)
     };
     let Some(outside) = Bounds::of_field([rows, columns], penetrates) else {
-        return Ok(outcome);
+        return Ok(solved);
     };
-    let bounds = solved.union(&outside);
-    let again = solve_around(Some(bounds), question, state, accuracy)?;
-    let iterations = outcome.iterations + again.iterations;
-    Ok(Outcome {
+    let bounds = bounds.union(&outside);
+    let again = solve_around(Some(bounds), problem, state, accuracy)?;
+    let iterations = solved.iterations + again.iterations;
+    Ok(Solved {
         iterations,
         ..again
     })

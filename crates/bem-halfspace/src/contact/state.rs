@@ -3,9 +3,7 @@
 use crate::bands::{Bands, resize};
 use crate::chunks::Starts;
 use crate::contact::contact_box::ContactBox;
-use crate::contact::folded::Folded;
 use crate::contact::iteration::Fields;
-use crate::contact::load::Load;
 use crate::convolution::Surroundings;
 use crate::{Convolution, ConvolutionWorkspace, Grid};
 
@@ -13,14 +11,15 @@ use crate::{Convolution, ConvolutionWorkspace, Grid};
 /// feature `rayon`, the buffers are for the threads of the pool of the first solve.
 #[derive(Debug, Clone)]
 pub struct ContactState {
-    pub(super) load: Load,
+    /// Pressure, \[Pa]; within a solve the load `x = α P / (4π)`, \[m].
+    pub(super) load: Vec<f64>,
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
     /// How many of them there are before each band, and in all.
     starts: Vec<usize>,
     /// Whether the iteration may run on a box around the contact.
-    pub(super) in_parts: bool,
+    pub(super) may_have_box: bool,
     /// The grid, and what surrounds it, for which everything below was made when it was first needed.
     kind: Option<(Grid, Surroundings)>,
     pub(super) workspace: Option<ConvolutionWorkspace>,
@@ -29,7 +28,7 @@ pub struct ContactState {
     /// The part of the grid on which the iteration last ran instead.
     pub(super) inner: Option<Box<ContactBox>>,
     /// The part of the grid in front of the mirrors that the last problem had.
-    pub(super) folded: Option<Box<Folded>>,
+    pub(super) front: Option<Box<ContactBox>>,
 }
 
 impl ContactState {
@@ -38,29 +37,29 @@ impl ContactState {
     pub fn new(convolution: &Convolution) -> Self {
         let n = convolution.grid().n_elements();
         Self {
-            load: Load::new(n),
+            load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
             starts: vec![0],
-            in_parts: true,
+            may_have_box: true,
             kind: None,
             workspace: None,
             fields: None,
             inner: None,
-            folded: None,
+            front: None,
         }
     }
 
     /// Pressure P ≥ 0, \[Pa], row-major.
     #[must_use]
     pub fn pressure(&self) -> &[f64] {
-        self.load.values()
+        &self.load
     }
 
     /// The pressure to start from, \[Pa], row-major. What is not a positive number counts as zero; without any
     /// pressure the solver starts from solutions on coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
-        self.load.values_mut()
+        &mut self.load
     }
 
     /// Indices of the elements in contact after a solve, increasing.
@@ -83,29 +82,23 @@ impl ContactState {
             self.workspace = None;
             self.fields = None;
             self.inner = None;
-            self.folded = None;
+            self.front = None;
         }
     }
 
     /// Takes what the caller left as a first guess, times a factor; what is no positive number counts as zero.
     pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
-        if self.load.touched().is_none() {
-            return;
-        }
-        Bands::new(grid.shape()).for_each([self.load.values_mut()], |_, [load]| {
+        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
             for load in load {
                 let guess = *load * factor;
-                *load = if guess > 0.0 && guess.is_finite() {
-                    guess
-                } else {
-                    0.0
-                };
+                let is_load = guess > 0.0 && guess.is_finite();
+                *load = if is_load { guess } else { 0.0 };
             }
         });
     }
 
     pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
-        Bands::new(grid.shape()).for_each([self.load.values_mut()], |_, [load]| {
+        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
             for load in load {
                 *load *= factor;
             }
@@ -114,7 +107,7 @@ impl ContactState {
 
     pub(super) fn list_contact(&mut self, grid: &Grid) {
         let bands = Bands::new(grid.shape());
-        let load = self.load.values();
+        let load = &self.load;
         let loaded = |band| {
             let elements = bands.elements(band);
             elements.filter(|&element| load[element] > 0.0)

@@ -1,6 +1,6 @@
 //! How far the conditions of contact are violated.
 
-use crate::contact::lanes::{larger, largest, lower, reduce, sum};
+use crate::contact::reductions::{larger, largest, lower, reduce, sum};
 
 /// The largest violations, as lengths.
 #[derive(Debug, Clone, Copy, Default)]

@@ -6,7 +6,7 @@ use indenters::Surface;
 
 use super::{Instant, Leg, SlideOmission, Stepping};
 use crate::bounds::Bounds;
-use crate::contact::Outcome;
+use crate::contact::Solved;
 use crate::mirror::images;
 use crate::{BemError, Control};
 
@@ -21,10 +21,10 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         loop {
             self.fill_box();
             let control = self.scaled(leg.control);
-            let outcome = self.contact_box.solve(control, &self.resolution.contact)?;
+            let solved = self.contact_box.solve(control, &self.resolution.contact)?;
             self.find_increment(leg.row);
             let contact = self.loaded_bounds();
-            if let Some(outside) = self.penetration(leg.row, outcome.indentation_depth) {
+            if let Some(outside) = self.penetration(leg.row, solved.indentation_depth) {
                 let mut bounds = contact.map_or(outside, |contact| contact.union(&outside));
                 bounds = self.with_margin(&bounds);
                 if enlarged {
@@ -39,22 +39,22 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
                 self.check_footprint(&all, leg.position)?;
                 self.tighten(&contact)?;
             }
-            return Ok(self.instant(leg, outcome, all));
+            return Ok(self.instant(leg, solved, all));
         }
     }
 
-    fn instant(&self, leg: Leg, outcome: Outcome, bounds: Option<Bounds>) -> Instant {
+    fn instant(&self, leg: Leg, solved: Solved, bounds: Option<Bounds>) -> Instant {
         let normal_force = match leg.control {
             Control::NormalForce(force) => force,
-            Control::IndentationDepth(_) => outcome.total_load / self.load_per_force(),
+            Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
         };
         Instant {
             leg,
-            indentation_depth: outcome.indentation_depth * self.scale,
+            indentation_depth: solved.indentation_depth * self.scale,
             normal_force,
             bounds,
             n_contact: self.n_contact(),
-            iterations: outcome.iterations,
+            iterations: solved.iterations,
         }
     }
 

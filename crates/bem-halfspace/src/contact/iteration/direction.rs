@@ -2,8 +2,8 @@
 
 use crate::contact::Control;
 use crate::contact::iteration::{Fields, Iteration};
-use crate::contact::lanes::sum;
 use crate::contact::listed::Listed;
+use crate::contact::reductions::sum;
 
 impl Iteration<'_> {
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use crate::contact::Control;
-use crate::contact::contact_set::ContactSet;
+use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::{Fields, Iteration};
-use crate::contact::lanes::{add, lower, reduce, sum};
 use crate::contact::listed::Listed;
+use crate::contact::reductions::{add, lower, reduce, sum};
 use crate::contact::violations::Violations;
 
 /// Heights of the deformed surface.
@@ -30,7 +30,7 @@ impl Default for Heights {
 impl Heights {
     /// Those of a band, from separation and displacement of its elements and of those in the contact.
     fn of_band(
-        (contact, band): (&ContactSet, usize),
+        (contact, band): (&ActiveSet, usize),
         outside: [&[f64]; 2],
         inside: [&[f64]; 2],
         depth: f64,

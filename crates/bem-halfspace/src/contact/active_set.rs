@@ -35,7 +35,7 @@ impl Run {
 
 /// Elements in contact, as runs of neighbours.
 #[derive(Debug, Clone)]
-pub(super) struct ContactSet {
+pub(super) struct ActiveSet {
     in_contact: Vec<bool>,
     columns: usize,
     bands: Bands,
@@ -45,7 +45,7 @@ pub(super) struct ContactSet {
     starts: Vec<usize>,
 }
 
-impl ContactSet {
+impl ActiveSet {
     /// The empty contact on a grid of the given shape.
     pub(super) fn new(shape: [usize; 2]) -> Self {
         let bands = Bands::new(shape);

@@ -1,0 +1,69 @@
+//! Weights of elements through whose centres mirrors pass: the part of each that is in front of the mirrors.
+
+use std::ops::Range;
+
+use crate::Convolution;
+use crate::mirror::Mirror;
+
+/// One half in the first row and the first column where a mirror passes through them, else one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MirrorWeights {
+    mirrors: [Mirror; 2],
+    columns: usize,
+}
+
+impl MirrorWeights {
+    pub(super) const fn of(convolution: &Convolution) -> Self {
+        Self {
+            mirrors: convolution.mirrors(),
+            columns: convolution.grid().shape()[1],
+        }
+    }
+
+    /// The weights other than one of neighbours in a row, with their places counted from the first neighbour.
+    pub(super) fn in_line(
+        &self,
+        elements: Range<usize>,
+    ) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let of_row = self.of_row(elements.start);
+        let of_first = self.of_element(elements.start);
+        let count = if of_row < 1.0 {
+            elements.len()
+        } else {
+            usize::from(of_first < 1.0)
+        };
+        (0..count).map(move |index| (index, if index == 0 { of_first } else { of_row }))
+    }
+
+    /// Multiplies the loads of whole elements on a field.
+    pub(super) fn apply(&self, loads: &mut [f64]) {
+        let lines = loads.chunks_exact_mut(self.columns).enumerate();
+        for (row, line) in lines {
+            for (column, weight) in self.in_line(row * self.columns..(row + 1) * self.columns) {
+                line[column] *= weight;
+            }
+        }
+    }
+
+    pub(super) fn of_element(&self, element: usize) -> f64 {
+        self.of_row(element) * self.of_column(element)
+    }
+
+    /// That of the row of an element.
+    pub(super) fn of_row(&self, element: usize) -> f64 {
+        weight(self.mirrors[0], element < self.columns)
+    }
+
+    /// That of the column of an element.
+    pub(super) fn of_column(&self, element: usize) -> f64 {
+        weight(self.mirrors[1], element.is_multiple_of(self.columns))
+    }
+}
+
+fn weight(mirror: Mirror, is_first: bool) -> f64 {
+    if is_first && mirror == Mirror::Centre {
+        0.5
+    } else {
+        1.0
+    }
+}
