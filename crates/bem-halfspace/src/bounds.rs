@@ -30,7 +30,7 @@ impl Bounds {
         })
     }
 
-    /// The smallest box that holds the elements of a field, as [row, column], for which `is` says so.
+    /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
     pub(crate) fn of_field(
         shape: [usize; 2],
         is: impl Fn([usize; 2]) -> bool + Sync,

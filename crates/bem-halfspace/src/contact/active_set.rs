@@ -1,7 +1,7 @@
-//! The elements in contact.
+//! The active set: the elements in contact.
 //!
-//! What is known of each of them stands in lists, in the order of the field, so that work on the contact costs as much as
-//! the contact is large, however porous it is.
+//! Their values are kept in lists, in the order of the field, so that the work on a contact is proportional to the number of
+//! its elements, however porous it is.
 
 use std::ops::Range;
 
@@ -60,14 +60,15 @@ impl ActiveSet {
         }
     }
 
-    /// Takes the elements for which `in_contact` says so.
+    /// Replaces the active set by the elements for which `in_contact` is true.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(super) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
         self.change(|element, is| in_contact(element) != is);
     }
 
-    /// Moves elements into the contact or out of it; `changes` is asked whether, and told where the element is.
+    /// Moves the elements for which `changes` is true into the contact or out of it; it gets the element and whether that is
+    /// in contact.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
     pub(super) fn change(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
@@ -146,7 +147,7 @@ impl ActiveSet {
         (field, self.bands.starts_of_blocks(edge))
     }
 
-    /// Sum of what the parts of lists contribute that belong to a band.
+    /// Sum over bands, from the places of the elements of each.
     pub(super) fn sum(&self, of_places: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
         self.bands.sum(|band| of_places(self.places(band)))
     }
@@ -181,7 +182,8 @@ impl ActiveSet {
         }
     }
 
-    /// Number of elements for which `is` says so, told where they are, and the last of them.
+    /// Number of elements for which `is` is true, which gets the element and whether that is in contact, and the last of
+    /// them.
     pub(super) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
         let in_band = |band| {
             let found = |&element: &usize| is(element, self.in_contact[element]);

@@ -1,7 +1,7 @@
-//! What the load on other blocks of a contact does to a block.
+//! Displacement of a block of the contact under the load on other blocks.
 //!
-//! An inverse S of the influence that is restricted to the contact answers the gap of a patch as if no other patch would
-//! answer too. Where the contact is porous, gaps that are the same over many patches get too much load, the more of it
+//! The inverse S of the influence, restricted to the contact, finds the load for the gaps of a patch as if no other patch
+//! were loaded too. Where the contact is porous, gaps that are the same over many patches get too much load, the more of it
 //! the more patches there are. With the load w = S 1 that the inverse puts on an element under the gap one, the sums W
 //! of w over blocks and the mean gaps g = Σ w r / W, the loads of blocks under which all of them move are
 //!
@@ -30,10 +30,6 @@ use crate::contact::active_set::ActiveSet;
 use crate::contact::blocks::sum_blocks;
 use crate::{Grid, influence};
 
-/// Part of the displacement under the own load of a block that counts as k. A half is what the block of twice the edges
-/// leaves; its neighbours take a part of that.
-const SHARE: f64 = 0.3;
-
 /// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.
 pub(super) const SMALLEST: usize = Bands::LARGEST_BLOCK;
 
@@ -61,16 +57,17 @@ struct Level {
 }
 
 impl FarLoads {
-    pub(super) fn new(grid: &Grid) -> Self {
+    /// With k as the part `weight` of the displacement of a block under its own load.
+    pub(super) fn new(grid: &Grid, weight: f64) -> Self {
         let (mut blocks, mut edge) = (*grid, 1);
         while edge < SMALLEST {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
         }
-        let smallest = Level::new(&blocks, edge, grid);
+        let smallest = Level::new(&blocks, edge, (grid, weight));
         let mut larger = Vec::new();
         while blocks.n_elements() > 1 {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
-            larger.push(Level::new(&blocks, edge, grid));
+            larger.push(Level::new(&blocks, edge, (grid, weight)));
         }
         Self {
             weights: Vec::with_capacity(grid.n_elements()),
@@ -79,19 +76,19 @@ impl FarLoads {
         }
     }
 
-    /// Takes another contact, of which nothing is known yet: all loads count as nothing.
+    /// Takes another contact, with the weights w = 0.
     pub(super) fn forget(&mut self, contact: &ActiveSet) {
         self.weights.clear();
         resize(&mut self.weights, 0.0, contact.len());
         self.find_sums(contact);
     }
 
-    /// Takes the list of the `answer` of the inverse to the gap one.
-    pub(super) fn weigh(&mut self, contact: &ActiveSet, answer: &[f64]) {
+    /// Takes the list of the `loads` that the inverse finds for the gap one.
+    pub(super) fn weigh(&mut self, contact: &ActiveSet, loads: &[f64]) {
         contact
             .bands()
             .for_each_part([contact.list(&mut self.weights)], |band, [weights]| {
-                for (weight, value) in weights.iter_mut().zip(&answer[contact.places(band)]) {
+                for (weight, value) in weights.iter_mut().zip(&loads[contact.places(band)]) {
                     *weight = value.max(0.0);
                 }
             });
@@ -164,7 +161,7 @@ impl FarLoads {
 }
 
 impl Level {
-    fn new(blocks: &Grid, edge: usize, elements: &Grid) -> Self {
+    fn new(blocks: &Grid, edge: usize, (elements, weight): (&Grid, f64)) -> Self {
         let n = blocks.n_elements();
         let edges = [0, 1].map(|axis| {
             let length = edge.min(elements.shape()[axis]) as f64;
@@ -173,8 +170,8 @@ impl Level {
         let of_own = influence([0.0; 2], edges) / (edges[0] * edges[1]);
         Self {
             shape: blocks.shape(),
-            // The inverse answers waves with |q|, of which 2π/|q| is the influence.
-            added: SHARE * of_own * elements.element_area() / (2.0 * PI),
+            // The inverse multiplies waves by |q|, and the influence by 2π/|q|.
+            added: weight * of_own * elements.element_area() / (2.0 * PI),
             own: vec![0.0; n],
             sums: vec![0.0; n],
             values: vec![0.0; n],
@@ -213,7 +210,7 @@ impl Level {
     }
 }
 
-/// Sums of the loads of two by two blocks of a field, told by their number.
+/// Sums of the loads of two by two blocks of a field; `load` gets the number of a block.
 fn add_blocks(
     ([rows, columns], load): ([usize; 2], impl Fn(usize) -> f64 + Sync),
     (shape, sums): ([usize; 2], &mut [f64]),

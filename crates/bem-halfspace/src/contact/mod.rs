@@ -129,7 +129,7 @@ fn solve_here(
         separation: problem.separation,
         control: map_force(problem.control, |force| force * load_per_pressure / area),
     };
-    state.serve(problem.convolution);
+    state.prepare_for(problem.convolution);
     state.take_guess(grid, load_per_pressure);
     let solved = solve_in_front_of_mirrors(loads, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);

@@ -1,6 +1,6 @@
-//! Sums and extremes of long lists, several numbers at a time, because one operation would wait for the other.
+//! Sums and extremes of long lists, with several accumulators because an operation on one would wait for the last.
 
-const LANES: usize = 8;
+const ACCUMULATORS: usize = 8;
 
 /// What `pick` makes of `start` and the terms of all numbers of equally long lists; the order, and with it the rounding
 /// of a sum, depends on their length alone.
@@ -11,16 +11,16 @@ pub(super) fn reduce<const N: usize>(
     pick: impl Fn(f64, f64) -> f64,
 ) -> f64 {
     let length = lists.first().map_or(0, |list| list.len());
-    let lists = lists.map(|list| list[..length].as_chunks::<LANES>());
-    let mut lanes = [start; LANES];
-    for chunk in 0..length / LANES {
+    let lists = lists.map(|list| list[..length].as_chunks::<ACCUMULATORS>());
+    let mut accumulators = [start; ACCUMULATORS];
+    for chunk in 0..length / ACCUMULATORS {
         let chunks = lists.map(|(whole, _)| &whole[chunk]);
-        for (lane, picked) in lanes.iter_mut().enumerate() {
-            *picked = pick(*picked, term(chunks.map(|chunk| chunk[lane])));
+        for (place, picked) in accumulators.iter_mut().enumerate() {
+            *picked = pick(*picked, term(chunks.map(|chunk| chunk[place])));
         }
     }
-    let rest = (0..length % LANES).map(|index| term(lists.map(|(_, rest)| rest[index])));
-    lanes.into_iter().chain(rest).fold(start, pick)
+    let rest = (0..length % ACCUMULATORS).map(|index| term(lists.map(|(_, rest)| rest[index])));
+    accumulators.into_iter().chain(rest).fold(start, pick)
 }
 
 /// Sum of the terms of all numbers of equally long lists.
@@ -61,7 +61,7 @@ mod tests {
     #[test]
     #[expect(clippy::float_cmp, reason = "sums of small whole numbers are exact")]
     fn no_number_is_left_out() {
-        for length in 0..=2 * LANES + 1 {
+        for length in 0..=2 * ACCUMULATORS + 1 {
             let numbers: Vec<f64> = (1..=length).map(|number| number as f64).collect();
             let twice: Vec<f64> = numbers.iter().map(|number| 2.0 * number).collect();
             let n = length as f64;

@@ -69,7 +69,7 @@ fn solve_around(
         return Iteration::new(problem, state).run(accuracy);
     };
     let mut inner = match state.inner.take() {
-        Some(inner) if can_serve(&inner, &bounds, &outer) => inner,
+        Some(inner) if can_be_reused(&inner, &bounds, &outer) => inner,
         _ => Box::new(ContactBox::of(convolution, outer)?),
     };
     let columns = grid.shape()[1];
@@ -81,8 +81,8 @@ fn solve_around(
     check_around(&bounds, problem, (state, solved?), accuracy)
 }
 
-/// Whether a box can serve again: the bounds are inside, and it is not much larger than a new one.
-fn can_serve(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
+/// Whether a box can be used again: the bounds are inside, and it is not much larger than a new one.
+fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
     inner.bounds.contains_all(bounds) && inner.bounds.n_elements() <= 2 * outer.n_elements()
 }
 

@@ -74,8 +74,8 @@ impl ContactState {
         &self.displacement
     }
 
-    /// Forgets what was made for another convolution.
-    pub(super) fn serve(&mut self, convolution: &Convolution) {
+    /// Drops the buffers that were made for another convolution.
+    pub(super) fn prepare_for(&mut self, convolution: &Convolution) {
         let kind = Some((*convolution.grid(), convolution.surroundings()));
         if self.kind != kind {
             self.kind = kind;
