@@ -83,7 +83,7 @@ impl Bands {
         self.for_each_part(fields.map(|field| (field, self.starts())), work);
     }
 
-    /// What the bands contribute, combined pairwise.
+    /// Results of the bands, combined pairwise.
     pub(crate) fn gather<R: Send>(
         &self,
         work: impl Fn(usize) -> R + Sync,
@@ -92,7 +92,7 @@ impl Bands {
         self.fold::<0, (), R>([], |band, []| work(band), combine)
     }
 
-    /// Sum of what the bands contribute.
+    /// Sum of the results of the bands.
     pub(crate) fn sum(&self, work: impl Fn(usize) -> f64 + Sync) -> f64 {
         self.gather(work, |left, right| left + right)
     }

@@ -120,7 +120,7 @@ fn thread_index() -> usize {
     rayon::current_thread_index().unwrap_or(0)
 }
 
-/// Does both works.
+/// Does one after the other.
 #[cfg(not(feature = "rayon"))]
 pub(crate) fn join<L, R>(left: impl FnOnce() -> L, right: impl FnOnce() -> R) -> (L, R) {
     (left(), right())

@@ -172,19 +172,33 @@ pub enum BemError {
     Material(#[from] RheologyError),
 }
 
-/// Checks that `value` is finite and greater than zero.
+/// Checks a parameter.
 ///
 /// # Errors
-/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemError> {
-    if value.is_finite() && value > 0.0 {
+/// [`BemError::InvalidParameter`] unless the value `is_allowed`.
+pub(crate) const fn require(
+    is_allowed: bool,
+    parameter: &'static str,
+    value: f64,
+    allowed: &'static str,
+) -> Result<f64, BemError> {
+    if is_allowed {
         return Ok(value);
     }
     Err(BemError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and greater than 0",
+        allowed,
     })
+}
+
+/// Checks that a value is finite and greater than zero.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemError> {
+    let is_allowed = value.is_finite() && value > 0.0;
+    require(is_allowed, parameter, value, "finite and greater than 0")
 }
 
 /// Checks that a relative error or tolerance lies between 0 and 1.
@@ -192,12 +206,6 @@ pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemEr
 /// # Errors
 /// [`BemError::InvalidParameter`] naming `parameter` otherwise.
 pub(crate) fn below_one(parameter: &'static str, value: f64) -> Result<f64, BemError> {
-    if value > 0.0 && value < 1.0 {
-        return Ok(value);
-    }
-    Err(BemError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "between 0 and 1",
-    })
+    let is_allowed = value > 0.0 && value < 1.0;
+    require(is_allowed, parameter, value, "between 0 and 1")
 }

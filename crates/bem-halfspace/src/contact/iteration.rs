@@ -37,7 +37,7 @@ pub(super) struct Fields {
     listed: Listed,
     /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
     spread: Vec<f64>,
-    /// What the influence makes of the direction.
+    /// Displacement under the direction.
     image: Vec<f64>,
 }
 

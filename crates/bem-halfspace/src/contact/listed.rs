@@ -1,4 +1,4 @@
-//! Lists of what is known of the elements in contact.
+//! Lists of values on the elements in contact.
 
 use std::ops::Range;
 
@@ -15,7 +15,7 @@ pub(super) struct Listed {
     /// Minus the gap.
     pub(super) residual: Vec<f64>,
     pub(super) direction: Vec<f64>,
-    /// What the preconditioner makes of the residual, then what the influence makes of the direction.
+    /// The preconditioned residual, then the displacement under the direction.
     pub(super) image: Vec<f64>,
 }
 

@@ -29,6 +29,7 @@ use std::f64::consts::PI;
 use crate::bands::Bands;
 use crate::chunks::in_pool;
 use crate::convolution::Surroundings;
+use crate::error::{positive, require};
 use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
@@ -155,20 +156,15 @@ fn map_force(control: Control, other: impl Fn(f64) -> f64) -> Control {
 impl ContactOptions {
     pub(crate) fn validate(&self) -> Result<(), BemError> {
         let value = self.tolerance;
-        if value > 0.0 && value <= MAX_TOLERANCE {
-            return Ok(());
-        }
-        Err(BemError::InvalidParameter {
-            parameter: "contact tolerance",
-            value,
-            allowed: "greater than 0 and at most 1e-2",
-        })
+        let is_allowed = value > 0.0 && value <= MAX_TOLERANCE;
+        let allowed = "greater than 0 and at most 1e-2";
+        require(is_allowed, "contact tolerance", value, allowed).map(drop)
     }
 }
 
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
     let grid = problem.convolution.grid();
-    crate::error::positive("compliance", problem.compliance)?;
+    positive("compliance", problem.compliance)?;
     let lengths = [
         ("separation", problem.separation.len()),
         ("pressure", state.pressure().len()),
@@ -185,54 +181,37 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     let invalid = |height: f64| height.is_nan() || height == f64::NEG_INFINITY;
     let bands = Bands::new(grid.shape());
     let in_band = |band| {
-        bands
-            .elements(band)
-            .find(|&element| invalid(problem.separation[element]))
+        let mut elements = bands.elements(band);
+        elements.find(|&element| invalid(problem.separation[element]))
     };
     if let Some(index) = bands.gather(in_band, Option::or) {
         let n_y = grid.shape()[1];
-        let value = problem.separation[index];
         return Err(BemError::InvalidHeight {
             row: index / n_y,
             column: index % n_y,
-            value,
+            value: problem.separation[index],
         });
     }
     validate_control(problem)
 }
 
 fn validate_control(problem: &ContactProblem) -> Result<(), BemError> {
-    let full = |depth: f64| {
-        let mean = problem.separation.iter().sum::<f64>() / problem.separation.len() as f64;
-        problem.convolution.surroundings() == Surroundings::Periodic && depth >= mean
-    };
+    let heights = problem.separation;
     match problem.control {
-        Control::NormalForce(value) if !(value.is_finite() && value >= 0.0) => {
+        Control::NormalForce(value) => {
+            let is_allowed = value.is_finite() && value >= 0.0;
             let allowed = "finite and not negative (there is no adhesion)";
-            Err(BemError::InvalidParameter {
-                parameter: "normal_force",
-                value,
-                allowed,
-            })
+            require(is_allowed, "normal_force", value, allowed)?;
         }
-        Control::IndentationDepth(value) if !value.is_finite() => Err(BemError::InvalidParameter {
-            parameter: "indentation_depth",
-            value,
-            allowed: "finite",
-        }),
-        Control::IndentationDepth(value) if full(value) => Err(BemError::InvalidParameter {
-            parameter: "indentation_depth",
-            value,
-            allowed: "below the mean height, at which a periodic contact is full and its pressure is not determined",
-        }),
-        _ if problem.separation.iter().all(|height| !height.is_finite()) => {
-            let allowed = "below infinity in at least one element";
-            Err(BemError::InvalidParameter {
-                parameter: "separation",
-                value: f64::INFINITY,
-                allowed,
-            })
+        Control::IndentationDepth(value) => {
+            require(value.is_finite(), "indentation_depth", value, "finite")?;
+            let is_free = problem.convolution.surroundings() == Surroundings::Free;
+            let is_allowed = is_free || value < heights.iter().sum::<f64>() / heights.len() as f64;
+            let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
+            require(is_allowed, "indentation_depth", value, allowed)?;
         }
-        _ => Ok(()),
     }
+    let has_body = heights.iter().any(|height| height.is_finite());
+    let allowed = "below infinity in at least one element";
+    require(has_body, "separation", f64::INFINITY, allowed).map(drop)
 }

@@ -2,7 +2,7 @@
 
 const ACCUMULATORS: usize = 8;
 
-/// What `pick` makes of `start` and the terms of all numbers of equally long lists; the order, and with it the rounding
+/// Reduces `start` and the terms of all numbers of equally long lists by `pick`; the order, and with it the rounding
 /// of a sum, depends on their length alone.
 pub(super) fn reduce<const N: usize>(
     lists: [&[f64]; N],

@@ -18,7 +18,7 @@ pub(super) struct LoadProblem<'a> {
     pub(super) control: Control,
 }
 
-/// What a solve found beside the load.
+/// The result of a solve beside the load.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Solved {
     pub(crate) indentation_depth: f64,

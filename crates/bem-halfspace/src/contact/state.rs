@@ -1,4 +1,4 @@
-//! What a contact solve overwrites.
+//! Pressure and buffers of a contact solve.
 
 use crate::bands::{Bands, resize};
 use crate::chunks::Starts;
@@ -56,7 +56,7 @@ impl ContactState {
         &self.load
     }
 
-    /// The pressure to start from, \[Pa], row-major. What is not a positive number counts as zero; without any
+    /// The pressure to start from, \[Pa], row-major. Anything but a positive number is taken as zero; without any
     /// pressure the solver starts from solutions on coarser grids.
     pub fn pressure_mut(&mut self) -> &mut [f64] {
         &mut self.load
@@ -86,7 +86,7 @@ impl ContactState {
         }
     }
 
-    /// Takes what the caller left as a first guess, times a factor; what is no positive number counts as zero.
+    /// Takes what the caller left as a first guess, times a factor; anything but a positive number is taken as zero.
     pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
         Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
             for load in load {

@@ -25,7 +25,7 @@ pub(crate) enum Surroundings {
     Periodic,
 }
 
-/// What the convolution on one grid needs and no pressure changes; may be shared between threads.
+/// The convolution on one grid: its spectrum and plans, which no pressure changes; may be shared between threads.
 #[derive(Debug, Clone)]
 pub struct Convolution {
     /// Of the elements, or of those in front of the mirrors.
@@ -41,7 +41,7 @@ pub struct Convolution {
     self_influence: f64,
 }
 
-/// What a convolution overwrites; one per caller, made by [`Convolution::workspace`].
+/// Buffers that a convolution overwrites; one per caller, made by [`Convolution::workspace`].
 #[derive(Debug, Clone)]
 pub struct ConvolutionWorkspace(Workspace);
 
@@ -154,7 +154,7 @@ impl Convolution {
     }
 
     /// Computes `K P` in the rows `wanted` of `result` from the rows `loaded` of `pressure`; the pressure outside
-    /// these rows counts as zero and the other rows of the result are left as they are.
+    /// these rows is taken as zero and the other rows of the result are left as they are.
     ///
     /// Both fields have one value per element of the grid, row-major; the result has the unit of the pressure times
     /// metre. Does not allocate.
@@ -183,6 +183,7 @@ impl Convolution {
 mod tests {
     use super::*;
     use crate::BemError;
+    use crate::bounds::Bounds;
 
     /// A field that is its own image about mirrors in the middle, and otherwise without symmetry.
     fn mirrored([rows, columns]: [usize; 2], mirrors: [Mirror; 2]) -> Vec<f64> {
@@ -199,29 +200,22 @@ mod tests {
     }
 
     /// The last rows and columns.
-    fn part(field: &[f64], columns: usize, [part_rows, part_columns]: [usize; 2]) -> Vec<f64> {
-        let rows = field.chunks_exact(columns);
-        let first = rows.len() - part_rows;
-        rows.skip(first)
-            .flat_map(|row| &row[columns - part_columns..])
-            .copied()
-            .collect()
+    fn part(field: &[f64], upper: [usize; 2], part: [usize; 2]) -> Vec<f64> {
+        let lower = [upper[0] - part[0], upper[1] - part[1]];
+        let mut values = vec![0.0; part[0] * part[1]];
+        Bounds { lower, upper }.cut((field, upper[1]), &mut values);
+        values
     }
 
-    /// The part in front of mirrors of the loads on a field: half of an element through which one passes.
-    fn loads(pressure: &[f64], columns: usize, folded: &Convolution) -> Vec<f64> {
-        let shape = folded.grid().shape();
-        let mut loads = part(pressure, columns, shape);
-        let mirrors = folded.mirrors();
-        for (index, load) in loads.iter_mut().enumerate() {
-            let place = [index / shape[1], index % shape[1]];
-            for (place, mirror) in place.into_iter().zip(mirrors) {
-                if place == 0 && mirror == Mirror::Centre {
-                    *load *= 0.5;
-                }
-            }
+    /// Halves the loads of elements through which mirrors pass.
+    fn halve_at_mirrors(loads: &mut [f64], folded: &Convolution) {
+        let [rows, columns] = folded.grid().shape();
+        if folded.mirrors()[0] == Mirror::Centre {
+            (0..columns).for_each(|column| loads[column] *= 0.5);
         }
-        loads
+        if folded.mirrors()[1] == Mirror::Centre {
+            (0..rows).for_each(|row| loads[row * columns] *= 0.5);
+        }
     }
 
     fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
@@ -245,10 +239,12 @@ mod tests {
         });
         let folded = whole.folded(mirrors);
         let pressure = mirrored(shape, mirrors);
+        let mut loads = part(&pressure, shape, folded.grid().shape());
+        halve_at_mirrors(&mut loads, &folded);
         let expected = displacement(whole, &pressure);
-        let actual = displacement(&folded, &loads(&pressure, shape[1], &folded));
+        let actual = displacement(&folded, &loads);
         let largest = expected.iter().fold(0.0, |top: f64, u| top.max(u.abs()));
-        let expected = part(&expected, shape[1], folded.grid().shape());
+        let expected = part(&expected, shape, folded.grid().shape());
         for (actual, expected) in actual.iter().zip(expected) {
             let error = (actual - expected).abs() / largest;
             // Rounding of transforms of a few hundred values.

@@ -1,7 +1,7 @@
 //! Transforms of one half of a row or column that is its own mirror image about the centre of its first element.
 //!
 //! With x_n at a distance of n elements from the mirror, x_0 for the half of the element in front of it, the Fourier
-//! transform of the period of 2 L elements and the way back of the numbers u_n are
+//! transform of the period of 2 L elements and the inverse, for the numbers u_n, are
 //!
 //! ```text
 //! U_k = 2 x_0 + 2 Σ x_n cos(π n k / L),        n, k = 0 … L,
@@ -40,7 +40,7 @@ pub(super) struct Cosines {
     sines: Option<Vec<f64>>,
 }
 
-/// What the sums overwrite.
+/// Buffers of the sums.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CosineBuffers {
     reals: Vec<f64>,

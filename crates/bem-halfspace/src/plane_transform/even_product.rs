@@ -79,7 +79,7 @@ fn multiply_turned(
     for (k, turn) in turns.iter().enumerate().skip(1) {
         let [here, there] = [turn * values[k], turn.conj() * values[length - k]];
         let sum = product(here + there, k);
-        // U_(L−k) is i times the difference, and goes back with −i.
+        // U_(L−k) is i times the difference, and is transformed back with −i.
         let difference = product(times_i(here - there), length - k);
         values[k] = turn.conj() * (sum - times_i(difference));
         values[length - k] = turn * (sum + times_i(difference));

@@ -73,7 +73,7 @@ impl PlaneTransform {
         self.padded
     }
 
-    /// What forward and inverse transform multiply a field with, inverted.
+    /// Reciprocal of the factor by which forward and inverse transform together multiply a field.
     pub(crate) const fn normalisation(&self) -> f64 {
         1.0 / (self.padded[0] as f64 * self.padded[1] as f64)
     }
@@ -103,7 +103,7 @@ impl PlaneTransform {
         self.columns.forward(&mut scratch, columns);
     }
 
-    /// The way back of [`column_forward`](Self::column_forward).
+    /// The inverse of [`column_forward`](Self::column_forward).
     pub(crate) fn column_back(&self, columns: &mut [Complex<f64>]) {
         let mut scratch = vec![ZERO; self.columns.scratch_len()];
         self.columns.inverse(&mut scratch, columns);

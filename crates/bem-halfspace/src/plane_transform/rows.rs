@@ -80,7 +80,7 @@ impl RowTransform {
         }
     }
 
-    /// What the sums about a centre overwrite; nothing elsewhere.
+    /// Buffers of the sums about a centre; none elsewhere.
     pub(super) fn buffers(&self) -> CosineBuffers {
         match self {
             Self::AboutCentre(cosines) => cosines.buffers(),
@@ -125,7 +125,7 @@ impl RowTransform {
         }
     }
 
-    /// The way back, without normalisation, of the coefficients in the half row of the buffers.
+    /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
     pub(super) fn inverse(&self, buffers: &mut Buffers, values: &mut [f64]) {
         match self {
             Self::Whole { inverse, .. } => {
@@ -191,7 +191,7 @@ fn pair(reals: &[f64], pairs: &mut [Complex<f64>]) {
     }
 }
 
-/// The way back.
+/// The inverse of [`pair`].
 fn unpair(pairs: &[Complex<f64>], reals: &mut [f64]) {
     for (reals, pair) in reals.chunks_mut(2).zip(pairs) {
         for (real, value) in reals.iter_mut().zip([pair.re, pair.im]) {

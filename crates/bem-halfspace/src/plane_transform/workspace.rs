@@ -1,4 +1,4 @@
-//! What a filter overwrites.
+//! Buffers of a filter.
 
 use rustfft::num_complex::Complex;
 
@@ -7,8 +7,8 @@ use crate::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
 use crate::plane_transform::about_centre::CosineBuffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 
-/// What a filter of fields of one shape overwrites. With the feature `rayon`, buffers for the threads of the pool in
-/// which it was made.
+/// Buffers of a filter of fields of one shape; with the feature `rayon` for the threads of the pool in which they were
+/// made.
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace {
     /// Rows and columns of the fields.
@@ -20,7 +20,7 @@ pub(crate) struct Workspace {
     pub(super) buffers: PerThread<Buffers>,
 }
 
-/// What the transforms of one thread overwrite.
+/// Buffers of the transforms on one thread.
 #[derive(Debug, Clone)]
 pub(super) struct Buffers {
     pub(super) row: Vec<f64>,

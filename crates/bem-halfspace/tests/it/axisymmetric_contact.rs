@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use bem_halfspace::{Contact, ContactState, Control};
 use casebook::{Case, group};
 
-use crate::support::elastic_contact;
+use crate::support::Pressing;
 
 /// The height of a body over the radius, infinite where there is no body, and its depth at the contact radius 1.
 type Scene = (Box<dyn Fn(f64) -> f64>, f64);
@@ -58,7 +58,7 @@ fn contact_with(
     };
     let heights: Vec<f64> = (0..shape[0] * shape[1]).map(height).collect();
     let control = Control::IndentationDepth(depth / spacing);
-    let (contact, state) = elastic_contact(&heights, shape, control);
+    let (contact, state) = Pressing::on_unit_elements(shape, &heights).solve(control);
     (contact, state, element)
 }
 

@@ -1,45 +1,31 @@
 //! What holds on any grid: reciprocity, the balance of forces, and no preferred side or unit.
 
-use bem_halfspace::{
-    Contact, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
-};
+use bem_halfspace::{Control, Convolution, Grid};
 use casebook::group;
 use indenters::PowerProfile;
 
-use crate::support::{TIGHT, centred_heights};
+use crate::support::{Pressing, difference};
 
 const SHAPE: [usize; 2] = [26, 20];
+const FORCE: Control = Control::NormalForce(7.0);
 
-/// A grid with elements of different edges under a periodic half space or a free one.
-fn convolutions() -> [Convolution; 2] {
-    let grid = Grid::new(SHAPE, [1.0, 1.3]).expect("a valid grid");
-    [Convolution::new(&grid), Convolution::periodic(&grid)]
+/// Wavy ground with a summit at the given element, without symmetry, on elements with different edges, under a free half
+/// space and a periodic one, with lengths and pressures in the given units.
+fn grounds(summit: [f64; 2], [length, pressure]: [f64; 2]) -> [Pressing; 2] {
+    let grid = Grid::new(SHAPE, [length, 1.3 * length]).expect("a valid grid");
+    let height = |element: [f64; 2]| {
+        let [x, y] = [0, 1].map(|axis| element[axis] - summit[axis]);
+        let bowl = 0.02 * (x * x + 1.5 * y * y + 0.4 * x * y);
+        length * (bowl + 0.2 * (1.1 * x).sin() * (0.7 * y + x).cos())
+    };
+    [Convolution::new(&grid), Convolution::periodic(&grid)].map(|convolution| Pressing {
+        compliance: 0.7 / pressure,
+        ..Pressing::new(convolution, height)
+    })
 }
 
-/// Wavy ground with a summit at the given element, without symmetry.
-fn heights(summit: [f64; 2]) -> Vec<f64> {
-    let height = |index: usize| {
-        let position = [index / SHAPE[1], index % SHAPE[1]];
-        let [x, y] = [0, 1].map(|axis| position[axis] as f64 - summit[axis]);
-        0.02 * (x * x + 1.5 * y * y + 0.4 * x * y) + 0.2 * (1.1 * x).sin() * (0.7 * y + x).cos()
-    };
-    (0..SHAPE[0] * SHAPE[1]).map(height).collect()
-}
-
-fn solve(
-    convolution: &Convolution,
-    (heights, compliance): (&[f64], f64),
-    control: Control,
-) -> (Contact, ContactState) {
-    let mut state = ContactState::new(convolution);
-    let problem = ContactProblem {
-        convolution,
-        separation: heights,
-        compliance,
-        control,
-    };
-    let contact = solve_contact(&problem, &mut state, &TIGHT).expect("a contact");
-    (contact, state)
+fn ground() -> [Pressing; 2] {
+    grounds([12.4, 9.1], [1.0, 1.0])
 }
 
 fn dot(left: &[f64], right: &[f64]) -> f64 {
@@ -49,18 +35,17 @@ fn dot(left: &[f64], right: &[f64]) -> f64 {
 /// w₂ p₁ = w₁ p₂ for the contacts of two bodies at different places.
 #[test]
 fn contacts_are_reciprocal() {
-    for convolution in convolutions() {
-        let [one, two] = [([9.3, 8.1], 4.0), ([15.2, 11.7], 9.0)].map(|(summit, force)| {
-            let body = heights(summit);
-            solve(&convolution, (&body, 0.7), Control::NormalForce(force)).1
-        });
+    let [one, two] = [[9.3, 8.1], [15.2, 11.7]].map(|summit| grounds(summit, [1.0, 1.0]));
+    for (one, two) in one.into_iter().zip(two) {
+        let (_, first) = one.solve(Control::NormalForce(4.0));
+        let (_, second) = two.solve(Control::NormalForce(9.0));
         let works = [
-            dot(one.pressure(), two.displacement()),
-            dot(two.pressure(), one.displacement()),
+            dot(first.pressure(), second.displacement()),
+            dot(second.pressure(), first.displacement()),
         ];
         let error = (works[0] / works[1] - 1.0).abs();
         // Rounding of the transforms.
-        assert!(error < 1e-13, "{convolution:?}: {works:?}");
+        assert!(error < 1e-13, "{:?}: {works:?}", one.convolution);
     }
 }
 
@@ -81,20 +66,17 @@ fn the_force_follows_from_the_flat_punch() {
             let depth = 0.5 * std::f64::consts::PI * slope;
             (PowerProfile::cone(slope), depth)
         };
-        let heights = centred_heights(&body.expect("a body"), 48, 1.0 / radius);
-        let grid = Grid::new([48, 48], [1.0 / radius; 2]).expect("a valid grid");
-        let convolution = Convolution::new(&grid);
-        let control = Control::IndentationDepth(depth);
-        let (contact, state) = solve(&convolution, (&heights, 1.0), control);
-        let mut punch = vec![f64::INFINITY; heights.len()];
+        let body = Pressing::centred(&body.expect("a body"), 48, 1.0 / radius);
+        let (contact, state) = body.solve(Control::IndentationDepth(depth));
+        let mut punch = body.clone();
+        punch.heights.fill(f64::INFINITY);
         for &element in state.contact() {
-            punch[element] = 0.0;
+            punch.heights[element] = 0.0;
         }
-        let control = Control::IndentationDepth(1.0);
-        let (_, unit) = solve(&convolution, (&punch, 1.0), control);
-        let pairs = unit.pressure().iter().zip(&heights);
+        let (_, unit) = punch.solve(Control::IndentationDepth(1.0));
+        let pairs = unit.pressure().iter().zip(&body.heights);
         let work: f64 = pairs.map(|(p, height)| p * (depth - height)).sum();
-        let force = work * grid.element_area();
+        let force = work * body.convolution.grid().element_area();
         let error = (force / contact.normal_force - 1.0).abs();
         assert!(error < 1e-11, "{}: {force} of {contact:?}", case.id());
         case.check_within("F", force, 1.0 / (radius * radius));
@@ -104,11 +86,10 @@ fn the_force_follows_from_the_flat_punch() {
 
 #[test]
 fn the_pressure_balances_the_force() {
-    for convolution in convolutions() {
-        let area = convolution.grid().element_area();
-        let body = heights([12.4, 9.1]);
-        for control in [Control::NormalForce(7.0), Control::IndentationDepth(0.1)] {
-            let (contact, state) = solve(&convolution, (&body, 0.7), control);
+    for body in ground() {
+        for control in [FORCE, Control::IndentationDepth(0.1)] {
+            let (contact, state) = body.solve(control);
+            let area = body.convolution.grid().element_area();
             let carried: f64 = state.pressure().iter().sum::<f64>() * area;
             let error = (carried / contact.normal_force - 1.0).abs();
             assert!(error < 1e-13, "{carried} of {contact:?}");
@@ -120,50 +101,44 @@ fn the_pressure_balances_the_force() {
     }
 }
 
-/// The largest difference of two pressures relative to the largest pressure.
-fn difference(actual: &[f64], expected: impl Iterator<Item = f64> + Clone) -> f64 {
-    let largest = expected.clone().fold(0.0, f64::max);
-    let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, f64::max) / largest
-}
-
 #[test]
 fn a_mirrored_body_has_the_mirrored_pressure() {
-    for convolution in convolutions() {
-        let body = heights([12.4, 9.1]);
-        let force = Control::NormalForce(7.0);
-        let (_, state) = solve(&convolution, (&body, 0.7), force);
+    for body in ground() {
+        let (_, state) = body.solve(FORCE);
         let [rows, columns] = SHAPE;
         let along_x = |index: usize| (rows - 1 - index / columns) * columns + index % columns;
         let along_y = |index: usize| (index / columns + 1) * columns - 1 - index % columns;
         for mirror in [&along_x as &dyn Fn(usize) -> usize, &along_y] {
-            let elements = 0..rows * columns;
-            let mirrored: Vec<f64> = elements.clone().map(|k| body[mirror(k)]).collect();
-            let (_, other) = solve(&convolution, (&mirrored, 0.7), force);
-            let expected = elements.map(|k| state.pressure()[mirror(k)]);
-            let error = difference(other.pressure(), expected);
-            assert!(error < 1e-11, "{convolution:?}: off by {error:e}");
+            let image = |field: &[f64]| -> Vec<f64> {
+                (0..rows * columns).map(|k| field[mirror(k)]).collect()
+            };
+            let mirrored = Pressing {
+                heights: image(&body.heights),
+                ..body.clone()
+            };
+            let (_, other) = mirrored.solve(FORCE);
+            let error = difference(other.pressure(), &image(state.pressure()));
+            assert!(error < 1e-11, "{:?}: off by {error:e}", body.convolution);
         }
     }
 }
 
-/// With lengths in another unit and pressures in another unit the answer is the same.
+/// With lengths in another unit and pressures in another unit the result is the same.
 #[test]
 fn contacts_have_no_units() {
-    let body = heights([12.4, 9.1]);
     for (length, pressure) in [(1e-12, 1e12), (1e12, 1e-12), (3e-9, 7e10)] {
-        let grid = Grid::new(SHAPE, [length, 1.3 * length]).expect("a valid grid");
-        let scaled = [Convolution::new(&grid), Convolution::periodic(&grid)];
-        let body_there: Vec<f64> = body.iter().map(|height| height * length).collect();
-        for (here, there) in convolutions().iter().zip(&scaled) {
-            let (contact, state) = solve(here, (&body, 0.7), Control::NormalForce(7.0));
+        for (here, there) in ground()
+            .iter()
+            .zip(grounds([12.4, 9.1], [length, pressure]))
+        {
+            let (contact, state) = here.solve(FORCE);
             let force = Control::NormalForce(7.0 * pressure * length * length);
-            let (other, state_there) = solve(there, (&body_there, 0.7 / pressure), force);
+            let (other, state_there) = there.solve(force);
             let depth = other.indentation_depth / length;
             let error = (depth / contact.indentation_depth - 1.0).abs();
             assert!(error < 1e-11, "depth {depth} instead of {contact:?}");
-            let expected = state.pressure().iter().map(|value| value * pressure);
-            let error = difference(state_there.pressure(), expected);
+            let expected: Vec<f64> = state.pressure().iter().map(|p| p * pressure).collect();
+            let error = difference(state_there.pressure(), &expected);
             assert!(
                 error < 1e-11,
                 "units {length}, {pressure}: off by {error:e}"

@@ -4,59 +4,49 @@ use bem_halfspace::Control;
 use casebook::{Case, group};
 use indenters::PowerProfile;
 
-use crate::support::{centred_heights, elastic_contact};
+use crate::support::{Pressing, count};
 
-fn indenter(case: &Case) -> PowerProfile {
+fn pressing(case: &Case) -> Pressing {
     let profile = match case.input_text("shape") {
         "paraboloid" => PowerProfile::paraboloid(0.5 / case.input("R")),
         _ => PowerProfile::cone(case.input("slope")),
     };
-    profile.expect("a valid indenter")
+    Pressing::centred(&profile.expect("a valid indenter"), count(case, "N"), 1.0)
 }
 
 #[test]
 fn contact_at_given_depth_is_the_unique_discrete_solution() {
     for case in group("BEM-04") {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "N is a small count"
-        )]
-        let n = case.input("N") as usize;
-        let heights = centred_heights(&indenter(&case), n, 1.0);
-        let (contact, state) =
-            elastic_contact(&heights, [n, n], Control::IndentationDepth(case.input("d")));
+        let n = count(&case, "N");
+        let (contact, state) = pressing(&case).solve(Control::IndentationDepth(case.input("d")));
         case.check("F", contact.normal_force);
         case.check_within("n_contact", contact.n_contact as f64, 0.0);
-        let centre = if n % 2 == 1 {
-            n * n / 2
-        } else {
-            n * n / 2 + n / 2
-        };
-        case.check("p_centre", state.pressure()[centre]);
+        case.check("p_centre", state.pressure()[n / 2 * n + n / 2]);
     }
 }
 
 #[test]
 fn contact_at_given_force_has_the_depth_that_causes_the_force() {
     for case in group("BEM-04") {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "N is a small count"
-        )]
-        let n = case.input("N") as usize;
-        let heights = centred_heights(&indenter(&case), n, 1.0);
         let force = case.expected("F").expect("a force");
-        let (contact, _) = elastic_contact(&heights, [n, n], Control::NormalForce(force));
-        let depth = case.input("d");
-        let difference = (contact.indentation_depth / depth - 1.0).abs();
-        assert!(
-            difference < 1e-9,
-            "{}: depth {} instead of {depth}",
-            case.id(),
-            contact.indentation_depth
-        );
+        let (contact, _) = pressing(&case).solve(Control::NormalForce(force));
+        let [depth, expected] = [contact.indentation_depth, case.input("d")];
+        let error = (depth / expected - 1.0).abs();
+        assert!(error < 1e-9, "{}: {depth} not {expected}", case.id());
         case.check_within("n_contact", contact.n_contact as f64, 0.0);
+    }
+}
+
+/// A flat square punch of N × N elements has the stiffness of the dense solution.
+#[test]
+fn stiffness_of_a_square_punch() {
+    for case in group("BEM-03").iter().filter(|case| case.has_input("N")) {
+        let n = count(case, "N");
+        let punch = Pressing::on_unit_elements([n, n], &vec![0.0; n * n]);
+        let (contact, state) = punch.solve(Control::IndentationDepth(1.0));
+        case.check("F_over_GdL", contact.normal_force / n as f64);
+        if case.expected("p_centre_over_G").is_some() {
+            case.check("p_centre_over_G", state.pressure()[n * n / 2]);
+        }
     }
 }

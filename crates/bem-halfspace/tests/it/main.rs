@@ -23,7 +23,6 @@ mod omissions;
 mod periodic_contact;
 mod sliding_converges;
 mod sliding_invariance;
-mod square_punch;
 mod stationary_state;
 mod steady_bad_input;
 mod steady_cylinder;

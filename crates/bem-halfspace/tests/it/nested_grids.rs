@@ -2,46 +2,34 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
-    solve_contact,
-};
+use bem_halfspace::{ContactOptions, ContactState, Control, Convolution, Grid};
+
+use crate::support::Pressing;
 
 const OPTIONS: ContactOptions = ContactOptions {
     tolerance: 1e-10,
     max_iterations: 200,
 };
+const FORCE: Control = Control::NormalForce(0.036);
 
 /// Hertz contact of radius 0.3 on the unit square for E* = R = 1, apex between four elements.
-fn hertz(n: usize) -> (Convolution, Vec<f64>) {
+fn hertz(n: usize) -> Pressing {
     let edge = 1.0 / n as f64;
-    let centre = |index: usize| (index as f64 + 0.5) * edge - 0.5;
-    let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
+    let centre = |index: f64| (index + 0.5) * edge - 0.5;
     let grid = Grid::new([n, n], [edge; 2]).expect("a valid grid");
-    (Convolution::new(&grid), (0..n * n).map(height).collect())
-}
-
-fn solve(
-    (convolution, heights): (&Convolution, &[f64]),
-    state: &mut ContactState,
-    control: Control,
-) -> Contact {
-    let problem = ContactProblem {
-        convolution,
-        separation: heights,
+    Pressing {
         compliance: 4.0,
-        control,
-    };
-    solve_contact(&problem, state, &OPTIONS).expect("a contact")
+        options: OPTIONS,
+        ..Pressing::new(Convolution::new(&grid), |[row, column]| {
+            0.5 * (centre(row).powi(2) + centre(column).powi(2))
+        })
+    }
 }
 
 #[test]
 fn iterations_hardly_depend_on_the_grid() {
     let iterations = [128, 256, 512, 1024].map(|n| {
-        let (convolution, heights) = hertz(n);
-        let mut state = ContactState::new(&convolution);
-        let force = Control::NormalForce(0.036);
-        let contact = solve((&convolution, &heights), &mut state, force);
+        let (contact, _) = hertz(n).solve(FORCE);
         // Second order in the depth: 0.09 (0.3/h)^-2 with a factor of order one.
         let error = (contact.indentation_depth / 0.09 - 1.0).abs();
         assert!(error < 4.0 / (n * n) as f64, "{n}: {contact:?}");
@@ -55,19 +43,15 @@ fn iterations_hardly_depend_on_the_grid() {
 /// Sums over many elements do not end the convergence early.
 #[test]
 fn the_residual_falls_to_rounding() {
-    let (convolution, heights) = hertz(512);
-    let mut state = ContactState::new(&convolution);
-    let problem = ContactProblem {
-        convolution: &convolution,
-        separation: &heights,
-        compliance: 4.0,
-        control: Control::NormalForce(0.036),
-    };
     let options = ContactOptions {
         tolerance: 1e-13,
         max_iterations: 60,
     };
-    let contact = solve_contact(&problem, &mut state, &options).expect("a contact");
+    let body = Pressing {
+        options,
+        ..hertz(512)
+    };
+    let (contact, _) = body.solve(FORCE);
     assert!(contact.residual <= 1e-13, "{contact:?}");
 }
 
@@ -75,9 +59,8 @@ fn the_residual_falls_to_rounding() {
 /// there is no body.
 #[test]
 fn the_guess_does_not_matter() {
-    let (convolution, mut heights) = hertz(96);
-    heights[3] = f64::INFINITY;
-    let problem = (&convolution, &heights[..]);
+    let mut body = hertz(96);
+    body.heights[3] = f64::INFINITY;
     let elsewhere = |pressure: &mut [f64]| pressure[..700].fill(1.0);
     let no_pressures = |pressure: &mut [f64]| {
         pressure[96 * 48 + 48] = 1.0;
@@ -85,42 +68,34 @@ fn the_guess_does_not_matter() {
         pressure[7] = f64::INFINITY;
     };
     let no_body = |pressure: &mut [f64]| pressure[3] = 1.0;
-    for control in [Control::NormalForce(0.036), Control::IndentationDepth(0.09)] {
-        check_guess(problem, control, elsewhere);
-        check_guess(problem, control, no_pressures);
-        check_guess(problem, control, no_body);
+    let guesses: [fn(&mut [f64]); 3] = [elsewhere, no_pressures, no_body];
+    for control in [FORCE, Control::IndentationDepth(0.09)] {
+        let (expected, cold) = body.solve(control);
+        for guess in guesses {
+            let mut warm = ContactState::new(&body.convolution);
+            guess(warm.pressure_mut());
+            let actual = body.solve_from(&mut warm, control).expect("a contact");
+            assert_eq!(actual.n_contact, expected.n_contact, "{control:?}");
+            let scale = expected.normal_force / 0.3;
+            for (actual, expected) in warm.pressure().iter().zip(cold.pressure()) {
+                let error = (actual - expected).abs() / scale;
+                assert!(error < 1e-7, "{control:?}: {actual} instead of {expected}");
+            }
+            let again = body.solve_from(&mut warm, control).expect("a contact");
+            assert!(again.iterations <= 1, "solved already: {again:?}");
+        }
     }
-}
-
-fn check_guess(problem: (&Convolution, &[f64]), control: Control, guess: impl Fn(&mut [f64])) {
-    let mut cold = ContactState::new(problem.0);
-    let expected = solve(problem, &mut cold, control);
-    let mut warm = ContactState::new(problem.0);
-    guess(warm.pressure_mut());
-    let actual = solve(problem, &mut warm, control);
-    assert_eq!(actual.n_contact, expected.n_contact, "{control:?}");
-    let scale = expected.normal_force / 0.3;
-    for (actual, expected) in warm.pressure().iter().zip(cold.pressure()) {
-        let error = (actual - expected).abs() / scale;
-        assert!(error < 1e-7, "{control:?}: {actual} instead of {expected}");
-    }
-    let again = solve(problem, &mut warm, control);
-    assert!(again.iterations <= 1, "solved already: {again:?}");
 }
 
 /// A guess with load only where there is no body, on a grid too small for a box.
 #[test]
 fn a_guess_without_a_body_counts_as_none() {
-    let mut heights = [0.0; 16];
-    heights[0] = f64::INFINITY;
-    let convolution = Convolution::new(&Grid::new([4; 2], [1.0; 2]).expect("a valid grid"));
-    let mut state = ContactState::new(&convolution);
+    let mut body = Pressing::on_unit_elements([4; 2], &[0.0; 16]);
+    body.heights[0] = f64::INFINITY;
+    let mut state = ContactState::new(&body.convolution);
     state.pressure_mut()[0] = 1.0;
-    let contact = solve(
-        (&convolution, &heights),
-        &mut state,
-        Control::NormalForce(1.0),
-    );
+    let contact = body.solve_from(&mut state, Control::NormalForce(1.0));
+    let contact = contact.expect("a contact");
     assert_eq!(contact.n_contact, 15, "{contact:?}");
     assert!((contact.normal_force - 1.0).abs() < 1e-14, "{contact:?}");
 }
@@ -128,23 +103,20 @@ fn a_guess_without_a_body_counts_as_none() {
 /// The displacement is that of the pressure on the whole grid, and nothing penetrates outside the box either.
 #[test]
 fn distant_summits_are_found_outside_the_box() {
-    let (convolution, mut heights) = hertz(96);
+    let mut body = hertz(96);
     // Lower than the surface around the contact at the same place.
     let summits = [96 * 2 + 2, 96 * 90 + 50];
     for summit in summits {
-        heights[summit] = 0.05;
+        body.heights[summit] = 0.05;
     }
-    let mut state = ContactState::new(&convolution);
+    let mut state = ContactState::new(&body.convolution);
     state.pressure_mut()[96 * 48 + 48] = 1.0;
-    let control = Control::NormalForce(0.036);
-    let contact = solve((&convolution, &heights), &mut state, control);
+    let contact = body.solve_from(&mut state, FORCE).expect("a contact");
     for summit in summits {
-        assert!(
-            state.pressure()[summit] > 0.0,
-            "summit {summit} carries load"
-        );
+        let pressure = state.pressure()[summit];
+        assert!(pressure > 0.0, "summit {summit} carries load");
     }
-    for (height, displacement) in heights.iter().zip(state.displacement()) {
+    for (height, displacement) in body.heights.iter().zip(state.displacement()) {
         let gap = height + displacement - contact.indentation_depth;
         assert!(gap > -1e-10, "gap {gap}");
     }
@@ -152,31 +124,31 @@ fn distant_summits_are_found_outside_the_box() {
 
 /// Summits of sixteen elements and of different heights under a periodic load, which touch in more and more patches on
 /// larger grids.
-fn summits(n: usize) -> Vec<f64> {
-    let wave = |index: usize| (2.0 * PI * (index % 16) as f64 / 16.0).cos();
-    let height = |index: usize| {
-        let [row, column] = [index / n, index % n];
-        let summit = row / 16 * (n / 16) + column / 16;
+fn summits(n: usize) -> Pressing {
+    let wave = |index: f64| (2.0 * PI * (index % 16.0) / 16.0).cos();
+    let height = |[row, column]: [f64; 2]| {
+        let summit = (row / 16.0).floor() * (n / 16) as f64 + (column / 16.0).floor();
         // Equally distributed (Weyl).
-        let depth = (summit as f64 * 0.618_033_988_749_894_9).fract();
+        let depth = (summit * 0.618_033_988_749_894_9).fract();
         depth + wave(row) + wave(column)
     };
-    (0..n * n).map(height).collect()
+    let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
+    Pressing {
+        compliance: 4.0,
+        options: OPTIONS,
+        ..Pressing::new(Convolution::periodic(&grid), height)
+    }
 }
 
 #[test]
 fn iterations_hardly_depend_on_the_number_of_patches() {
     let iterations = [64, 128, 256, 512].map(|n| {
-        let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
-        let convolution = Convolution::periodic(&grid);
-        let mut state = ContactState::new(&convolution);
-        let force = Control::NormalForce(0.008 * (n * n) as f64);
-        let contact = solve((&convolution, &summits(n)), &mut state, force);
+        let (contact, _) = summits(n).solve(Control::NormalForce(0.008 * (n * n) as f64));
         let part = contact.n_contact as f64 / (n * n) as f64;
         assert!((0.05..0.08).contains(&part), "{n}: {part} in contact");
         contact.iterations
     });
-    // An inverse that knows nothing of other patches needs 18, 22, 26, 34.
+    // An inverse without the loads on other patches needs 18, 22, 26, 34.
     let [coarse, .., fine] = iterations;
     assert!(5 * fine <= 8 * coarse, "iterations {iterations:?}");
 }

@@ -3,62 +3,47 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::{
-    BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
-    solve_contact,
-};
+use bem_halfspace::{BemError, Contact, ContactOptions, ContactState, Control, Convolution, Grid};
 use casebook::group;
 
-const TIGHT: ContactOptions = ContactOptions {
+use crate::support::Pressing;
+
+const OPTIONS: ContactOptions = ContactOptions {
     tolerance: 1e-11,
     max_iterations: 500,
 };
 
-fn solve(
-    convolution: &Convolution,
-    (heights, shear_modulus): (&[f64], f64),
-    control: Control,
-) -> Result<(Contact, ContactState), BemError> {
-    let mut state = ContactState::new(convolution);
-    let problem = ContactProblem {
-        convolution,
-        separation: heights,
-        compliance: 1.0 / shear_modulus,
-        control,
-    };
-    let contact = solve_contact(&problem, &mut state, &TIGHT)?;
-    Ok((contact, state))
-}
-
 /// Wave h = D (1 − cos kx) of length 1 on `n` elements per wave and two across, crest in the middle of the first.
-fn wave(n: usize, amplitude: f64) -> (Convolution, Vec<f64>) {
+fn wave(n: usize, amplitude: f64, shear_modulus: f64) -> Pressing {
     let edge = 1.0 / n as f64;
     // Elements of another width show whether both spacings are used.
     let grid = Grid::new([n, 2], [edge, 3.0 * edge]).expect("a valid grid");
-    let height = |index: usize| amplitude * (1.0 - (2.0 * PI * (index / 2) as f64 * edge).cos());
-    (
-        Convolution::periodic(&grid),
-        (0..2 * n).map(height).collect(),
-    )
+    let height = |[row, _]: [f64; 2]| amplitude * (1.0 - (2.0 * PI * row * edge).cos());
+    Pressing {
+        compliance: 1.0 / shear_modulus,
+        options: OPTIONS,
+        ..Pressing::new(Convolution::periodic(&grid), height)
+    }
+}
+
+fn solve_under(body: &Pressing, mean_pressure: f64) -> (Contact, ContactState) {
+    let grid = body.convolution.grid();
+    let area = grid.element_area() * grid.n_elements() as f64;
+    body.solve(Control::NormalForce(mean_pressure * area))
 }
 
 /// Mean relative deviation of the pressure from Westergaard's, weighted with the pressure, that of the half-width of
 /// contact, and the pressure on the crest.
 fn westergaard_error(n: usize, [amplitude, mean, half_width]: [f64; 3]) -> [f64; 3] {
-    let (convolution, heights) = wave(n, amplitude);
-    let area = 3.0 / n as f64 * 2.0;
-    let force = Control::NormalForce(mean * area);
-    let (contact, state) = solve(&convolution, (&heights, 1.0), force).expect("a contact");
+    let (contact, state) = solve_under(&wave(n, amplitude, 1.0), mean);
     let edge = (PI * half_width).sin().powi(2);
     let exact = |row: usize| {
         let angle = PI * row as f64 / n as f64;
         let inside = (edge - angle.sin().powi(2)).max(0.0);
         2.0 * mean * angle.cos().abs() / edge * inside.sqrt()
     };
-    let rows = 0..n;
-    let deviation: f64 = rows
-        .map(|row| (state.pressure()[2 * row] - exact(row)).abs())
-        .sum();
+    let error = |row: usize| (state.pressure()[2 * row] - exact(row)).abs();
+    let deviation: f64 = (0..n).map(error).sum();
     let width = contact.n_contact as f64 / 2.0 / n as f64;
     [
         deviation / n as f64 / mean,
@@ -104,12 +89,10 @@ fn a_wave_sinks_into_a_viscous_half_space_until_the_contact_is_full() {
     let case = cases.find(|case| case.has_input("eta"));
     let case = case.expect("a viscous case");
     let n = 256;
-    let (convolution, heights) = wave(n, case.input("amplitude"));
-    let force = Control::NormalForce(case.input("p_mean") * 6.0 / n as f64);
     let full = case.expected("t_full").expect("a time");
     let contact_at = |time: f64| {
-        let modulus = case.input("eta") / time;
-        solve(&convolution, (&heights, modulus), force).expect("a contact")
+        let body = wave(n, case.input("amplitude"), case.input("eta") / time);
+        solve_under(&body, case.input("p_mean"))
     };
     let (half_way, _) = contact_at(0.5 * full);
     let half_width = half_way.n_contact as f64 / 4.0 / n as f64;
@@ -124,11 +107,10 @@ fn a_wave_sinks_into_a_viscous_half_space_until_the_contact_is_full() {
 #[test]
 fn full_contact_of_a_wave_is_exact() {
     let (n, amplitude, shear_modulus) = (48, 0.01, 2.5);
-    let (convolution, heights) = wave(n, amplitude);
+    let body = wave(n, amplitude, shear_modulus);
     let full = 2.0 * shear_modulus * 2.0 * PI * amplitude;
     for mean in [1.001 * full, 3.0 * full] {
-        let force = Control::NormalForce(mean * 6.0 / n as f64);
-        let (contact, state) = solve(&convolution, (&heights, shear_modulus), force).expect("full");
+        let (contact, state) = solve_under(&body, mean);
         assert_eq!(contact.n_contact, 2 * n, "{contact:?}");
         let error = (contact.indentation_depth / amplitude - 1.0).abs();
         assert!(error < 1e-10, "the depth is the mean height: {contact:?}");
@@ -142,12 +124,10 @@ fn full_contact_of_a_wave_is_exact() {
 }
 
 #[test]
-fn force_and_depth_are_two_ways_to_ask_the_same() {
-    let (convolution, heights) = wave(64, 0.01);
-    let force = Control::NormalForce(0.03 * 6.0 / 64.0);
-    let (given, _) = solve(&convolution, (&heights, 1.0), force).expect("a contact");
-    let depth = Control::IndentationDepth(given.indentation_depth);
-    let (found, _) = solve(&convolution, (&heights, 1.0), depth).expect("a contact");
+fn the_depth_that_a_force_causes_has_that_force() {
+    let body = wave(64, 0.01, 1.0);
+    let (given, _) = solve_under(&body, 0.03);
+    let (found, _) = body.solve(Control::IndentationDepth(given.indentation_depth));
     let error = (found.normal_force / given.normal_force - 1.0).abs();
     assert!(error < 1e-8, "{found:?} instead of {given:?}");
 }
@@ -155,21 +135,18 @@ fn force_and_depth_are_two_ways_to_ask_the_same() {
 /// From the mean height on the contact is full, and no depth determines its pressure.
 #[test]
 fn a_depth_beyond_full_contact_is_refused() {
-    let (convolution, heights) = wave(16, 0.01);
+    let body = wave(16, 0.01, 1.0);
     for depth in [0.010_000_1, 0.5] {
-        let control = Control::IndentationDepth(depth);
-        match solve(&convolution, (&heights, 1.0), control) {
-            Err(BemError::InvalidParameter {
-                parameter, value, ..
-            }) => {
-                assert_eq!(
-                    (parameter, value),
-                    ("indentation_depth", depth),
-                    "what is refused"
-                );
-            }
-            other => panic!("{other:?} at the depth {depth}"),
-        }
+        let mut state = ContactState::new(&body.convolution);
+        let refused = body.solve_from(&mut state, Control::IndentationDepth(depth));
+        let Err(BemError::InvalidParameter {
+            parameter, value, ..
+        }) = refused
+        else {
+            panic!("{refused:?} at the depth {depth}")
+        };
+        let expected = ("indentation_depth", depth);
+        assert_eq!((parameter, value), expected, "what is refused");
     }
 }
 
@@ -204,13 +181,15 @@ fn rough(n: usize, factor: impl Fn(f64) -> f64) -> Vec<f64> {
 fn no_contact_stalls_from_one_element_to_full() {
     let n = 128;
     let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
-    let convolution = Convolution::periodic(&grid);
-    let heights = rough(n, |_| 1.0);
+    let body = Pressing {
+        heights: rough(n, |_| 1.0),
+        options: OPTIONS,
+        ..Pressing::new(Convolution::periodic(&grid), |_| 0.0)
+    };
     let full = rough(n, |q| 2.0 * q).into_iter().fold(0.0, f64::max);
     let mut parts = Vec::new();
     for part in [1e-9, 0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999, 1.001] {
-        let control = Control::NormalForce(part * full);
-        let (contact, state) = solve(&convolution, (&heights, 1.0), control).expect("a contact");
+        let (contact, state) = body.solve(Control::NormalForce(part * full));
         assert!(contact.iterations < 60, "{part} of full: {contact:?}");
         let force: f64 = state.pressure().iter().sum::<f64>() * grid.element_area();
         let error = (force / full / part - 1.0).abs();

@@ -2,43 +2,97 @@
 
 use bem_halfspace::slide::{SlideOptions, Transient, slide};
 use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    solve_contact,
+    BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
+    Footprint, Grid, solve_contact,
 };
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use rheology::{Compressible, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
-/// Tight enough that the contact set and ten digits are those of the exact discrete solution.
+/// Tight enough that the active set and ten digits are those of the exact discrete solution.
 pub(crate) const TIGHT: ContactOptions = ContactOptions {
     tolerance: 1e-13,
     max_iterations: 5000,
 };
 
-/// Heights over `n` × `n` square elements of the given edge, with the apex over the centre of the grid.
-pub(crate) fn centred_heights(surface: &impl Surface, n: usize, spacing: f64) -> Vec<f64> {
-    let position = |index: usize| (index as f64 - 0.5 * (n as f64 - 1.0)) * spacing;
-    (0..n * n)
-        .map(|index| surface.height([position(index / n), position(index % n)]))
-        .collect()
+/// A rigid body over a grid, of which a control makes a contact problem.
+#[derive(Debug, Clone)]
+pub(crate) struct Pressing {
+    pub(crate) convolution: Convolution,
+    pub(crate) heights: Vec<f64>,
+    pub(crate) compliance: f64,
+    pub(crate) options: ContactOptions,
 }
 
-/// Solves an elastic contact of shear modulus 1 on unit elements.
-pub(crate) fn elastic_contact(
-    heights: &[f64],
-    shape: [usize; 2],
-    control: Control,
-) -> (Contact, ContactState) {
-    let grid = Grid::new(shape, [1.0, 1.0]).expect("a valid grid");
-    let convolution = Convolution::new(&grid);
-    let mut state = ContactState::new(&convolution);
-    let problem = ContactProblem {
-        convolution: &convolution,
-        separation: heights,
-        compliance: 1.0,
-        control,
-    };
-    let contact = solve_contact(&problem, &mut state, &TIGHT).expect("a solved contact");
-    (contact, state)
+impl Pressing {
+    /// The body with these heights at [row, column], solved tightly for the shear modulus 1.
+    pub(crate) fn new(convolution: Convolution, height: impl Fn([f64; 2]) -> f64) -> Self {
+        let [rows, columns] = convolution.grid().shape();
+        let at = |index: usize| height([(index / columns) as f64, (index % columns) as f64]);
+        Self {
+            heights: (0..rows * columns).map(at).collect(),
+            convolution,
+            compliance: 1.0,
+            options: TIGHT,
+        }
+    }
+
+    /// A body with its lowest point over the centre of `n` × `n` square elements of the given edge.
+    pub(crate) fn centred(surface: &impl Surface, n: usize, edge: f64) -> Self {
+        let grid = Grid::new([n; 2], [edge; 2]).expect("a valid grid");
+        let position = |index: f64| (index - 0.5 * (n as f64 - 1.0)) * edge;
+        Self::new(Convolution::new(&grid), |element| {
+            surface.height(element.map(position))
+        })
+    }
+
+    /// A body with the given heights on unit elements.
+    pub(crate) fn on_unit_elements(shape: [usize; 2], heights: &[f64]) -> Self {
+        let grid = Grid::new(shape, [1.0; 2]).expect("a valid grid");
+        Self {
+            heights: heights.to_vec(),
+            ..Self::new(Convolution::new(&grid), |_| 0.0)
+        }
+    }
+
+    /// Solves from the pressure of a state.
+    pub(crate) fn solve_from(
+        &self,
+        state: &mut ContactState,
+        control: Control,
+    ) -> Result<Contact, BemError> {
+        let problem = ContactProblem {
+            convolution: &self.convolution,
+            separation: &self.heights,
+            compliance: self.compliance,
+            control,
+        };
+        solve_contact(&problem, state, &self.options)
+    }
+
+    /// Solves without a guess.
+    pub(crate) fn solve(&self, control: Control) -> (Contact, ContactState) {
+        let mut state = ContactState::new(&self.convolution);
+        let contact = self.solve_from(&mut state, control);
+        (contact.expect("a solved contact"), state)
+    }
+}
+
+/// The largest difference of two fields relative to the largest expected value.
+pub(crate) fn difference(actual: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(actual.len(), expected.len(), "fields of one grid");
+    let largest = expected.iter().fold(0.0, |top: f64, u| top.max(u.abs()));
+    let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max) / largest
+}
+
+/// A small whole number among the inputs of a case.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "small counts"
+)]
+pub(crate) fn count(case: &casebook::Case, name: &str) -> usize {
+    case.input(name) as usize
 }
 
 /// A body without symmetry, and its mirror image in y.

@@ -3,41 +3,33 @@
 use bem_halfspace::Footprint;
 use bem_halfspace::slide::{SlideOptions, slide};
 use bem_halfspace::steady::{SteadyOptions, steady};
-use bem_halfspace::{
-    ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid, solve_contact,
-};
+use bem_halfspace::{ContactOptions, Control, Convolution, Grid};
 use indenters::{PowerProfile, SlidingLoad};
 use rayon::ThreadPoolBuilder;
 
-use crate::support::{Scene, prony};
+use crate::support::{Pressing, Scene, prony};
 
 #[test]
 fn one_two_and_three_threads_agree_to_the_last_bit() {
-    let n = 200;
-    let height = |index: usize, [middle_x, middle_y]: [f64; 2]| {
-        let [x, y] = [(index / n) as f64 - middle_x, (index % n) as f64 - middle_y];
-        0.004 * (x * x + 1.3 * y * y) + (0.3 * x).cos() * (0.2 * y).cos()
-    };
-    let heights = |middle| -> Vec<f64> { (0..n * n).map(|index| height(index, middle)).collect() };
-    let grid = Grid::new([n, n], [1.0, 1.0]).expect("a valid grid");
+    let grid = Grid::new([200; 2], [1.0; 2]).expect("a valid grid");
     // The second has mirrors.
-    let bodies = [heights([90.3, 110.8]), heights([99.5; 2])];
+    let middles = [[90.3, 110.8], [99.5; 2]];
     let kinds = [Convolution::new, Convolution::periodic];
-    for (new, heights) in kinds
+    for (new, middle) in kinds
         .into_iter()
-        .flat_map(|new| bodies.iter().map(move |body| (new, body)))
+        .flat_map(|new| middles.map(|middle| (new, middle)))
     {
+        let height = |element: [f64; 2]| {
+            let [x, y] = [0, 1].map(|axis| element[axis] - middle[axis]);
+            0.004 * (x * x + 1.3 * y * y) + (0.3 * x).cos() * (0.2 * y).cos()
+        };
         let solve = || {
-            let convolution = new(&grid);
-            let mut state = ContactState::new(&convolution);
-            let problem = ContactProblem {
-                convolution: &convolution,
-                separation: heights,
-                compliance: 1.0,
-                control: Control::NormalForce(4000.0),
+            let body = Pressing {
+                options: ContactOptions::default(),
+                ..Pressing::new(new(&grid), height)
             };
-            let contact = solve_contact(&problem, &mut state, &ContactOptions::default());
-            (contact.expect("a contact"), state.pressure().to_vec())
+            let (contact, state) = body.solve(Control::NormalForce(4000.0));
+            (contact, state.pressure().to_vec())
         };
         let [one, two, three] = [1, 2, 3].map(|threads| on_threads(threads, solve));
         assert_eq!(one, two, "the same contact on one and two threads");
