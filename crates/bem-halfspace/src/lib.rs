@@ -33,6 +33,7 @@
 //! assert!((scaling_factor - 0.55).abs() < 0.025, "s_1 = {scaling_factor}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod bands;
 mod bounds;

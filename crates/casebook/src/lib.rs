@@ -3,6 +3,7 @@
 //! The table `casebook.json` was computed with 40-digit arithmetic outside this workspace, every number in two
 //! independent ways. Each case has inputs, expected values and the relative tolerance that a good f64 implementation
 //! reaches.
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 use std::fmt::Write as _;
 

@@ -34,6 +34,7 @@
 //! # Ok(())
 //! # }
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod axisymmetric;
 mod elastic_limit;

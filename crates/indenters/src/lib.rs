@@ -25,6 +25,7 @@
 //! # Ok(())
 //! # }
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod analytic_line;
 mod axisymmetric;

@@ -27,6 +27,7 @@
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod chain;
 mod compensated;

@@ -18,6 +18,7 @@
 //! assert!(pi.error[0] < 1e-6 * pi.value);
 //! # Ok::<(), NotReached>(())
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod error_parts;
 mod estimate;

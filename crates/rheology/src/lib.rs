@@ -24,6 +24,7 @@
 //! assert!((ratio - 1.0).abs() < 1.1e-6);
 //! # Ok::<(), RheologyError>(())
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod complex;
 mod error;

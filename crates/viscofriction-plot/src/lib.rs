@@ -27,6 +27,7 @@
 //! Axes, marks and legend are drawn here, because libraries for charts clamp or clip what lies outside, or have no legend
 //! samples with line and marker together. Texts are laid out letter by letter: they are short, and a library that shapes
 //! them takes longer to compile than all solvers of the workspace.
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod axis;
 mod canvas;

@@ -25,6 +25,7 @@
 //! assert!(error < 1e-3 * friction, "{friction} ± {error}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 pub mod npy;
 pub mod scene;

@@ -3,49 +3,60 @@
 //! All builds use the release profile, because `cargo xtask` itself has compiled nearly everything with it. Tests of the
 //! whole workspace share that; tests of single crates compile what they use with fewer features and more checks.
 
-mod command;
+mod cargo;
 mod dependencies;
-mod invariants;
-mod test_counts;
+mod workspace;
 
+use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 use crate::figures;
-use command::{cargo, cargo_test};
+use cargo::Cargo;
 pub(crate) use dependencies::{Dependencies, measure};
-use test_counts::TestCounts;
-
-/// What can be published.
-const LIBRARIES: [&str; 6] = [
-    "viscofriction-numerics",
-    "indenters",
-    "rheology",
-    "friction-analytic",
-    "mdr-core",
-    "bem-halfspace",
-];
+use workspace::Workspace;
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.
 pub(crate) fn run() -> Result<()> {
-    let mut counts = TestCounts::default();
-    let outcome = steps(&mut counts);
-    if counts.any() {
-        println!("{counts}");
-    }
-    outcome
+    let mut cargo = Cargo::default();
+    let result = steps(&mut cargo);
+    println!("{cargo}");
+    result
 }
 
-fn steps(counts: &mut TestCounts) -> Result<()> {
-    step("format", || cargo(&["fmt", "--all", "--check"], &[]))?;
-    step("clippy", clippy)?;
-    step("tests", || all_tests(counts))?;
-    step("tests without default features", || lean_tests(counts))?;
-    step("documentation", documentation)?;
-    step("architecture invariants", invariants::check)?;
-    step("dependencies", dependencies::check)?;
-    step("packages", package)?;
+fn steps(cargo: &mut Cargo) -> Result<()> {
+    let workspace = Workspace::read()?;
+    let all = "--release --workspace --all-features";
+    step("format", || cargo.run("fmt --all --check"))?;
+    step("architecture", || workspace.check())?;
+    step("dependencies", || dependencies::check(&workspace))?;
+    step("clippy", || {
+        cargo.run(&format!("clippy {all} --all-targets -- --deny=warnings"))
+    })?;
+    step("tests", || cargo.test("--workspace --all-features"))?;
+    step("benchmarks, once each", || {
+        cargo.run(&format!("test {all} --bench=*"))
+    })?;
+    step("examples", || {
+        cargo.run(&format!("build {all} --examples"))?;
+        workspace.example_files().try_for_each(run_file)
+    })?;
+    step("tests without default features", || {
+        let mut libraries = workspace.libraries();
+        libraries.try_for_each(|library| cargo.test(&alone(library)))
+    })?;
+    step("documentation", || {
+        let deny = "--config=build.rustdocflags=[\"--deny=warnings\"]";
+        cargo.run(&format!("doc {all} --no-deps {deny}"))
+    })?;
+    step("packages", || {
+        // Packs what would be published, without compiling it once more.
+        let private = "--exclude xtask --exclude benches --exclude casebook";
+        cargo.run(&format!(
+            "package --workspace {private} --no-verify --allow-dirty --offline"
+        ))
+    })?;
     step("figures", figures::check)
 }
 
@@ -58,61 +69,17 @@ fn step(name: &str, check: impl FnOnce() -> Result<()>) -> Result<()> {
     Ok(())
 }
 
-fn clippy() -> Result<()> {
-    let scope = [
-        "clippy",
-        "--release",
-        "--workspace",
-        "--all-targets",
-        "--all-features",
-    ];
-    cargo(&[&scope[..], &["--", "--deny=warnings"]].concat(), &[])
+fn run_file(file: std::path::PathBuf) -> Result<()> {
+    let status = Command::new(&file).status();
+    let status = status.with_context(|| file.display().to_string())?;
+    ensure!(status.success(), "{}: {status}", file.display());
+    Ok(())
 }
 
-/// With all targets the benchmarks run too, once each; only then the examples in the documentation need a call of their
-/// own.
-fn all_tests(counts: &mut TestCounts) -> Result<()> {
-    ["--all-targets", "--doc"]
-        .iter()
-        .try_for_each(|targets| test(&["--workspace", "--all-features", targets], counts))
-}
-
-/// The checks that a release build leaves out, in the crates of the workspace, which have to be compiled anew anyway.
-const DEBUG_ASSERTIONS: [&str; 2] = [
-    "--config=profile.release.debug-assertions=true",
-    "--config=profile.release.package.\"*\".debug-assertions=false",
-];
-
-/// One crate at a time, because crates that are built together unite their features.
-fn lean_tests(counts: &mut TestCounts) -> Result<()> {
-    LIBRARIES.iter().try_for_each(|library| {
-        let scope = ["--package", library, "--no-default-features"];
-        test(&[&scope[..], &DEBUG_ASSERTIONS].concat(), counts)
-    })
-}
-
-fn test(scope: &[&str], counts: &mut TestCounts) -> Result<()> {
-    cargo_test(scope, |line| counts.read(line))
-}
-
-fn documentation() -> Result<()> {
-    cargo(
-        &[
-            "doc",
-            "--release",
-            "--workspace",
-            "--no-deps",
-            "--all-features",
-        ],
-        &[("RUSTDOCFLAGS", "--deny=warnings")],
-    )
-}
-
-/// Packs what would be published, without compiling it once more.
-fn package() -> Result<()> {
-    let mut arguments = vec!["package", "--no-verify", "--allow-dirty", "--offline"];
-    for library in LIBRARIES {
-        arguments.extend(["--package", library]);
-    }
-    cargo(&arguments, &[])
+/// Scope of a single crate, because crates that are built together unite their features. It is compiled with the checks
+/// that a release build leaves out, which it has to be anew anyway.
+fn alone(library: &str) -> String {
+    let checks = "--config=profile.release.debug-assertions=true \
+                  --config=profile.release.package.\"*\".debug-assertions=false";
+    format!("--package {library} --no-default-features {checks}")
 }

@@ -78,8 +78,7 @@ mod tests {
     /// `cargo viscofriction scene-schema > docs/scene.schema.json` makes it current.
     #[test]
     fn the_committed_schema_is_that_of_the_types() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");
-        let committed = std::fs::read_to_string(path).expect("the schema is committed");
+        let committed = include_str!("../../../../docs/scene.schema.json");
         let current = json_schema().expect("the types have a schema");
         assert!(
             committed == current,

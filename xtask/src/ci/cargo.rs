@@ -1,0 +1,115 @@
+//! Calls of cargo, whose arguments are separated by blanks, and the count of the tests that they ran.
+
+use std::fmt;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+/// The folder of the workspace.
+pub(super) fn workspace_root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Runs cargo and returns what it prints; its errors are those of the result.
+pub(super) fn cargo_output(arguments: &str) -> Result<String> {
+    let output = command(arguments).output().context("calling cargo")?;
+    let errors = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "cargo {arguments}: {errors}");
+    Ok(String::from_utf8(output.stdout)?)
+}
+
+fn command(arguments: &str) -> Command {
+    // Under `cargo xtask` this is the cargo that runs it.
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(arguments.split_whitespace());
+    command.current_dir(workspace_root());
+    command
+}
+
+/// Cargo, with the number of tests that have passed and failed under it.
+#[derive(Debug, Default)]
+pub(super) struct Cargo {
+    passed: u64,
+    failed: u64,
+}
+
+impl Cargo {
+    /// Runs cargo, shows what it prints, and counts the tests that it reports.
+    pub(super) fn run(&mut self, arguments: &str) -> Result<()> {
+        let (output, input) = std::io::pipe()?;
+        let mut command = command(arguments);
+        command.stdout(input.try_clone()?).stderr(input);
+        let mut child = command.spawn().context("calling cargo")?;
+        // With it go our ends of the pipe, which then closes when the child ends.
+        drop(command);
+        for line in BufReader::new(output).split(b'\n') {
+            let line = line?;
+            let line = String::from_utf8_lossy(&line);
+            println!("{line}");
+            self.count(&line);
+        }
+        let status = child.wait()?;
+        ensure!(status.success(), "cargo {arguments}: {status}");
+        Ok(())
+    }
+
+    /// Runs all tests of a scope: by nextest and then those in the documentation, which nextest does not know, or all
+    /// by cargo itself.
+    pub(super) fn test(&mut self, scope: &str) -> Result<()> {
+        let scope = format!("--no-fail-fast {scope}");
+        if cargo_output("nextest --version").is_err() {
+            return self.run(&format!("test --release {scope}"));
+        }
+        let nextest = self.run(&format!(
+            "nextest run --cargo-profile release --no-tests pass {scope}"
+        ));
+        self.run(&format!("test --release --doc {scope}"))?;
+        nextest
+    }
+
+    /// Adds what the closing line of a run says; other lines say nothing.
+    fn count(&mut self, line: &str) {
+        let line = line.trim_start();
+        let is_closing = |start: &&str| line.starts_with(start);
+        if !["test result: ", "Summary ["].iter().any(is_closing) {
+            return;
+        }
+        let words: Vec<&str> = line.split([' ', ',', ';']).collect();
+        for pair in words.windows(2) {
+            match (pair[0].parse::<u64>(), pair[1]) {
+                (Ok(number), "passed") => self.passed += number,
+                (Ok(number), "failed" | "timed") => self.failed += number,
+                _ => {}
+            }
+        }
+    }
+}
+
+impl fmt::Display for Cargo {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} passed, {} failed", self.passed, self.failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cargo;
+
+    #[test]
+    fn the_last_line_is_the_sum_over_all_runs() {
+        let mut cargo = Cargo::default();
+        for line in [
+            "running 3 tests",
+            "test result: ok. 12 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.10s",
+            "test result: FAILED. 3 passed; 2 failed; 0 ignored; 0 measured; 0 filtered out; finished in 0.20s",
+            "     Summary [   1.005s] 9 tests run: 7 passed (1 slow), 2 failed, 4 skipped",
+            "99 passed; this is no result",
+        ] {
+            cargo.count(line);
+        }
+        assert_eq!(cargo.to_string(), "22 passed, 4 failed", "{cargo:?}");
+    }
+}

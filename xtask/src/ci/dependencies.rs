@@ -1,0 +1,140 @@
+//! `dependencies`: what each library crate pulls in when it is built alone and without its optional features, and what
+//! building it takes.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+
+use super::cargo::{cargo_output, workspace_root};
+use super::workspace::Workspace;
+use crate::output::{print_line, write_atomically};
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+pub(crate) struct Dependencies {
+    /// The page that is written, in Markdown.
+    #[arg(long, value_name = "FILE", default_value = "target/dependencies.md")]
+    out: PathBuf,
+}
+
+/// The page whose text up to the first table is kept, and with whose counts CI compares.
+const COMMITTED: &str = "docs/dependencies.md";
+
+const CRATES: &str = "
+| crate | of this workspace | of others | for building only | processor time \\[s] |
+|---|---|---|---|---|
+";
+
+const DIRECT: &str = "
+| crate | direct dependency | what comes with it, itself included |
+|---|---|---|
+";
+
+/// Counts, builds, and writes the page.
+pub(crate) fn measure(options: &Dependencies) -> Result<()> {
+    let page = committed()?;
+    let text = page.split("\n| ").next().unwrap_or_default();
+    let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
+    for library in Workspace::read()?.libraries() {
+        let counts = Counts::of(library)?;
+        let seconds = processor_seconds_to_build(library)?;
+        crates += &format!("{} {seconds:.0} |\n", counts.row);
+        direct += &counts.direct.concat();
+    }
+    let page = [text, &crates, &direct].concat();
+    write_atomically(&options.out, page.as_bytes())?;
+    print_line(&format!("written to {}", options.out.display()))
+}
+
+/// Compares the counts of the committed page with those of now.
+pub(super) fn check(workspace: &Workspace) -> Result<()> {
+    let page = committed()?;
+    for library in workspace.libraries() {
+        let counts = Counts::of(library)?;
+        for row in counts.direct.iter().chain([&counts.row]) {
+            ensure!(
+                page.contains(row.as_str()),
+                "{COMMITTED} lacks {row:?}; `cargo xtask dependencies --out {COMMITTED}` makes it current"
+            );
+        }
+    }
+    Ok(())
+}
+
+fn committed() -> Result<String> {
+    fs::read_to_string(workspace_root().join(COMMITTED)).context(COMMITTED)
+}
+
+/// Rows of the page about a crate.
+struct Counts {
+    /// Up to the time.
+    row: String,
+    /// One for each direct dependency, with the number of crates that it alone would bring.
+    direct: Vec<String>,
+}
+
+impl Counts {
+    fn of(library: &str) -> Result<Self> {
+        let all = tree(library, "normal,build")?;
+        let linked = tree(library, "normal,no-proc-macro")?;
+        let [distinct_all, linked] = [&all[1..], &linked[1..]].map(distinct);
+        // Behind the version of a crate of the workspace stands its folder.
+        let is_ours = |package: &&&str| package.ends_with(')');
+        let ours = linked.iter().filter(is_ours).count();
+        let others = linked.len() - ours;
+        let building = distinct_all.difference(&linked).count();
+        let starts = (1..all.len()).filter(|start| all[*start].0 == 1);
+        let direct = starts.map(|start| {
+            let inner = all[start + 1..].iter().take_while(|(depth, _)| *depth > 1);
+            let subtree = &all[start..=start + inner.count()];
+            let name = all[start].1.split(' ').next().unwrap_or_default();
+            let count = distinct(subtree).len();
+            format!("| `{library}` | `{name}` | {count} |\n")
+        });
+        Ok(Self {
+            row: format!("| `{library}` | {ours} | {others} | {building} |"),
+            direct: direct.collect(),
+        })
+    }
+}
+
+/// The depth of each crate in the tree of one, and the crate, as `libm v0.2.16`.
+fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
+    let text = cargo_output(&format!(
+        "tree --package {library} --no-default-features --edges {edges} --no-dedupe \
+         --target x86_64-unknown-linux-gnu --prefix depth --format :{{p}}"
+    ))?;
+    let node = |line: &str| {
+        let (depth, package) = line.split_once(':').context("no line of a tree")?;
+        Ok((depth.parse()?, package.to_owned()))
+    };
+    text.lines().map(node).collect()
+}
+
+fn distinct(nodes: &[(usize, String)]) -> BTreeSet<&str> {
+    nodes.iter().map(|(_, package)| &**package).collect()
+}
+
+/// Builds a crate alone, without its optional features and from nothing; returns the processor time, \[s].
+fn processor_seconds_to_build(library: &str) -> Result<f64> {
+    let folder = tempfile::tempdir()?;
+    let before = seconds_of_ended_children()?;
+    let target = folder.path().display();
+    cargo_output(&format!(
+        "build --quiet --release --package {library} --no-default-features --target-dir {target}"
+    ))?;
+    Ok(seconds_of_ended_children()? - before)
+}
+
+/// User and system time of all processes that were waited for, \[s].
+fn seconds_of_ended_children() -> Result<f64> {
+    let text = fs::read_to_string("/proc/self/stat").context("times are known on Linux only")?;
+    // Behind the name, which is in parentheses, the numbers of the children are the 14th and 15th, in hundredths.
+    let (_, numbers) = text.rsplit_once(')').context("no statistics")?;
+    let ticks = numbers.split_whitespace().skip(13).take(2);
+    let ticks: Result<f64, _> = ticks.map(str::parse::<f64>).sum();
+    Ok(0.01 * ticks?)
+}
