@@ -2,8 +2,7 @@
 
 use std::error::Error;
 
-use bem_halfspace::slide::{SlideOptions, slide};
-use bem_halfspace::{ContactOptions, Footprint};
+use bem_halfspace::{Footprint, GridOptions, slide_on_grid};
 use benches::report_error;
 use criterion::Criterion;
 use friction_analytic::power_sliding;
@@ -46,13 +45,10 @@ fn march(
     let body = PowerProfile::paraboloid(1.0)?;
     let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
     let line = power_sliding(&body, &material, &load)?;
-    let options = SlideOptions {
-        spacing: [line.contact_length() / elements; 2],
-        footprint: Footprint::of_body(&body, &material, &load)?,
-        sliding_distance: LENGTHS * line.contact_length(),
-        contact: ContactOptions::default(),
-    };
-    let run = || slide(surface, &material, &load, &options);
+    let footprint = Footprint::sliding(&body, &material, &load)?;
+    let options = GridOptions::new([line.contact_length() / elements; 2], footprint);
+    let load = load.after(LENGTHS * line.contact_length())?;
+    let run = || slide_on_grid(surface, &material, &load, &options);
     let transient = run()?;
     let exact = SCALING_FACTOR * line.friction_coefficient;
     let last = transient.last().friction_coefficient;

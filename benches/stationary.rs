@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use bem_halfspace::Footprint;
-use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
+use bem_halfspace::steady::SteadyOptions;
+use bem_halfspace::{Footprint, steady, steady_on_grid};
 use benches::report_error;
 use criterion::Criterion;
 use friction_analytic::power_sliding;
@@ -15,7 +15,6 @@ const ELEMENTS: [f64; 3] = [20.0, 60.0, 180.0];
 /// Δy/Δx.
 const ASPECT: f64 = 0.5;
 const TOLERANCE: f64 = 1e-7;
-const MAX_ITERATIONS: usize = 500;
 const RELATIVE_ERROR: f64 = 1e-3;
 /// Converged ratio s₂ of the friction on the half space to that on the line, from `docs/figures/scaling_factors.csv`,
 /// which puts its error at 6.3e-5.
@@ -29,27 +28,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().sample_size(10).configure_from_args();
     for elements in ELEMENTS {
         let spacing = line.contact_length() / elements;
+        let footprint = Footprint::sliding(&body, &material, &load)?;
         let options = SteadyOptions {
-            spacing: [spacing, ASPECT * spacing],
-            phase: [0.0, 0.0],
-            footprint: Footprint::of_body(&body, &material, &load)?,
             tolerance: TOLERANCE,
-            max_iterations: MAX_ITERATIONS,
+            ..SteadyOptions::new([spacing, ASPECT * spacing], footprint)
         };
-        let run = || steady(&body, &material, &load, &options);
+        let run = || steady_on_grid(&body, &material, &load, &options);
         let solution = run()?;
         let name = format!("stationary/{} unknowns", solution.unknowns);
         let friction = solution.friction_coefficient;
         report_error(&name, "friction coefficient", [friction, exact]);
         criterion.bench_function(&name, |bencher| bencher.iter(run));
     }
-    let options = FrictionOptions {
-        relative_error: RELATIVE_ERROR,
-        ..FrictionOptions::default()
-    };
-    let run = || steady_friction(&body, &material, &load, &options);
+    let run = || steady(&body, &material, &load, RELATIVE_ERROR);
     let name = format!("stationary/friction to {RELATIVE_ERROR:e}");
-    let friction = run()?.friction_coefficient;
+    let friction = run()?.friction_coefficient.value;
     report_error(&name, "friction coefficient", [friction, exact]);
     criterion.bench_function(&name, |bencher| bencher.iter(run));
     criterion.final_summary();

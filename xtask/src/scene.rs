@@ -1,11 +1,11 @@
 //! One power profile on a viscous half space, solved by all three methods.
 
 use anyhow::Result;
-use bem_halfspace::slide::{SlideOptions, Transient, slide};
+use bem_halfspace::slide::{Transient, slide_on_grid};
 use bem_halfspace::steady::{
-    FrictionEstimate, FrictionOptions, SteadyOptions, SteadySliding, steady, steady_friction,
+    RefinementOptions, SteadyEstimate, SteadyOptions, SteadySliding, steady_on_grid, steady_refined,
 };
-use bem_halfspace::{BemError, ContactOptions, Footprint};
+use bem_halfspace::{BemError, Footprint, GridOptions};
 use friction_analytic::{StationarySliding, power_sliding};
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
 use numerics::Estimate;
@@ -55,13 +55,10 @@ impl Scene {
     /// The half space with square elements of the given edge, slid over `lengths` contact lengths of the
     /// one-dimensional model.
     pub(crate) fn half_space(&self, spacing: f64, lengths: f64) -> Result<Transient> {
-        let options = SlideOptions {
-            spacing: [spacing; 2],
-            footprint: Footprint::of_body(&self.body, &self.material, &self.load)?,
-            sliding_distance: lengths * self.theory()?.contact_length(),
-            contact: ContactOptions::default(),
-        };
-        Ok(slide(&self.body, &self.material, &self.load, &options)?)
+        let footprint = Footprint::sliding(&self.body, &self.material, &self.load)?;
+        let options = GridOptions::new([spacing; 2], footprint);
+        let load = self.load.after(lengths * self.theory()?.contact_length())?;
+        Ok(slide_on_grid(&self.body, &self.material, &load, &options)?)
     }
 
     /// The stationary half space to a relative error, with elements of an aspect Δy/Δx.
@@ -69,13 +66,13 @@ impl Scene {
         &self,
         relative_error: f64,
         aspect: f64,
-    ) -> Result<FrictionEstimate, BemError> {
-        let options = FrictionOptions {
+    ) -> Result<SteadyEstimate, BemError> {
+        let options = RefinementOptions {
             relative_error,
             aspect,
-            ..FrictionOptions::default()
+            ..RefinementOptions::default()
         };
-        steady_friction(&self.body, &self.material, &self.load, &options)
+        steady_refined(&self.body, &self.material, &self.load, &options)
     }
 
     /// The stationary half space on one grid; the tolerance is that of the residual over F_N/(4ηv).
@@ -85,14 +82,14 @@ impl Scene {
         phase: [f64; 2],
         tolerance: f64,
     ) -> Result<SteadySliding> {
+        let footprint = Footprint::sliding(&self.body, &self.material, &self.load)?;
         let options = SteadyOptions {
-            spacing,
             phase,
-            footprint: Footprint::of_body(&self.body, &self.material, &self.load)?,
             tolerance,
-            max_iterations: 500,
+            ..SteadyOptions::new(spacing, footprint)
         };
-        Ok(steady(&self.body, &self.material, &self.load, &options)?)
+        let state = steady_on_grid(&self.body, &self.material, &self.load, &options);
+        Ok(state?)
     }
 }
 
@@ -106,14 +103,11 @@ pub(crate) struct Reached {
 
 /// Friction with the error bar that was reached, which is right even where it is wider than what was asked for.
 pub(crate) fn as_far_as_reached(
-    result: Result<FrictionEstimate, BemError>,
+    result: Result<SteadyEstimate, BemError>,
 ) -> Result<Reached, BemError> {
     match result {
         Ok(estimate) => Ok(Reached {
-            friction: Estimate {
-                value: estimate.friction_coefficient,
-                error: estimate.error,
-            },
+            friction: estimate.friction_coefficient,
             unknowns: estimate.refinements.last().map(|last| last.unknowns),
         }),
         Err(BemError::FrictionNotReached {
@@ -130,8 +124,9 @@ pub(crate) fn as_far_as_reached(
 
 #[cfg(test)]
 mod tests {
-    use bem_halfspace::indent::{IndentOptions, indent};
+    use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
     use friction_analytic::power_indentation_after_impulse;
+    use indenters::Control;
 
     use super::*;
 
@@ -146,13 +141,10 @@ mod tests {
                     .expect("an indentation")
             });
             let radius = exact[3].contact_radius;
-            let options = IndentOptions {
-                spacing: [radius / 24.0; 2],
-                footprint: Footprint::square(1.2 * radius),
-                contact: ContactOptions::default(),
-            };
+            let options = GridOptions::new([radius / 24.0; 2], Footprint::square(1.2 * radius));
+            let steps = IndentStep::constant(Control::NormalForce(force), &times);
             let half_space =
-                indent(&body, &material, (force, &times), &options).expect("an indentation");
+                indent_history_on_grid(&body, &material, &steps, &options).expect("an indentation");
             let spacing = mdr_core::IndentOptions {
                 spacing: radius / 500.0,
             };

@@ -1,10 +1,10 @@
-//! What can be wrong with a question to the half space, and what was reached when it could not be answered.
+//! Wrong input, and what was reached when a solution was not.
 
 use indenters::IndenterError;
 use rheology::RheologyError;
 use thiserror::Error;
 
-/// Why the half space gives no answer.
+/// Why there is no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BemError {
     /// A parameter is not a number, or outside the range it may take.
@@ -164,12 +164,77 @@ pub enum BemError {
         /// Relative error asked for.
         relative_error: f64,
     },
-    /// The rigid body refuses the question.
+    /// The load has no sliding distance where one is needed.
+    #[error("the load needs a sliding distance (SlidingLoad::after): {why}")]
+    SlidingDistanceMissing {
+        /// The reason.
+        why: &'static str,
+    },
+    /// A march would take too long.
+    #[error(
+        "the march would have {steps:e} steps, but at most {limit:e} are allowed; slide over a shorter distance"
+    )]
+    TooManySteps {
+        /// Steps of one element.
+        steps: f64,
+        /// The largest number allowed.
+        limit: f64,
+    },
+    /// The slowest retardation of the material outlasts any march to the stationary state.
+    #[error(
+        "a march to the stationary state is longer than {limit} contact lengths: the slowest retardation takes {memory:e} m \
+         of sliding, and the contact is about {contact_length:e} m long; solve for the stationary state directly, or slide \
+         over a distance"
+    )]
+    MemoryTooLong {
+        /// Distance in which the slowest element forgets, \[m].
+        memory: f64,
+        /// Contact length, \[m].
+        contact_length: f64,
+        /// Contact lengths of the longest march.
+        limit: f64,
+    },
+    /// A material that flows has no state long after it was pressed.
+    #[error(
+        "a material that flows never comes to rest under a load: press it for a duration with `indent`"
+    )]
+    NoEquilibrium,
+    /// The depth was not reached to the error asked for.
+    #[error(
+        "the indentation depth was not reached to the relative error {relative_error:e}: it is {indentation_depth} m with \
+         an error of {error:e} m"
+    )]
+    DepthNotReached {
+        /// Best value reached, \[m].
+        indentation_depth: f64,
+        /// Its absolute error, \[m].
+        error: f64,
+        /// Relative error asked for.
+        relative_error: f64,
+    },
+    /// The rigid body refuses.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
-    /// The material refuses the question.
+    /// The material refuses.
     #[error(transparent)]
     Material(#[from] RheologyError),
+}
+
+/// Elements of a contact along x and across it, whichever are fewer, that give it a meaningful friction.
+pub(crate) const MIN_CONTACT_ELEMENTS: usize = 3;
+
+/// Checks that a contact covers enough elements.
+///
+/// # Errors
+/// [`BemError::GridTooCoarse`] otherwise.
+pub(crate) fn check_contact_elements(elements: usize) -> Result<(), BemError> {
+    if elements >= MIN_CONTACT_ELEMENTS {
+        return Ok(());
+    }
+    Err(BemError::GridTooCoarse {
+        elements,
+        needed: MIN_CONTACT_ELEMENTS,
+    })
 }
 
 /// Checks a parameter.

@@ -1,13 +1,13 @@
 //! Where contact may occur, seen from the indenter.
 
-use indenters::{Axisymmetric, SlidingLoad};
+use indenters::{Axisymmetric, Control, SlidingLoad, Surface};
 use numerics::bracketed_root;
 use rheology::Material;
 
 use crate::BemError;
 use crate::error::positive;
 use crate::grid::elements_along;
-use crate::steady::depth_scale_of_body;
+use crate::steady::{depth_scale_of_body, depth_scale_of_surface};
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,49 +29,68 @@ impl Footprint {
         }
     }
 
-    /// The square that holds the contact of a body of revolution: up to 1.5 of the height D = F_N / (4 η v), or 2 of it
-    /// for a cusp sharper than r^(3/4). The front of the contact reaches 1.6 of that scale for h ∼ r^0.51, 1.1 for the
+    /// The rectangle that holds the contact of a surface that slides.
+    ///
+    /// At a depth that is all of the surface below it, because a half space nowhere rises to meet the body. Under a force
+    /// it reaches up to 1.5 of the depth D = F_N / (4 η v), or 2 of it for a cusp sharper than r^(3/4) and for other
+    /// surfaces than bodies of revolution: the front of the contact reaches 1.6 of that depth for h ∼ r^0.51, 1.1 for the
     /// cone and 0.8 for the paraboloid. On other materials than the dashpot D = h(a) = 2 (1 − ν) F_N J(a/v) / (4 a).
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] when the body has no radius that could be found for this load.
-    pub fn of_body(
-        body: &(impl Axisymmetric + ?Sized),
+    /// [`BemError::InvalidParameter`] for a surface that is low everywhere.
+    pub fn sliding(
+        surface: &(impl Surface + ?Sized),
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let depth = depth_scale_of_body(body, material, load)?;
-        let height = if body.profile_exponent() < 0.75 {
-            2.0
-        } else {
-            1.5
-        };
-        Self::below(body, height * depth, ("depth scale", depth))
+        let surface: &dyn Surface = &surface;
+        match (load.control(), surface.as_axisymmetric()) {
+            (Control::IndentationDepth(depth), _) => Self::below(surface, depth),
+            (Control::NormalForce(_), Some(body)) => {
+                let depth = depth_scale_of_body(body, material, load)?;
+                let height = if body.profile_exponent() < 0.75 {
+                    2.0
+                } else {
+                    1.5
+                };
+                Self::of_body_below(body, height * depth)
+            }
+            (Control::NormalForce(_), None) => Self::below(
+                surface,
+                2.0 * depth_scale_of_surface(surface, material, load)?,
+            ),
+        }
     }
 
-    /// The square that holds the contact of a body of revolution at a depth of its lowest point \[m]: the surface nowhere
-    /// rises to meet the body.
+    /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m].
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] for a depth that is not positive, or that the body reaches at no finite radius.
-    pub fn of_body_at_depth(
-        body: &(impl Axisymmetric + ?Sized),
-        depth: f64,
-    ) -> Result<Self, BemError> {
-        Self::below(body, positive("depth", depth)?, ("depth", depth))
+    /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
+    pub fn below(surface: &(impl Surface + ?Sized), height: f64) -> Result<Self, BemError> {
+        positive("indentation depth", height)?;
+        if let Some(body) = surface.as_axisymmetric() {
+            return Self::of_body_below(body, height);
+        }
+        let [x, y] = surface.extent_below(height);
+        if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {
+            return Ok(Self { x, y });
+        }
+        Err(nowhere_as_high(height))
     }
 
-    fn below(
-        body: &(impl Axisymmetric + ?Sized),
-        height: f64,
-        (parameter, value): (&'static str, f64),
-    ) -> Result<Self, BemError> {
+    fn of_body_below(body: &dyn Axisymmetric, height: f64) -> Result<Self, BemError> {
         let radius = radius_at_height(body, height).filter(|radius| *radius > 0.0);
-        radius.map(Self::square).ok_or(BemError::InvalidParameter {
-            parameter,
-            value,
-            allowed: "a height that the body reaches at a finite radius greater than 0",
-        })
+        radius.map(Self::square).ok_or(nowhere_as_high(height))
+    }
+
+    /// With room for two elements at the boundary, where a steep body leaves none.
+    #[must_use]
+    pub fn widened(&self, spacing: f64) -> Self {
+        let widened = |[first, last]: [f64; 2]| [first - 2.0 * spacing, last + 2.0 * spacing];
+        Self {
+            x: widened(self.x),
+            y: widened(self.y),
+        }
     }
 
     pub(crate) const fn boundary_reached(&self, sliding_distance: f64) -> BemError {
@@ -104,7 +123,7 @@ impl Footprint {
     }
 }
 
-fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<f64> {
+fn radius_at_height(body: &dyn Axisymmetric, height: f64) -> Option<f64> {
     let above = |radius: f64| body.profile_height(radius) >= height;
     let mut radius = if body.max_radius().is_finite() {
         body.max_radius()
@@ -119,4 +138,12 @@ fn radius_at_height(body: &(impl Axisymmetric + ?Sized), height: f64) -> Option<
     }
     let excess = |radius: f64| (body.profile_height(radius) - height).clamp(-height, height);
     bracketed_root(excess, [0.5 * radius, radius]).or(above(radius).then_some(radius))
+}
+
+fn nowhere_as_high(height: f64) -> BemError {
+    BemError::InvalidParameter {
+        parameter: "indentation depth",
+        value: height,
+        allowed: "a height that the surface reaches all around at a finite distance greater than 0",
+    }
 }

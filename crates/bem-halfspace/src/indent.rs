@@ -5,27 +5,34 @@
 //! any grid and in any steps. Hence under a constant force steps in time cause no error, on any material; with another
 //! history the error is of first order in their lengths, because force and load are held over a step.
 
-mod refined;
+mod history;
+mod press;
 
-use indenters::Surface;
+use indenters::{Control, Surface};
 use rheology::Material;
 
-use crate::error::positive;
-use crate::slide::MIN_CONTACT_ELEMENTS;
+use crate::error::{check_contact_elements, positive};
 use crate::stepping::{Instant, Route, Stepping};
-use crate::{BemError, Control, Resolution};
-pub use refined::{IndentHistory, PiecewiseLinear, TimeOptions, indent_history_refined};
-
-/// Resolution of an indentation.
-pub type IndentOptions = Resolution;
+use crate::{BemError, GridOptions};
+pub use history::{ControlHistory, HistoryOptions, IndentHistory, PiecewiseLinear, indent_history};
+pub use press::{PressEstimate, PressSolution, indent, indent_on_grid, press, press_on_grid};
 
 /// One step of a history; its control holds from the step before, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndentStep {
     /// Time at the end of the step, since first touch, \[s].
     pub time: f64,
-    /// What is given there.
+    /// Force or depth there; a force may be zero, a depth negative.
     pub control: Control,
+}
+
+impl IndentStep {
+    /// Steps to each of the `times` \[s] under a constant control.
+    #[must_use]
+    pub fn constant(control: Control, times: &[f64]) -> Vec<Self> {
+        let step = |&time: &f64| Self { time, control };
+        times.iter().map(step).collect()
+    }
 }
 
 /// The state at one time.
@@ -44,61 +51,39 @@ pub struct IndentRow {
     pub n_contact: usize,
 }
 
-/// Presses `surface` into an undeformed half space with the constant `normal_force` \[N]; returns the state at each of
-/// the `times` \[s], one step each, which must increase and be greater than zero.
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] for a force that is not positive; otherwise like [`indent_history`].
-pub fn indent(
-    surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
-    (normal_force, times): (f64, &[f64]),
-    options: &IndentOptions,
-) -> Result<Vec<IndentRow>, BemError> {
-    positive("normal_force", normal_force)?;
-    let step = |time: &f64| IndentStep {
-        time: *time,
-        control: Control::NormalForce(normal_force),
-    };
-    let steps: Vec<IndentStep> = times.iter().map(step).collect();
-    indent_history(surface, material, &steps, options)
-}
-
-/// Presses `surface` into an undeformed half space and lets it go again, step by step.
+/// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for no steps, times that do not increase from above zero, or numbers out of range;
 /// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`] when no contact covers three elements along x and y;
 /// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
 /// [`BemError::Material`].
-pub fn indent_history(
+pub fn indent_history_on_grid(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     steps: &[IndentStep],
-    options: &IndentOptions,
+    options: &GridOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
     let ends = steps.iter().map(|step| (step.time, 0.0, step.control));
     let route = Route::through(ends, positive("spacing along x", options.spacing[0])?)?;
-    let mut stepping = Stepping::new(surface, material, route, options)?;
+    let mut stepping = Stepping::new(&surface, material, route, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
     while let Some(instant) = stepping.advance()? {
-        let size = instant
-            .bounds
-            .map_or(0, |bounds| bounds.shape()[0].min(bounds.shape()[1]));
-        largest = largest.max(size);
+        largest = largest.max(elements_across(&instant));
         rows.push(row(&instant, options));
     }
-    if largest < MIN_CONTACT_ELEMENTS {
-        return Err(BemError::GridTooCoarse {
-            elements: largest,
-            needed: MIN_CONTACT_ELEMENTS,
-        });
-    }
+    check_contact_elements(largest)?;
     Ok(rows)
 }
 
-fn row(instant: &Instant, options: &IndentOptions) -> IndentRow {
+/// Elements of the contact along x or y, whichever are fewer.
+fn elements_across(instant: &Instant) -> usize {
+    let shape = instant.bounds.map_or([0; 2], |bounds| bounds.shape());
+    shape[0].min(shape[1])
+}
+
+fn row(instant: &Instant, options: &GridOptions) -> IndentRow {
     IndentRow {
         time: instant.leg.time,
         indentation_depth: instant.indentation_depth,

@@ -1,41 +1,34 @@
-//! Boundary elements for rigid indenters on a viscous or viscoelastic half space.
+//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
-//! coefficients by fast convolution; the contact conditions are solved to a stated tolerance at every step. Four
-//! questions can be asked, in modules named like those of the one-dimensional solver:
+//! coefficients by fast convolution; the contact conditions are solved to a stated tolerance. A surface, a material, a load
+//! and a relative error are all that these functions need, and every quantity that they return is exact or has an error bar:
 //!
-//! * [`contact`]: one instant, elastic or a step of a history, at given force or depth;
-//! * [`indent`]: normal indentation, any history of force or depth;
-//! * [`slide`]: sliding from first touch, through the transition, towards the stationary state, and any other motion;
-//! * [`steady`]: stationary sliding, solved directly, with an error bar.
+//! * [`press()`]: static contact, long after pressing;
+//! * [`indent()`]: a constant force or depth for a time;
+//! * [`slide()`]: sliding in time from first touch;
+//! * [`steady()`]: stationary sliding, solved directly; [`steady_line`] in plane strain.
 //!
-//! The last three take any linear viscoelastic material.
+//! The same on one grid: [`press_on_grid`], [`indent_on_grid`], [`slide_on_grid`], [`steady_on_grid`],
+//! [`steady_line_on_grid`]. Histories of force and depth are in [`mod@indent`], arbitrary motions in [`mod@slide`], single
+//! contacts on given heights in [`contact`].
 //!
 //! ```
-//! use bem_halfspace::slide::{SlideOptions, slide};
-//! use bem_halfspace::{ContactOptions, Footprint};
+//! use bem_halfspace::steady;
 //! use indenters::{PowerProfile, SlidingLoad};
 //! use rheology::Viscous;
 //!
-//! let (cone, rubber) = (PowerProfile::cone(0.1)?, Viscous::new(1.0e4)?);
-//! let load = SlidingLoad::new(1.0, 0.01)?;
-//! // Contact length of the one-dimensional model, Eq. (21), five elements along it, sliding over 24 of it.
-//! let length = 1.0 / (2.0 * std::f64::consts::PI * 0.1 * 1.0e4 * 0.01);
-//! let options = SlideOptions {
-//!     spacing: [length / 5.0; 2],
-//!     footprint: Footprint::of_body(&cone, &rubber, &load)?,
-//!     sliding_distance: 24.0 * length,
-//!     contact: ContactOptions::default(),
-//! };
-//! let friction = slide(&cone, &rubber, &load, &options)?.stationary(0.02)?.friction_coefficient;
+//! let (cone, fluid) = (PowerProfile::cone(0.1)?, Viscous::new(1.0e4)?);
+//! let friction = steady(&cone, &fluid, &SlidingLoad::new(1.0, 0.01)?, 1e-3)?.friction_coefficient;
 //! // The paper finds 0.55 of the friction (π/2) 0.1 of the one-dimensional model.
-//! let scaling_factor = friction / (0.05 * std::f64::consts::PI);
+//! let scaling_factor = friction.value / (0.05 * std::f64::consts::PI);
 //! assert!((scaling_factor - 0.55).abs() < 0.025, "s_1 = {scaling_factor}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod bands;
+mod bars;
 mod bounds;
 mod chunks;
 pub mod contact;
@@ -47,6 +40,7 @@ mod grid;
 pub mod indent;
 mod influence;
 mod mirror;
+mod plan;
 mod plane_transform;
 mod rectangle;
 mod resolution;
@@ -54,10 +48,14 @@ pub mod slide;
 pub mod steady;
 mod stepping;
 
-pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, Control, solve_contact};
+pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};
 pub use error::BemError;
 pub use footprint::Footprint;
 pub use grid::Grid;
+pub use indent::{indent, indent_on_grid, press, press_on_grid};
+pub use indenters::{Control, PressingLoad, SlidingLoad};
 pub use influence::influence;
-pub use resolution::Resolution;
+pub use resolution::GridOptions;
+pub use slide::{PressureField, slide, slide_on_grid};
+pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};

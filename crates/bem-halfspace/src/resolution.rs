@@ -3,17 +3,22 @@
 use crate::bounds::Bounds;
 use crate::error::positive;
 use crate::mirror::Mirror;
+use crate::slide::SlideOmission;
 use crate::{BemError, ContactOptions, Footprint};
 
-/// Resolution of a half space under an indenter.
+/// One grid for pressing and sliding in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resolution {
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct GridOptions {
     /// Edges of an element [Δx, Δy], \[m].
     pub spacing: [f64; 2],
     /// Where contact may occur, seen from the indenter.
     pub footprint: Footprint,
     /// How exactly each step is solved.
     pub contact: ContactOptions,
+    /// Work that is done although the problem does not need it, to measure what leaving it out saves; the result is the
+    /// same up to the tolerance.
+    pub redundant_work: Option<SlideOmission>,
 }
 
 /// The elements under the indenter.
@@ -27,7 +32,18 @@ pub(crate) struct Layout {
     pub(crate) mirrors: [Mirror; 2],
 }
 
-impl Resolution {
+impl GridOptions {
+    /// A grid with contacts solved to the default tolerance.
+    #[must_use]
+    pub fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
+        Self {
+            spacing,
+            footprint,
+            contact: ContactOptions::default(),
+            redundant_work: None,
+        }
+    }
+
     /// The elements under an indenter which is its own mirror image along the axes where `even` says so.
     pub(crate) fn layout(&self, even: [bool; 2]) -> Result<Layout, BemError> {
         positive("spacing along x", self.spacing[0])?;

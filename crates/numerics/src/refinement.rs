@@ -19,6 +19,13 @@ pub enum Accuracy {
     Elements(usize),
 }
 
+impl From<f64> for Accuracy {
+    /// A relative error.
+    fn from(relative_error: f64) -> Self {
+        Self::RelativeError(relative_error)
+    }
+}
+
 /// What is asked, and how errors fall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Goal {
@@ -39,6 +46,8 @@ pub struct Quantity {
     pub rounding: f64,
     /// Least error of the elements, for values that all resolutions may have in common.
     pub least: f64,
+    /// Whether the refinement goes on until it has the error asked for; otherwise its error is only estimated.
+    pub drives: bool,
 }
 
 impl From<f64> for Quantity {
@@ -48,6 +57,7 @@ impl From<f64> for Quantity {
             value,
             rounding: 0.0,
             least: 0.0,
+            drives: true,
         }
     }
 }
@@ -72,6 +82,8 @@ pub struct Refined<T, const N: usize> {
      error of {error:.1e}"
 )]
 pub struct NotReached {
+    /// Which of the quantities.
+    pub quantity: usize,
     /// Relative error asked for.
     pub asked: f64,
     /// Value that was reached.
@@ -177,14 +189,18 @@ fn not_reached<const N: usize>(
     elements: usize,
 ) -> Option<NotReached> {
     let asked = asked?;
-    let mut known = fine.iter().zip(errors(fine, parts));
-    let (quantity, error) = known.find(|(quantity, error)| {
-        *error > (asked * quantity.value.abs()).max(2.0 * quantity.rounding)
+    let errors = errors(fine, parts);
+    let quantity = (0..N).find(|&quantity| {
+        let Quantity {
+            value, rounding, ..
+        } = fine[quantity];
+        fine[quantity].drives && errors[quantity] > (asked * value.abs()).max(2.0 * rounding)
     })?;
     Some(NotReached {
+        quantity,
         asked,
-        value: quantity.value,
-        error,
+        value: fine[quantity].value,
+        error: errors[quantity],
         elements,
     })
 }

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use bem_halfspace::Footprint;
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,6 @@ pub(super) const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 15
 const PHASE: [f64; 2] = [0.5, 0.5];
 /// Gaps left in contact, relative to F_N/(4ηv).
 const TOLERANCE: f64 = 1e-9;
-const MAX_ITERATIONS: usize = 500;
 
 /// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -79,14 +78,13 @@ pub(super) fn compute() -> Result<Vec<Contact>> {
 fn contact((exponent, elements): (f64, usize)) -> Result<Contact> {
     let scene = Scene::unit(exponent)?;
     let contact_length = scene.theory()?.contact_length();
+    let footprint = Footprint::sliding(&scene.body, &scene.material, &scene.load)?;
     let options = SteadyOptions {
-        spacing: [contact_length / elements as f64; 2],
         phase: PHASE,
-        footprint: Footprint::of_body(&scene.body, &scene.material, &scene.load)?,
         tolerance: TOLERANCE,
-        max_iterations: MAX_ITERATIONS,
+        ..SteadyOptions::new([contact_length / elements as f64; 2], footprint)
     };
-    let solution = steady(&scene.body, &scene.material, &scene.load, &options)?;
+    let solution = steady_on_grid(&scene.body, &scene.material, &scene.load, &options)?;
     Ok(Contact {
         exponent,
         elements,

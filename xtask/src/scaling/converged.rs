@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use bem_halfspace::BemError;
-use bem_halfspace::steady::{FrictionOptions, steady_friction};
+use bem_halfspace::steady::{RefinementOptions, steady_refined};
 
 use crate::scene::Scene;
 
@@ -34,13 +34,13 @@ pub(crate) fn scaling_factor_within(
 ) -> Result<ScalingFactor> {
     let scene = Scene::unit(exponent)?;
     let line = scene.theory()?.friction_coefficient;
-    let options = FrictionOptions {
+    let options = RefinementOptions {
         relative_error,
         // The contact of a steep profile is a thin crescent, as long across the sliding direction as along it.
         aspect: if exponent < STEEP { 0.5 } else { 1.0 },
         max_unknowns,
     };
-    let half_space = match steady_friction(&scene.body, &scene.material, &scene.load, &options) {
+    let half_space = match steady_refined(&scene.body, &scene.material, &scene.load, &options) {
         Ok(half_space) => half_space,
         Err(BemError::FrictionNotReached {
             friction_coefficient,
@@ -57,8 +57,8 @@ pub(crate) fn scaling_factor_within(
         }
     };
     Ok(ScalingFactor {
-        value: half_space.friction_coefficient / line,
-        error: half_space.error / line,
+        value: half_space.friction_coefficient.value / line,
+        error: half_space.friction_coefficient.error / line,
         unknowns: half_space
             .refinements
             .last()

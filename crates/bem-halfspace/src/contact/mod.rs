@@ -34,7 +34,7 @@ use crate::{BemError, Convolution};
 use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
 use folded::solve_in_front_of_mirrors;
-pub use indenters::Control;
+use indenters::Control;
 pub(crate) use solve::Solved;
 use solve::{LoadProblem, solve_loads};
 pub use state::ContactState;
@@ -55,6 +55,7 @@ pub struct ContactProblem<'a> {
 
 /// When the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactOptions {
     /// Largest |gap| in the contact and largest penetration outside it, relative to the largest displacement that the
     /// pressure causes, all of it or that of one element at the element itself; greater than 0 and at most 1e-2.

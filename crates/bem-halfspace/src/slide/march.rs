@@ -2,32 +2,36 @@
 
 use std::fmt;
 
-use indenters::{SlidingLoad, Surface};
+use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::error::positive;
 use crate::grid::elements_along;
+use crate::slide::PressureField;
 use crate::slide::motion::{Motion, MotionRow};
 use crate::slide::slopes::{MeanSlopes, Slopes};
-use crate::slide::{PressureField, SlideOptions};
-use crate::stepping::{HalfSpace, Instant, MarchState, Route, SlideOmission, Stepping};
-use crate::{BemError, Control, Grid, Resolution};
+use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
+use crate::{BemError, Grid, GridOptions};
 
-/// An indenter on its way over a half space.
-pub struct March<'scene, S: ?Sized> {
-    surface: &'scene S,
-    stepping: Stepping<'scene, S>,
+/// Steps at a depth after which a march is not begun.
+const MOST_STEPS: f64 = 1e5;
+const MARCH_ENDS: &str = "a march over a half space ends after a distance";
+
+/// An indenter that moves over a half space, step by step.
+pub struct March<'a> {
+    surface: &'a dyn Surface,
+    stepping: Stepping<'a>,
     slopes: Slopes,
     means: MeanSlopes,
 }
 
-impl<S: ?Sized> fmt::Debug for March<'_, S> {
+impl fmt::Debug for March<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.debug_struct("March").finish_non_exhaustive()
     }
 }
 
-impl<'scene, S: Surface + ?Sized> March<'scene, S> {
+impl<'a> March<'a> {
     /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
     /// of an element at position zero.
     ///
@@ -38,56 +42,61 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
     /// [`BemError::InvalidParameter`] for no motions, times that do not increase from above zero, and numbers out of
     /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
     pub fn new(
-        surface: &'scene S,
+        surface: &'a dyn Surface,
         material: &(impl Material + ?Sized),
         motions: &[Motion],
-        resolution: &Resolution,
+        options: &GridOptions,
     ) -> Result<Self, BemError> {
         let ends = motions
             .iter()
             .map(|motion| (motion.time, motion.position, motion.control));
-        let spacing = positive("spacing along x", resolution.spacing[0])?;
+        let spacing = positive("spacing along x", options.spacing[0])?;
         let route = Route::through(ends, spacing)?;
-        Self::on(route, surface, material, resolution)
+        Self::on(route, surface, material, options)
     }
 
-    /// The march that [`slide`](crate::slide::slide) makes.
+    /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load: under a force in
+    /// whole elements; at a depth the last step, of a half to one and a half elements, ends at the distance.
     ///
     /// # Errors
-    /// Like [`new`](Self::new).
+    /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
     pub fn sliding(
-        surface: &'scene S,
+        surface: &'a dyn Surface,
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
-        options: &SlideOptions,
+        options: &GridOptions,
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
-        let distance = positive("sliding_distance", options.sliding_distance)?;
+        let distance = load.sliding_distance();
+        let distance = distance.ok_or(BemError::SlidingDistanceMissing { why: MARCH_ENDS })?;
+        if let Control::IndentationDepth(_) = load.control() {
+            let motions = motions(load, spacing, distance)?;
+            return Self::new(surface, material, &motions, options);
+        }
         let n_steps = elements_along(distance, spacing)?;
         let even = [false, surface.mirrors()[1]];
-        let [rows, columns] = options.resolution().layout(even)?.followed();
+        let [rows, columns] = options.layout(even)?.followed();
         // Refused before so many steps are made.
         Grid::new([rows + n_steps, columns], options.spacing)?;
-        let control = Control::NormalForce(load.require_normal_force()?);
-        let route = Route::straight(n_steps, [spacing, load.velocity()], control)?;
-        Self::on(route, surface, material, &options.resolution())
+        let route = Route::straight(n_steps, spacing, load.velocity(), load.control())?;
+        Self::on(route, surface, material, options)
     }
 
     fn on(
         route: Route,
-        surface: &'scene S,
+        surface: &'a dyn Surface,
         material: &(impl Material + ?Sized),
-        resolution: &Resolution,
+        options: &GridOptions,
     ) -> Result<Self, BemError> {
         Ok(Self {
             surface,
-            stepping: Stepping::new(surface, material, route, resolution)?,
+            stepping: Stepping::new(surface, material, route, options)?,
             slopes: Slopes::default(),
             means: MeanSlopes::default(),
         })
     }
 
-    /// Makes the next step; nothing at the end of the way.
+    /// Makes the next step; none after the last.
     ///
     /// # Errors
     /// [`BemError::ContactReachesBoundary`]; [`BemError::VerticalWall`]; [`BemError::ContactNotConverged`];
@@ -101,32 +110,21 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
         Ok(Some(self.row(&instant)))
     }
 
-    /// This march before its first step, but with the work of one `omission` too: the steps are the same up to the
-    /// tolerance, and cost more.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] after a step; [`BemError::GridTooLarge`] when all of the footprint is too large
-    /// to be solved at once.
-    pub fn without_omission(mut self, omission: SlideOmission) -> Result<Self, BemError> {
-        self.stepping.keep(omission)?;
-        Ok(self)
-    }
-
-    /// What is needed to go on from here in a later run.
+    /// The state from which a later run can continue.
     #[must_use]
     pub fn state(&self) -> MarchState {
         self.stepping.state()
     }
 
-    /// Goes on from the `state` of a march of the same scene; the steps are the same to the last bit.
+    /// Continues from the `state` of a march with the same input; the steps are the same to the last bit.
     ///
     /// # Errors
-    /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit the scene.
+    /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit this march.
     pub fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
         self.stepping.resume(state)
     }
 
-    /// Number of values that an element remembers: one per retardation element of the material, one more for free
+    /// Number of values in the memory of an element: one per retardation element of the material, one more for free
     /// flow, none for an elastic material.
     #[must_use]
     pub fn n_fields(&self) -> usize {
@@ -144,31 +142,12 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
     /// # Errors
     /// None after a step that succeeded.
     pub fn pressure(&self) -> Result<PressureField, BemError> {
-        let stepping = &self.stepping;
-        let unit = stepping.pressure_per_load();
-        let bounds = stepping.contact_bounds();
-        let columns = bounds.shape()[1];
-        let mut pressure = vec![0.0; bounds.n_elements()];
-        for (element, load) in stepping.loaded_elements() {
-            for [row, column] in stepping.layout.images_of(element) {
-                let index = (row - bounds.lower[0]) * columns + column - bounds.lower[1];
-                pressure[index] += load * unit;
-            }
-        }
-        let spacing = stepping.resolution.spacing;
-        Ok(PressureField {
-            grid: Grid::new(bounds.shape(), spacing)?,
-            origin: [
-                stepping.along(bounds.lower[0], stepping.offset()) * spacing[0],
-                stepping.across(bounds.lower[1]),
-            ],
-            pressure,
-        })
+        self.stepping.pressure()
     }
 
     /// Largest rise of the body over an element in contact, \[m].
     pub(super) fn largest_rise(&self) -> f64 {
-        self.means.largest * self.stepping.resolution.spacing[0]
+        self.means.largest * self.stepping.options.spacing[0]
     }
 
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
@@ -182,10 +161,8 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
 
     fn row(&self, instant: &Instant) -> MotionRow {
         let Instant { leg, bounds, .. } = instant;
-        let [dx, dy] = self.stepping.resolution.spacing;
-        let half = 0.5;
-        let x = |row: usize| (self.stepping.along(row, leg.offset) - half) * dx;
-        let y = |column: usize| self.stepping.across(column) - half * dy;
+        let [dx, dy] = self.stepping.options.spacing;
+        let edges = bounds.map(|bounds| self.stepping.edges(&bounds, leg.offset));
         MotionRow {
             time: leg.time,
             position: leg.position,
@@ -194,10 +171,28 @@ impl<'scene, S: Surface + ?Sized> March<'scene, S> {
             tangential_force: instant.normal_force * self.means.met,
             tangential_force_end_of_step: instant.normal_force * self.means.end,
             contact_area: instant.n_contact as f64 * dx * dy,
-            contact_x: bounds.map(|bounds| [bounds.lower[0], bounds.upper[0]].map(x)),
-            contact_y: bounds.map(|bounds| [bounds.lower[1], bounds.upper[1]].map(y)),
+            contact_x: edges.map(|[x, _]| x),
+            contact_y: edges.map(|[_, y]| y),
             n_contact: instant.n_contact,
             iterations: instant.iterations,
         }
     }
+}
+
+/// Steps of one element; the last, of a half to one and a half, ends at the distance.
+fn motions(load: &SlidingLoad, spacing: f64, distance: f64) -> Result<Vec<Motion>, BemError> {
+    if distance > MOST_STEPS * spacing {
+        return Err(BemError::TooManySteps {
+            steps: distance / spacing,
+            limit: MOST_STEPS,
+        });
+    }
+    let ends = (1_u32..).map(|step| f64::from(step) * spacing);
+    let before = ends.take_while(|position| *position < distance - 0.5 * spacing);
+    let motion = |position: f64| Motion {
+        time: position / load.velocity(),
+        position,
+        control: load.control(),
+    };
+    Ok(before.chain([distance]).map(motion).collect())
 }

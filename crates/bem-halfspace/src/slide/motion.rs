@@ -1,6 +1,6 @@
-//! A scene of motions, and what a march says about each.
+//! The steps of a march and their results.
 
-use crate::Control;
+use indenters::Control;
 
 /// One step of an indenter; its control holds from the step before, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +9,7 @@ pub struct Motion {
     pub time: f64,
     /// Position of the lowest point along x there, \[m]; it may change by any amount, stay, or go back.
     pub position: f64,
-    /// Force or depth that is given there.
+    /// Force or depth there; a force may be zero, a depth negative.
     pub control: Control,
 }
 

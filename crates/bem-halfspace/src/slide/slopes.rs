@@ -39,10 +39,10 @@ pub(super) struct Slopes {
 
 impl Slopes {
     /// Means over the step that has been made.
-    pub(super) fn over<S: Surface + ?Sized>(
+    pub(super) fn over(
         &mut self,
-        surface: &S,
-        stepping: &Stepping<'_, S>,
+        surface: &dyn Surface,
+        stepping: &Stepping<'_>,
         instant: &Instant,
     ) -> Result<MeanSlopes, BemError> {
         self.turn_to(
@@ -83,17 +83,17 @@ impl Slopes {
         }
     }
 
-    fn at<S: Surface + ?Sized>(
+    fn at(
         &mut self,
-        surface: &S,
-        stepping: &Stepping<'_, S>,
+        surface: &dyn Surface,
+        stepping: &Stepping<'_>,
         [row, column]: [usize; 2],
     ) -> Result<[f64; 2], BemError> {
         let index = row * stepping.layout.shape[1] + column;
         if let Some(known) = self.known[index] {
             return Ok(known);
         }
-        let spacing = stepping.resolution.spacing[0];
+        let spacing = stepping.options.spacing[0];
         let [here, y] = [
             stepping.along(row, stepping.offset()),
             stepping.across(column),
@@ -110,10 +110,7 @@ impl Slopes {
     }
 }
 
-fn checked_gradient(
-    surface: &(impl Surface + ?Sized),
-    position: [f64; 2],
-) -> Result<f64, BemError> {
+fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, BemError> {
     let slope = surface.gradient(position)[0];
     if slope.is_nan() {
         return Err(BemError::InvalidParameter {
@@ -126,10 +123,7 @@ fn checked_gradient(
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
-fn elastic_share<S: Surface + ?Sized>(
-    stepping: &Stepping<'_, S>,
-    instant: &Instant,
-) -> Result<f64, BemError> {
+fn elastic_share(stepping: &Stepping<'_>, instant: &Instant) -> Result<f64, BemError> {
     let creep = &stepping.material.creep;
     let Leg {
         advance, time_step, ..

@@ -20,8 +20,8 @@ const FEWEST_STEPS: usize = 4;
 pub struct StationaryFriction {
     /// μ_∞, extrapolated from the distances S, S/2 and S/4.
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the extrapolation: what the term 1/S² changes, and by how much the limits differ that
-    /// the steps of the second half of the distance foretell, because the contact changes by whole elements, and the
+    /// Estimated absolute error of the extrapolation: what the term 1/S² changes, and by how much the limits differ to
+    /// which the steps of the second half of the distance extrapolate, because the contact changes by whole elements, and the
     /// friction with it. Otherwise the error of the grid is not in it.
     pub distance_error: f64,
     /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
@@ -33,7 +33,7 @@ impl Transient {
     /// The last step.
     ///
     /// # Panics
-    /// Never for a transient that [`slide`](crate::slide::slide) returned: it has at least one step.
+    /// Never for a transient of this crate: it has at least one step.
     #[must_use]
     pub fn last(&self) -> &SlideRow {
         &self.rows[self.rows.len() - 1]
@@ -43,7 +43,7 @@ impl Transient {
     ///
     /// The state counts as stationary when the friction coefficient changed by less than `drift_tolerance` of its
     /// value over the second half of the sliding distance. The extrapolation is that of a material that flows; on a
-    /// solid its error covers what it makes of a friction that has arrived already.
+    /// solid its error covers the extrapolation of a friction that is stationary already.
     ///
     /// # Errors
     /// [`BemError::NotStationary`] with the drift reached, also after fewer than four steps.
@@ -75,7 +75,7 @@ impl Transient {
     }
 }
 
-/// By how much the limits differ that the steps of the second half of the distance foretell.
+/// By how much the limits differ to which the steps of the second half of the distance extrapolate.
 fn scatter_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
     let first = (rows.len() / 2).max(FEWEST_STEPS);

@@ -1,8 +1,9 @@
 //! What a sliding simulation returns.
 
-use indenters::{SlidingLoad, Surface};
+use indenters::SlidingLoad;
 
-use crate::slide::{MIN_CONTACT_ELEMENTS, March, MotionRow};
+use crate::error::check_contact_elements;
+use crate::slide::{March, MotionRow};
 use crate::{BemError, Grid};
 
 /// The state after one step of sliding.
@@ -16,6 +17,8 @@ pub struct SlideRow {
     /// Depth of the lowest point below the undeformed surface, \[m]. On a half space that
     /// flows it grows like the logarithm of the distance, without end.
     pub indentation_depth: f64,
+    /// Normal force F_N, \[N].
+    pub normal_force: f64,
     /// Friction coefficient: the pressure of the step times the slope that it meets, on a dashpot the mean over the step.
     pub friction_coefficient: f64,
     /// The same with the slope at the end of the step, as the paper's wording suggests; low by a first-order term on a
@@ -34,15 +37,16 @@ pub struct SlideRow {
 }
 
 impl SlideRow {
-    /// The row of a step, which has contact because it has a force.
-    pub(super) fn of(row: &MotionRow) -> Result<Self, BemError> {
+    /// The row of a step with a force; none without one, because there is no coefficient.
+    pub(super) fn of(row: &MotionRow) -> Option<Self> {
         let (Some(contact_x), Some(contact_y)) = (row.contact_x, row.contact_y) else {
-            return Err(too_coarse(0));
+            return None;
         };
-        Ok(Self {
+        (row.normal_force > 0.0).then_some(Self {
             sliding_distance: row.position,
             time: row.time,
             indentation_depth: row.indentation_depth,
+            normal_force: row.normal_force,
             friction_coefficient: row.tangential_force / row.normal_force,
             friction_coefficient_end_of_step: row.tangential_force_end_of_step / row.normal_force,
             contact_area: row.contact_area,
@@ -68,6 +72,12 @@ pub struct PressureField {
 }
 
 impl PressureField {
+    /// Largest pressure of an element, \[Pa].
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.pressure.iter().copied().fold(0.0, f64::max)
+    }
+
     /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
     #[must_use]
     pub fn at(&self, position: [f64; 2]) -> f64 {
@@ -103,33 +113,29 @@ pub struct Transient {
 
 impl Transient {
     /// The rows of a march under a load, if its last contact is resolved.
-    pub(super) fn of<S: Surface + ?Sized>(
-        march: &March<'_, S>,
+    pub(super) fn of(
+        march: &March<'_>,
         load: &SlidingLoad,
         rows: Vec<SlideRow>,
     ) -> Result<Self, BemError> {
         let pressure = march.pressure()?;
         let [length, width] = pressure.grid.shape();
-        if length.min(width) < MIN_CONTACT_ELEMENTS {
-            return Err(too_coarse(length.min(width)));
-        }
-        let contact_length = length as f64 * pressure.grid.spacing()[0];
-        let depth_scale = march.half_space().depth_scale(load, contact_length)?;
-        let rise = march.largest_rise();
-        if rise > depth_scale {
-            return Err(BemError::SlopeNotResolved { rise, depth_scale });
+        check_contact_elements(length.min(width))?;
+        if let Some(force) = load.normal_force() {
+            let contact_length = length as f64 * pressure.grid.spacing()[0];
+            let time = contact_length / load.velocity();
+            let depth_scale = march
+                .half_space()
+                .depth_scale(force, contact_length, time)?;
+            let rise = march.largest_rise();
+            if rise > depth_scale {
+                return Err(BemError::SlopeNotResolved { rise, depth_scale });
+            }
         }
         Ok(Self {
             rows,
             pressure,
             n_elements: march.n_elements(),
         })
-    }
-}
-
-fn too_coarse(elements: usize) -> BemError {
-    BemError::GridTooCoarse {
-        elements,
-        needed: MIN_CONTACT_ELEMENTS,
     }
 }

@@ -6,10 +6,10 @@
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
-use crate::BemError;
 use crate::error::{below_one, positive};
 use crate::slide::stationary::{halvings, value_at_zero};
-use crate::slide::{March, SlideOptions, SlideRow, Transient};
+use crate::slide::{March, SlideRow, Transient};
+use crate::{BemError, GridOptions};
 
 /// When a state counts as stationary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub struct StationaryOptions {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct StationarySlide {
-    /// The way from first touch.
+    /// The rows from first touch on.
     pub transient: Transient,
     /// Friction coefficient, extrapolated to an infinite distance where the material flows.
     pub friction_coefficient: f64,
@@ -34,28 +34,29 @@ pub struct StationarySlide {
     pub change: f64,
 }
 
-/// Like [`slide`](crate::slide::slide), but stops as soon as the friction coefficient is stationary; the sliding
-/// distance of the options is the longest allowed.
+/// Like [`slide_on_grid`](crate::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary; the
+/// sliding distance of the load is the longest allowed.
 ///
 /// On an elastic half space, where there is no friction, changes of the order of the contact tolerance count as none.
 ///
 /// # Errors
-/// [`BemError::NotStationary`] with the change reached; otherwise like [`slide`](crate::slide::slide).
+/// [`BemError::NotStationary`] with the change reached; otherwise like [`slide_on_grid`](crate::slide::slide_on_grid).
 pub fn slide_to_stationary(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
-    (load, options): (&SlidingLoad, &SlideOptions),
+    load: &SlidingLoad,
+    options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
     below_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
-    let mut march = March::sliding(surface, material, load, options)?;
+    let mut march = March::sliding(&surface, material, load, options)?;
     let flows = march.half_space().creep.fluidity() > 0.0;
     let mut rows = Vec::new();
     let mut limits = Limits::default();
     let mut change = 1.0;
     while let Some(row) = march.step()? {
-        rows.push(SlideRow::of(&row)?);
+        rows.extend(SlideRow::of(&row));
         let noise = NOISE * options.contact.tolerance * march.steepness();
         limits.push(&rows, flows);
         change = limits.change(stationary.over_distance, noise);
@@ -80,7 +81,7 @@ pub fn slide_to_stationary(
 /// The pressure is accurate to about this many contact tolerances.
 const NOISE: f64 = 1e3;
 
-/// The friction coefficients for an infinite distance that the steps so far have foretold, with their distances.
+/// The friction coefficients for an infinite distance that the steps so far extrapolate to, with their distances.
 #[derive(Debug, Default)]
 struct Limits(Vec<[f64; 2]>);
 
@@ -101,8 +102,8 @@ impl Limits {
         self.0.last().map_or(0.0, |[_, limit]| *limit)
     }
 
-    /// Largest change relative to the last value over the last part of the way, beyond the noise; 1, as from nothing,
-    /// when the way was not as long.
+    /// Largest change relative to the last value over the last part of the distance, beyond the noise; 1, as from nothing,
+    /// when the distance was not as long.
     fn change(&self, over_distance: f64, noise: f64) -> f64 {
         let Some(&[distance, limit]) = self.0.last() else {
             return 1.0;

@@ -32,7 +32,7 @@ const DOUBLINGS: usize = 900;
 
 /// D of a body of revolution.
 pub(crate) fn depth_scale_of_body(
-    body: &(impl Axisymmetric + ?Sized),
+    body: &dyn Axisymmetric,
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {

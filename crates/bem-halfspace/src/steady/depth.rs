@@ -43,6 +43,17 @@ impl SinkingDepth {
         }
     }
 
+    /// Depth after sliding a distance, or the reference depth without one, \[m].
+    pub(super) fn at(&self, sliding_distance: Option<f64>) -> f64 {
+        match sliding_distance {
+            Some(distance) if self.depth_per_e_fold > 0.0 => {
+                let e_folds = (distance / self.reference_distance).ln();
+                self.reference_depth + self.depth_per_e_fold * e_folds
+            }
+            _ => self.reference_depth,
+        }
+    }
+
     /// Depth after sliding a distance much longer than the contact, \[m].
     ///
     /// # Errors
@@ -56,7 +67,6 @@ impl SinkingDepth {
                 allowed: "at least the length of the contact",
             });
         }
-        let e_folds = (sliding_distance / self.reference_distance).ln();
-        Ok(self.reference_depth + self.depth_per_e_fold * e_folds)
+        Ok(self.at(Some(sliding_distance)))
     }
 }

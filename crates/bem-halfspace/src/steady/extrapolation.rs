@@ -1,10 +1,21 @@
 //! The limit of a sequence of refinements by √2, and how far it may be off.
 
+use numerics::Estimate;
+
 /// The limit and its estimated error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limit {
     pub(super) value: f64,
     pub(super) error: f64,
+}
+
+impl From<Limit> for Estimate {
+    fn from(limit: Limit) -> Self {
+        Self {
+            value: limit.value,
+            error: limit.error,
+        }
+    }
 }
 
 impl Limit {

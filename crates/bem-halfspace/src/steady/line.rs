@@ -10,17 +10,18 @@
 //! along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate};
 use rheology::Material;
 
-use crate::steady::estimate::climb;
+use crate::bars::{self, Resolution, Target};
+use crate::plan::GridPlan;
 use crate::steady::loading::{Loading, scale_of_profile};
+use crate::steady::refinement::{Refined, limit, refine};
 use crate::steady::sliding_creep::SlidingCreep;
-use crate::steady::{
-    FrictionOptions, Ladder, Refinement, Reuse, SteadyOptions, SteadySliding, solve,
-};
+use crate::steady::{Refinement, RefinementOptions, Reuse, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
 
-/// Resolution of a stationary line contact.
+/// One grid for stationary sliding in plane strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineOptions {
     /// Length Δx of an element, \[m].
@@ -29,15 +30,15 @@ pub struct LineOptions {
     pub phase: f64,
     /// From rear to front, where contact may occur: `footprint[0] < 0 < footprint[1]`, \[m].
     pub footprint: [f64; 2],
-    /// Largest |gap| allowed in the contact, and largest penetration outside, relative to the depth scale
+    /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale
     /// D = h(a) = 2 (1 − ν) F' J(a/v)/(2π), with the force F' per length and the mean height h(a) at the distance a from
     /// the lowest point.
     pub tolerance: f64,
-    /// Changes of the contact set after which the solver gives up.
+    /// Active sets tried before the solver gives up.
     pub max_iterations: usize,
 }
 
-/// A stationary line contact on one grid.
+/// A stationary state in plane strain on one grid.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -50,42 +51,40 @@ pub struct LineSliding {
     pub contact: [f64; 2],
     /// Number of unknown pressures.
     pub unknowns: usize,
-    /// Contact sets tried.
+    /// Active sets tried.
     pub iterations: usize,
-    /// Largest |gap| in the contact relative to the depth scale, see [`LineOptions::tolerance`].
+    /// Largest residual |h + u − d| in the contact relative to the depth scale, see [`LineOptions::tolerance`].
     pub residual: f64,
     /// Centre of each element from rear to front \[m], and its pressure \[Pa].
     pub pressure: Vec<[f64; 2]>,
 }
 
-/// Where the refinements of a profile begin, and how they converge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LineLadder {
-    /// From rear to front, where contact may occur, \[m].
-    pub footprint: [f64; 2],
-    /// Δx of the coarsest grids, \[m].
-    pub coarsest_spacing: f64,
-    /// p of the sharpest point h ∼ |x|^p in contact; 2 or more for a smooth profile.
-    pub apex_exponent: f64,
-}
-
-/// The friction coefficient of a line contact with its error.
+/// A stationary state in plane strain with its error bars.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
-pub struct LineFriction {
+pub struct LineEstimate {
     /// Friction coefficient μ.
-    pub friction_coefficient: f64,
-    /// Estimated absolute error.
-    pub error: f64,
-    /// The part of it that comes from the gaps that the solver leaves in the contact.
-    pub gap_error: f64,
-    /// The refinements that led there, from coarse to fine; their forces are per length, \[N/m].
+    pub friction_coefficient: Estimate,
+    /// What its error consists of.
+    pub error_parts: ErrorParts,
+    /// Width of the contact along x, which is its area per length, \[m].
+    pub contact_width: Estimate,
+    /// Error of the ends of the contact in [`finest`](Self::finest), \[m].
+    pub contact_error: f64,
+    /// Largest pressure \[Pa], where the material reacts at once; everywhere else it grows without limit on refinement.
+    pub peak_pressure: Option<Estimate>,
+    /// The refinements that led there, from coarse to fine, with forces and areas per length; none where the number of
+    /// elements was given.
     pub refinements: Vec<Refinement>,
+    /// The state on the finest grid.
+    pub finest: LineSliding,
 }
 
 /// Elements of the coarsest grids along the half contact of a cylinder on an elastic half space.
 const COARSEST: f64 = 4.0;
+/// Coarsest elements along the contact of a cylinder on an elastic half space.
+const ELEMENTS_OF_CYLINDER: f64 = 8.0;
 /// Rear of the footprint in the same lengths: nothing reaches further back than the elastic contact.
 const REAR: f64 = 2.0;
 /// Front of the footprint, and what a long memory adds: how far ahead the surface still rises grows with its logarithm.
@@ -95,89 +94,156 @@ const FRONT_BY_MEMORY: f64 = 0.5;
 /// Unknown pressures at most; as many are factorised at once.
 const MOST_UNKNOWNS: usize = 2000;
 
-impl LineLadder {
-    /// The refinements for a smooth profile under a load whose normal force is per length, \[N/m].
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for a material that flows, or when the profile has no length for this load;
-    /// [`BemError::Material`].
-    pub fn of_profile(
-        profile: &impl Surface,
+/// Solves the stationary sliding of a smooth `profile` that is infinite along y, under a load whose normal force is per
+/// length \[N/m], to a relative error of the friction coefficient; or with a number of elements along the contact of a
+/// cylinder on an elastic half space, and whatever error that has.
+///
+/// Of the profile only the heights at y = 0 matter.
+///
+/// # Errors
+/// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a material that flows, and
+/// [`BemError::Indenter`] for a depth, which does not exist in plane strain.
+pub fn steady_line(
+    profile: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    accuracy: impl Into<Accuracy>,
+) -> Result<LineEstimate, BemError> {
+    let problem = Problem::new(&profile, material, load)?;
+    match accuracy.into() {
+        Accuracy::RelativeError(relative_error) => problem.refined(relative_error),
+        accuracy @ Accuracy::Elements(_) => problem.with_elements(accuracy),
+    }
+}
+
+/// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
+///
+/// # Errors
+/// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a material that flows.
+pub fn steady_line_on_grid(
+    profile: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &LineOptions,
+) -> Result<LineSliding, BemError> {
+    let profile: &dyn Surface = &profile;
+    let loading = Loading::per_length(profile, material, load, options.footprint)?;
+    let strip = Strip::new(profile, &loading);
+    let grid = SteadyOptions {
+        phase: [options.phase, 0.0],
+        tolerance: options.tolerance,
+        max_iterations: options.max_iterations,
+        ..SteadyOptions::new(
+            [options.spacing, strip.length],
+            strip.footprint(options.footprint),
+        )
+    };
+    let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
+    Ok(LineSliding::of(&state))
+}
+
+/// A profile in plane strain and the grids for it.
+struct Problem<'a> {
+    strip: Strip<'a>,
+    loading: Loading,
+    plan: GridPlan,
+    reacts_at_once: bool,
+}
+
+impl<'a> Problem<'a> {
+    fn new(
+        profile: &'a dyn Surface,
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::new(material, load.velocity())?;
         let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
         let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
+        let footprint = [-REAR * length, front * length];
+        let loading = Loading::per_length(profile, material, load, footprint)?;
+        let strip = Strip::new(profile, &loading);
         Ok(Self {
-            footprint: [-REAR * length, front * length],
-            coarsest_spacing: length / COARSEST,
-            apex_exponent: 2.0,
+            plan: GridPlan {
+                footprint: strip.footprint(footprint),
+                coarsest_spacing: length / COARSEST,
+                apex_exponent: 2.0,
+            },
+            strip,
+            loading,
+            reacts_at_once: bars::reacts_at_once(material),
         })
     }
-}
 
-/// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
-///
-/// Of the profile only the heights at y = 0 count.
-///
-/// # Errors
-/// As for [`steady`](crate::steady::steady()), and [`BemError::InvalidParameter`] for a material that flows.
-pub fn steady_line(
-    profile: &impl Surface,
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-    options: &LineOptions,
-) -> Result<LineSliding, BemError> {
-    let (loading, length) = Loading::per_length(profile, (material, load), options.footprint)?;
-    let strip = Strip { profile, length };
-    let grid = SteadyOptions {
-        spacing: [options.spacing, length],
-        phase: [options.phase, 0.0],
-        footprint: strip.footprint(options.footprint),
-        tolerance: options.tolerance,
-        max_iterations: options.max_iterations,
-    };
-    let state = solve(&strip, &loading, (&grid, None), &mut Reuse::default())?;
-    Ok(LineSliding::of(&state))
-}
+    fn refined(self, relative_error: f64) -> Result<LineEstimate, BemError> {
+        let options = RefinementOptions {
+            relative_error,
+            max_unknowns: MOST_UNKNOWNS,
+            ..RefinementOptions::default()
+        };
+        let length = self.strip.length;
+        let Refined {
+            friction_coefficient: friction,
+            refinements,
+            finest,
+            ..
+        } = refine(&self.strip, self.loading, &self.plan, &options)?;
+        let iteration = finest.iteration_error();
+        let per_length = |refinement: Refinement| refinement.per_length(length);
+        let refinements: Vec<Refinement> = refinements.into_iter().map(per_length).collect();
+        let width = limit(&refinements, 1.0, |r| r.contact_area);
+        let peak = limit(&refinements, 1.5, |r| r.peak_pressure);
+        Ok(LineEstimate {
+            friction_coefficient: Estimate {
+                value: friction.value,
+                error: friction.error + iteration,
+            },
+            error_parts: ErrorParts {
+                discretisation: Some(friction.error),
+                iteration: Some(iteration),
+                ..ErrorParts::NONE
+            },
+            contact_width: width.into(),
+            contact_error: bars::of_box([finest.pressure.grid.spacing()[0]; 2]),
+            peak_pressure: self.reacts_at_once.then(|| peak.into()),
+            refinements,
+            finest: LineSliding::of(&finest),
+        })
+    }
 
-/// Computes the stationary friction coefficient of a `profile` to a relative error, under a load whose normal force is
-/// per length, \[N/m].
-///
-/// # Errors
-/// As for [`steady_friction_of_surface`](crate::steady::steady_friction_of_surface), and
-/// [`BemError::InvalidParameter`] for a material that flows.
-pub fn steady_line_friction(
-    profile: &impl Surface,
-    (material, load): (&(impl Material + ?Sized), &SlidingLoad),
-    ladder: &LineLadder,
-    relative_error: f64,
-) -> Result<LineFriction, BemError> {
-    let (loading, length) = Loading::per_length(profile, (material, load), ladder.footprint)?;
-    let strip = Strip { profile, length };
-    let grids = Ladder {
-        footprint: strip.footprint(ladder.footprint),
-        coarsest_spacing: ladder.coarsest_spacing,
-        apex_exponent: ladder.apex_exponent,
-    };
-    let options = FrictionOptions {
-        relative_error,
-        max_unknowns: MOST_UNKNOWNS,
-        ..FrictionOptions::default()
-    };
-    let estimate = climb(&strip, loading, &grids, &options)?;
-    let per_length = |refinement: Refinement| Refinement {
-        normal_force: refinement.normal_force / length,
-        force_scatter: refinement.force_scatter / length,
-        ..refinement
-    };
-    Ok(LineFriction {
-        friction_coefficient: estimate.friction_coefficient,
-        error: estimate.error,
-        gap_error: estimate.gap_error,
-        refinements: estimate.refinements.into_iter().map(per_length).collect(),
-    })
+    fn with_elements(self, accuracy: Accuracy) -> Result<LineEstimate, BemError> {
+        let length = ELEMENTS_OF_CYLINDER * self.plan.coarsest_spacing;
+        let resolution = Resolution {
+            accuracy,
+            target: Target::Friction,
+            largest: usize::MAX,
+            order: bars::order_of_friction(self.plan.apex_exponent),
+        };
+        let solve = |elements: usize| {
+            let spacing = [length / elements as f64, self.strip.length];
+            let options = SteadyOptions::new(spacing, self.plan.footprint);
+            solve(&self.strip, &self.loading, &options, &mut Reuse::default())
+        };
+        let resolved = bars::resolve(
+            &resolution,
+            solve,
+            |state| state.quantities(None),
+            |_, state| state.other_parts(),
+        )?;
+        let (finest, known) = (resolved.finest, resolved.estimates);
+        let per_length = |area: Estimate| Estimate {
+            value: area.value / self.strip.length,
+            error: area.error / self.strip.length,
+        };
+        Ok(LineEstimate {
+            friction_coefficient: known.friction_coefficient,
+            error_parts: resolved.parts.friction_coefficient,
+            contact_width: per_length(known.contact_area),
+            contact_error: bars::of_box([finest.pressure.grid.spacing()[0]; 2]),
+            peak_pressure: self.reacts_at_once.then_some(known.peak_pressure),
+            refinements: Vec::new(),
+            finest: LineSliding::of(&finest),
+        })
+    }
 }
 
 impl LineSliding {
@@ -200,12 +266,19 @@ impl LineSliding {
 }
 
 /// A profile that is as long along y as one element.
-struct Strip<'a, S> {
-    profile: &'a S,
+struct Strip<'a> {
+    profile: &'a dyn Surface,
     length: f64,
 }
 
-impl<S> Strip<'_, S> {
+impl<'a> Strip<'a> {
+    fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
+        Self {
+            profile,
+            length: loading.strip().unwrap_or(f64::INFINITY),
+        }
+    }
+
     /// With an empty element on either side.
     fn footprint(&self, x: [f64; 2]) -> Footprint {
         let y = [-self.length, self.length];
@@ -213,7 +286,7 @@ impl<S> Strip<'_, S> {
     }
 }
 
-impl<S: Surface> Surface for Strip<'_, S> {
+impl Surface for Strip<'_> {
     fn height(&self, [x, y]: [f64; 2]) -> f64 {
         if y.abs() > 0.5 * self.length {
             f64::INFINITY

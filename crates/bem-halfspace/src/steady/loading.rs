@@ -1,8 +1,8 @@
-//! What presses the body into the half space: a force, or a depth after a sliding distance.
+//! The load of a stationary problem: a force, or a depth after a sliding distance.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
-use indenters::{SlidingLoad, Surface};
+use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::error::positive;
@@ -10,20 +10,10 @@ use crate::steady::contact_scale::{depth_scale, depth_scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Footprint};
 
-/// A depth to be reached instead of a force to be carried.
-///
-/// The surface of a material that flows sinks ahead of a sliding load like ln t, for ever; a depth therefore belongs to
-/// a sliding distance, see [`SinkingDepth`](crate::steady::SinkingDepth). On a solid the distance has no effect.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DepthControl {
-    /// Depth of the lowest point below the undeformed surface, \[m].
-    pub depth: f64,
-    /// Distance slid under the load so far, \[m]; longer than the footprint.
-    pub sliding_distance: f64,
-    /// Sliding speed, \[m/s].
-    pub velocity: f64,
-}
+const SINKS: &str =
+    "on a material that flows the body sinks for ever, so that a depth belongs to a distance";
+/// Sliding distance in lengths of the footprint where none is given: on a solid it has no effect.
+const DISTANCE_ON_SOLID: f64 = 100.0;
 
 /// The equation `depth · δ + load · Σ x = right` that controls depth or force in the units of the mesh.
 #[derive(Debug, Clone, Copy)]
@@ -33,22 +23,16 @@ pub(super) struct Equation {
     pub(super) right: f64,
 }
 
-/// What presses.
-#[derive(Debug, Clone, Copy)]
-enum Control {
-    /// Normal force, \[N].
-    Force(f64),
-    /// Depth scale, after a sliding distance, \[m].
-    Depth(f64),
-}
-
 /// Scale and control of a stationary problem on any grid.
 #[derive(Debug, Clone)]
 pub(super) struct Loading {
     pub(super) creep: SlidingCreep,
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
+    /// The force of a plane-strain problem is that on its whole strip.
     control: Control,
+    /// \[m]; always where a depth is given.
+    pub(super) sliding_distance: Option<f64>,
     /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
     strip: Option<f64>,
 }
@@ -61,52 +45,67 @@ const STRIP: f64 = 1e5;
 const DIRECTIONS: u8 = 8;
 
 impl Loading {
-    /// Under a force, D is the depth at which it is about carried.
-    pub(super) fn force(
-        surface: &impl Surface,
-        (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+    /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
+    ///
+    /// # Errors
+    /// [`BemError::SlidingDistanceMissing`]; [`BemError::InvalidParameter`] for numbers out of range.
+    pub(super) fn new(
+        surface: &dyn Surface,
+        material: &(impl Material + ?Sized),
+        load: &SlidingLoad,
         footprint: &Footprint,
     ) -> Result<Self, BemError> {
         let creep = SlidingCreep::new(material, load.velocity())?;
-        let height = |distance: f64| {
-            let along = |direction: u8| {
-                let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
-                surface.height([distance * cosine, distance * sine])
-            };
-            (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
+        let [rear, front] = footprint.x;
+        let (depth_scale, sliding_distance) = match load.control() {
+            Control::NormalForce(force) => {
+                let ends = footprint.x.into_iter().chain(footprint.y);
+                let largest = ends.map(f64::abs).fold(0.0, f64::max);
+                let largest = positive("half width of the footprint", largest)?;
+                let height = |distance| mean_height(surface, distance);
+                let depth = depth_scale(&creep, force, height, largest)?;
+                (depth, load.sliding_distance())
+            }
+            Control::IndentationDepth(depth) => {
+                let distance = distance_at_depth(&creep, load, front - rear)?;
+                (depth, Some(distance))
+            }
         };
-        let ends = footprint.x.into_iter().chain(footprint.y);
-        let largest = ends.map(f64::abs).fold(0.0, f64::max);
-        let largest = positive("half width of the footprint", largest)?;
         Ok(Self {
-            depth_scale: depth_scale(&creep, load.require_normal_force()?, height, largest)?,
             creep,
-            control: Control::Force(load.require_normal_force()?),
+            depth_scale,
+            control: load.control(),
+            sliding_distance,
             strip: None,
         })
     }
 
-    /// Under a force per length \[N/m] on a profile in plane strain, and the length of the strip, \[m].
+    /// Under a force per length \[N/m] on a profile in plane strain, where contact is allowed from rear to front.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for a depth, a material that flows, or numbers out of range.
     pub(super) fn per_length(
-        profile: &impl Surface,
-        (material, load): (&(impl Material + ?Sized), &SlidingLoad),
+        profile: &dyn Surface,
+        material: &(impl Material + ?Sized),
+        load: &SlidingLoad,
         [rear, front]: [f64; 2],
-    ) -> Result<(Self, f64), BemError> {
+    ) -> Result<Self, BemError> {
         let creep = SlidingCreep::new(material, load.velocity())?;
-        let [depth_scale, _] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
+        let force = load.require_normal_force()?;
+        let [depth_scale, _] = scale_of_profile(profile, &creep, force)?;
         let strip = STRIP * (front - rear + creep.memory());
         let strip = positive("length of a strip", strip)?;
-        let force = positive("force on a strip", load.require_normal_force()? * strip)?;
-        let loading = Self {
+        let force = positive("force on a strip", force * strip)?;
+        Ok(Self {
             creep,
             depth_scale,
-            control: Control::Force(force),
+            control: Control::NormalForce(force),
+            sliding_distance: None,
             strip: Some(strip),
-        };
-        Ok((loading, strip))
+        })
     }
 
-    /// The length of a strip \[m], where the scene is in plane strain.
+    /// The length of a strip \[m], where the problem is one of plane strain.
     pub(super) const fn strip(&self) -> Option<f64> {
         self.strip
     }
@@ -121,40 +120,9 @@ impl Loading {
         [factor * dx, width]
     }
 
-    /// At a depth, D is that depth.
-    pub(super) fn depth(
-        material: &(impl Material + ?Sized),
-        control: &DepthControl,
-        footprint_length: f64,
-    ) -> Result<Self, BemError> {
-        let DepthControl {
-            depth,
-            sliding_distance,
-            velocity,
-        } = *control;
-        positive("depth", depth)?;
-        positive("sliding_distance", sliding_distance)?;
-        if sliding_distance < footprint_length {
-            return Err(BemError::InvalidParameter {
-                parameter: "sliding_distance",
-                value: sliding_distance,
-                allowed: "longer than the footprint, because the depth is known only after the contact has become stationary",
-            });
-        }
-        Ok(Self {
-            creep: SlidingCreep::new(material, velocity)?,
-            depth_scale: depth,
-            control: Control::Depth(sliding_distance),
-            strip: None,
-        })
-    }
-
-    /// The normal force, where it is given, \[N].
-    pub(super) const fn given_force(&self) -> Option<f64> {
-        match self.control {
-            Control::Force(force) => Some(force),
-            Control::Depth(_) => None,
-        }
+    /// Force or depth, whichever is given.
+    pub(super) const fn control(&self) -> Control {
+        self.control
     }
 
     /// The problem on a grid.
@@ -165,16 +133,19 @@ impl Loading {
         let force_scale = positive("4 D Δx / (2 (1 - ν) J(Δx/v))", force_scale)?;
         let aspect = spacing[1] / spacing[0];
         let control = match self.control {
-            Control::Force(force) => Equation {
+            Control::NormalForce(force) => Equation {
                 depth: 0.0,
                 load: 1.0,
                 right: force / force_scale / (PI * aspect),
             },
-            Control::Depth(distance) => Equation {
-                depth: 1.0,
-                load: creep.flow * aspect * sunken(distance, spacing[0]),
-                right: 1.0,
-            },
+            Control::IndentationDepth(_) => {
+                let sunken = |distance| sunken(distance, spacing[0]);
+                Equation {
+                    depth: 1.0,
+                    load: creep.flow * aspect * self.sliding_distance.map_or(0.0, sunken),
+                    right: 1.0,
+                }
+            }
         };
         Ok(GridLoading {
             creep,
@@ -187,11 +158,53 @@ impl Loading {
     }
 }
 
+/// Mean height at a distance from the lowest point, \[m].
+fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
+    let along = |direction: u8| {
+        let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
+        surface.height([distance * cosine, distance * sine])
+    };
+    (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
+}
+
+/// The sliding distance to which a depth belongs, \[m].
+fn distance_at_depth(
+    creep: &SlidingCreep,
+    load: &SlidingLoad,
+    footprint_length: f64,
+) -> Result<f64, BemError> {
+    let Some(distance) = load.sliding_distance() else {
+        if creep.fluidity() > 0.0 {
+            return Err(BemError::SlidingDistanceMissing { why: SINKS });
+        }
+        return Ok(DISTANCE_ON_SOLID * footprint_length);
+    };
+    if distance < footprint_length {
+        return Err(BemError::InvalidParameter {
+            parameter: "sliding_distance",
+            value: distance,
+            allowed: "longer than the footprint, because the depth is known only after the contact has become stationary",
+        });
+    }
+    Ok(distance)
+}
+
+/// D of a surface under a force, \[m].
+pub(crate) fn depth_scale_of_surface(
+    surface: &dyn Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+) -> Result<f64, BemError> {
+    let creep = SlidingCreep::new(material, load.velocity())?;
+    let height = |distance| mean_height(surface, distance);
+    depth_scale(&creep, load.require_normal_force()?, height, f64::INFINITY)
+}
+
 /// D of a profile, and the distance from its lowest point at which it is as high, \[m].
 ///
 /// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
 pub(super) fn scale_of_profile(
-    profile: &impl Surface,
+    profile: &dyn Surface,
     creep: &SlidingCreep,
     force_per_length: f64,
 ) -> Result<[f64; 2], BemError> {

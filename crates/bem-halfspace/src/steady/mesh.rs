@@ -12,12 +12,12 @@ use indenters::Surface;
 
 use crate::error::positive;
 use crate::mirror::Mirror;
+use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
 use crate::steady::pivoting::Solution;
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
-use crate::steady::{SteadyOmission, SteadyOptions, Work};
 use crate::{BemError, Grid};
 
 /// Height below which the flanks of a steep body count as flat, in units of the depth scale.
@@ -41,8 +41,6 @@ struct Element {
 #[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
-    /// What is not left out all the same.
-    pub(super) kept: Option<SteadyOmission>,
     pub(super) loading: GridLoading,
     /// Whether only elements over which the body rises may touch.
     only_rising: bool,
@@ -62,9 +60,10 @@ pub(super) struct Mesh {
 
 impl Mesh {
     pub(super) fn new(
-        surface: &impl Surface,
-        (loading, plans): (&Loading, &mut Plans),
-        (options, kept): Work,
+        surface: &dyn Surface,
+        loading: &Loading,
+        options: &SteadyOptions,
+        plans: &mut Plans,
     ) -> Result<Self, BemError> {
         positive("spacing along x", options.spacing[0])?;
         positive("spacing along y", options.spacing[1])?;
@@ -81,7 +80,6 @@ impl Mesh {
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
-            kept,
             loading: loading.on_grid(options.spacing)?,
             only_rising: loading.creep.only_flows(),
             shape: [behind + ahead + 1, right + left + 1],
@@ -107,7 +105,7 @@ impl Mesh {
             mesh.elements.len() as f64,
         )?;
         let all = Region::around(&mesh, 0..mesh.n_elements());
-        mesh.table = plans.cover((&mesh.loading.creep, mesh.aspect()), all.shape);
+        mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
     }
 
@@ -126,7 +124,7 @@ impl Mesh {
         [self.centre(0, row), self.centre(1, column)]
     }
 
-    fn sample(&mut self, surface: &impl Surface) -> Result<(), BemError> {
+    fn sample(&mut self, surface: &dyn Surface) -> Result<(), BemError> {
         let dx = self.options.spacing[0];
         for row in 0..self.shape[0] {
             for column in 0..self.shape[1] {

@@ -15,8 +15,8 @@
 //! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
 //! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
+mod contact_equations;
 mod contact_scale;
-mod contact_system;
 mod depth;
 mod estimate;
 mod exponential_rule;
@@ -28,10 +28,10 @@ mod line;
 mod loading;
 mod mesh;
 mod neighbourhood;
-mod omission;
 mod pivoting;
 mod plans;
 mod product;
+mod refinement;
 mod region;
 mod retarded_potential;
 mod sliding_creep;
@@ -47,20 +47,15 @@ use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
 pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
-pub use estimate::{
-    FrictionEstimate, FrictionOptions, Ladder, Refinement, steady_friction,
-    steady_friction_at_depth, steady_friction_of_surface,
-};
+pub use estimate::{SteadyEstimate, steady, steady_refined};
 pub use kernel::wake_influence;
-pub use line::{
-    LineFriction, LineLadder, LineOptions, LineSliding, steady_line, steady_line_friction,
-};
-pub use loading::DepthControl;
+pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
 use loading::Loading;
+pub(crate) use loading::depth_scale_of_surface;
 use mesh::Mesh;
-pub use omission::SteadyOmission;
 use pivoting::Start;
 use plans::Plans;
+pub use refinement::{Average, Refinement, RefinementOptions};
 pub use solution::SteadySliding;
 
 /// Meshes of more elements than this start from the solution on a coarser one.
@@ -70,8 +65,14 @@ const COARSER: f64 = 2.0;
 /// Tolerance of a solution that is only a start.
 const COARSE_TOLERANCE: f64 = 1e-6;
 
-/// Resolution of a stationary solution.
+/// Tolerance of [`SteadyOptions::new`].
+const TOLERANCE: f64 = 1e-9;
+/// Iterations of [`SteadyOptions::new`].
+const MAX_ITERATIONS: usize = 500;
+
+/// One grid for a stationary solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SteadyOptions {
     /// Edges of an element (Δx, Δy), \[m].
     pub spacing: [f64; 2],
@@ -81,100 +82,65 @@ pub struct SteadyOptions {
     pub phase: [f64; 2],
     /// Where contact may occur.
     pub footprint: Footprint,
-    /// Largest |gap| allowed in the contact, and largest penetration outside, relative to the depth scale D. That is
-    /// F_N/(4ηv) on a dashpot, and the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
-    /// height h(a) at the distance a from the lowest point.
+    /// Largest residual h + u − d allowed in the contact, and largest penetration outside, relative to the depth scale D.
+    /// That is F_N/(4ηv) on a dashpot, the solution of D = h(a) = 2 (1 − ν) F_N J(a/v)/(4a) on any material, with the mean
+    /// height h(a) at the distance a from the lowest point, and the depth where that is given.
     pub tolerance: f64,
-    /// Changes of the contact set after which the solver gives up.
+    /// Active sets tried before the solver gives up.
     pub max_iterations: usize,
+    /// Work that is done although the problem does not need it, to measure what leaving it out saves; the result is the
+    /// same up to the tolerance.
+    pub redundant_work: Option<SteadyOmission>,
 }
 
-/// Solves the stationary sliding of `surface` on a linear viscoelastic material under a force on one grid.
+impl SteadyOptions {
+    /// A grid with the lowest point over the centre of an element, solved to a tolerance of 1e-9.
+    #[must_use]
+    pub const fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
+        Self {
+            spacing,
+            phase: [0.0; 2],
+            footprint,
+            tolerance: TOLERANCE,
+            max_iterations: MAX_ITERATIONS,
+            redundant_work: None,
+        }
+    }
+}
+
+/// A part of the work that is left out where a problem does not need it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum SteadyOmission {
+    /// The elements around the contact, while its equations are solved by transforms.
+    OutsideContact,
+    /// Transforms and iteration, where a contact is small enough to be factorised.
+    Transforms,
+}
+
+/// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth;
+/// the sliding distance of the load matters for a depth on a material that flows only.
 ///
-/// The contact set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
+/// The active set is found by block principal pivoting (Júdice & Pires 1994, Comput. Oper. Res. 21, 587); single pivots
 /// end what would cycle. Small contacts are factorised; large ones are solved by minimal residuals with transforms, with
 /// the Wiener–Hopf factors of the kernel as preconditioner, and start from the contact of a coarser grid.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for options out of range, or a body that can touch nowhere in the footprint;
-/// [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`]; [`BemError::SlopeNotResolved`];
-/// [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`]; [`BemError::InvalidHeight`];
-/// [`BemError::Material`].
-pub fn steady(
-    surface: &impl Surface,
+/// [`BemError::SlidingDistanceMissing`]; [`BemError::GridTooLarge`]; [`BemError::GridTooCoarse`]; [`BemError::VerticalWall`];
+/// [`BemError::SlopeNotResolved`]; [`BemError::ContactReachesBoundary`]; [`BemError::ContactNotConverged`];
+/// [`BemError::InvalidHeight`]; [`BemError::Material`].
+pub fn steady_on_grid(
+    surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let loading = Loading::force(surface, (material, load), &options.footprint)?;
-    solve(surface, &loading, (options, None), &mut Reuse::default())
+    let loading = Loading::new(&surface, material, load, &options.footprint)?;
+    solve(&surface, &loading, options, &mut Reuse::default())
 }
 
-/// Like [`steady`], but does the work of one `omission` too: the answer is the same up to the tolerance, and costs more.
-///
-/// # Errors
-/// As for [`steady`].
-pub fn steady_without_omission(
-    surface: &impl Surface,
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-    options: &SteadyOptions,
-    omission: SteadyOmission,
-) -> Result<SteadySliding, BemError> {
-    let loading = Loading::force(surface, (material, load), &options.footprint)?;
-    let work = (options, Some(omission));
-    solve(surface, &loading, work, &mut Reuse::default())
-}
-
-/// Solves the stationary sliding of `surface` at a depth on one grid; the normal force is part of the answer.
-///
-/// # Errors
-/// As for [`steady`], and [`BemError::InvalidParameter`] for a depth, a speed or a sliding distance out of range.
-pub fn steady_at_depth(
-    surface: &impl Surface,
-    material: &(impl Material + ?Sized),
-    control: &DepthControl,
-    options: &SteadyOptions,
-) -> Result<SteadySliding, BemError> {
-    let [rear, front] = options.footprint.x;
-    let loading = Loading::depth(material, control, front - rear)?;
-    solve(surface, &loading, (options, None), &mut Reuse::default())
-}
-
-/// Like [`steady_at_depth`], but does the work of one `omission` too.
-///
-/// # Errors
-/// As for [`steady_at_depth`].
-pub fn steady_at_depth_without_omission(
-    surface: &impl Surface,
-    material: &(impl Material + ?Sized),
-    control: &DepthControl,
-    options: &SteadyOptions,
-    omission: SteadyOmission,
-) -> Result<SteadySliding, BemError> {
-    let [rear, front] = options.footprint.x;
-    let loading = Loading::depth(material, control, front - rear)?;
-    let work = (options, Some(omission));
-    solve(surface, &loading, work, &mut Reuse::default())
-}
-
-/// The depth scale D of [`SteadyOptions::tolerance`] for a `surface` that ends at `extent`: how deep the load presses it,
-/// about, \[m].
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] for an extent or a scale out of range; [`BemError::Material`].
-pub fn depth_scale(
-    surface: &impl Surface,
-    (material, load): (&(impl Material + ?Sized), &SlidingLoad),
-    extent: &Footprint,
-) -> Result<f64, BemError> {
-    Ok(Loading::force(surface, (material, load), extent)?.depth_scale)
-}
-
-/// A resolution, and what is not left out all the same.
-type Work<'a> = (&'a SteadyOptions, Option<SteadyOmission>);
-
-/// What one solution leaves for the next.
+/// What one solution passes on to the next.
 #[derive(Debug, Default)]
 struct Reuse {
     /// Its contact is the first guess.
@@ -183,14 +149,14 @@ struct Reuse {
 }
 
 fn solve(
-    surface: &impl Surface,
+    surface: &dyn Surface,
     loading: &Loading,
-    (options, kept): Work,
+    options: &SteadyOptions,
     reuse: &mut Reuse,
 ) -> Result<SteadySliding, BemError> {
     positive("max_iterations", options.max_iterations as f64)?;
     below_one("tolerance", options.tolerance)?;
-    let mesh = Mesh::new(surface, (loading, &mut reuse.plans), (options, kept))?;
+    let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
         let coarse = coarser(options, loading);
         // Only the kernel of a dashpot is the same on both grids.
@@ -201,7 +167,7 @@ fn solve(
             &mut other
         };
         // Without a solution on the coarse grid the fine one starts from its own guess.
-        reuse.solution = solve(surface, loading, (&coarse, kept), coarse_reuse).ok();
+        reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
     let start = match &reuse.solution {
         Some(other) => Start::Known(loads_of(other, &mesh)),

@@ -1,8 +1,8 @@
-//! The surroundings of a few violations, settled by themselves.
+//! The neighbourhood of a few violations, solved by itself.
 //!
-//! A tooth of the outline wears off by one element per change of the whole contact, and the end of a column may change
-//! sides for ever. Both are questions of few elements: those near the violations are brought into order while the other
-//! loads and the depth stay.
+//! A tooth of the outline wears off by one element per change of the whole active set, and the end of a column may change
+//! sides for ever. Both concern few elements: the problem is solved for those near the violations, while the other loads
+//! and the depth stay.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -13,23 +13,24 @@ use crate::steady::mesh::Mesh;
 const REACH: usize = 4;
 /// More elements are not a small problem.
 const LARGEST: usize = 250;
-/// Exchanges of all violations, and pivots at all.
+/// Block pivots of all violations, and pivots in all.
 const BLOCKS: usize = 10;
 const PIVOTS: usize = 100;
 
 /// Elements with their load; 0 outside the contact.
 type Loads = Vec<(usize, f64)>;
 
-/// Settles the neighbourhood of `violations`, where every element has a gap and a load now; `None` when it is too large
-/// or does not settle. Smaller penetrations than `allowed` are none.
-pub(super) fn settle(
+/// Solves the neighbourhood of `violations` from the present gap and load of every element; `None` when it is too large
+/// or pivoting cycles. Penetrations up to `allowed` are accepted.
+pub(super) fn solve_neighbourhood(
     mesh: &Mesh,
-    (gaps, loads): (&[f64], &[f64]),
+    gaps: &[f64],
+    loads: &[f64],
     violations: &[usize],
     allowed: f64,
 ) -> Option<Loads> {
     let elements = mesh.near(violations, REACH, LARGEST)?;
-    let problem = Neighbourhood::new(mesh, (gaps, loads), elements);
+    let problem = Neighbourhood::new(mesh, gaps, loads, elements);
     let start = problem.elements.iter();
     let inside = start.map(|&element| (loads[element] > 0.0) != violations.contains(&element));
     problem.pivot(inside.collect(), allowed)
@@ -44,7 +45,7 @@ struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    fn new(mesh: &Mesh, (gaps, loads): (&[f64], &[f64]), elements: Vec<usize>) -> Self {
+    fn new(mesh: &Mesh, gaps: &[f64], loads: &[f64], elements: Vec<usize>) -> Self {
         let n = elements.len();
         let influence = Mat::from_fn(n, n, |to, from| {
             mesh.influence(elements[to], elements[from])
@@ -63,7 +64,7 @@ impl Neighbourhood {
     /// Murty's pivots (1974), all violations at once at first.
     fn pivot(&self, mut inside: Vec<bool>, allowed: f64) -> Option<Loads> {
         for pivot in 0..PIVOTS {
-            let loads = self.close(&inside);
+            let loads = self.loads_inside(&inside);
             let violations = self.violations(&inside, &loads, allowed)?;
             let Some(last) = violations.last() else {
                 return Some(self.elements.iter().copied().zip(loads).collect());
@@ -80,7 +81,7 @@ impl Neighbourhood {
         None
     }
 
-    /// Elements that pull or penetrate; `None` when the loads are not numbers.
+    /// Elements in tension or penetrating; `None` when the loads are not numbers.
     fn violations(&self, inside: &[bool], loads: &[f64], allowed: f64) -> Option<Vec<usize>> {
         let violates = |&element: &usize| {
             if inside[element] {
@@ -93,8 +94,8 @@ impl Neighbourhood {
         finite.then(|| (0..inside.len()).filter(violates).collect())
     }
 
-    /// Loads that close the gaps inside; 0 outside.
-    fn close(&self, inside: &[bool]) -> Vec<f64> {
+    /// Loads with no gap inside; 0 outside.
+    fn loads_inside(&self, inside: &[bool]) -> Vec<f64> {
         let contact: Vec<usize> = (0..inside.len())
             .filter(|&element| inside[element])
             .collect();

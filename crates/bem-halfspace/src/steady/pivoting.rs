@@ -1,35 +1,37 @@
-//! Block principal pivoting: guess the contact, close its gaps, exchange what pulls for what penetrates.
+//! Block principal pivoting: guess the active set, solve its equations, move the elements in tension out of it and those
+//! that penetrate into it.
 //!
-//! While the number of violations falls, all are exchanged at once, or their neighbourhood is settled by itself where
-//! they are few. A few exchanges without progress are allowed; then the larger violations or every other one, so that
-//! neighbours at the front do not flip to and fro together; in the end single exchanges of the last violation (Murty
-//! 1974), until there is progress again. Early contacts are closed roughly, the last one to the tolerance.
+//! While the number of violations falls, all of them change at once, or their neighbourhood is solved by itself where
+//! they are few. A few pivots without progress are allowed; then the larger violations or every other one, so that
+//! neighbours at the front do not flip to and fro together; in the end single pivots of the last violation (Murty
+//! 1974), until there is progress again. Early active sets are solved roughly, the last one to the tolerance.
 
 use crate::BemError;
-use crate::steady::contact_system::{Closure, close_gaps};
+use crate::steady::contact_equations::{EquationSolution, solve_equations};
 use crate::steady::mesh::Mesh;
-use crate::steady::neighbourhood::settle;
+use crate::steady::neighbourhood::solve_neighbourhood;
 use crate::steady::plans::Plans;
 use crate::steady::product::Product;
 use crate::steady::region::Region;
 
-/// Exchanges without progress up to which all violations are exchanged, then the larger ones, then every other one, and
-/// in the end a single one.
+/// Pivots without progress up to which all violations change, then the larger ones, then every other one, and in the end
+/// a single one.
 const BLOCKS: usize = 3;
 const LARGER_ONES: usize = 30;
 const EVERY_OTHER: usize = 200;
 /// Largest tolerance of the first contact, and its ratio from contact to contact.
 const FIRST_TOLERANCE: f64 = 1e-4;
 const TOLERANCE_RATIO: f64 = 0.1;
-/// Part of the violation by an element at the front on the wrong side that gaps may reach without hiding it.
+/// Largest residual, as a part of the violation by an element at the front on the wrong side, that does not hide it.
 const HIDDEN: f64 = 1e-2;
-/// Part of the tolerance asked for to which the last contacts are closed, for the gaps far above their root mean square.
+/// Part of the tolerance asked for to which the last equations are solved: the largest residual is far above the root
+/// mean square.
 const LAST: f64 = 0.2;
-/// Smaller contacts are closed as fast as a neighbourhood is settled.
-const SETTLED_FROM: usize = 500;
+/// Smaller contacts are solved as fast as a neighbourhood.
+const NEIGHBOURHOOD_FROM: usize = 500;
 /// A tolerance that fails this far below the target fails because of rounding.
 const HOPELESS: f64 = 1e-3;
-/// The largest gap of a contact is that many times its root mean square, at most, as a rule.
+/// The largest residual of a contact is that many times its root mean square, at most, as a rule.
 const PEAK: f64 = 10.0;
 
 /// Loads of the elements in contact, all greater than zero, in the units of the mesh.
@@ -40,7 +42,7 @@ pub(super) struct Solution {
     pub(super) iterations: usize,
     /// Whether the equations of the last contact were factorised.
     pub(super) factorised: bool,
-    /// Largest |gap| in the contact, in units of the depth scale.
+    /// Largest residual |h + u − d| in the contact, in units of the depth scale.
     pub(super) residual: f64,
 }
 
@@ -49,8 +51,8 @@ pub(super) struct Solution {
 pub(super) enum Start {
     /// Loads of another grid.
     Known(Vec<(usize, f64)>),
-    /// Elements that may be in contact. Flat parts of the body join when its flanks are settled: through the holes of a
-    /// guess all of them would seem to penetrate.
+    /// Elements that may be in contact. Flat parts of the body join once the active set on its flanks is found: through
+    /// the holes of a guess all of them would seem to penetrate.
     Guessed(Vec<(usize, f64)>),
 }
 
@@ -61,7 +63,7 @@ pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solu
     let mut progress = Progress::default();
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
-        let state = search.close();
+        let state = search.solve();
         (residual, made) = (state.residual, iterations);
         if state.violations.is_empty() && search.flat_parts_wait {
             search.flat_parts_wait = false;
@@ -69,7 +71,7 @@ pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solu
             if residual <= target {
                 return Ok(search.finish(residual, iterations));
             }
-            // Nothing but the size of the gaps is left to improve; far below the target that is hopeless.
+            // Only the residual is left to improve; far below the target that is hopeless.
             if search.tolerance < HOPELESS * target {
                 break;
             }
@@ -77,8 +79,8 @@ pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solu
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
             let chosen = progress.choose(&state.violations);
-            if !progress.allows_settling() || !search.settle(&state) {
-                search.exchange(chosen);
+            if !progress.allows_neighbourhood() || !search.solve_neighbourhood(&state) {
+                search.pivot(chosen);
             }
         }
     }
@@ -89,19 +91,19 @@ pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solu
     })
 }
 
-/// An element that pulls or penetrates, and by how much in the units of the mesh, which are the same for both.
+/// An element in tension or penetrating, and by how much in the units of the mesh, which are the same for both.
 #[derive(Debug, Clone, Copy)]
 struct Violation {
     element: usize,
     size: f64,
-    pulls: bool,
+    in_tension: bool,
 }
 
 /// How the number of violations falls.
 #[derive(Debug)]
 struct Progress {
     fewest: usize,
-    /// Exchanges since there were fewest.
+    /// Pivots since there were fewest.
     vain: usize,
 }
 
@@ -116,11 +118,11 @@ impl Default for Progress {
 
 impl Progress {
     /// Whether small problems may be solved by themselves; that too may repeat itself.
-    const fn allows_settling(&self) -> bool {
+    const fn allows_neighbourhood(&self) -> bool {
         self.vain <= BLOCKS
     }
 
-    /// The violations to exchange: all, then the larger ones, then every other one, then the last.
+    /// The violations that change: all, then the larger ones, then every other one, then the last.
     fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
         if violations.len() < self.fewest {
             (self.fewest, self.vain) = (violations.len(), 0);
@@ -137,7 +139,7 @@ impl Progress {
         // Only neighbours of different kinds hinder each other.
         let alike = violations
             .windows(2)
-            .all(|pair| pair[0].pulls == pair[1].pulls);
+            .all(|pair| pair[0].in_tension == pair[1].in_tension);
         if self.vain <= BLOCKS || alike && self.vain <= LARGER_ONES {
             at_least(0.0)
         } else if self.vain <= LARGER_ONES {
@@ -173,12 +175,12 @@ struct Search<'mesh> {
     product: Product,
 }
 
-/// How a contact with closed gaps stands to the conditions.
+/// How the solution on an active set stands to the contact conditions.
 struct State {
     gaps: Vec<f64>,
-    /// Smaller penetrations are not told from the gaps that are left.
+    /// Smaller penetrations are not told from the residual.
     allowed: f64,
-    /// Elements of the contact that pull and others that penetrate, in the order of their numbers.
+    /// Elements of the contact in tension and others that penetrate, in the order of their numbers.
     violations: Vec<Violation>,
     residual: f64,
 }
@@ -209,18 +211,19 @@ impl<'mesh> Search<'mesh> {
         search
     }
 
-    /// Closes the gaps of the contact up to the tolerance.
-    fn close(&mut self) -> State {
+    /// Solves the equations of the active set up to the tolerance.
+    fn solve(&mut self) -> State {
         let contact: Vec<usize> = (0..self.inside.len())
             .filter(|&element| self.inside[element])
             .collect();
         let start = contact.iter().map(|&element| self.loads[element]).collect();
-        let Closure {
+        let EquationSolution {
             loads,
             depth,
             factorised,
-        } = close_gaps(
-            (self.mesh, self.plans),
+        } = solve_equations(
+            self.mesh,
+            self.plans,
             &contact,
             start,
             self.tolerance / PEAK,
@@ -230,19 +233,19 @@ impl<'mesh> Search<'mesh> {
             self.loads[element] = load;
         }
         (self.depth, self.factorised) = (depth, factorised);
-        self.drop_slight_pulls();
+        self.drop_slight_tension();
         self.state()
     }
 
-    /// Takes elements out of the contact that pull so slightly that all of them together change the force, and with it
-    /// the displacements, less than the tolerance.
-    fn drop_slight_pulls(&mut self) {
-        let [mut pulls, mut total] = [0.0; 2];
+    /// Takes elements out of the contact whose tension is so slight that all of them together change the force, and with
+    /// it the displacements, less than the tolerance.
+    fn drop_slight_tension(&mut self) {
+        let [mut tension, mut total] = [0.0; 2];
         for load in &self.loads {
             total += load;
-            pulls -= load.min(0.0);
+            tension -= load.min(0.0);
         }
-        if pulls >= self.mesh.options.tolerance * total {
+        if tension >= self.mesh.options.tolerance * total {
             return;
         }
         for (inside, load) in self.inside.iter_mut().zip(&mut self.loads) {
@@ -257,17 +260,21 @@ impl<'mesh> Search<'mesh> {
         let moved = self.product.displacements(&self.loads, &self.all);
         let gap = |(element, moved)| self.mesh.height(element) + moved - self.depth;
         let gaps: Vec<f64> = moved.into_iter().enumerate().map(gap).collect();
-        let closed = gaps.iter().zip(&self.inside).filter(|(_, inside)| **inside);
-        let residual = closed.fold(0.0, |largest: f64, (gap, _)| largest.max(gap.abs()));
+        let in_contact = gaps.iter().zip(&self.inside).filter(|(_, inside)| **inside);
+        let residual = in_contact.fold(0.0, |largest: f64, (gap, _)| largest.max(gap.abs()));
         let allowed = residual.max(self.mesh.options.tolerance);
         let violation = |(element, gap): (usize, f64)| {
-            let pulls = self.inside[element];
-            let size = if pulls { -self.loads[element] } else { -gap };
-            let waits = self.flat_parts_wait && !pulls && self.mesh.is_flat(element);
-            (!waits && size > if pulls { 0.0 } else { allowed }).then_some(Violation {
+            let in_tension = self.inside[element];
+            let size = if in_tension {
+                -self.loads[element]
+            } else {
+                -gap
+            };
+            let waits = self.flat_parts_wait && !in_tension && self.mesh.is_flat(element);
+            (!waits && size > if in_tension { 0.0 } else { allowed }).then_some(Violation {
                 element,
                 size,
-                pulls,
+                in_tension,
             })
         };
         State {
@@ -281,9 +288,9 @@ impl<'mesh> Search<'mesh> {
         }
     }
 
-    /// Settles the neighbourhood of the violations by itself, if it is small and the contact is not.
-    fn settle(&mut self, state: &State) -> bool {
-        if self.inside.iter().filter(|inside| **inside).count() < SETTLED_FROM {
+    /// Solves the neighbourhood of the violations by itself, if it is small and the contact is not.
+    fn solve_neighbourhood(&mut self, state: &State) -> bool {
+        if self.inside.iter().filter(|inside| **inside).count() < NEIGHBOURHOOD_FROM {
             return false;
         }
         let violations: Vec<usize> = state
@@ -291,19 +298,20 @@ impl<'mesh> Search<'mesh> {
             .iter()
             .map(|violation| violation.element)
             .collect();
-        let settled = settle(
+        let solved = solve_neighbourhood(
             self.mesh,
-            (&state.gaps, &self.loads),
+            &state.gaps,
+            &self.loads,
             &violations,
             state.allowed,
         );
-        for &(element, load) in settled.iter().flatten() {
+        for &(element, load) in solved.iter().flatten() {
             (self.inside[element], self.loads[element]) = (load > 0.0, load);
         }
-        settled.is_some()
+        solved.is_some()
     }
 
-    fn exchange(&mut self, elements: Vec<usize>) {
+    fn pivot(&mut self, elements: Vec<usize>) {
         for element in elements {
             self.inside[element] = !self.inside[element];
             self.loads[element] = 0.0;

@@ -1,5 +1,5 @@
 //! Transforms and spectra, which depend on sizes only: made once, and shared by the contacts, grids and shifts of a
-//! question.
+//! problem.
 
 use std::sync::Arc;
 
@@ -32,7 +32,8 @@ impl Plans {
     /// Makes ready for boxes of up to `shape` elements and returns the table of the kernel.
     pub(super) fn cover(
         &mut self,
-        (creep, aspect): (&ElementCreep, f64),
+        creep: &ElementCreep,
+        aspect: f64,
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
         if !self.table.is_for(creep, aspect) {
@@ -40,7 +41,7 @@ impl Plans {
         }
         let filtered = InverseFactors::period(shape);
         let reach = [0, 1].map(|axis| free_period(shape[axis]).max(filtered[axis]) / 2);
-        WakeTable::cover(&mut self.table, (creep, aspect), reach);
+        WakeTable::cover(&mut self.table, creep, aspect, reach);
         Arc::clone(&self.table)
     }
 

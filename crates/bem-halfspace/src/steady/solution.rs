@@ -1,6 +1,10 @@
 //! What the stationary solver returns.
 
-use crate::slide::{MIN_CONTACT_ELEMENTS, PressureField};
+use numerics::ErrorParts;
+
+use crate::bars::Quantities;
+use crate::error::check_contact_elements;
+use crate::slide::PressureField;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
@@ -25,12 +29,12 @@ pub struct SteadySliding {
     pub contact_x: [f64; 2],
     /// Sides of the contact relative to the lowest point, \[m].
     pub contact_y: [f64; 2],
-    /// Number of unknown pressures: elements in contact, of one half where the scene is mirror symmetric.
+    /// Number of unknown pressures: elements in contact, of one half where the problem is mirror symmetric.
     pub unknowns: usize,
-    /// Contact sets tried.
+    /// Active sets tried.
     pub iterations: usize,
-    /// Largest |gap| in the contact relative to the depth scale, see [`SteadyOptions::tolerance`](crate::steady::SteadyOptions::tolerance), or to the depth where
-    /// that is controlled.
+    /// Largest residual |h + u − d| in the contact relative to the depth scale, see
+    /// [`SteadyOptions::tolerance`](crate::steady::SteadyOptions::tolerance).
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
@@ -42,6 +46,33 @@ impl SteadySliding {
     #[must_use]
     pub const fn is_factorised(&self) -> bool {
         self.factorised
+    }
+
+    /// How much the residual that is left may change the friction coefficient.
+    #[must_use]
+    pub fn iteration_error(&self) -> f64 {
+        self.residual * self.mean_slope
+    }
+
+    pub(super) fn quantities(&self, sliding_distance: Option<f64>) -> Quantities<f64> {
+        Quantities {
+            friction_coefficient: self.friction_coefficient,
+            normal_force: self.normal_force,
+            indentation_depth: self.depth.at(sliding_distance),
+            contact_area: self.contact_area,
+            peak_pressure: self.pressure.largest(),
+        }
+    }
+
+    /// Parts of the errors that do not depend on the grid.
+    pub(super) fn other_parts(&self) -> Quantities<ErrorParts> {
+        Quantities {
+            friction_coefficient: ErrorParts {
+                iteration: Some(self.iteration_error()),
+                ..ErrorParts::NONE
+            },
+            ..Quantities::all(ErrorParts::NONE)
+        }
     }
 
     /// Turns a solution in the units of the mesh into one in SI.
@@ -127,11 +158,6 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 
     } else {
         lengths[0].min(lengths[1])
     };
-    if elements < MIN_CONTACT_ELEMENTS {
-        return Err(BemError::GridTooCoarse {
-            elements,
-            needed: MIN_CONTACT_ELEMENTS,
-        });
-    }
+    check_contact_elements(elements)?;
     Ok(bounds)
 }

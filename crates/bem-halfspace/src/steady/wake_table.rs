@@ -43,7 +43,8 @@ impl WakeTable {
     /// Makes the table cover offsets up to `reach`; what is wider already is kept.
     pub(super) fn cover(
         table: &mut Arc<Self>,
-        (creep, aspect): (&ElementCreep, f64),
+        creep: &ElementCreep,
+        aspect: f64,
         reach: [usize; 2],
     ) {
         let empty = table.values.is_empty();
@@ -51,11 +52,11 @@ impl WakeTable {
             return;
         }
         let reach = [0, 1].map(|axis| reach[axis].max(table.reach[axis]));
-        *table = Arc::new(Self::new((creep, aspect), reach, table));
+        *table = Arc::new(Self::new(creep, aspect, reach, table));
     }
 
     /// The table up to `reach`; what a `smaller` one of the same kind has is not computed again where that is simple.
-    fn new((creep, aspect): (&ElementCreep, f64), reach: [usize; 2], smaller: &Self) -> Self {
+    fn new(creep: &ElementCreep, aspect: f64, reach: [usize; 2], smaller: &Self) -> Self {
         let n_values = (2 * reach[0] + 1) * (reach[1] + 1);
         let mut table = Self {
             creep: creep.clone(),

@@ -2,7 +2,6 @@
 
 use std::ops::{Range, RangeBounds};
 
-use indenters::Surface;
 use rheology::ExponentialStep;
 
 use super::Stepping;
@@ -10,7 +9,7 @@ use crate::BemError;
 use crate::bounds::Bounds;
 use crate::contact::ContactBox;
 
-/// What a march needs to go on from where it is, beside its scene.
+/// The state of a march from which it can be continued, beside its input.
 ///
 /// A march that is resumed makes the same steps to the last bit.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +22,7 @@ pub struct MarchState {
     contact_box: [[usize; 2]; 2],
     /// Loads in the box.
     load: Vec<f64>,
-    /// What the rows that are still needed remember.
+    /// The memory of the rows that are still needed.
     memory: Vec<f64>,
 }
 
@@ -35,7 +34,7 @@ impl MarchState {
     }
 }
 
-impl<S: Surface + ?Sized> Stepping<'_, S> {
+impl Stepping<'_> {
     pub(crate) fn state(&self) -> MarchState {
         let Bounds { lower, upper } = self.contact_box.bounds;
         MarchState {

@@ -10,7 +10,6 @@
 //! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
 
 mod checkpoint;
-mod omission;
 mod press;
 mod route;
 mod window;
@@ -18,23 +17,33 @@ mod window;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use indenters::{SlidingLoad, Surface};
+use indenters::{Control, Surface};
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use crate::bounds::Bounds;
 use crate::contact::ContactBox;
 use crate::error::positive;
 use crate::resolution::Layout;
-use crate::{BemError, Control, Resolution};
+use crate::slide::PressureField;
+use crate::{BemError, Grid, GridOptions};
 pub use checkpoint::MarchState;
-pub use omission::SlideOmission;
 pub(crate) use route::{Leg, Route};
 use window::Window;
 
-/// An indenter on its way over a half space.
-pub(crate) struct Stepping<'scene, S: ?Sized> {
-    surface: &'scene S,
-    pub(crate) resolution: Resolution,
+/// A part of the work of a march that is left out where a problem does not need it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum SlideOmission {
+    /// The elements of the footprint around the contact, while it is solved.
+    OutsideContact,
+    /// The displacement of the rows that the footprint has left behind for good.
+    RowsBehind,
+}
+
+/// An indenter that moves over a half space.
+pub(crate) struct Stepping<'a> {
+    surface: &'a dyn Surface,
+    pub(crate) options: GridOptions,
     pub(crate) layout: Layout,
     pub(crate) material: HalfSpace,
     route: Route,
@@ -48,8 +57,6 @@ pub(crate) struct Stepping<'scene, S: ?Sized> {
     separation: Vec<f64>,
     window: Window,
     contact_box: ContactBox,
-    /// What is not left out all the same.
-    kept: Option<SlideOmission>,
     /// Unit of heights, \[m].
     scale: f64,
 }
@@ -63,11 +70,16 @@ pub(crate) struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// F_N J(L/v) / (4 L), the depth that a load makes while it passes a contact of length L: F_N/(4ηv) on a dashpot,
-    /// \[m].
-    pub(crate) fn depth_scale(&self, load: &SlidingLoad, length: f64) -> Result<f64, BemError> {
-        let compliance = self.creep.creep_compliance(length / load.velocity())?;
-        Ok(0.25 * load.require_normal_force()? * (self.factor * compliance) / length)
+    /// F_N J(L/v) / (4 L), the depth that a force makes in the time L/v in which it passes a contact of length L:
+    /// F_N/(4ηv) on a dashpot, \[m].
+    pub(crate) fn depth_scale(
+        &self,
+        normal_force: f64,
+        length: f64,
+        time: f64,
+    ) -> Result<f64, BemError> {
+        let compliance = self.creep.creep_compliance(time)?;
+        Ok(0.25 * normal_force * (self.factor * compliance) / length)
     }
 }
 
@@ -83,16 +95,16 @@ pub(crate) struct Instant {
     pub(crate) iterations: usize,
 }
 
-impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
+impl<'a> Stepping<'a> {
     pub(crate) fn new(
-        surface: &'scene S,
+        surface: &'a dyn Surface,
         material: &(impl Material + ?Sized),
         route: Route,
-        resolution: &Resolution,
+        options: &GridOptions,
     ) -> Result<Self, BemError> {
         let [along_x, along_y] = surface.mirrors();
-        let layout = resolution.layout([along_x && route.rests(), along_y])?;
-        let [dx, dy] = resolution.spacing;
+        let layout = options.layout([along_x && route.rests(), along_y])?;
+        let [dx, dy] = options.spacing;
         let material = HalfSpace {
             creep: material.creep(),
             factor: material.half_space_factor(),
@@ -107,7 +119,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         let window = Window::new(n_rows, &layout, dy / dx, step.n_fields())?;
         let mut stepping = Self {
             surface,
-            resolution: *resolution,
+            options: *options,
             layout,
             scale: height_scale(&material, &route, dx)?,
             material,
@@ -120,7 +132,6 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
             separation: vec![0.0; layout.followed().iter().product()],
             contact_box: ContactBox::of(window.convolution(), Bounds::around([0; 2]))?,
             window,
-            kept: None,
         };
         stepping.sample(stepping.route.legs[0].offset)?;
         stepping.contact_box = stepping.box_at_lowest(&stepping.heights)?;
@@ -167,7 +178,42 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
 
     /// Pressure of an element per unit of its load, \[Pa].
     pub(crate) fn pressure_per_load(&self) -> f64 {
-        4.0 * PI * self.scale / self.resolution.spacing[0] / self.compliance()
+        4.0 * PI * self.scale / self.options.spacing[0] / self.compliance()
+    }
+
+    /// Pressure in the last step; a single element without pressure where there is no contact.
+    pub(crate) fn pressure(&self) -> Result<PressureField, BemError> {
+        let unit = self.pressure_per_load();
+        let bounds = self.contact_bounds();
+        let columns = bounds.shape()[1];
+        let mut pressure = vec![0.0; bounds.n_elements()];
+        for (element, load) in self.loaded_elements() {
+            for [row, column] in self.layout.images_of(element) {
+                let index = (row - bounds.lower[0]) * columns + column - bounds.lower[1];
+                pressure[index] += load * unit;
+            }
+        }
+        let spacing = self.options.spacing;
+        Ok(PressureField {
+            grid: Grid::new(bounds.shape(), spacing)?,
+            origin: [
+                self.along(bounds.lower[0], self.sampled_offset) * spacing[0],
+                self.across(bounds.lower[1]),
+            ],
+            pressure,
+        })
+    }
+
+    /// Ends of a box of elements along x and y relative to the lowest point, \[m].
+    pub(crate) fn edges(&self, bounds: &Bounds, offset: f64) -> [[f64; 2]; 2] {
+        let half = 0.5;
+        let [dx, dy] = self.options.spacing;
+        let x = |row: usize| (self.along(row, offset) - half) * dx;
+        let y = |column: usize| self.across(column) - half * dy;
+        [
+            [bounds.lower[0], bounds.upper[0]].map(x),
+            [bounds.lower[1], bounds.upper[1]].map(y),
+        ]
     }
 
     /// The compliance of the last step, \[1/Pa].
@@ -175,11 +221,14 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         self.material.factor * self.step.response()
     }
 
-    /// The contact at the end of the next step; nothing at the end of the way.
+    /// The contact at the end of the next step; none after the last.
     pub(crate) fn advance(&mut self) -> Result<Option<Instant>, BemError> {
-        let Some(leg) = self.route.legs.get(self.steps_done).copied() else {
-            return Ok(None);
-        };
+        let leg = self.route.legs.get(self.steps_done).copied();
+        leg.map(|leg| self.follow(leg)).transpose()
+    }
+
+    /// The contact at the end of the next step, which is this leg.
+    pub(crate) fn follow(&mut self, leg: Leg) -> Result<Instant, BemError> {
         self.set_time_step(leg.time_step)?;
         self.sample(leg.offset)?;
         self.set_separation(leg.row);
@@ -190,12 +239,12 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         let wanted = self.rows_needed();
         self.window.remember(&self.step, wanted);
         self.steps_done += 1;
-        Ok(Some(instant))
+        Ok(instant)
     }
 
     /// Rows that the step under way or a later one needs.
     fn rows_needed(&self) -> Range<usize> {
-        if self.kept == Some(SlideOmission::RowsBehind) {
+        if self.options.redundant_work == Some(SlideOmission::RowsBehind) {
             return 0..self.window.n_rows();
         }
         let n_rows = self.layout.followed()[0];
@@ -224,7 +273,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
 
     /// Position of a column of the footprint across, \[m].
     pub(crate) fn across(&self, column: usize) -> f64 {
-        (column as f64 - self.layout.apex[1] as f64) * self.resolution.spacing[1]
+        (column as f64 - self.layout.apex[1] as f64) * self.options.spacing[1]
     }
 
     /// Samples the heights with the lowest point `offset` elements ahead of the centre of its element.
@@ -235,7 +284,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
         let ([rows, columns], [first_row, first_column]) = (self.layout.shape, self.layout.first());
         let mut heights = Vec::with_capacity(self.separation.len());
         for row in first_row..rows {
-            let x = self.along(row, offset) * self.resolution.spacing[0];
+            let x = self.along(row, offset) * self.options.spacing[0];
             for column in first_column..columns {
                 let value = self.surface.height([x, self.across(column)]);
                 if value.is_nan() || value == f64::NEG_INFINITY {
@@ -260,7 +309,7 @@ impl<'scene, S: Surface + ?Sized> Stepping<'scene, S> {
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let convolution = self.window.convolution();
         let [rows, columns] = self.layout.followed();
-        if self.kept == Some(SlideOmission::OutsideContact) {
+        if self.options.redundant_work == Some(SlideOmission::OutsideContact) {
             let bounds = Bounds {
                 lower: [0; 2],
                 upper: [rows, columns],

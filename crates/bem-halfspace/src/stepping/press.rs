@@ -2,26 +2,26 @@
 
 use std::f64::consts::PI;
 
-use indenters::Surface;
+use indenters::Control;
 
 use super::{Instant, Leg, SlideOmission, Stepping};
+use crate::BemError;
 use crate::bounds::Bounds;
 use crate::contact::Solved;
 use crate::mirror::images;
-use crate::{BemError, Control};
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
 /// solver would take a smaller box of its own.
 const NEEDED_PART: f64 = 0.75;
 
-impl<S: Surface + ?Sized> Stepping<'_, S> {
+impl Stepping<'_> {
     /// Solves the contact at the end of a step, on a box that grows until the indenter penetrates nowhere outside.
     pub(super) fn press(&mut self, leg: Leg) -> Result<Instant, BemError> {
         let mut enlarged = false;
         loop {
             self.fill_box();
             let control = self.scaled(leg.control);
-            let solved = self.contact_box.solve(control, &self.resolution.contact)?;
+            let solved = self.contact_box.solve(control, &self.options.contact)?;
             self.find_increment(leg.row);
             let contact = self.loaded_bounds();
             if let Some(outside) = self.penetration(leg.row, solved.indentation_depth) {
@@ -70,7 +70,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
     /// With x = α P / (4π) the displacement is K x; its unit is the height scale over Δx.
     fn load_per_force(&self) -> f64 {
         let compliance = self.compliance() / self.scale;
-        compliance / (4.0 * PI * self.resolution.spacing[1]) / images(self.layout.mirrors)
+        compliance / (4.0 * PI * self.options.spacing[1]) / images(self.layout.mirrors)
     }
 
     fn scaled(&self, control: Control) -> Control {
@@ -106,7 +106,7 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         let increment = self.window.increment(first_row..first_row + rows);
         let deflection = increment.iter().copied().fold(0.0, f64::max);
         // The box and the window round differently, so the box's own tolerance would be too sharp here.
-        let allowed = -2.0 * self.resolution.contact.tolerance * deflection;
+        let allowed = -2.0 * self.options.contact.tolerance * deflection;
         let gaps = self.separation.iter().zip(increment).enumerate();
         let outside = gaps
             .filter(|(_, (separation, increment))| *separation + *increment - depth < allowed)
@@ -121,14 +121,14 @@ impl<S: Surface + ?Sized> Stepping<'_, S> {
         if inside {
             return Ok(());
         }
-        Err(self.resolution.footprint.boundary_reached(position))
+        Err(self.options.footprint.boundary_reached(position))
     }
 
     /// Goes on with a smaller box when the contact has left most of it.
     ///
     /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
     fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
-        if self.kept == Some(SlideOmission::OutsideContact) {
+        if self.options.redundant_work == Some(SlideOmission::OutsideContact) {
             return Ok(());
         }
         let shape = self.contact_box.bounds.shape();

@@ -1,12 +1,14 @@
-//! The way of an indenter over the elements.
+//! The path of an indenter over the elements.
 
 use std::ops::Range;
 
+use indenters::Control;
+
+use crate::BemError;
 use crate::error::positive;
 use crate::grid::whole;
-use crate::{BemError, Control};
 
-/// One step on the way, as the elements see it.
+/// One step of the path, seen from the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
     /// Time at the end, \[s].
@@ -15,7 +17,7 @@ pub(crate) struct Leg {
     pub(crate) time_step: f64,
     /// Position of the lowest point at the end, \[m].
     pub(crate) position: f64,
-    /// Row under the lowest point at the end, from the rearmost one of the whole way.
+    /// Row under the lowest point at the end, from the rearmost one of the whole path.
     pub(crate) row: usize,
     /// Distance of the lowest point from the centre of that row, in elements, at most a half.
     pub(crate) offset: f64,
@@ -25,7 +27,7 @@ pub(crate) struct Leg {
     pub(crate) control: Control,
 }
 
-/// All legs, and which rows the ones to come pass.
+/// All steps, and which rows those to come pass.
 #[derive(Debug, Clone)]
 pub(crate) struct Route {
     pub(crate) legs: Vec<Leg>,
@@ -34,11 +36,11 @@ pub(crate) struct Route {
 }
 
 impl Route {
-    /// The way through the ends (time, position, control), from a centre of an element at time and position zero.
+    /// The path through the ends (time, position, control), from a centre of an element at time and position zero.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no ends, times that do not increase from above zero, or positions and
-    /// controls out of range; [`BemError::GridTooLarge`] for a way too long.
+    /// controls out of range; [`BemError::GridTooLarge`] for a path too long.
     pub(crate) fn through(
         ends: impl Iterator<Item = (f64, f64, Control)>,
         spacing: f64,
@@ -71,7 +73,8 @@ impl Route {
     /// [`BemError::InvalidParameter`] for a duration or a force out of range, or no steps.
     pub(crate) fn straight(
         n_steps: usize,
-        [spacing, velocity]: [f64; 2],
+        spacing: f64,
+        velocity: f64,
         control: Control,
     ) -> Result<Self, BemError> {
         let time_step = positive("time step", spacing / velocity)?;
@@ -111,7 +114,7 @@ impl Route {
             .all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
     }
 
-    /// The same way over a half space that remembers nothing, so that the elements may go along.
+    /// The same path over a half space without memory, so that the elements may move with the indenter.
     pub(crate) fn without_memory(mut self) -> Self {
         for leg in &mut self.legs {
             leg.row = 0;

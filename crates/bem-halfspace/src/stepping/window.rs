@@ -1,4 +1,4 @@
-//! The elements that the footprint passes, and what they remember.
+//! The elements that the footprint passes, and their memory of past loads.
 //!
 //! ```text
 //! u = history + 2 (1 − ν) α w,   w = K P / (4π)        at the end of a step
@@ -13,7 +13,7 @@ use rheology::ExponentialStep;
 use crate::resolution::Layout;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
-/// Fields over all elements of a way in front of the mirrors; displacements in units of the height scale, lengths in Δx.
+/// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
 pub(super) struct Window {
     convolution: Convolution,
     workspace: ConvolutionWorkspace,
@@ -71,7 +71,7 @@ impl Window {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
-    /// What `rows` remember.
+    /// The memory of `rows`.
     pub(super) fn memory(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.memory[rows.start * per_row..rows.end * per_row]

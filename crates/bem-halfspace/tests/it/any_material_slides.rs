@@ -1,37 +1,37 @@
 //! Sliding from first touch on any linear viscoelastic half space.
 
-use bem_halfspace::slide::{March, SlideOptions, StationaryOptions, slide, slide_to_stationary};
-use bem_halfspace::{BemError, ContactOptions, Footprint};
+use bem_halfspace::slide::{March, StationaryOptions, slide_on_grid, slide_to_stationary};
+use bem_halfspace::{BemError, Footprint, GridOptions};
 use casebook::{Case, group};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use rheology::{Elastic, Material, Prony, Viscous};
 
 use crate::support::{Scene, TIGHT, every_kind_of_material, prony};
 
-fn options(spacing: f64, half_width: f64, sliding_distance: f64) -> SlideOptions {
-    SlideOptions {
-        spacing: [spacing; 2],
-        footprint: Footprint::square(half_width),
-        sliding_distance,
-        contact: ContactOptions::default(),
-    }
+fn options(spacing: f64, half_width: f64) -> GridOptions {
+    GridOptions::new([spacing; 2], Footprint::square(half_width))
+}
+
+fn load([force, velocity]: [f64; 2], distance: f64) -> SlidingLoad {
+    let load = SlidingLoad::new(force, velocity).expect("a load");
+    load.after(distance).expect("a distance")
 }
 
 fn friction(
     body: &PowerProfile,
     material: &dyn Material,
     load: &SlidingLoad,
-    options: &SlideOptions,
+    options: &GridOptions,
 ) -> f64 {
-    let transient = slide(body, material, load, options).expect("a transient");
+    let transient = slide_on_grid(body, material, load, options).expect("a transient");
     transient.last().friction_coefficient
 }
 
 #[test]
 fn a_material_has_the_fields_that_it_needs() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");
-    let load = SlidingLoad::new(0.5, 0.7).expect("a load");
-    let options = options(0.25, 1.0, 10.0);
+    let load = load([0.5, 0.7], 10.0);
+    let options = options(0.25, 1.0);
     // Of nine columns, those in front of the mirror through the fifth.
     let columns = 5;
     let footprint = 9 * columns;
@@ -40,7 +40,7 @@ fn a_material_has_the_fields_that_it_needs() {
         let creep = material.creep();
         let expected = creep.elements().len() + usize::from(creep.fluidity() > 0.0);
         assert_eq!(march.n_fields(), expected, "fields of the {name} material");
-        // Who remembers nothing needs no elements outside the footprint.
+        // A material without memory needs no elements outside the footprint.
         let elements = if expected == 0 {
             footprint
         } else {
@@ -70,13 +70,13 @@ impl Surface for Skew {
 #[test]
 fn an_elastic_half_space_has_no_friction_and_is_at_rest_at_once() {
     let elastic = Elastic::new(1.5).expect("a material");
-    let load = SlidingLoad::new(0.5, 0.7).expect("a load");
-    let options = SlideOptions {
+    let load = load([0.5, 0.7], 0.4);
+    let options = GridOptions {
         contact: TIGHT,
-        ..options(0.05, 1.2, 0.4)
+        ..options(0.05, 1.2)
     };
     let cone = PowerProfile::cone(0.5).expect("a body");
-    let transient = slide(&cone, &elastic, &load, &options).expect("a transient");
+    let transient = slide_on_grid(&cone, &elastic, &load, &options).expect("a transient");
     for row in &transient.rows {
         // Rounding of slopes of order one half.
         assert!(row.friction_coefficient.abs() < 1e-10, "{row:?}");
@@ -88,7 +88,7 @@ fn an_elastic_half_space_has_no_friction_and_is_at_rest_at_once() {
     }
     // Without symmetry the sum over elements is zero to their order only; with the slope half a step before the end it
     // would be Δx/2 ⟨h_xx⟩ = 0.05.
-    let skew = slide(&Skew, &elastic, &load, &options).expect("a transient");
+    let skew = slide_on_grid(&Skew, &elastic, &load, &options).expect("a transient");
     let friction = skew.last().friction_coefficient;
     assert!(friction.abs() < 1e-3, "friction {friction}");
 }
@@ -97,7 +97,7 @@ fn an_elastic_half_space_has_no_friction_and_is_at_rest_at_once() {
 #[test]
 fn materials_that_tend_to_the_dashpot_have_its_friction() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(6.0, 6.0);
+    let (load, options) = (scene.load_over(6.0), scene.options(6.0));
     let expected = scene.slide(6.0, 6.0).last().clone();
     let nearly: [(&str, Prony); 3] = [
         ("a weak spring beside it", prony([1e-9, 2.0], &[])),
@@ -108,7 +108,7 @@ fn materials_that_tend_to_the_dashpot_have_its_friction() {
         ("both", prony([1e-9, 0.0], &[(2e9, 1e-9)])),
     ];
     for (name, material) in nearly {
-        let rows = slide(&scene.body, &material, &scene.load, &options).expect("a transient");
+        let rows = slide_on_grid(&scene.body, &material, &load, &options).expect("a transient");
         let actual = rows.last();
         let ratios = [
             actual.friction_coefficient / expected.friction_coefficient,
@@ -151,9 +151,9 @@ fn friction_on_a_solid_is_that_of_the_casebook() {
             .iter()
             .find(|case| case.id().ends_with(name))
             .expect("a case");
-        let load = SlidingLoad::new(case.input("F"), case.input("v")).expect("a load");
+        let load = load([case.input("F"), case.input("v")], distance);
         let on = |elements: f64| {
-            let options = options(1.0 / elements, 1.5, distance);
+            let options = options(1.0 / elements, 1.5);
             friction(&casebook_body(case), &solid_of(case), &load, &options)
         };
         let [coarse, fine] = [on(7.0), on(14.0)];
@@ -165,7 +165,7 @@ fn friction_on_a_solid_is_that_of_the_casebook() {
     }
 }
 
-/// In a step an element creeps to its end, and the lag of what it does is far below an element (FRI-05).
+/// In a step an element creeps to its end, and lags far less than an element behind (FRI-05).
 #[test]
 fn slow_friction_on_a_solid_has_its_exact_limit() {
     for case in group("FRI-05") {
@@ -176,12 +176,12 @@ fn slow_friction_on_a_solid_has_its_exact_limit() {
         let stretch = PowerProfile::new(1.0, p).expect("a body").stretch();
         let body = PowerProfile::new(case.input("kappa_c") / stretch, p).expect("a body");
         let line_force = case.input("kappa_c") * p / (p + 1.0) * a.powf(p + 1.0);
-        let load = SlidingLoad::new(8.0 * case.input("G1") * line_force, case.input("v_slow"));
-        let options = SlideOptions {
+        let force = 8.0 * case.input("G1") * line_force;
+        let load = load([force, case.input("v_slow")], 0.5 * a);
+        let options = GridOptions {
             contact: TIGHT,
-            ..options(a / 12.0, 1.4 * a, 0.5 * a)
+            ..options(a / 12.0, 1.4 * a)
         };
-        let load = load.expect("a load");
         let actual = friction(&body, &solid_of(&case), &load, &options);
         // The elements are 1/24 of the contact. The cone's pressure is singular where its slope jumps.
         let tolerance = if p < 2.0 { 0.03 } else { 1e-3 };
@@ -192,7 +192,6 @@ fn slow_friction_on_a_solid_has_its_exact_limit() {
 #[test]
 fn a_march_stops_when_the_friction_is_stationary() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");
-    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
     let wanted = StationaryOptions {
         tolerance: 1e-3,
         over_distance: 3.0,
@@ -212,8 +211,8 @@ fn a_march_stops_when_the_friction_is_stationary() {
         ),
     ];
     for (name, material, error) in materials {
-        let short = options(0.2, 2.4, 90.0);
-        let state = slide_to_stationary(&body, &*material, (&load, &short), &wanted)
+        let (grid, load) = (options(0.2, 2.4), |distance| load([1.5, 0.3], distance));
+        let state = slide_to_stationary(&body, &*material, &load(90.0), &grid, &wanted)
             .expect("a stationary state");
         let distance = state.transient.last().sliding_distance;
         assert!(distance < 60.0, "{name}: stopped after {distance}");
@@ -222,7 +221,7 @@ fn a_march_stops_when_the_friction_is_stationary() {
             "{name}: change {}",
             state.change
         );
-        let long = slide(&body, &*material, &load, &options(0.2, 2.4, 3.0 * distance));
+        let long = slide_on_grid(&body, &*material, &load(3.0 * distance), &grid);
         let long = long.expect("a transient");
         let limit = if name == "dashpot" {
             long.stationary(0.1).expect("a limit").friction_coefficient
@@ -240,16 +239,15 @@ fn a_march_stops_when_the_friction_is_stationary() {
 }
 
 #[test]
-fn a_way_too_short_for_the_stationary_state_is_an_error() {
+fn a_distance_too_short_for_the_stationary_state_is_an_error() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");
-    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
     let viscous = Viscous::new(1.2).expect("a material");
     let wanted = StationaryOptions {
         tolerance: 1e-3,
         over_distance: 3.0,
     };
-    let too_short = options(0.2, 2.4, 4.0);
-    let result = slide_to_stationary(&body, &viscous, (&load, &too_short), &wanted);
+    let too_short = load([1.5, 0.3], 4.0);
+    let result = slide_to_stationary(&body, &viscous, &too_short, &options(0.2, 2.4), &wanted);
     assert!(
         matches!(result, Err(BemError::NotStationary { drift, .. }) if drift > 1e-3),
         "{result:?}"
@@ -263,8 +261,8 @@ fn friction_on_a_solid_does_not_depend_on_the_units() {
         let body = PowerProfile::paraboloid(0.5 / metre).expect("a body");
         let pascal = newton / metre / metre;
         let solid = prony([0.1 * pascal, 0.0], &[(pascal, second)]);
-        let load = SlidingLoad::new(1.5 * newton, 0.3 * metre / second).expect("a load");
-        let options = options(0.2 * metre, 2.4 * metre, 4.0 * metre);
+        let load = load([1.5 * newton, 0.3 * metre / second], 4.0 * metre);
+        let options = options(0.2 * metre, 2.4 * metre);
         friction(&body, &solid, &load, &options)
     };
     let expected = run(1.0, 1.0, 1.0);

@@ -1,11 +1,11 @@
 //! Random surfaces, materials and loads over many decades: forces balance, pressure and gap exclude each other, more force
 //! is more depth, and neither units nor the mirror image nor the number of threads matter.
 
-use bem_halfspace::slide::{PressureField, SlideOptions, slide};
-use bem_halfspace::steady::{Ladder, SteadyOptions, SteadySliding, steady};
+use bem_halfspace::slide::{PressureField, slide_on_grid};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
 use bem_halfspace::{
     Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    influence, solve_contact,
+    GridOptions, influence, solve_contact,
 };
 use indenters::{PowerProfile, SlidingLoad};
 use proptest::prelude::*;
@@ -290,36 +290,33 @@ impl Sliding {
 }
 
 impl Physical {
+    fn footprint(&self) -> Footprint {
+        Footprint::sliding(&self.body, &self.material, &self.load).expect("a footprint")
+    }
+
     fn steady(&self) -> SteadySliding {
-        let ladder = Ladder::of_body(&self.body, &self.material, &self.load).expect("a ladder");
+        let footprint = self.footprint();
+        let spacing = footprint.x[1] / 8.0;
         let options = SteadyOptions {
-            spacing: [ladder.coarsest_spacing, 0.5 * ladder.coarsest_spacing],
-            phase: [0.0, 0.0],
-            footprint: ladder.footprint,
             tolerance: 1e-10,
-            max_iterations: 500,
+            ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
         };
-        steady(&self.body, &self.material, &self.load, &options).expect("a stationary state")
+        steady_on_grid(&self.body, &self.material, &self.load, &options)
+            .expect("a stationary state")
     }
 
     /// A few steps from first touch on, of a body or its mirror image.
     fn transient(&self, handedness: f64) -> (f64, PressureField) {
-        let footprint =
-            Footprint::of_body(&self.body, &self.material, &self.load).expect("a footprint");
-        let options = SlideOptions {
-            spacing: [footprint.x[1] / 8.0; 2],
-            footprint: Footprint::square(2.0 * footprint.x[1]),
-            sliding_distance: 0.5 * footprint.x[1],
-            contact: ContactOptions {
-                tolerance: 1e-11,
-                ..ContactOptions::default()
-            },
-        };
+        let half_width = self.footprint().x[1];
+        let mut options =
+            GridOptions::new([half_width / 8.0; 2], Footprint::square(2.0 * half_width));
+        options.contact.tolerance = 1e-11;
+        let load = self.load.after(0.5 * half_width).expect("a distance");
         let body = Skewed {
             body: self.body,
             handedness,
         };
-        let transient = slide(&body, &self.material, &self.load, &options).expect("a transient");
+        let transient = slide_on_grid(&body, &self.material, &load, &options).expect("a transient");
         (transient.last().friction_coefficient, transient.pressure)
     }
 }

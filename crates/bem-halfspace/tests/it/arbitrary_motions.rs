@@ -1,18 +1,21 @@
 //! An indenter may move by any amount in a step, stop, go back and be lifted.
 
-use bem_halfspace::slide::{March, Motion, MotionRow, SlideOptions, follow, slide};
-use bem_halfspace::{BemError, ContactOptions, Control, Footprint, Resolution};
+use bem_halfspace::slide::{March, Motion, MotionRow, follow, slide_on_grid};
+use bem_halfspace::{BemError, Control, Footprint, GridOptions};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 
 use crate::support::{TIGHT, every_kind_of_material, prony};
 
 const FORCE: f64 = 0.5;
 
-fn resolution(spacing: f64, half_width: f64) -> Resolution {
-    Resolution {
-        spacing: [spacing; 2],
-        footprint: Footprint::square(half_width),
-        contact: ContactOptions::default(),
+fn options(spacing: f64, half_width: f64) -> GridOptions {
+    GridOptions::new([spacing; 2], Footprint::square(half_width))
+}
+
+fn tight(spacing: f64, half_width: f64) -> GridOptions {
+    GridOptions {
+        contact: TIGHT,
+        ..options(spacing, half_width)
     }
 }
 
@@ -21,33 +24,25 @@ fn body() -> PowerProfile {
 }
 
 /// Motions through (time, position) under a constant force.
-fn under_force(way: impl Iterator<Item = (f64, f64)>) -> Vec<Motion> {
+fn under_force(path: impl Iterator<Item = (f64, f64)>) -> Vec<Motion> {
     let motion = |(time, position)| Motion {
         time,
         position,
         control: Control::NormalForce(FORCE),
     };
-    way.map(motion).collect()
+    path.map(motion).collect()
 }
 
 #[test]
-fn whole_elements_are_what_slide_does() {
+fn slide_moves_by_whole_elements() {
     let (spacing, velocity) = (0.1, 0.7);
-    let load = SlidingLoad::new(FORCE, velocity).expect("a load");
+    let load = SlidingLoad::new(FORCE, velocity).and_then(|load| load.after(2.0));
+    let load = load.expect("a load");
     for (name, material) in every_kind_of_material() {
-        let options = SlideOptions {
-            spacing: [spacing; 2],
-            footprint: Footprint::square(1.6),
-            sliding_distance: 2.0,
-            contact: TIGHT,
-        };
-        let slid = slide(&body(), &*material, &load, &options).expect("a transient");
-        let way = (1..=20).map(|k| spacing * f64::from(k));
-        let motions = under_force(way.map(|x| (x / velocity, x)));
-        let tight = Resolution {
-            contact: TIGHT,
-            ..resolution(spacing, 1.6)
-        };
+        let tight = tight(spacing, 1.6);
+        let slid = slide_on_grid(&body(), &*material, &load, &tight).expect("a transient");
+        let path = (1..=20).map(|k| spacing * f64::from(k));
+        let motions = under_force(path.map(|x| (x / velocity, x)));
         let rows = follow(&body(), &*material, &motions, &tight).expect("rows");
         for (row, expected) in rows.iter().zip(&slid.rows) {
             let friction = row.tangential_force / row.normal_force;
@@ -67,9 +62,9 @@ fn by_parts(part: f64, elements: f64) -> [f64; 2] {
     let n_steps = (2.0 * elements / part).round();
     let x = |k: f64| 2.0 * k / n_steps;
     #[expect(clippy::cast_possible_truncation, reason = "some hundreds")]
-    let way = (1..=n_steps as i32).map(|k| (x(f64::from(k)) / 0.7, x(f64::from(k))));
-    let motions = under_force(way);
-    let rows = follow(&body(), &material, &motions, &resolution(spacing, 1.6)).expect("rows");
+    let path = (1..=n_steps as i32).map(|k| (x(f64::from(k)) / 0.7, x(f64::from(k))));
+    let motions = under_force(path);
+    let rows = follow(&body(), &material, &motions, &options(spacing, 1.6)).expect("rows");
     // The outline follows the elements, which the friction feels: mean over the last two elements.
     #[expect(
         clippy::cast_possible_truncation,
@@ -104,11 +99,11 @@ fn friction_does_not_depend_on_the_parts_of_an_element_that_a_step_is() {
     }
 }
 
-/// There and back: a mirrored body that moves the other way has the opposite force.
+/// There and back: a mirrored body that moves the other path has the opposite force.
 #[test]
 fn motion_to_the_other_side_is_the_mirror_image() {
     let material = prony([0.1, 0.0], &[(2.0, 0.5)]);
-    let way = |sign: f64| {
+    let path = |sign: f64| {
         let there = (1..=30).map(|k| 0.03 * f64::from(k));
         let back = (1..=15).map(|k| 0.9 - 0.05 * f64::from(k));
         let all = there.chain(std::iter::repeat_n(0.9, 5)).chain(back);
@@ -117,12 +112,9 @@ fn motion_to_the_other_side_is_the_mirror_image() {
             .map(move |(k, x)| (0.05 * (k + 1) as f64, sign * x));
         under_force(timed)
     };
-    let tight = Resolution {
-        contact: TIGHT,
-        ..resolution(0.1, 1.6)
-    };
+    let tight = tight(0.1, 1.6);
     let [right, left] =
-        [1.0, -1.0].map(|sign| follow(&body(), &material, &way(sign), &tight).expect("rows"));
+        [1.0, -1.0].map(|sign| follow(&body(), &material, &path(sign), &tight).expect("rows"));
     for (right, left) in right.iter().zip(&left) {
         assert!(
             (right.tangential_force + left.tangential_force).abs() < 1e-9 * FORCE
@@ -139,21 +131,18 @@ fn motion_to_the_other_side_is_the_mirror_image() {
     );
 }
 
-/// Room around the way of the contact changes nothing: nothing is lost behind, and what enters ahead has been moved by
+/// Room around the path of the contact changes nothing: nothing is lost behind, and what enters ahead has been moved by
 /// all past pressure.
 #[test]
 fn the_footprint_does_not_matter() {
     let material = prony([0.1, 0.3], &[(2.0, 0.5)]);
-    let way = (1..=24).map(|k| {
+    let path = (1..=24).map(|k| {
         let time = 0.1 * f64::from(k);
         (time, (1.3 * time).sin())
     });
-    let motions = under_force(way);
+    let motions = under_force(path);
     let run = |half_width: f64| {
-        let tight = Resolution {
-            contact: TIGHT,
-            ..resolution(0.1, half_width)
-        };
+        let tight = tight(0.1, half_width);
         follow(&body(), &material, &motions, &tight).expect("rows")
     };
     for (small, large) in run(1.3).iter().zip(&run(3.1)) {
@@ -181,10 +170,7 @@ fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
         motion(1.5, far, Control::IndentationDepth(-1.0)),
         motion(2.5, far, Control::NormalForce(FORCE)),
     ];
-    let tight = Resolution {
-        contact: TIGHT,
-        ..resolution(0.1, 1.6)
-    };
+    let tight = tight(0.1, 1.6);
     let rows = follow(&body(), &material, &motions, &tight).expect("rows");
     assert_eq!(rows[1].contact_x, None, "lifted");
     // The old dent, which recovers, is felt like a point force at that distance.
@@ -200,13 +186,10 @@ fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
 
 /// A given depth, reached by force control before, needs that force.
 #[test]
-fn force_and_depth_are_two_ways_to_ask_the_same() {
+fn force_and_depth_control_agree() {
     let material = prony([0.1, 0.0], &[(2.0, 0.5)]);
     let motions = under_force((1..=12).map(|k| (0.1 * f64::from(k), 0.13 * f64::from(k))));
-    let tight = Resolution {
-        contact: TIGHT,
-        ..resolution(0.15, 1.6)
-    };
+    let tight = tight(0.15, 1.6);
     let pressed = follow(&body(), &material, &motions, &tight).expect("rows");
     let held: Vec<Motion> = motions
         .iter()
@@ -227,11 +210,11 @@ fn force_and_depth_are_two_ways_to_ask_the_same() {
 }
 
 #[test]
-fn a_scene_that_makes_no_sense_is_refused() {
+fn motions_out_of_range_are_refused() {
     let material = prony([0.1, 0.0], &[(2.0, 0.5)]);
     let good = under_force([(0.1, 0.1), (0.2, 0.2)].into_iter());
     let refused = |motions: &[Motion]| {
-        let result = March::new(&body(), &material, motions, &resolution(0.1, 1.6)).map(|_| ());
+        let result = March::new(&body(), &material, motions, &options(0.1, 1.6)).map(|_| ());
         assert!(
             matches!(result, Err(BemError::InvalidParameter { .. })),
             "{motions:?}: {result:?}"
@@ -271,11 +254,11 @@ fn a_scene_that_makes_no_sense_is_refused() {
                 ..good[1]
             },
         ],
-        &resolution(0.1, 1.6),
+        &options(0.1, 1.6),
     );
     assert!(
         matches!(far, Err(BemError::GridTooLarge { .. })),
-        "a way too long"
+        "a path too long"
     );
 }
 
@@ -296,7 +279,7 @@ impl Surface for Nowhere {
 fn a_surface_that_is_nowhere_is_refused() {
     let material = prony([0.1, 0.0], &[(2.0, 0.5)]);
     let motions = under_force([(0.1, 0.1)].into_iter());
-    let result = March::new(&Nowhere, &material, &motions, &resolution(0.1, 1.6)).map(|_| ());
+    let result = March::new(&Nowhere, &material, &motions, &options(0.1, 1.6)).map(|_| ());
     assert!(
         matches!(result, Err(BemError::InvalidParameter { .. })),
         "{result:?}"

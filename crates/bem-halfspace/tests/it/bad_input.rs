@@ -1,10 +1,9 @@
 //! Bad input gives a typed error that names the parameter and its value.
 
-use bem_halfspace::indent::{IndentOptions, indent};
-use bem_halfspace::slide::{SlideOptions, slide};
+use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
 use bem_halfspace::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    solve_contact,
+    GridOptions, slide_on_grid, solve_contact,
 };
 use indenters::{FlatPunch, Surface};
 
@@ -12,9 +11,15 @@ use crate::support::Scene;
 
 const BAD: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
 
-fn refused(options: &SlideOptions) -> BemError {
+/// Refuses to slide over so many contact lengths.
+fn refused(options: &GridOptions, lengths: f64) -> BemError {
     let scene = Scene::unit(2.0);
-    match slide(&scene.body, &scene.material, &scene.load, options) {
+    match slide_on_grid(
+        &scene.body,
+        &scene.material,
+        &scene.load_over(lengths),
+        options,
+    ) {
         Err(error) => error,
         Ok(_) => panic!("accepted {options:?}"),
     }
@@ -22,36 +27,32 @@ fn refused(options: &SlideOptions) -> BemError {
 
 #[test]
 fn slide_refuses_options_out_of_range() {
-    let good = Scene::unit(2.0).options(4.0, 1.0);
+    let good = Scene::unit(2.0).options(4.0);
     for value in BAD {
         for options in [
-            SlideOptions {
+            GridOptions {
                 spacing: [value, good.spacing[1]],
                 ..good
             },
-            SlideOptions {
+            GridOptions {
                 spacing: [good.spacing[0], value],
                 ..good
             },
-            SlideOptions {
-                sliding_distance: value,
-                ..good
-            },
-            SlideOptions {
+            GridOptions {
                 footprint: Footprint {
                     x: [-1.0, value],
                     ..good.footprint
                 },
                 ..good
             },
-            SlideOptions {
+            GridOptions {
                 footprint: Footprint {
                     y: [-value, 1.0],
                     ..good.footprint
                 },
                 ..good
             },
-            SlideOptions {
+            GridOptions {
                 contact: ContactOptions {
                     tolerance: value,
                     ..good.contact
@@ -59,7 +60,7 @@ fn slide_refuses_options_out_of_range() {
                 ..good
             },
         ] {
-            let error = refused(&options);
+            let error = refused(&options, 1.0);
             assert!(
                 matches!(error, BemError::InvalidParameter { .. }),
                 "{options:?} gave {error}"
@@ -70,12 +71,15 @@ fn slide_refuses_options_out_of_range() {
 
 #[test]
 fn a_grid_beyond_memory_is_refused_before_it_is_made() {
-    let good = Scene::unit(2.0).options(4.0, 1.0);
+    let good = Scene::unit(2.0).options(4.0);
     for spacing in [1e-7, 1e-200, f64::MIN_POSITIVE] {
-        let error = refused(&SlideOptions {
-            spacing: [spacing, spacing],
-            ..good
-        });
+        let error = refused(
+            &GridOptions {
+                spacing: [spacing, spacing],
+                ..good
+            },
+            1.0,
+        );
         assert!(
             matches!(error, BemError::GridTooLarge { .. }),
             "spacing {spacing} gave {error}"
@@ -85,12 +89,15 @@ fn a_grid_beyond_memory_is_refused_before_it_is_made() {
 
 #[test]
 fn a_contact_that_leaves_the_footprint_is_an_error() {
-    let good = Scene::unit(2.0).options(8.0, 4.0);
+    let good = Scene::unit(2.0).options(8.0);
     let length = Scene::unit(2.0).contact_length();
-    let error = refused(&SlideOptions {
-        footprint: Footprint::square(0.7 * length),
-        ..good
-    });
+    let error = refused(
+        &GridOptions {
+            footprint: Footprint::square(0.7 * length),
+            ..good
+        },
+        4.0,
+    );
     assert!(
         matches!(error, BemError::ContactReachesBoundary { .. }),
         "{error}"
@@ -99,7 +106,7 @@ fn a_contact_that_leaves_the_footprint_is_an_error() {
 
 #[test]
 fn a_grid_too_coarse_for_the_contact_is_an_error() {
-    let error = refused(&Scene::unit(2.0).options(1.0, 8.0));
+    let error = refused(&Scene::unit(2.0).options(1.0), 8.0);
     assert!(
         matches!(error, BemError::GridTooCoarse { needed: 3, .. }),
         "{error}"
@@ -108,12 +115,12 @@ fn a_grid_too_coarse_for_the_contact_is_an_error() {
 
 #[test]
 fn an_exhausted_iteration_says_what_it_reached() {
-    let good = Scene::unit(2.0).options(8.0, 1.0);
+    let good = Scene::unit(2.0).options(8.0);
     let contact = ContactOptions {
         max_iterations: 1,
         ..good.contact
     };
-    match refused(&SlideOptions { contact, ..good }) {
+    match refused(&GridOptions { contact, ..good }, 1.0) {
         BemError::ContactNotConverged {
             iterations: 1,
             residual,
@@ -144,20 +151,17 @@ impl Surface for Broken {
 #[test]
 fn a_surface_without_numbers_is_refused() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(8.0, 1.0);
-    let indentation = IndentOptions {
-        spacing: options.spacing,
-        footprint: options.footprint,
-        contact: options.contact,
-    };
+    let options = scene.options(8.0);
+    let steps = IndentStep::constant(Control::NormalForce(1.0), &[1.0]);
     for value in [f64::NAN, f64::NEG_INFINITY] {
         let body = Broken(value);
-        let slid = slide(&body, &scene.material, &scene.load, &options).map(|_| ());
+        let slid =
+            slide_on_grid(&body, &scene.material, &scene.load_over(1.0), &options).map(|_| ());
         assert!(
             matches!(slid, Err(BemError::InvalidHeight { .. })),
             "{value}: {slid:?}"
         );
-        let pressed = indent(&body, &scene.material, (1.0, &[1.0]), &indentation).map(|_| ());
+        let pressed = indent_history_on_grid(&body, &scene.material, &steps, &options).map(|_| ());
         assert!(
             matches!(pressed, Err(BemError::InvalidHeight { .. })),
             "{value}: {pressed:?}"
@@ -168,9 +172,9 @@ fn a_surface_without_numbers_is_refused() {
 #[test]
 fn a_vertical_wall_in_contact_is_an_error() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(8.0, 1.0);
+    let options = scene.options(8.0);
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
-    let slid = slide(&punch, &scene.material, &scene.load, &options).map(|_| ());
+    let slid = slide_on_grid(&punch, &scene.material, &scene.load_over(1.0), &options).map(|_| ());
     assert!(
         matches!(slid, Err(BemError::VerticalWall { .. })),
         "{slid:?}"
@@ -180,22 +184,20 @@ fn a_vertical_wall_in_contact_is_an_error() {
 #[test]
 fn indentation_refuses_forces_and_times_out_of_range() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(8.0, 1.0);
-    let options = IndentOptions {
-        spacing: options.spacing,
-        footprint: options.footprint,
-        contact: options.contact,
-    };
+    let options = scene.options(8.0);
     let refused = |force: f64, times: &[f64]| {
-        let result = indent(&scene.body, &scene.material, (force, times), &options);
+        let steps = IndentStep::constant(Control::NormalForce(force), times);
+        let result = indent_history_on_grid(&scene.body, &scene.material, &steps, &options);
         assert!(
             matches!(result, Err(BemError::InvalidParameter { .. })),
             "{force}, {times:?}: {result:?}"
         );
     };
     for value in BAD {
-        refused(value, &[1.0]);
         refused(1.0, &[value]);
+    }
+    for value in [-1.0, f64::NAN, f64::INFINITY] {
+        refused(value, &[1.0]);
     }
     refused(1.0, &[]);
     refused(1.0, &[1e-3, 1e-3]);
@@ -284,12 +286,8 @@ fn empty_and_huge_grids_are_refused() {
 #[test]
 fn an_overflow_is_an_error_and_not_a_number() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(8.0, 1.0);
-    let options = IndentOptions {
-        spacing: options.spacing,
-        footprint: options.footprint,
-        contact: options.contact,
-    };
-    let result = indent(&scene.body, &scene.material, (1.0, &[1e300]), &options);
+    let options = scene.options(8.0);
+    let steps = IndentStep::constant(Control::NormalForce(1.0), &[1e300]);
+    let result = indent_history_on_grid(&scene.body, &scene.material, &steps, &options);
     assert!(result.is_err(), "{result:?}");
 }

@@ -1,35 +1,39 @@
 //! Pressing by a given force or depth, and letting go, on any material (casebook VIS-01, VIS-02).
 
 use bem_halfspace::indent::{
-    IndentOptions, IndentRow, IndentStep, PiecewiseLinear, TimeOptions, indent, indent_history,
-    indent_history_refined,
+    ControlHistory, HistoryOptions, IndentRow, IndentStep, PiecewiseLinear, indent_history,
+    indent_history_on_grid,
 };
-use bem_halfspace::{BemError, ContactOptions, Control, Footprint};
+use bem_halfspace::{BemError, Control, Footprint, GridOptions};
 use casebook::{Case, group};
 use indenters::PowerProfile;
 use rheology::Elastic;
 
-use crate::support::{TIGHT, every_kind_of_material, material_of, prony};
+use crate::support::{TIGHT, every_kind_of_material, material_of, pressed, prony};
 
 const TIMES: [f64; 5] = [1e-6, 0.05, 0.2, 0.9, 3.0];
 
-fn options(radius: f64, elements: f64, contact: ContactOptions) -> IndentOptions {
-    IndentOptions {
-        spacing: [radius / elements; 2],
-        footprint: Footprint::square(1.3 * radius),
-        contact,
+fn options(radius: f64, elements: f64) -> GridOptions {
+    GridOptions::new([radius / elements; 2], Footprint::square(1.3 * radius))
+}
+
+fn tight(radius: f64, elements: f64) -> GridOptions {
+    GridOptions {
+        contact: TIGHT,
+        ..options(radius, elements)
     }
 }
 
 /// A depth history in one step on a half space of modulus 1 for each depth, and its forces.
-fn elastic_forces(body: &PowerProfile, depths: &[f64], options: &IndentOptions) -> Vec<f64> {
+fn elastic_forces(body: &PowerProfile, depths: &[f64], options: &GridOptions) -> Vec<f64> {
     let unit = Elastic::new(1.0).expect("a material");
     let force = |&depth: &f64| {
         let step = IndentStep {
             time: 1.0,
             control: Control::IndentationDepth(depth),
         };
-        let rows = indent_history(body, &unit, &[step], options).expect("an elastic contact");
+        let rows =
+            indent_history_on_grid(body, &unit, &[step], options).expect("an elastic contact");
         rows[0].normal_force
     };
     depths.iter().map(force).collect()
@@ -41,13 +45,13 @@ fn a_constant_force_makes_the_depth_of_the_elastic_body_of_compliance_j() {
     let body = PowerProfile::new(0.4, 1.5).expect("a body");
     let force = 0.6;
     for (name, material) in every_kind_of_material() {
-        let options = options(1.6, 9.0, TIGHT);
-        let rows = indent(&body, &*material, (force, &TIMES[2..]), &options).expect("rows");
+        let options = tight(1.6, 9.0);
+        let rows = pressed(&body, &*material, (force, &TIMES[2..]), &options);
         for row in rows {
             let compliance =
                 material.half_space_factor() * material.creep_compliance(row.time).expect("J");
             let solid = Elastic::new(1.0 / compliance).expect("a material");
-            let expected = indent(&body, &solid, (force, &[1.0]), &options).expect("a row")[0];
+            let expected = pressed(&body, &solid, (force, &[1.0]), &options)[0];
             let ratio = row.indentation_depth / expected.indentation_depth;
             assert!(
                 (ratio - 1.0).abs() < 1e-10 && row.n_contact == expected.n_contact,
@@ -62,7 +66,7 @@ fn a_constant_force_makes_the_depth_of_the_elastic_body_of_compliance_j() {
 fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
     let body = PowerProfile::new(0.5, 1.0).expect("a body");
     let depths = [0.3, 0.5, 0.6, 0.65, 0.9];
-    let options = options(1.2, 9.0, TIGHT);
+    let options = tight(1.2, 9.0);
     let elastic = elastic_forces(&body, &depths, &options);
     for (name, material) in every_kind_of_material() {
         let step = |(&time, &depth): (&f64, &f64)| IndentStep {
@@ -70,7 +74,7 @@ fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
             control: Control::IndentationDepth(depth),
         };
         let steps: Vec<IndentStep> = TIMES.iter().zip(&depths).map(step).collect();
-        let rows = indent_history(&body, &*material, &steps, &options).expect("rows");
+        let rows = indent_history_on_grid(&body, &*material, &steps, &options).expect("rows");
         let yielded = |time: f64| {
             let compliance = material.creep_compliance(time).expect("a compliance");
             material.half_space_factor() * compliance
@@ -113,18 +117,15 @@ fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Ve
     let times: Vec<f64> = (1..=n_rows)
         .map(|k| end * k as f64 / n_rows as f64)
         .collect();
-    let history = indent_history_refined(
-        &body,
-        &material_of(case),
-        (&|time| control.at(time), &times),
-        (
-            &options(radius, ELEMENTS, ContactOptions::default()),
-            &TimeOptions {
-                relative_error: 5e-3,
-                ..TimeOptions::default()
-            },
-        ),
-    );
+    let history = ControlHistory {
+        control: &|time| control.at(time),
+        times: &times,
+    };
+    let options = HistoryOptions {
+        relative_error: 5e-3,
+        ..HistoryOptions::new(options(radius, ELEMENTS))
+    };
+    let history = indent_history(&body, &material_of(case), &history, &options);
     let history = history.expect("a history");
     assert!(history.time_error <= 5e-3, "{}: {history:?}", case.id());
     history.rows
@@ -208,7 +209,7 @@ fn a_body_that_is_lifted_and_pressed_again_meets_the_recovered_surface() {
             step(1.01 + rest, Control::NormalForce(0.0)),
             step(1.02 + rest, Control::NormalForce(1.0)),
         ];
-        indent_history(&body, &material, &steps, &options(0.8, 10.0, TIGHT)).expect("rows")
+        indent_history_on_grid(&body, &material, &steps, &tight(0.8, 10.0)).expect("rows")
     };
     let (short, long) = (press(0.1), press(1e3));
     assert_eq!(short[1].n_contact, 0, "lifted");
@@ -219,8 +220,7 @@ fn a_body_that_is_lifted_and_pressed_again_meets_the_recovered_surface() {
         long[2].indentation_depth
     );
     // Recovered, it is pressed as for the first time.
-    let first = indent(&body, &material, (1.0, &[0.01]), &options(0.8, 10.0, TIGHT));
-    let first = first.expect("rows")[0];
+    let first = pressed(&body, &material, (1.0, &[0.01]), &tight(0.8, 10.0))[0];
     let again = long[3].indentation_depth;
     assert!(
         (again / first.indentation_depth - 1.0).abs() < 1e-9,
@@ -241,19 +241,17 @@ fn the_estimated_error_of_the_steps_holds() {
     let material = prony([1.0, 0.0], &[(4.0, 0.5)]);
     let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]).expect("a force");
     let times = [0.5, 1.0, 1.5, 1.9];
-    let options = options(0.8, 10.0, ContactOptions::default());
     let refined = |relative_error: f64| {
-        let time = TimeOptions {
+        let history = ControlHistory {
+            control: &|time| control.at(time),
+            times: &times,
+        };
+        let options = HistoryOptions {
+            grid: options(0.8, 10.0),
             relative_error,
             max_steps: 512,
         };
-        indent_history_refined(
-            &body,
-            &material,
-            (&|time| control.at(time), &times),
-            (&options, &time),
-        )
-        .expect("a history")
+        indent_history(&body, &material, &history, &options).expect("a history")
     };
     let (coarse, fine) = (refined(1e-2), refined(2e-4));
     assert!(
@@ -282,16 +280,15 @@ fn steps_that_are_too_long_for_the_footprint_are_halved() {
     // Half of the impulse that a single step would have: a³ = 3 R/16 ∫ F dt.
     let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 3.0)]).expect("a force");
     let radius = (3.0_f64 / 16.0 * 1.5).cbrt();
-    let options = IndentOptions {
+    let options = GridOptions {
         footprint: Footprint::square(1.15 * radius),
-        ..options(radius, 10.0, ContactOptions::default())
+        ..options(radius, 10.0)
     };
-    let history = indent_history_refined(
-        &body,
-        &fluid,
-        (&|time| control.at(time), &[1.0]),
-        (&options, &TimeOptions::default()),
-    );
+    let history = ControlHistory {
+        control: &|time| control.at(time),
+        times: &[1.0],
+    };
+    let history = indent_history(&body, &fluid, &history, &HistoryOptions::new(options));
     let row = history.expect("a history").rows[0];
     let expected = radius * radius;
     assert!(
@@ -306,17 +303,16 @@ fn steps_that_cannot_be_short_enough_are_an_error() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");
     let material = prony([0.0, 0.0], &[(4.0, 0.5)]);
     let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 1.0)]).expect("a force");
-    let time = TimeOptions {
+    let history = ControlHistory {
+        control: &|time| control.at(time),
+        times: &[1.0],
+    };
+    let options = HistoryOptions {
+        grid: options(0.8, 6.0),
         relative_error: 1e-9,
         max_steps: 4,
     };
-    let result = indent_history_refined(
-        &body,
-        &material,
-        (&|time| control.at(time), &[1.0]),
-        (&options(0.8, 6.0, ContactOptions::default()), &time),
-    );
-    match result {
+    match indent_history(&body, &material, &history, &options) {
         Err(BemError::TimeNotResolved {
             steps: 4, error, ..
         }) => {

@@ -1,7 +1,7 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
 use bem_halfspace::slide::{March, MarchState, Motion, MotionRow};
-use bem_halfspace::{BemError, ContactOptions, Control, Footprint, Resolution};
+use bem_halfspace::{BemError, Control, Footprint, GridOptions};
 use indenters::{PowerProfile, Unmirrored};
 use rheology::Elastic;
 
@@ -26,15 +26,11 @@ fn motions() -> Vec<Motion> {
     (1..=32).map(motion).collect()
 }
 
-fn resolution() -> Resolution {
-    Resolution {
-        spacing: [0.1; 2],
-        footprint: Footprint::square(1.6),
-        contact: ContactOptions::default(),
-    }
+fn resolution() -> GridOptions {
+    GridOptions::new([0.1; 2], Footprint::square(1.6))
 }
 
-fn rest(march: &mut March<'_, PowerProfile>) -> Vec<MotionRow> {
+fn rest(march: &mut March<'_>) -> Vec<MotionRow> {
     let mut rows = Vec::new();
     while let Some(row) = march.step().expect("a step") {
         rows.push(row);

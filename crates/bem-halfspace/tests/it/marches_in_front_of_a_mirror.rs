@@ -3,7 +3,7 @@
 //! Both are the same discrete problem, solved to 1e-13.
 
 use bem_halfspace::slide::{March, Motion, MotionRow, PressureField};
-use bem_halfspace::{Control, Footprint, Resolution};
+use bem_halfspace::{Control, Footprint, GridOptions};
 use indenters::{HeightMap, PowerProfile, Surface, Unmirrored};
 use rheology::Material;
 
@@ -15,11 +15,10 @@ fn body() -> PowerProfile {
     PowerProfile::cone(0.4).expect("a body")
 }
 
-fn resolution(footprint: Footprint) -> Resolution {
-    Resolution {
-        spacing: [0.11, 0.13],
-        footprint,
+fn options(footprint: Footprint) -> GridOptions {
+    GridOptions {
         contact: TIGHT,
+        ..GridOptions::new([0.11, 0.13], footprint)
     }
 }
 
@@ -89,10 +88,10 @@ fn compare(
     motions: &[Motion],
     footprint: Footprint,
 ) -> [usize; 2] {
-    let resolution = resolution(footprint);
+    let options = options(footprint);
     let whole = Unmirrored(surface);
-    let mut front = March::new(surface, material, motions, &resolution).expect("a march");
-    let mut all = March::new(&whole, material, motions, &resolution).expect("a march");
+    let mut front = March::new(surface, material, motions, &options).expect("a march");
+    let mut all = March::new(&whole, material, motions, &options).expect("a march");
     for _ in motions {
         let got = front.step().expect("a step").expect("a row");
         let expected = all.step().expect("a step").expect("a row");

@@ -1,13 +1,12 @@
 //! Normal indentation under a constant force follows the exact law d(t) of Lee & Radok, which is also that of the line
 //! model.
 
-use bem_halfspace::indent::{IndentOptions, indent};
-use bem_halfspace::{ContactOptions, Footprint};
+use bem_halfspace::{Footprint, GridOptions};
 use casebook::group;
 use indenters::PowerProfile;
 use rheology::{Compressible, Material, Viscous};
 
-use crate::support::{TIGHT, prony};
+use crate::support::{TIGHT, pressed, prony};
 
 /// Exact depth of a power profile under a constant force (casebook MDR-01).
 fn exact_depth(body: &PowerProfile, impulse_over_viscosity: f64) -> f64 {
@@ -23,15 +22,13 @@ fn the_impulse_rule_holds_on_any_grid_with_any_steps() {
         let material = Viscous::new(case.input("eta")).expect("a material");
         let half = 0.5 * case.input("N");
         // Room beyond the contact changes nothing: elements without pressure do not matter.
-        let options = IndentOptions {
-            spacing: [1.0, 1.0],
-            footprint: Footprint::square(half + 1.0),
+        let options = GridOptions {
             contact: TIGHT,
+            ..GridOptions::new([1.0, 1.0], Footprint::square(half + 1.0))
         };
         let end = case.expected("t").expect("a time");
         for times in [vec![end], vec![1e-6 * end, 0.1 * end, 0.35 * end, end]] {
-            let steps = indent(&body, &material, (case.input("F"), &times), &options)
-                .expect("an indentation");
+            let steps = pressed(&body, &material, (case.input("F"), &times), &options);
             let depth = steps[steps.len() - 1].indentation_depth;
             let expected = case.input("d");
             let error = (depth / expected - 1.0).abs();
@@ -58,12 +55,8 @@ fn depth_error(material: &dyn Material, exponent: f64, elements: f64) -> f64 {
         .collect();
     let largest_depth = exact_depth(&body, force * yielded(5.0));
     let radius = body.line_position(largest_depth);
-    let options = IndentOptions {
-        spacing: [radius / elements; 2],
-        footprint: Footprint::square(1.2 * radius),
-        contact: ContactOptions::default(),
-    };
-    let steps = indent(&body, material, (force, &times), &options).expect("an indentation");
+    let options = GridOptions::new([radius / elements; 2], Footprint::square(1.2 * radius));
+    let steps = pressed(&body, material, (force, &times), &options);
     let squares = steps.iter().map(|step| {
         (step.indentation_depth / exact_depth(&body, force * yielded(step.time)) - 1.0).powi(2)
     });
@@ -113,13 +106,9 @@ fn contact_radius_grows_like_that_of_the_line() {
         let material = Viscous::new(case.input("eta")).expect("a material");
         let radius = case.expected("a").expect("a radius");
         let spacing = radius / 24.0;
-        let options = IndentOptions {
-            spacing: [spacing; 2],
-            footprint: Footprint::square(1.2 * radius),
-            contact: ContactOptions::default(),
-        };
+        let options = GridOptions::new([spacing; 2], Footprint::square(1.2 * radius));
         let load = (case.input("F"), &[case.input("t")][..]);
-        let steps = indent(&body, &material, load, &options).expect("an indentation");
+        let steps = pressed(&body, &material, load, &options);
         case.check_within("d", steps[0].indentation_depth, 1e-3);
         let actual = (steps[0].contact_area / std::f64::consts::PI).sqrt();
         assert!(

@@ -3,12 +3,9 @@
 //! Both are the same discrete problem, so that answers differ by what the tolerance of 1e-11 leaves open only.
 
 use allocation_counter::measure;
-use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission, SlideOptions};
-use bem_halfspace::steady::{
-    DepthControl, SteadyOmission, SteadyOptions, SteadySliding, steady, steady_at_depth,
-    steady_at_depth_without_omission, steady_without_omission,
-};
-use bem_halfspace::{BemError, Footprint};
+use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission};
+use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding, steady_on_grid};
+use bem_halfspace::{GridOptions, SlidingLoad};
 use rheology::Material;
 
 use crate::support::{Scene, TIGHT, prony};
@@ -43,13 +40,10 @@ struct Stationary {
 impl Stationary {
     fn options(&self) -> SteadyOptions {
         let spacing = self.scene.contact_length() / self.elements;
-        let Footprint { x, y } = self.scene.options(self.elements, 1.0).footprint;
+        let footprint = self.scene.options(self.elements).footprint;
         SteadyOptions {
-            spacing: [spacing, 0.5 * spacing],
-            phase: [0.0, 0.0],
-            footprint: Footprint { x, y },
             tolerance: 1e-11,
-            max_iterations: 500,
+            ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
         }
     }
 
@@ -58,31 +52,30 @@ impl Stationary {
     fn solve(
         &self,
         material: &impl Material,
+        load: &SlidingLoad,
         omission: SteadyOmission,
     ) -> [(SteadySliding, f64); 2] {
-        let Scene { body, load, .. } = &self.scene;
-        let options = self.options();
-        let counted = |work: &dyn Fn() -> SteadySliding| {
+        [None, Some(omission)].map(|redundant_work| {
+            let options = SteadyOptions {
+                redundant_work,
+                ..self.options()
+            };
             let mut state = None;
-            let memory = measure(|| state = Some(work()));
+            let memory = measure(|| {
+                state = Some(steady_on_grid(&self.scene.body, material, load, &options));
+            });
             let bytes = memory.bytes_total as f64 - memory.bytes_current as f64;
-            (state.expect("a state"), bytes)
-        };
-        [
-            counted(&|| steady(body, material, load, &options).expect("a solution")),
-            counted(&|| {
-                steady_without_omission(body, material, load, &options, omission)
-                    .expect("a solution with more work")
-            }),
-        ]
+            (state.expect("a result").expect("a solution"), bytes)
+        })
     }
 
     fn check(
         &self,
         material: &impl Material,
+        load: &SlidingLoad,
         omission: SteadyOmission,
     ) -> [(SteadySliding, f64); 2] {
-        let solved = self.solve(material, omission);
+        let solved = self.solve(material, load, omission);
         let [(expected, _), (got, _)] = &solved;
         let slope = expected.mean_slope;
         assert_same(
@@ -116,8 +109,12 @@ fn stationary(elements: f64) -> Stationary {
 
 #[test]
 fn a_factorised_contact_is_that_of_the_iteration() {
-    let question = stationary(6.0);
-    let solved = question.check(&question.scene.material, SteadyOmission::Transforms);
+    let problem = stationary(6.0);
+    let solved = problem.check(
+        &problem.scene.material,
+        &problem.scene.load,
+        SteadyOmission::Transforms,
+    );
     for ((state, _), expected) in solved.iter().zip([true, false]) {
         assert_eq!(
             state.is_factorised(),
@@ -130,10 +127,14 @@ fn a_factorised_contact_is_that_of_the_iteration() {
 
 #[test]
 fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
-    let question = stationary(24.0);
+    let problem = stationary(24.0);
     let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let viscous = question.check(&question.scene.material, SteadyOmission::OutsideContact);
-    let solid = question.check(&solid, SteadyOmission::OutsideContact);
+    let viscous = problem.check(
+        &problem.scene.material,
+        &problem.scene.load,
+        SteadyOmission::OutsideContact,
+    );
+    let solid = problem.check(&solid, &problem.scene.load, SteadyOmission::OutsideContact);
     for [(in_box, bytes), (_, other_bytes)] in [viscous, solid] {
         assert!(!in_box.is_factorised(), "{} unknowns", in_box.unknowns);
         // Each contact is solved in a workspace as large as its box; the gaps outside take the footprint in both.
@@ -146,22 +147,10 @@ fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
 
 #[test]
 fn at_a_depth_the_same_work_is_not_missed() {
-    let question = stationary(4.0);
+    let problem = stationary(4.0);
     let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let options = question.options();
-    let control = DepthControl {
-        depth: 0.2,
-        sliding_distance: 100.0,
-        velocity: question.scene.load.velocity(),
-    };
-    let body = &question.scene.body;
-    let expected = steady_at_depth(body, &solid, &control, &options).expect("a solution");
-    let omission = SteadyOmission::Transforms;
-    let got = steady_at_depth_without_omission(body, &solid, &control, &options, omission);
-    let got = got.expect("a solution with more work");
-    assert_same("force", got.normal_force, [expected.normal_force; 2]);
-    let scale = [expected.friction_coefficient, expected.mean_slope];
-    assert_same("friction", got.friction_coefficient, scale);
+    let load = SlidingLoad::at_depth(0.2, problem.scene.load.velocity()).expect("a load");
+    let [(expected, _), (got, _)] = problem.check(&solid, &load, SteadyOmission::Transforms);
     assert!(
         expected.is_factorised() && !got.is_factorised(),
         "factorised: {} after {}",
@@ -170,19 +159,18 @@ fn at_a_depth_the_same_work_is_not_missed() {
     );
 }
 
-fn march(omission: Option<SlideOmission>) -> (Vec<MotionRow>, u64) {
+fn march(redundant_work: Option<SlideOmission>) -> (Vec<MotionRow>, u64) {
     let scene = Scene::unit(2.0);
-    let options = SlideOptions {
+    let load = scene.load_over(3.0);
+    let options = GridOptions {
         contact: TIGHT,
-        ..scene.options(8.0, 3.0)
+        redundant_work,
+        ..scene.options(8.0)
     };
     let mut rows = Vec::new();
     let memory = measure(|| {
-        let march = March::sliding(&scene.body, &scene.material, &scene.load, &options);
+        let march = March::sliding(&scene.body, &scene.material, &load, &options);
         let mut march = march.expect("a march");
-        if let Some(omission) = omission {
-            march = march.without_omission(omission).expect("a larger march");
-        }
         while let Some(row) = march.step().expect("a step") {
             rows.push(row);
         }
@@ -215,29 +203,5 @@ fn a_march_on_the_whole_footprint_makes_the_same_steps() {
             costs_memory,
             "{omission:?}: {bytes} bytes without, {other_bytes} with it"
         );
-    }
-}
-
-#[test]
-fn a_march_leaves_out_less_from_its_first_step_only() {
-    let scene = Scene::unit(2.0);
-    let options = scene.options(8.0, 3.0);
-    let new =
-        || March::sliding(&scene.body, &scene.material, &scene.load, &options).expect("a march");
-    for omission in [SlideOmission::OutsideContact, SlideOmission::RowsBehind] {
-        let mut march = new();
-        march.step().expect("a step").expect("a row");
-        let state = march.state();
-        let mut resumed = new();
-        resumed.resume(&state).expect("a state of the same scene");
-        for late in [march, resumed] {
-            let refused = late.without_omission(omission).err();
-            let expected = BemError::InvalidParameter {
-                parameter: "steps done",
-                value: 1.0,
-                allowed: "zero for a march that leaves out less",
-            };
-            assert_eq!(refused, Some(expected), "{omission:?}");
-        }
     }
 }

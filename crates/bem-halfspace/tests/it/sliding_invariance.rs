@@ -1,6 +1,6 @@
 //! Friction depends only on the dimensionless groups, and respects the symmetries of the scene.
 
-use bem_halfspace::slide::slide;
+use bem_halfspace::slide_on_grid;
 use casebook::group;
 
 use crate::support::{Scene, Skewed};
@@ -88,7 +88,7 @@ fn pressure_is_mirror_symmetric_and_balances_the_force() {
         }
     }
     let force = field.pressure.iter().sum::<f64>() * field.grid.element_area();
-    let expected = scene.load.normal_force().expect("a force");
+    let expected = scene.load.require_normal_force().expect("a force");
     assert!(
         (force / expected - 1.0).abs() < 1e-12,
         "force {force} instead of {expected}"
@@ -103,8 +103,8 @@ fn mirror_images_have_the_same_friction() {
             body: scene.body,
             handedness,
         };
-        let options = scene.options(6.0, 3.0);
-        slide(&body, &scene.material, &scene.load, &options)
+        let options = scene.options(6.0);
+        slide_on_grid(&body, &scene.material, &scene.load_over(3.0), &options)
             .expect("a transient")
             .last()
             .clone()

@@ -15,7 +15,7 @@ fn depth_drifts_like_the_logarithm_of_the_distance() {
     let scene = Scene::unit(2.0);
     let transient = scene.slide(4.0, 96.0);
     let n = transient.rows.len();
-    let depth_scale = scene.load.normal_force().expect("a force")
+    let depth_scale = scene.load.require_normal_force().expect("a force")
         / (4.0 * scene.material.viscosity() * scene.load.velocity());
     let per_logarithm = |count: usize| {
         let [late, early] = [count, count / 2].map(|count| &transient.rows[count - 1]);

@@ -1,6 +1,6 @@
 //! The stationary solver refuses bad input with typed errors.
 
-use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
+use bem_halfspace::steady::{SteadyOptions, steady, steady_on_grid};
 use bem_halfspace::{BemError, Footprint};
 use indenters::{FlatPunch, PowerProfile, Sphere, Surface};
 
@@ -8,13 +8,10 @@ use crate::support::Scene;
 
 fn good(scene: &Scene) -> SteadyOptions {
     let spacing = scene.contact_length() / 6.0;
-    let footprint = scene.options(6.0, 1.0).footprint;
+    let footprint = scene.options(6.0).footprint;
     SteadyOptions {
-        spacing: [spacing; 2],
-        phase: [0.0, 0.0],
-        footprint,
         tolerance: 1e-10,
-        max_iterations: 100,
+        ..SteadyOptions::new([spacing; 2], footprint)
     }
 }
 
@@ -24,7 +21,7 @@ fn refused(options: &SteadyOptions) -> BemError {
         material,
         load,
     } = Scene::unit(2.0);
-    match steady(&body, &material, &load, options) {
+    match steady_on_grid(&body, &material, &load, options) {
         Err(error) => error,
         Ok(solution) => panic!("accepted {options:?}: {solution:?}"),
     }
@@ -121,11 +118,7 @@ fn a_relative_error_out_of_range_is_refused() {
         load,
     } = Scene::unit(2.0);
     for value in [0.0, -1e-3, f64::NAN, f64::INFINITY] {
-        let options = FrictionOptions {
-            relative_error: value,
-            ..FrictionOptions::default()
-        };
-        let result = steady_friction(&body, &material, &load, &options);
+        let result = steady(&body, &material, &load, value).map(|_| ());
         assert!(
             matches!(result, Err(BemError::InvalidParameter { .. })),
             "{value}: {result:?}"
@@ -150,7 +143,7 @@ fn no_footprint_breaks_the_symmetry() {
                 footprint,
                 ..good
             };
-            steady(&scene.body, &scene.material, &scene.load, &options)
+            steady_on_grid(&scene.body, &scene.material, &scene.load, &options)
                 .map(|solution| solution.friction_coefficient)
         };
         let wide = solve(good.footprint.y).expect("a solution");
@@ -202,7 +195,7 @@ fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
             footprint: Footprint { x: [-5.0, 5.0], y },
             ..good(&scene)
         };
-        let refused = steady(&Sledge, &scene.material, &scene.load, &options);
+        let refused = steady_on_grid(&Sledge, &scene.material, &scene.load, &options);
         assert!(
             matches!(
                 refused,
@@ -221,7 +214,7 @@ fn bodies_without_a_finite_friction_are_refused() {
     let Scene { material, load, .. } = Scene::unit(2.0);
     for exponent in [0.2, 0.5] {
         let cusp = PowerProfile::new(1.0, exponent).expect("a profile");
-        let result = steady_friction(&cusp, &material, &load, &FrictionOptions::default());
+        let result = steady(&cusp, &material, &load, 1e-3).map(|_| ());
         assert!(
             matches!(
                 result,
@@ -239,7 +232,7 @@ fn bodies_without_a_finite_friction_are_refused() {
         ..good(&Scene::unit(2.0))
     };
     let punch = FlatPunch::new(0.3).expect("a punch");
-    let result = steady(&punch, &material, &load, &options).map(|_| ());
+    let result = steady_on_grid(&punch, &material, &load, &options).map(|_| ());
     assert!(
         matches!(result, Err(BemError::InvalidParameter { value: 0.0, .. })),
         "{result:?}"
@@ -251,7 +244,7 @@ fn bodies_without_a_finite_friction_are_refused() {
         spacing: [0.01; 2],
         ..options
     };
-    let result = steady(&sphere, &material, &load, &options).map(|_| ());
+    let result = steady_on_grid(&sphere, &material, &load, &options).map(|_| ());
     assert!(
         matches!(result, Err(BemError::VerticalWall { .. })),
         "{result:?}"
@@ -267,7 +260,7 @@ fn a_slope_that_the_grid_does_not_resolve_is_refused() {
         spacing: [0.1; 2],
         ..good(&Scene::unit(2.0))
     };
-    let result = steady(&steep, &material, &load, &options).map(|_| ());
+    let result = steady_on_grid(&steep, &material, &load, &options).map(|_| ());
     assert!(
         matches!(result, Err(BemError::SlopeNotResolved { .. })),
         "{result:?}"

@@ -1,23 +1,22 @@
 //! The friction to a requested error: its bar holds, and the march in time arrives at the same value.
 
-use bem_halfspace::BemError;
-use bem_halfspace::steady::{
-    DepthControl, FrictionEstimate, FrictionOptions, Ladder, steady_friction,
-    steady_friction_at_depth,
-};
+use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady, steady_refined};
+use bem_halfspace::{BemError, SlidingLoad};
 use friction_analytic::half_space_power_friction;
 use indenters::PowerProfile;
+use numerics::Estimate;
 use rheology::Elastic;
 
 use crate::support::Scene;
 
-fn friction(scene: &Scene, relative_error: f64) -> FrictionEstimate {
-    let options = FrictionOptions {
-        relative_error,
-        ..FrictionOptions::default()
-    };
-    steady_friction(&scene.body, &scene.material, &scene.load, &options)
+fn solve(scene: &Scene, relative_error: f64) -> SteadyEstimate {
+    steady(&scene.body, &scene.material, &scene.load, relative_error)
         .expect("a friction coefficient")
+}
+
+/// Whether two bars overlap.
+fn agree(one: Estimate, other: Estimate) -> bool {
+    (one.value - other.value).abs() <= one.error + other.error
 }
 
 #[test]
@@ -29,12 +28,16 @@ fn error_bars_hold_against_finer_solutions() {
         (3.0, 4e-3, 1e-3),
     ] {
         let scene = Scene::unit(exponent);
-        let [coarse, fine] = [coarse, fine].map(|error| friction(&scene, error));
-        let deviation = (coarse.friction_coefficient - fine.friction_coefficient).abs();
-        assert!(
-            deviation <= coarse.error + fine.error,
-            "p = {exponent}: {coarse:?} and {fine:?}"
-        );
+        let [coarse, fine] = [coarse, fine].map(|error| solve(&scene, error));
+        for (name, coarse, fine) in [
+            ("μ", coarse.friction_coefficient, fine.friction_coefficient),
+            ("area", coarse.contact_area, fine.contact_area),
+        ] {
+            assert!(
+                agree(coarse, fine),
+                "p = {exponent}: {name} {coarse:?} and {fine:?}"
+            );
+        }
         assert!(
             fine.refinements.len() > coarse.refinements.len(),
             "p = {exponent}: nothing was refined"
@@ -46,14 +49,14 @@ fn error_bars_hold_against_finer_solutions() {
 fn the_march_in_time_arrives_at_the_stationary_solution() {
     for exponent in [1.0, 2.0] {
         let scene = Scene::unit(exponent);
-        let direct = friction(&scene, 1e-3);
+        let direct = solve(&scene, 1e-3).friction_coefficient;
         let march = scene
             .slide(12.0, 32.0)
             .stationary(0.02)
             .expect("a stationary state");
-        let deviation = (march.friction_coefficient - direct.friction_coefficient).abs();
+        let deviation = (march.friction_coefficient - direct.value).abs();
         // The march adds the error of one grid of twelve elements, less than 1e-3 of the friction coefficient.
-        let allowed = direct.error + march.distance_error + 1e-3 * direct.friction_coefficient;
+        let allowed = direct.error + march.distance_error + 1e-3 * direct.value;
         assert!(
             deviation <= allowed,
             "p = {exponent}: {march:?} and {direct:?}"
@@ -68,12 +71,11 @@ fn an_error_out_of_reach_says_what_was_reached() {
         material,
         load,
     } = Scene::unit(0.6);
-    let options = FrictionOptions {
-        relative_error: 1e-3,
+    let options = RefinementOptions {
         max_unknowns: 150,
-        ..FrictionOptions::default()
+        ..RefinementOptions::default()
     };
-    match steady_friction(&body, &material, &load, &options) {
+    match steady_refined(&body, &material, &load, &options) {
         Err(BemError::FrictionNotReached {
             friction_coefficient,
             error,
@@ -95,7 +97,7 @@ fn a_body_too_steep_for_the_grids_allowed_is_refused_at_once() {
         material,
         load,
     } = Scene::unit(1000.0);
-    match steady_friction(&body, &material, &load, &FrictionOptions::default()) {
+    match steady(&body, &material, &load, 1e-3) {
         Err(BemError::GridTooLarge { elements, limit }) => {
             assert!(elements > limit, "{elements} of {limit}");
         }
@@ -110,11 +112,11 @@ fn a_steep_body_starts_on_a_grid_that_resolves_its_flank() {
         friction_coefficient,
         error,
         ..
-    }) = steady_friction(
+    }) = steady_refined(
         &scene.body,
         &scene.material,
         &scene.load,
-        &FrictionOptions {
+        &RefinementOptions {
             relative_error: 1e-6,
             aspect: 1.0,
             max_unknowns: 400,
@@ -133,35 +135,25 @@ fn a_steep_body_starts_on_a_grid_that_resolves_its_flank() {
     );
 }
 
-/// Hertz: F = (16/3) G √R d^(3/2) on an incompressible half space, with R = 1/(2c).
+/// Hertz: F = (16/3) G √R d^(3/2) on an incompressible half space, with R = 1/(2c), and the area π R d.
 #[test]
 fn an_elastic_body_at_a_depth_carries_the_force_of_hertz() {
     for units in [1e-9, 1.0, 1e9] {
         let body = PowerProfile::paraboloid(0.5 / units).expect("a body");
         let material = Elastic::new(3.0).expect("a material");
         let depth = 0.01 * units;
-        let control = DepthControl {
-            depth,
-            sliding_distance: 10.0 * units,
-            velocity: 2.0 * units,
-        };
-        let ladder = Ladder::of_body_at_depth(&body, depth).expect("a ladder");
-        let options = FrictionOptions {
-            relative_error: 5e-3,
-            ..FrictionOptions::default()
-        };
-        let estimate = steady_friction_at_depth(&body, (&material, &control), &ladder, &options)
-            .expect("a force");
+        let load = SlidingLoad::at_depth(depth, 2.0 * units).expect("a load");
+        let estimate = steady(&body, &material, &load, 5e-3).expect("a force");
         let expected = 16.0 * units.sqrt() * depth.powf(1.5);
-        let [force, error] = [estimate.normal_force, estimate.normal_force_error];
+        let Estimate { value, error } = estimate.normal_force;
         assert!(
-            (force - expected).abs() <= error && error <= 5e-3 * force,
-            "{force} ± {error} instead of {expected} in units of {units:e} m"
+            (value - expected).abs() <= error && error <= 5e-3 * value,
+            "{value} ± {error} instead of {expected} in units of {units:e} m"
         );
-        let [friction, error] = [estimate.friction_coefficient, estimate.error];
+        let Estimate { value, error } = estimate.friction_coefficient;
         assert!(
-            friction.abs() <= error && error < 1e-8,
-            "{friction} ± {error} without dissipation"
+            value.abs() <= error && error < 1e-8,
+            "{value} ± {error} without dissipation"
         );
     }
 }
@@ -169,31 +161,26 @@ fn an_elastic_body_at_a_depth_carries_the_force_of_hertz() {
 #[test]
 fn the_friction_at_a_depth_is_that_under_its_force() {
     let scene = Scene::unit(2.0);
-    let options = FrictionOptions {
-        relative_error: 1e-3,
-        ..FrictionOptions::default()
+    let after = |load: SlidingLoad| {
+        load.after(1e3 * scene.contact_length())
+            .expect("a distance")
     };
-    let pressed = friction(&scene, 1e-3);
-    let sliding_distance = 1e3 * scene.contact_length();
-    let control = DepthControl {
-        depth: pressed.depth.after(sliding_distance).expect("a depth"),
-        sliding_distance,
-        velocity: scene.load.velocity(),
-    };
-    let ladder = Ladder::of_body_at_depth(&scene.body, control.depth).expect("a ladder");
     let (body, material) = (&scene.body, &scene.material);
-    let held = steady_friction_at_depth(body, (material, &control), &ladder, &options)
-        .expect("a force and a friction coefficient");
-    // The depth is that of the last grid; it is about as exact as its friction.
-    let expected = scene.load.normal_force().expect("a force");
-    let allowed = held.normal_force_error + 2e-3 * expected;
+    let pressed = steady(body, material, &after(scene.load), 1e-3).expect("a friction coefficient");
+    let depth = pressed.indentation_depth.expect("a depth after a distance");
+    let load = SlidingLoad::at_depth(depth.value, scene.load.velocity()).expect("a load");
+    let held = steady(body, material, &after(load), 1e-3).expect("a force");
+    let expected = scene.load.require_normal_force().expect("a force");
+    // The force follows the depth with a power between 1 and 2.
+    let allowed = held.normal_force.error + 2.0 * depth.error / depth.value * expected;
     assert!(
-        (held.normal_force - expected).abs() <= allowed,
+        (held.normal_force.value - expected).abs() <= allowed,
         "{} ± {allowed} instead of {expected}",
-        held.normal_force
+        held.normal_force.value
     );
-    let deviation = (held.friction_coefficient - pressed.friction_coefficient).abs();
-    let allowed = held.error + pressed.error + 1e-3 * pressed.friction_coefficient;
+    let [held, pressed] = [held, pressed].map(|estimate| estimate.friction_coefficient);
+    let deviation = (held.value - pressed.value).abs();
+    let allowed = held.error + pressed.error + 1e-3 * pressed.value;
     assert!(deviation <= allowed, "{held:?} and {pressed:?}");
 }
 
@@ -201,18 +188,13 @@ fn the_friction_at_a_depth_is_that_under_its_force() {
 fn a_force_out_of_reach_says_what_was_reached() {
     let body = PowerProfile::paraboloid(0.5).expect("a body");
     let material = Elastic::new(3.0).expect("a material");
-    let control = DepthControl {
-        depth: 0.01,
-        sliding_distance: 10.0,
-        velocity: 1.0,
-    };
-    let ladder = Ladder::of_body_at_depth(&body, control.depth).expect("a ladder");
-    let options = FrictionOptions {
+    let load = SlidingLoad::at_depth(0.01, 1.0).expect("a load");
+    let options = RefinementOptions {
         relative_error: 1e-6,
         max_unknowns: 400,
-        ..FrictionOptions::default()
+        ..RefinementOptions::default()
     };
-    match steady_friction_at_depth(&body, (&material, &control), &ladder, &options) {
+    match steady_refined(&body, &material, &load, &options) {
         Err(BemError::ForceNotReached {
             normal_force,
             error,
@@ -226,13 +208,12 @@ fn a_force_out_of_reach_says_what_was_reached() {
 }
 
 #[test]
-fn depths_without_a_ladder_are_refused() {
-    let body = PowerProfile::paraboloid(0.5).expect("a body");
-    for depth in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let ladder = Ladder::of_body_at_depth(&body, depth);
-        assert!(
-            matches!(ladder, Err(BemError::InvalidParameter { .. })),
-            "depth {depth}: {ladder:?}"
-        );
-    }
+fn a_depth_without_a_distance_is_refused_where_the_body_sinks() {
+    let Scene { body, material, .. } = Scene::unit(2.0);
+    let load = SlidingLoad::at_depth(0.1, 1.0).expect("a load");
+    let refused = steady(&body, &material, &load, 1e-3).err();
+    assert!(
+        matches!(refused, Some(BemError::SlidingDistanceMissing { .. })),
+        "{refused:?}"
+    );
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bem_halfspace::Footprint;
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
 use friction_analytic::{SurfaceWave, wavy_surface_sliding};
 use indenters::{SlidingLoad, Surface};
 use rheology::{Material, StandardSolid, StandardSolidParameters};
@@ -43,15 +43,13 @@ impl Surface for WavyCylinder {
 }
 
 fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySliding {
+    let footprint = Footprint {
+        x: [-3.0, 5.0],
+        y: [-LENGTH, LENGTH],
+    };
     let options = SteadyOptions {
-        spacing: [SPACING, LENGTH / 3.0],
         phase: [0.5, 0.0],
-        footprint: Footprint {
-            x: [-3.0, 5.0],
-            y: [-LENGTH, LENGTH],
-        },
-        tolerance: 1e-9,
-        max_iterations: 500,
+        ..SteadyOptions::new([SPACING, LENGTH / 3.0], footprint)
     };
     let stiffness = 1.0
         / material
@@ -59,7 +57,7 @@ fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySlidin
             .creep_compliance(1.0 / velocity)
             .expect("a compliance");
     let load = SlidingLoad::new(3.0 * stiffness * LENGTH, velocity).expect("a valid load");
-    steady(&WavyCylinder { amplitude }, material, &load, &options).expect("a solution")
+    steady_on_grid(&WavyCylinder { amplitude }, material, &load, &options).expect("a solution")
 }
 
 /// Amplitude of the pressure that the waves add in the middle of the contact: in phase with their troughs, and with

@@ -1,6 +1,7 @@
 //! The stationary solution satisfies the contact conditions, and the symmetries of the scene.
 
-use bem_halfspace::steady::{DepthControl, SteadyOptions, SteadySliding, steady, steady_at_depth};
+use bem_halfspace::SlidingLoad;
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
 use casebook::group;
 use indenters::{Surface, Unmirrored};
 
@@ -8,18 +9,16 @@ use crate::support::{Scene, prony};
 
 fn options(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadyOptions {
     let spacing = scene.contact_length() / elements;
-    let footprint = scene.options(elements, 1.0).footprint;
+    let footprint = scene.options(elements).footprint;
     SteadyOptions {
-        spacing: [spacing, 0.5 * spacing],
         phase,
-        footprint,
         tolerance: 1e-10,
-        max_iterations: 500,
+        ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
     }
 }
 
 fn solve(scene: &Scene, elements: f64, phase: [f64; 2]) -> SteadySliding {
-    steady(
+    steady_on_grid(
         &scene.body,
         &scene.material,
         &scene.load,
@@ -92,7 +91,7 @@ fn half_of_a_symmetric_scene_has_the_friction_of_the_whole() {
             let scene = Scene::unit(power);
             let options = options(&scene, elements, phase);
             let whole = Unmirrored(&scene.body);
-            let whole = steady(&whole, &scene.material, &scene.load, &options);
+            let whole = steady_on_grid(&whole, &scene.material, &scene.load, &options);
             let half = solve(&scene, elements, phase);
             assert_half_is_whole(&half, &whole.expect("a solution"));
         }
@@ -103,14 +102,10 @@ fn half_of_a_symmetric_scene_has_the_friction_of_the_whole() {
 fn half_of_a_symmetric_scene_at_a_depth_has_the_force_of_the_whole() {
     let scene = Scene::unit(2.0);
     let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let control = DepthControl {
-        depth: 0.2,
-        sliding_distance: 100.0,
-        velocity: scene.load.velocity(),
-    };
+    let load = SlidingLoad::at_depth(0.2, scene.load.velocity()).expect("a load");
     let options = options(&scene, 4.0, [0.0; 2]);
-    let half = steady_at_depth(&scene.body, &solid, &control, &options);
-    let whole = steady_at_depth(&Unmirrored(&scene.body), &solid, &control, &options);
+    let half = steady_on_grid(&scene.body, &solid, &load, &options);
+    let whole = steady_on_grid(&Unmirrored(&scene.body), &solid, &load, &options);
     assert_half_is_whole(&half.expect("a solution"), &whole.expect("a solution"));
 }
 
@@ -161,13 +156,11 @@ fn separate_patches_are_found() {
         y: [-2.0, 5.0],
     };
     let options = SteadyOptions {
-        spacing: [0.1, 0.1],
-        phase: [0.0, 0.0],
-        footprint,
         tolerance: 1e-10,
-        max_iterations: 500,
+        ..SteadyOptions::new([0.1, 0.1], footprint)
     };
-    let solution = steady(&TwoBumps, &scene.material, &scene.load, &options).expect("a solution");
+    let solution =
+        steady_on_grid(&TwoBumps, &scene.material, &scene.load, &options).expect("a solution");
     let field = &solution.pressure;
     let columns = field.grid.shape()[1];
     let loaded = |column: usize| {

@@ -2,13 +2,11 @@
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-use bem_halfspace::steady::{
-    DepthControl, FrictionEstimate, FrictionOptions, Ladder, SteadyOptions, SteadySliding, steady,
-    steady_at_depth, steady_friction,
-};
+use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, SteadySliding, steady, steady_on_grid};
 use bem_halfspace::{BemError, Footprint, influence};
 use casebook::{Case, group};
 use indenters::{PowerProfile, SlidingLoad, Surface};
+use numerics::Estimate;
 use numerics::integrate;
 use rheology::{
     Compressible, Elastic, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch,
@@ -20,13 +18,9 @@ fn friction(
     material: &dyn Material,
     [force, velocity]: [f64; 2],
     relative_error: f64,
-) -> Result<FrictionEstimate, BemError> {
-    let options = FrictionOptions {
-        relative_error,
-        ..FrictionOptions::default()
-    };
+) -> Result<SteadyEstimate, BemError> {
     let load = SlidingLoad::new(force, velocity).expect("a valid load");
-    steady_friction(body, material, &load, &options)
+    steady(body, material, &load, relative_error)
 }
 
 fn solid(equilibrium_modulus: f64, maxwell_modulus: f64, time: f64) -> StandardSolid {
@@ -38,7 +32,7 @@ fn solid(equilibrium_modulus: f64, maxwell_modulus: f64, time: f64) -> StandardS
     .expect("a valid material")
 }
 
-/// One grid with `elements` along the contact length of the ladder.
+/// One grid with so many `elements` along the contact, about.
 fn one_grid(
     body: &PowerProfile,
     material: &dyn Material,
@@ -46,16 +40,14 @@ fn one_grid(
     elements: f64,
 ) -> (SteadySliding, SteadyOptions) {
     let load = SlidingLoad::new(force, velocity).expect("a valid load");
-    let ladder = Ladder::of_body(body, material, &load).expect("a ladder");
-    let spacing = 5.0 * ladder.coarsest_spacing / elements;
+    let footprint = Footprint::sliding(body, material, &load).expect("a footprint");
+    // A paraboloid is at √3 of its contact as high as the footprint.
+    let spacing = footprint.x[1] / (3.0_f64.sqrt() * elements);
     let options = SteadyOptions {
-        spacing: [spacing, 0.5 * spacing],
-        phase: [0.0, 0.0],
-        footprint: ladder.footprint,
         tolerance: 1e-10,
-        max_iterations: 500,
+        ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
     };
-    let solution = steady(body, material, &load, &options).expect("a solution");
+    let solution = steady_on_grid(body, material, &load, &options).expect("a solution");
     (solution, options)
 }
 
@@ -104,13 +96,12 @@ fn both_ends_of_the_speed_are_exact() {
                 velocity / tabulated
             };
             let expected = case.expected(name).expect("a value") * ratio;
-            let deviation = (estimate.friction_coefficient - expected).abs();
+            let Estimate { value, error } = estimate.friction_coefficient;
+            let deviation = (value - expected).abs();
             assert!(
                 deviation < RELATIVE_ERROR * expected,
-                "{} {name}: {} ± {} instead of {expected}",
-                case.id(),
-                estimate.friction_coefficient,
-                estimate.error
+                "{} {name}: {value} ± {error} instead of {expected}",
+                case.id()
             );
         }
     }
@@ -130,14 +121,9 @@ fn friction_and_depth_agree_with_the_reference_at_middle_speeds() {
         let material = solid(case.input("G1"), case.input("G2"), case.input("tau"));
         let loads = [case.input("F"), case.input("v")];
         let estimate = friction(&body, &material, loads, 2e-3).expect("a friction coefficient");
-        case.check_within("mu_3d", estimate.friction_coefficient, 4e-3);
-        case.check_within("d_3d", estimate.depth.reference_depth, 4e-3);
-        assert!(
-            estimate.depth.depth_per_e_fold == 0.0,
-            "{}: a solid sinks, {:?}",
-            case.id(),
-            estimate.depth
-        );
+        case.check_within("mu_3d", estimate.friction_coefficient.value, 4e-3);
+        let depth = estimate.indentation_depth.expect("the depth of a solid");
+        case.check_within("d_3d", depth.value, 4e-3);
     }
 }
 
@@ -148,7 +134,7 @@ fn an_elastic_body_slides_without_friction() {
         let material = Elastic::new(2.0).expect("a material");
         let estimate =
             friction(&body, &material, [0.5, 0.7], 1e-3).expect("a friction coefficient");
-        let (mu, error) = (estimate.friction_coefficient, estimate.error);
+        let Estimate { value: mu, error } = estimate.friction_coefficient;
         assert!(
             mu.abs() <= error && error < 1e-8,
             "p = {exponent}: {mu:e} ± {error:e} instead of 0"
@@ -177,6 +163,7 @@ fn all_materials_meet_at_the_dashpot() {
     let loads = [4.0, 1.0];
     let dashpot = Viscous::new(1.0).expect("a material");
     let expected = friction(&body, &dashpot, loads, 1e-3).expect("a friction coefficient");
+    let expected = expected.friction_coefficient.value;
     let materials: [Box<dyn Material>; 3] = [
         Box::new(Maxwell::new(1e7, 1.0).expect("a material")),
         Box::new(KelvinVoigt::new(1e-7, 1.0).expect("a material")),
@@ -184,10 +171,10 @@ fn all_materials_meet_at_the_dashpot() {
     ];
     for material in &materials {
         let actual = friction(&body, &**material, loads, 1e-3).expect("a friction coefficient");
-        let deviation = (actual.friction_coefficient - expected.friction_coefficient).abs();
+        let actual = actual.friction_coefficient.value;
         assert!(
-            deviation < 1e-5 * expected.friction_coefficient,
-            "{material:?}: {actual:?} instead of {expected:?}"
+            (actual - expected).abs() < 1e-5 * expected,
+            "{material:?}: {actual} instead of {expected}"
         );
     }
 }
@@ -266,8 +253,8 @@ fn the_contact_conditions_hold_for_displacements_integrated_directly() {
                 field.origin[1] + column as f64 * spacing[1],
             ];
             let point = [centre[0] + shift, centre[1]];
-            let gap = Surface::height(&body, point) - depth
-                + displacement(&solution, &material, velocity, point);
+            let gap =
+                body.height(point) - depth + displacement(&solution, &material, velocity, point);
             let loaded =
                 (1..=rows).contains(&row) && field.pressure[(row - 1) * columns + column] > 0.0;
             // The solver leaves 1e-10 of the depth scale, the quadrature 1e-9 of the displacement.
@@ -338,9 +325,8 @@ fn a_broad_spectrum_has_friction_at_all_speeds_and_none_at_the_ends() {
     let material = broad();
     let at = |decade: i32| {
         let estimate = friction(&body, &material, [1e4, 10.0_f64.powi(decade)], 3e-2);
-        let mu = estimate
-            .expect("a friction coefficient")
-            .friction_coefficient;
+        let mu = estimate.expect("a friction coefficient");
+        let mu = mu.friction_coefficient.value;
         assert!(mu > 0.0 && mu < 1.0, "v = 1e{decade}: {mu}");
         mu
     };
@@ -366,12 +352,10 @@ fn force_and_depth_control_agree() {
     for material in materials {
         let (by_force, options) = one_grid(&body, material, [1.0, 0.5], 8.0);
         let distance = 1e3;
-        let control = DepthControl {
-            depth: by_force.depth.after(distance).expect("a depth"),
-            sliding_distance: distance,
-            velocity: 0.5,
-        };
-        let by_depth = steady_at_depth(&body, material, &control, &options).expect("a solution");
+        let depth = by_force.depth.after(distance).expect("a depth");
+        let load = SlidingLoad::at_depth(depth, 0.5).and_then(|load| load.after(distance));
+        let by_depth = steady_on_grid(&body, material, &load.expect("a load"), &options);
+        let by_depth = by_depth.expect("a solution");
         let ratios = [
             by_depth.normal_force,
             by_depth.friction_coefficient / by_force.friction_coefficient,
@@ -388,9 +372,12 @@ fn speeds_beyond_all_numbers_are_refused_or_answered() {
     let body = PowerProfile::paraboloid(1.0).expect("a profile");
     for velocity in [1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300] {
         match friction(&body, &solid(0.1, 1.0, 1.0), [1.0, velocity], 1e-2) {
-            Ok(estimate) => assert!(
-                estimate.friction_coefficient.abs() < 1e-8 && estimate.error.is_finite(),
-                "v = {velocity:e}: {estimate:?}"
+            Ok(SteadyEstimate {
+                friction_coefficient: Estimate { value, error },
+                ..
+            }) => assert!(
+                value.abs() < 1e-8 && error.is_finite(),
+                "v = {velocity:e}: {value} ± {error}"
             ),
             Err(error) => assert!(
                 matches!(error, BemError::InvalidParameter { .. }),
@@ -404,14 +391,8 @@ fn speeds_beyond_all_numbers_are_refused_or_answered() {
 fn a_contact_beyond_the_footprint_is_refused() {
     let body = PowerProfile::paraboloid(1.0).expect("a profile");
     let load = SlidingLoad::new(1.0, 1.0).expect("a load");
-    let options = SteadyOptions {
-        spacing: [0.02; 2],
-        phase: [0.0, 0.0],
-        footprint: Footprint::square(0.3),
-        tolerance: 1e-8,
-        max_iterations: 200,
-    };
-    let refused = steady(&body, &solid(0.1, 1.0, 1.0), &load, &options);
+    let options = SteadyOptions::new([0.02; 2], Footprint::square(0.3));
+    let refused = steady_on_grid(&body, &solid(0.1, 1.0, 1.0), &load, &options);
     assert!(
         matches!(refused, Err(BemError::ContactReachesBoundary { .. })),
         "{refused:?}"

@@ -1,9 +1,10 @@
 //! Grids, contact problems and sliding scenes that several claims share.
 
-use bem_halfspace::slide::{SlideOptions, Transient, slide};
+use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
+use bem_halfspace::slide::{Transient, slide_on_grid};
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
-    Footprint, Grid, solve_contact,
+    Footprint, Grid, GridOptions, solve_contact,
 };
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use rheology::{Compressible, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
@@ -105,12 +106,12 @@ pub(crate) struct Skewed {
 impl Surface for Skewed {
     fn height(&self, [x, y]: [f64; 2]) -> f64 {
         let y = self.handedness * y;
-        Surface::height(&self.body, [x + 0.4 * y, 1.3 * y])
+        self.body.height([x + 0.4 * y, 1.3 * y])
     }
 
     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let y = self.handedness * y;
-        let [along, across] = Surface::gradient(&self.body, [x + 0.4 * y, 1.3 * y]);
+        let [along, across] = self.body.gradient([x + 0.4 * y, 1.3 * y]);
         [along, self.handedness * (0.4 * along + 1.3 * across)]
     }
 }
@@ -143,28 +144,39 @@ impl Scene {
 
     /// Stationary contact length of the one-dimensional model, [m].
     pub(crate) fn contact_length(&self) -> f64 {
-        let depth = 0.25 * self.load.normal_force().expect("a force")
-            / self.material.viscosity()
-            / self.load.velocity();
+        let force = self.load.require_normal_force().expect("a force");
+        let depth = 0.25 * force / self.material.viscosity() / self.load.velocity();
         self.body.line_position(depth)
     }
 
-    /// Square elements, `elements` along the contact length, sliding over `lengths` of it.
-    pub(crate) fn options(&self, elements: f64, lengths: f64) -> SlideOptions {
+    /// Square elements, `elements` along the contact length.
+    pub(crate) fn options(&self, elements: f64) -> GridOptions {
         let spacing = self.contact_length() / elements;
-        SlideOptions {
-            spacing: [spacing, spacing],
-            footprint: Footprint::of_body(&self.body, &self.material, &self.load)
-                .expect("a footprint"),
-            sliding_distance: lengths * self.contact_length(),
-            contact: ContactOptions::default(),
-        }
+        let footprint = Footprint::sliding(&self.body, &self.material, &self.load);
+        GridOptions::new([spacing, spacing], footprint.expect("a footprint"))
+    }
+
+    /// The load after sliding over `lengths` of the contact length.
+    pub(crate) fn load_over(&self, lengths: f64) -> SlidingLoad {
+        let load = self.load.after(lengths * self.contact_length());
+        load.expect("a distance")
     }
 
     pub(crate) fn slide(&self, elements: f64, lengths: f64) -> Transient {
-        let options = self.options(elements, lengths);
-        slide(&self.body, &self.material, &self.load, &options).expect("a transient")
+        let (load, options) = (self.load_over(lengths), self.options(elements));
+        slide_on_grid(&self.body, &self.material, &load, &options).expect("a transient")
     }
+}
+
+/// The depths of a body under a constant force at some times, on one grid.
+pub(crate) fn pressed(
+    body: &dyn Surface,
+    material: &dyn Material,
+    (force, times): (f64, &[f64]),
+    options: &GridOptions,
+) -> Vec<IndentRow> {
+    let steps = IndentStep::constant(Control::NormalForce(force), times);
+    indent_history_on_grid(body, material, &steps, options).expect("an indentation")
 }
 
 /// A material from its relaxation: lone spring \[Pa], lone dashpot \[Pa s], and (modulus, time) of the branches.

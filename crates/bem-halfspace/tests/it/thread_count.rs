@@ -1,9 +1,10 @@
 //! Results do not depend on the number of threads, to the last bit.
 
-use bem_halfspace::Footprint;
-use bem_halfspace::slide::{SlideOptions, slide};
-use bem_halfspace::steady::{SteadyOptions, steady};
-use bem_halfspace::{ContactOptions, Control, Convolution, Grid};
+use bem_halfspace::steady::SteadyOptions;
+use bem_halfspace::{
+    ContactOptions, Control, Convolution, Footprint, Grid, GridOptions, slide_on_grid,
+    steady_on_grid,
+};
 use indenters::{PowerProfile, SlidingLoad};
 use rayon::ThreadPoolBuilder;
 
@@ -45,13 +46,12 @@ fn stationary_sliding_is_the_same_on_one_and_three_threads() {
     let scene = Scene::unit(2.0);
     let spacing = scene.contact_length() / 80.0;
     let options = SteadyOptions {
-        spacing: [spacing, 0.5 * spacing],
         phase: [0.1, 0.3],
-        footprint: scene.options(80.0, 1.0).footprint,
         tolerance: 1e-8,
-        max_iterations: 100,
+        ..SteadyOptions::new([spacing, 0.5 * spacing], scene.options(80.0).footprint)
     };
-    let solve = || steady(&scene.body, &scene.material, &scene.load, &options).expect("a solution");
+    let solve =
+        || steady_on_grid(&scene.body, &scene.material, &scene.load, &options).expect("a solution");
     let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
     assert_eq!(one, three, "the same pressure on one and three threads");
 }
@@ -62,13 +62,9 @@ fn a_slide_is_the_same_on_one_and_three_threads() {
     let material = prony([0.1, 0.0], &[(1.0, 1.0)]);
     let load = SlidingLoad::new(1.5, 0.3).expect("a load");
     // More than the 2^13 elements for which a second thread is taken.
-    let options = SlideOptions {
-        spacing: [0.025; 2],
-        footprint: Footprint::square(1.8),
-        sliding_distance: 0.4,
-        contact: ContactOptions::default(),
-    };
-    let run = || slide(&body, &material, &load, &options).expect("a transient");
+    let load = load.after(0.4).expect("a distance");
+    let options = GridOptions::new([0.025; 2], Footprint::square(1.8));
+    let run = || slide_on_grid(&body, &material, &load, &options).expect("a transient");
     let [one, three] = [1, 3].map(|threads| on_threads(threads, run));
     assert!(one.n_elements > 8192, "{} elements", one.n_elements);
     assert_eq!(one, three, "the same slide on one and three threads");

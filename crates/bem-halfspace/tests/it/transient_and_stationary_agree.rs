@@ -1,11 +1,9 @@
 //! The march in time and the direct stationary solution, two methods with nothing in common but the elements, arrive
 //! at the same friction, outline and depth.
 
-use bem_halfspace::slide::{SlideOptions, Transient, slide};
-use bem_halfspace::steady::{
-    FrictionOptions, Ladder, SteadyOptions, SteadySliding, steady, steady_friction_of_surface,
-};
-use bem_halfspace::{ContactOptions, Footprint};
+use bem_halfspace::slide::{Transient, slide_on_grid};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady, steady_on_grid};
+use bem_halfspace::{Footprint, GridOptions};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use rheology::Viscous;
 
@@ -45,13 +43,16 @@ impl Surface for Skew {
     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y]
     }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
 }
 
 /// A surface on the half space on which F_N/(4ηv) is 1.
 struct Scene<'surface, S> {
     surface: &'surface S,
     footprint: Footprint,
-    apex_exponent: f64,
     /// Elements per unit of length of the coarser of the two grids from which the march is extrapolated.
     elements: f64,
 }
@@ -65,36 +66,29 @@ impl<S: Surface> Scene<'_, S> {
     fn march(&self, elements: f64, shift: [f64; 2], sliding_distance: f64) -> Transient {
         let (material, load) = Self::material_and_load();
         let spacing = 1.0 / elements;
-        let options = SlideOptions {
-            spacing: [spacing, ASPECT * spacing],
-            footprint: self.footprint,
-            sliding_distance,
-            contact: ContactOptions::default(),
-        };
+        let load = load.after(sliding_distance).expect("a distance");
+        let options = GridOptions::new([spacing, ASPECT * spacing], self.footprint);
         let surface = Shifted {
             surface: self.surface,
             shift: [shift[0] * spacing, shift[1] * ASPECT * spacing],
         };
-        slide(&surface, &material, &load, &options).expect("a transient")
+        slide_on_grid(&surface, &material, &load, &options).expect("a transient")
     }
 
     /// In the march the body is half an element further at the end of a step than in its middle.
     fn direct(&self, elements: f64) -> SteadySliding {
         let (material, load) = Self::material_and_load();
         let options = SteadyOptions {
-            spacing: [1.0 / elements, ASPECT / elements],
             phase: [0.5, 0.0],
-            footprint: self.footprint,
-            tolerance: 1e-9,
-            max_iterations: 100,
+            ..SteadyOptions::new([1.0 / elements, ASPECT / elements], self.footprint)
         };
-        steady(self.surface, &material, &load, &options).expect("a stationary state")
+        steady_on_grid(self.surface, &material, &load, &options).expect("a stationary state")
     }
 
     /// Stationary friction of the march: its grids extrapolated at one distance over a factor of two in the spacing,
-    /// and the way from that distance to infinity on the coarse grid.
+    /// and the change from that distance to infinity on the coarse grid.
     fn extrapolated_march(&self) -> f64 {
-        let order = (2.0 * self.apex_exponent - 1.0).min(1.5);
+        let order = (2.0 * self.surface.apex_exponent() - 1.0).min(1.5);
         let friction = |elements: f64, shift: [f64; 2]| {
             let march = self.march(elements, shift, DISTANCES[0]);
             march.last().friction_coefficient
@@ -112,19 +106,8 @@ impl<S: Surface> Scene<'_, S> {
 
     fn check(&self, name: &str) {
         let (material, load) = Self::material_and_load();
-        let ladder = Ladder {
-            footprint: self.footprint,
-            coarsest_spacing: 0.2,
-            apex_exponent: self.apex_exponent,
-        };
-        let options = FrictionOptions {
-            relative_error: 2e-4,
-            ..FrictionOptions::default()
-        };
-        let direct =
-            steady_friction_of_surface(self.surface, (&material, &load), &ladder, &options)
-                .expect("a friction coefficient")
-                .friction_coefficient;
+        let direct = steady(self.surface, &material, &load, 2e-4).expect("a friction coefficient");
+        let direct = direct.friction_coefficient.value;
         let march = self.extrapolated_march();
         assert!(
             (march / direct - 1.0).abs() < 5e-4,
@@ -166,35 +149,32 @@ impl<S: Surface> Scene<'_, S> {
 }
 
 #[test]
-fn the_cone_slides_the_same_way_in_both() {
+fn the_cone_slides_alike_in_both() {
     let cone = PowerProfile::cone(1.0).expect("a cone");
     Scene {
         surface: &cone,
         footprint: Footprint::square(1.6),
-        apex_exponent: 1.0,
         elements: 10.0,
     }
     .check("cone");
 }
 
 #[test]
-fn the_paraboloid_slides_the_same_way_in_both() {
+fn the_paraboloid_slides_alike_in_both() {
     let paraboloid = PowerProfile::paraboloid(1.0).expect("a paraboloid");
     Scene {
         surface: &paraboloid,
         footprint: Footprint::square(1.4),
-        apex_exponent: 2.0,
         elements: 7.0,
     }
     .check("paraboloid");
 }
 
 #[test]
-fn a_skew_body_slides_the_same_way_in_both() {
+fn a_skew_body_slides_alike_in_both() {
     Scene {
         surface: &Skew,
         footprint: Footprint::square(2.2),
-        apex_exponent: 2.0,
         elements: 7.0,
     }
     .check("skew paraboloid");

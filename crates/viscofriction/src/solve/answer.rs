@@ -1,12 +1,14 @@
 //! What a method answers, and how it is printed.
 
 use super::error::{Result, bail};
+use bem_halfspace::GridOptions;
 use bem_halfspace::slide::PressureField;
+use bem_halfspace::steady::SteadyOptions;
 use serde::Serialize;
 
 use super::omission::Omission;
 use crate::scene::{Method, Model};
-use numerics::ErrorParts;
+use numerics::{ErrorParts, Estimate};
 
 /// One result, all SI; what a method does not know is left out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,10 +37,19 @@ pub struct Answer {
     pub error_parts: ErrorParts,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_area: Option<f64>,
+    /// Absolute; an area in closed form has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_area_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_pressure: Option<f64>,
+    /// Absolute; a pressure in closed form has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak_pressure_error: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_box: Option<ContactBox>,
+    /// Absolute, of each edge; edges in closed form have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_box_error: Option<f64>,
     /// Unknown pressures, elements or polynomials at the same time; none in a closed form.
     pub unknowns: usize,
     /// Iterations or time steps on the finest resolution.
@@ -67,11 +78,16 @@ pub struct ContactBox {
 
 /// The finest boundary elements behind an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// Length of an element, \[m].
-    pub spacing: f64,
-    /// Whether the stationary contact was factorised.
-    pub factorised: bool,
+pub enum Grid {
+    /// Of the stationary state.
+    Stationary {
+        /// The grid.
+        options: SteadyOptions,
+        /// Whether the contact was factorised.
+        factorised: bool,
+    },
+    /// Of pressing, and of sliding in time.
+    March(GridOptions),
 }
 
 /// What only files hold.
@@ -111,8 +127,11 @@ impl Answer {
             indentation_depth_error: None,
             error_parts: ErrorParts::NONE,
             contact_area: None,
+            contact_area_error: None,
             peak_pressure: None,
+            peak_pressure_error: None,
             contact_box: None,
+            contact_box_error: None,
             unknowns: 0,
             iterations: 0,
             is_per_length: false,
@@ -145,9 +164,20 @@ impl Answer {
         }
     }
 
+    /// With the area of the contact, and the largest pressure where it has a limit.
+    pub(crate) fn with_contact(self, area: Estimate, peak: Option<Estimate>) -> Self {
+        Self {
+            contact_area: Some(area.value),
+            contact_area_error: Some(area.error),
+            peak_pressure: peak.map(|peak| peak.value),
+            peak_pressure_error: peak.map(|peak| peak.error),
+            ..self
+        }
+    }
+
     /// The quantities by their names in JSON and CSV.
     #[must_use]
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 17] {
+    pub fn numbers(&self) -> [(&'static str, Option<f64>); 20] {
         let edges = self.contact_box;
         let parts = self.error_parts;
         [
@@ -166,11 +196,14 @@ impl Answer {
             ("error_time_stepping", parts.time_stepping),
             ("error_truncation", parts.truncation),
             ("contact_area", self.contact_area),
+            ("contact_area_error", self.contact_area_error),
             ("peak_pressure", self.peak_pressure),
+            ("peak_pressure_error", self.peak_pressure_error),
             ("x_min", edges.map(|edges| edges.x_min)),
             ("x_max", edges.map(|edges| edges.x_max)),
             ("y_min", edges.and_then(|edges| edges.y_min)),
             ("y_max", edges.and_then(|edges| edges.y_max)),
+            ("contact_box_error", self.contact_box_error),
         ]
     }
 

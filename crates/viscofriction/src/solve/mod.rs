@@ -2,12 +2,11 @@
 
 mod analytic;
 mod answer;
-mod bem;
 mod body;
+mod elements;
 mod error;
 mod half_space;
 mod line_contact;
-mod march;
 mod mdr;
 mod memory;
 mod offer;
@@ -15,7 +14,6 @@ mod omission;
 mod pressing;
 mod problem;
 mod same_problem;
-mod shape;
 
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
@@ -28,10 +26,9 @@ pub use problem::{Motion, Problem, ReadFile, problem_of};
 pub use same_problem::SameProblem;
 
 use self::error::bail;
-use indenters::{PressingLoad, SlidingLoad};
+use indenters::{PressingLoad, SlidingLoad, Surface};
 
 use self::omission::plan;
-use self::shape::{Drive, Shape};
 use crate::scene::{Accuracy, Control, Method};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -47,13 +44,12 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 /// # Errors
 /// [`SolveError`] where what was asked for was not reached.
 pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
-    let way = (method, accuracy);
     let answer = match (&problem.body, method) {
         (Body::Revolution(body), Method::BemSteady | Method::BemTransient) => {
-            by_elements(problem, body, way)
+            by_elements(problem, body, method, accuracy)
         }
-        (Body::Revolution(body), _) => of_revolution(problem, body, way),
-        (Body::HeightMap(map), _) => by_elements(problem, map, way),
+        (Body::Revolution(body), _) => of_revolution(problem, body, (method, accuracy)),
+        (Body::HeightMap(map), _) => by_elements(problem, map, method, accuracy),
         (Body::Cylinder(cylinder), _) => line_contact::answer(problem, cylinder, accuracy),
     }?;
     let left_out = plan(problem, &answer);
@@ -72,25 +68,17 @@ pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result
 
 fn by_elements(
     problem: &Problem,
-    body: &impl Shape,
-    (method, accuracy): (Method, Accuracy),
+    surface: &dyn Surface,
+    method: Method,
+    accuracy: Accuracy,
 ) -> Result<Answer> {
     let material = &*problem.material;
-    let load = match problem.motion {
-        Motion::Sliding(load) => load,
-        Motion::Pressing(load) => {
-            let pressed = (load.control(), load.duration());
-            return pressing::boundary_elements(body, material, pressed, accuracy);
+    match (problem.motion, method) {
+        (Motion::Pressing(load), _) => elements::pressed(surface, material, &load, accuracy),
+        (Motion::Sliding(load), Method::BemSteady) => {
+            elements::stationary(surface, material, &load, accuracy)
         }
-    };
-    let drive = Drive {
-        control: load.control(),
-        velocity: load.velocity(),
-        distance: load.sliding_distance(),
-    };
-    match method {
-        Method::BemSteady => bem::stationary(body, (material, &drive), accuracy),
-        _ => march::transient(body, (material, &drive), accuracy),
+        (Motion::Sliding(load), _) => elements::transient(surface, material, &load, accuracy),
     }
 }
 

@@ -4,7 +4,7 @@ use indenters::Surface;
 use rheology::CreepSpectrum;
 use serde::Serialize;
 
-use super::answer::Answer;
+use super::answer::{Answer, Grid};
 use super::body::Body;
 use super::offer::answers;
 use super::problem::{Motion, Problem};
@@ -159,7 +159,9 @@ fn mirrors(body: &Body) -> [bool; 2] {
 /// A box is transformed unless its contact is factorised.
 fn outside_or_transforms(answer: &Answer) -> Omission {
     match answer.grid {
-        Some(grid) if grid.factorised => Omission::Transforms,
+        Some(Grid::Stationary {
+            factorised: true, ..
+        }) => Omission::Transforms,
         _ => Omission::OutsideContact,
     }
 }

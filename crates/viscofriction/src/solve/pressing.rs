@@ -9,17 +9,15 @@
 //! ```
 
 use super::error::{Result, bail};
-use bem_halfspace::ContactOptions;
-use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent_history};
+use bem_halfspace::indent::IndentStep;
 use friction_analytic::indentation_after_impulse;
 use indenters::{Axisymmetric, EquivalentLine};
 use rheology::{Material, RheologyError, Viscous};
 
-use super::answer::{Answer, ContactBox, Grid};
+use super::answer::{Answer, ContactBox};
 use super::body::Revolution;
-use super::shape::{Patch, Shape};
 use crate::scene::{Accuracy, Control, Method, Model};
-use numerics::{ErrorParts, Goal, Quantity, Refined, no_other_error, refine};
+use numerics::{Goal, Quantity, Refined, no_other_error, refine};
 
 /// The dashpot on which an impulse does what the material does with F J(t).
 pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
@@ -94,92 +92,6 @@ fn error_of_outline(body: &Revolution, row: &mdr_core::IndentRow) -> f64 {
     carried / row.n_contact as f64
 }
 
-/// Boundary elements, in one step on a dashpot of unit viscosity: the steps that lead to a constant force or depth do not
-/// count.
-pub(crate) fn boundary_elements(
-    body: &impl Shape,
-    material: &dyn Material,
-    (control, duration): (Control, f64),
-    accuracy: Accuracy,
-) -> Result<Answer> {
-    let pressed = on_unit_dashpot(material, (control, duration))?;
-    let Patch { footprint, length } = body.patch(pressed)?;
-    let spacing = |elements: usize| length / elements as f64;
-    let solve = |elements: usize| {
-        let options = IndentOptions {
-            spacing: [spacing(elements); 2],
-            footprint,
-            contact: ContactOptions::default(),
-        };
-        let steps = in_steps(pressed, 1);
-        last(indent_history(body, &unit_dashpot()?, &steps, &options)?)
-    };
-    // What is given has no error.
-    let quantities =
-        |row: &IndentRow| [row.indentation_depth, row.normal_force].map(Quantity::from);
-    let goal = goal(accuracy, LARGEST_GRID);
-    let resolved = refine(&goal, solve, quantities, gaps)?;
-    let spacing = spacing(resolved.elements);
-    pressed_answer(resolved, spacing, material, (control, duration))
-}
-
-/// What the dashpot says of the material: the same depth, or a force that is the stiffness times its own.
-fn pressed_answer(
-    resolved: Refined<IndentRow, 2>,
-    spacing: f64,
-    material: &dyn Material,
-    (control, duration): (Control, f64),
-) -> Result<Answer> {
-    let Refined {
-        value,
-        error: [depth_error, force_error],
-        parts: [depth_parts, force_parts],
-        ..
-    } = resolved;
-    let answer = |force: f64| Answer {
-        indentation_depth: Some(value.indentation_depth),
-        contact_area: Some(value.contact_area),
-        unknowns: value.n_contact,
-        iterations: 1,
-        grid: Some(Grid {
-            spacing,
-            factorised: false,
-        }),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, force)
-    };
-    Ok(match control {
-        Control::NormalForce(force) => Answer {
-            indentation_depth_error: Some(depth_error),
-            ..answer(force).with_parts(depth_parts)
-        },
-        Control::IndentationDepth(_) => {
-            let stiffness = stiffness(material, duration)?;
-            Answer {
-                normal_force_error: Some(stiffness * force_error),
-                ..answer(stiffness * value.normal_force).with_parts(force_parts.times(stiffness))
-            }
-        }
-    })
-}
-
-/// What gaps of the size of the tolerance change: the depth by as much, and the force by as many times that part as there
-/// are elements along the contact.
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "stands where marches are asked, which may fail"
-)]
-fn gaps(elements: usize, row: &IndentRow) -> Result<[ErrorParts; 2]> {
-    let tolerance = ContactOptions::default().tolerance;
-    let part = |error: f64| ErrorParts {
-        iteration: Some(tolerance * error),
-        ..ErrorParts::NONE
-    };
-    Ok([
-        part(row.indentation_depth),
-        part(elements as f64 * row.normal_force),
-    ])
-}
-
 /// Depth and force converge faster than that, cusps or not.
 const ORDER: f64 = 1.0;
 
@@ -216,7 +128,6 @@ pub(crate) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
 }
 
 const LARGEST_CHAIN: usize = 16_384;
-const LARGEST_GRID: usize = 512;
 
 /// The radius that the contact will have, for the size of the elements only.
 fn radius(body: &Revolution, material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
@@ -262,32 +173,5 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn smaller_gaps_change_a_pressed_depth_by_less_than_the_iteration() {
-        let cone = FlatCone::new(1.0, 0.4).expect("a body");
-        let body = Revolution::Other(Box::new(cone));
-        let dashpot = unit_dashpot().expect("a material");
-        let steps = in_steps(Control::NormalForce(3.0), 1);
-        let patch = body.patch(Control::NormalForce(3.0)).expect("a patch");
-        let press = |contact: ContactOptions| {
-            let options = IndentOptions {
-                spacing: [patch.length / 32.0; 2],
-                footprint: patch.footprint,
-                contact,
-            };
-            let rows = indent_history(&body, &dashpot, &steps, &options).expect("a history");
-            last(rows).expect("a row")
-        };
-        let row = press(ContactOptions::default());
-        let exact = press(ContactOptions {
-            tolerance: 1e-13,
-            max_iterations: 10_000,
-        });
-        let change = (row.indentation_depth - exact.indentation_depth).abs();
-        let [parts, _] = gaps(32, &row).expect("parts");
-        let part = parts.iteration.expect("a part");
-        assert!(change <= part, "{change:e}, and the part is {part:e}");
     }
 }

@@ -3,20 +3,19 @@
 //! Both are the same discrete problem, and are solved far more tightly than the answer needs, so that what the
 //! omission changes is not hidden.
 
-use super::error::{Context as _, Result, bail};
-use bem_halfspace::indent::{IndentOptions, IndentRow, IndentStep, indent, indent_history};
-use bem_halfspace::slide::{Motion as Step, MotionRow, SlideOmission, follow};
-use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding};
-use bem_halfspace::{BemError, ContactOptions};
-use indenters::Unmirrored;
+use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
+use bem_halfspace::slide::{March, Motion as Step, MotionRow, SlideOmission, follow};
+use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding, steady_on_grid};
+use bem_halfspace::{BemError, ContactOptions, GridOptions};
+use indenters::{PressingLoad, SlidingLoad, Surface, Unmirrored};
 
 use super::answer::{Answer, Grid};
 use super::body::Body;
+use super::error::{Context as _, Result, bail};
 use super::omission::Omission;
+use super::pressing;
 use super::problem::{Motion, Problem};
-use super::shape::{Drive, Shape};
-use super::{bem, march, pressing};
-use crate::scene::{Control, Method};
+use crate::scene::Control;
 
 /// Far below the agreement that is demanded.
 const STATIONARY_TOLERANCE: f64 = 1e-11;
@@ -34,7 +33,6 @@ pub(crate) type Number = [f64; 2];
 #[derive(Debug)]
 pub struct SameProblem<'a> {
     problem: &'a Problem,
-    method: Method,
     grid: Grid,
     /// Distance over which the answer marched, \[m].
     marched: Option<f64>,
@@ -49,7 +47,6 @@ impl<'a> SameProblem<'a> {
         let last = answer.fields.history.last();
         Ok(Self {
             problem,
-            method: answer.method,
             grid: answer.grid.context("the answer has no grid")?,
             marched: last.map(|row| row.sliding_distance_m),
         })
@@ -70,71 +67,69 @@ impl<'a> SameProblem<'a> {
 
     fn with_or_without_mirrors(
         &self,
-        body: &impl Shape,
+        surface: &dyn Surface,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
         match kept {
-            Some(Omission::MirrorHalf) => self.solve_for(&Unmirrored(body), None),
-            _ => self.solve_for(body, kept),
+            Some(Omission::MirrorHalf) => self.solve_for(&Unmirrored(surface), None),
+            _ => self.solve_for(surface, kept),
         }
     }
 
-    fn solve_for(&self, body: &impl Shape, kept: Option<Omission>) -> Result<Vec<Number>> {
-        let load = match self.problem.motion {
-            Motion::Sliding(load) => load,
-            Motion::Pressing(load) => return self.press(body, load.duration(), kept),
-        };
-        let drive = Drive {
-            control: load.control(),
-            velocity: load.velocity(),
-            distance: load.sliding_distance(),
-        };
-        match self.method {
-            Method::BemSteady => self.stationary(body, &drive, kept),
-            Method::BemTransient => self.march(body, &drive, kept),
-            other => bail!("{} has no grid", other.name()),
+    fn solve_for(&self, surface: &dyn Surface, kept: Option<Omission>) -> Result<Vec<Number>> {
+        match (self.problem.motion, self.grid) {
+            (Motion::Pressing(load), Grid::March(grid)) => self.press(surface, &load, &grid, kept),
+            (Motion::Sliding(load), Grid::March(grid)) => self.march(surface, &load, &grid, kept),
+            (Motion::Sliding(load), Grid::Stationary { options, .. }) => {
+                self.stationary(surface, &load, &options, kept)
+            }
+            (Motion::Pressing(_), Grid::Stationary { .. }) => bail!("nothing slides"),
         }
     }
 
     fn stationary(
         &self,
-        body: &impl Shape,
-        drive: &Drive,
+        surface: &dyn Surface,
+        load: &SlidingLoad,
+        grid: &SteadyOptions,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let scene = bem::Scene::new(body, (&*self.problem.material, drive))?;
         let options = SteadyOptions {
             tolerance: STATIONARY_TOLERANCE,
-            ..scene.grid(self.grid.spacing)
+            redundant_work: match kept {
+                None => None,
+                Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
+                Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
+                Some(other) => {
+                    bail!("the stationary solver does not leave out {}", other.name())
+                }
+            },
+            ..*grid
         };
-        let kept = match kept {
-            None => None,
-            Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
-            Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
-            Some(other) => bail!("the stationary solver does not leave out {}", other.name()),
-        };
-        Ok(of_state(&scene.solve(&options, kept)?))
+        let state = steady_on_grid(surface, &*self.problem.material, load, &options)?;
+        Ok(of_state(&state))
     }
 
     fn march(
         &self,
-        body: &impl Shape,
-        drive: &Drive,
+        surface: &dyn Surface,
+        load: &SlidingLoad,
+        grid: &GridOptions,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let material = &*self.problem.material;
-        let scene = march::Scene::new(body, (material, drive), self.problem.accuracy)?;
-        let distance = drive.distance.or(self.marched);
-        let distance = distance.context("the answer has no distance")?;
-        let march = scene.over([self.grid.spacing, distance], CONTACT)?;
-        let mut march = match kept {
-            None => march,
-            Some(Omission::OutsideContact) => {
-                march.without_omission(SlideOmission::OutsideContact)?
-            }
-            Some(Omission::RowsBehind) => march.without_omission(SlideOmission::RowsBehind)?,
-            Some(other) => bail!("a march does not leave out {}", other.name()),
+        let distance = load.sliding_distance().or(self.marched);
+        let load = load.after(distance.context("the answer has no distance")?)?;
+        let options = GridOptions {
+            contact: CONTACT,
+            redundant_work: match kept {
+                None => None,
+                Some(Omission::OutsideContact) => Some(SlideOmission::OutsideContact),
+                Some(Omission::RowsBehind) => Some(SlideOmission::RowsBehind),
+                Some(other) => bail!("a march does not leave out {}", other.name()),
+            },
+            ..*grid
         };
+        let mut march = March::sliding(surface, &*self.problem.material, &load, &options)?;
         let mut last = None;
         while let Some(row) = march.step()? {
             last = Some(row);
@@ -144,27 +139,29 @@ impl<'a> SameProblem<'a> {
 
     fn press(
         &self,
-        body: &impl Shape,
-        duration: f64,
+        surface: &dyn Surface,
+        load: &PressingLoad,
+        grid: &GridOptions,
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
-        let (control, material) = (self.problem.motion.control(), &*self.problem.material);
-        let pressed = pressing::on_unit_dashpot(material, (control, duration))?;
-        let options = IndentOptions {
-            spacing: [self.grid.spacing; 2],
-            footprint: body.patch(pressed)?.footprint,
+        let (control, material) = (load.control(), &*self.problem.material);
+        let pressed = pressing::on_unit_dashpot(material, (control, load.duration()))?;
+        let options = GridOptions {
             contact: CONTACT,
+            ..*grid
         };
         let dashpot = pressing::unit_dashpot()?;
+        let in_steps = |n_steps: usize| {
+            let steps = pressing::in_steps(pressed, n_steps);
+            indent_history_on_grid(surface, &dashpot, &steps, &options)
+        };
         let rows = match (kept, control) {
-            (None, _) => indent_history(body, &dashpot, &pressing::in_steps(pressed, 1), &options),
-            (Some(Omission::TimeSteps), _) => {
-                let steps = pressing::in_steps(pressed, STEPS);
-                indent_history(body, &dashpot, &steps, &options)
-            }
-            (Some(Omission::Gradients), _) => press_with_slopes(body, pressed, &options),
-            (Some(Omission::HistoryFields), Control::NormalForce(force)) => {
-                indent(body, material, (force, &[duration]), &options)
+            (None, _) => in_steps(1),
+            (Some(Omission::TimeSteps), _) => in_steps(STEPS),
+            (Some(Omission::Gradients), _) => press_with_slopes(surface, pressed, &options),
+            (Some(Omission::HistoryFields), Control::NormalForce(_)) => {
+                let steps = IndentStep::constant(control, &[load.duration()]);
+                indent_history_on_grid(surface, material, &steps, &options)
             }
             (Some(other), _) => bail!("pressing does not leave out {}", other.name()),
         }?;
@@ -174,9 +171,9 @@ impl<'a> SameProblem<'a> {
 
 /// The step made as a motion over no distance, with its slopes.
 fn press_with_slopes(
-    body: &impl Shape,
+    surface: &dyn Surface,
     pressed: Control,
-    options: &IndentOptions,
+    options: &GridOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
     let steps = pressing::in_steps(pressed, 1);
     let motion = |step: &IndentStep| Step {
@@ -185,7 +182,7 @@ fn press_with_slopes(
         control: step.control,
     };
     let motions: Vec<Step> = steps.iter().map(motion).collect();
-    let rows = follow(body, &pressing::unit_dashpot()?, &motions, options)?;
+    let rows = follow(surface, &pressing::unit_dashpot()?, &motions, options)?;
     let without_slopes = |row: &MotionRow| IndentRow {
         time: row.time,
         indentation_depth: row.indentation_depth,

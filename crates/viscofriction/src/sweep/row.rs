@@ -5,7 +5,7 @@ use crate::solve::{Answer, Result};
 
 /// The columns before and after the keys that vary.
 const BEFORE: [&str; 3] = ["sweep", "point", "points"];
-const AFTER: [&str; 21] = [
+const AFTER: [&str; 24] = [
     "method",
     "model",
     "friction_coefficient",
@@ -20,11 +20,14 @@ const AFTER: [&str; 21] = [
     "error_time_stepping",
     "error_truncation",
     "contact_area",
+    "contact_area_error",
     "peak_pressure",
+    "peak_pressure_error",
     "x_min",
     "x_max",
     "y_min",
     "y_max",
+    "contact_box_error",
     "unknowns",
     "failure",
 ];

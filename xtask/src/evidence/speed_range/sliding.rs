@@ -14,7 +14,7 @@
 //! ```
 
 use anyhow::{Context, Result};
-use bem_halfspace::steady::{FrictionOptions, steady_friction};
+use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
 use mdr_core::{SlidingDepth, SteadyOptions, steady_at_depth};
@@ -84,13 +84,13 @@ impl Sliding {
 
     /// Friction of the half space under a force; what was reached has an honest bar, if a wider one.
     pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Estimate> {
-        let options = FrictionOptions {
+        let options = RefinementOptions {
             relative_error,
-            ..FrictionOptions::default()
+            ..RefinementOptions::default()
         };
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
-        let reached = as_far_as_reached(steady_friction(&body, &solid, &load, &options));
+        let reached = as_far_as_reached(steady_refined(&body, &solid, &load, &options));
         let reached = reached.with_context(|| format!("the half space of {self:?}"))?;
         Ok(reached.friction)
     }

@@ -3,17 +3,15 @@
 use std::f64::consts::FRAC_PI_2;
 
 use anyhow::Result;
-use bem_halfspace::indent::indent;
-use bem_halfspace::slide::{SlideOptions, SlideRow, slide};
-use bem_halfspace::steady::{
-    FrictionEstimate, FrictionOptions, Ladder, steady_friction, steady_friction_of_surface,
-};
-use bem_halfspace::{BemError, ContactOptions, Footprint, Resolution};
+use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::slide::{SlideRow, slide_on_grid};
+use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
+use bem_halfspace::{BemError, Footprint, GridOptions};
 use friction_analytic::{
     ElasticContact, ElasticLimitFriction, half_space_power_friction, high_speed_friction,
     low_speed_friction,
 };
-use indenters::{PowerProfile, SlidingLoad, Surface};
+use indenters::{Control, PowerProfile, SlidingLoad, Surface};
 use rheology::{Elastic, KelvinVoigt, Material, Maxwell, Viscous};
 
 use super::case::{Case, Comparison, Family, Finding, compare, decades, families, refused};
@@ -54,8 +52,8 @@ pub(super) fn families() -> Vec<Family> {
     stationary.chain(in_time).collect()
 }
 
-fn options(aspect: f64) -> FrictionOptions {
-    FrictionOptions {
+fn options(aspect: f64) -> RefinementOptions {
+    RefinementOptions {
         relative_error: ASKED,
         aspect,
         max_unknowns: MAX_UNKNOWNS,
@@ -69,9 +67,9 @@ fn judged(
     load: &SlidingLoad,
     [expected, error]: [f64; 2],
 ) -> Result<Finding> {
-    let got = steady_friction(profile, material, load, &options(0.5))?;
+    let got = steady_refined(profile, material, load, &options(0.5))?;
     let tolerance = ASKED + error / expected;
-    compare!(within tolerance; "friction coefficient" => got.friction_coefficient, expected)
+    compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected)
 }
 
 fn on_dashpot() -> Result<(Viscous, SlidingLoad)> {
@@ -89,7 +87,7 @@ fn power_profile(exponent: f64) -> Result<Finding> {
 fn too_sharp() -> Result<Finding> {
     let profile = PowerProfile::new(0.4, 0.5)?;
     let (material, load) = on_dashpot()?;
-    let got = steady_friction(&profile, &material, &load, &options(0.5));
+    let got = steady_refined(&profile, &material, &load, &options(0.5));
     refused!(got => BemError::InvalidParameter { parameter: "apex exponent", .. })
 }
 
@@ -97,11 +95,11 @@ fn too_sharp() -> Result<Finding> {
 fn nearly_flat(exponent: f64) -> Result<Finding> {
     let profile = PowerProfile::new(0.4, exponent)?;
     let (material, load) = on_dashpot()?;
-    let options = FrictionOptions {
+    let options = RefinementOptions {
         max_unknowns: 2000,
         ..options(0.5)
     };
-    let got = steady_friction(&profile, &material, &load, &options);
+    let got = steady_refined(&profile, &material, &load, &options);
     refused!(got => BemError::GridTooLarge { .. })
 }
 
@@ -161,9 +159,10 @@ fn plateau(gamma: f64) -> Result<Finding> {
 }
 
 /// Two estimates on different elements agree within their error bars.
-fn agreeing(got: &FrictionEstimate, other: &FrictionEstimate) -> Result<Finding> {
-    let tolerance = (got.error + other.error) / other.friction_coefficient;
-    compare!(got, other, within tolerance; friction_coefficient)
+fn agreeing(got: &SteadyEstimate, other: &SteadyEstimate) -> Result<Finding> {
+    let [got, other] = [got, other].map(|estimate| estimate.friction_coefficient);
+    let tolerance = (got.error + other.error) / other.value;
+    compare!(within tolerance; "friction coefficient" => got.value, other.value)
 }
 
 /// Every speed meets some of the branches; the same by elements of another shape.
@@ -171,7 +170,7 @@ fn branches(velocity: f64) -> Result<Finding> {
     let body = PowerProfile::paraboloid(0.1)?;
     let material = prony_over(15.0)?;
     let load = SlidingLoad::new(1.0, velocity)?;
-    let solve = |aspect| steady_friction(&body, &material, &load, &options(aspect));
+    let solve = |aspect| steady_refined(&body, &material, &load, &options(aspect));
     agreeing(&solve(0.5)?, &solve(1.0)?)
 }
 
@@ -192,6 +191,10 @@ impl Surface for SlenderParaboloid {
     fn mirrors(&self) -> [bool; 2] {
         [true; 2]
     }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
 }
 
 /// Under this force the contact is about as long as one, however wide; the same by elements of another shape.
@@ -199,18 +202,7 @@ fn slender(aspect: f64) -> Result<Finding> {
     let surface = SlenderParaboloid { aspect };
     let material = Viscous::new(1.0)?;
     let load = SlidingLoad::new(aspect.max(1.0), 1.0)?;
-    let ladder = Ladder {
-        footprint: Footprint {
-            x: [-4.0, 4.0],
-            y: [-4.0 * aspect, 4.0 * aspect],
-        },
-        coarsest_spacing: 0.2,
-        apex_exponent: 2.0,
-    };
-    let solve = |shape: f64| {
-        let options = options(shape * aspect);
-        steady_friction_of_surface(&surface, (&material, &load), &ladder, &options)
-    };
+    let solve = |shape: f64| steady_refined(&surface, &material, &load, &options(shape * aspect));
     agreeing(&solve(0.5)?, &solve(1.0)?)
 }
 
@@ -219,31 +211,26 @@ fn slender(aspect: f64) -> Result<Finding> {
 fn pressed(material: &dyn Material, step: f64) -> Result<Finding> {
     let body = PowerProfile::paraboloid(0.1)?;
     let times = [step, 2.0 * step, 3.0 * step];
-    let resolution = Resolution {
-        spacing: [0.1; 2],
-        footprint: Footprint::square(2.0),
-        contact: ContactOptions::default(),
-    };
+    let options = GridOptions::new([0.1; 2], Footprint::square(2.0));
     // A force under which the last contact has a radius of about one.
     let force = 1.0 / material.creep_compliance(times[2])?;
-    let got = indent(&body, material, (force, &times), &resolution)?;
-    let expected = indent(&body, &Elastic::new(1.0)?, (1.0, &[1.0]), &resolution)?;
+    let steps = IndentStep::constant(Control::NormalForce(force), &times);
+    let got = indent_history_on_grid(&body, material, &steps, &options)?;
+    let step = IndentStep::constant(Control::NormalForce(1.0), &[1.0]);
+    let expected = indent_history_on_grid(&body, &Elastic::new(1.0)?, &step, &options)?;
     // Three solutions, each to the contact tolerance.
-    let tolerance = 1e2 * resolution.contact.tolerance;
+    let tolerance = 1e2 * options.contact.tolerance;
     compare!(got[2], expected[0], within tolerance; indentation_depth, contact_area)
 }
 
 /// The last row of a short march over elements of 0.1 m, at a speed of one element in the given time.
 fn marched(material: &dyn Material, time_step: f64, force: f64) -> Result<SlideRow> {
     let body = PowerProfile::paraboloid(0.1)?;
-    let options = SlideOptions {
-        spacing: [0.1; 2],
-        footprint: Footprint::square(3.0),
-        sliding_distance: 1.5,
-        contact: ContactOptions::default(),
-    };
-    let load = SlidingLoad::new(force, 0.1 / time_step)?;
-    Ok(slide(&body, material, &load, &options)?.last().clone())
+    let options = GridOptions::new([0.1; 2], Footprint::square(3.0));
+    let load = SlidingLoad::new(force, 0.1 / time_step)?.after(1.5)?;
+    Ok(slide_on_grid(&body, material, &load, &options)?
+        .last()
+        .clone())
 }
 
 /// A march beside one on the simpler material that is left in the limit of the ratio Δt/τ.

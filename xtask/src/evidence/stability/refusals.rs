@@ -3,9 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use anyhow::Result;
-use bem_halfspace::slide::{SlideOptions as MarchOptions, slide as march};
-use bem_halfspace::steady::{FrictionOptions, SteadyOptions, steady, steady_friction};
-use bem_halfspace::{BemError, ContactOptions, Footprint};
+use bem_halfspace::steady::{RefinementOptions, SteadyOptions, steady_refined};
+use bem_halfspace::{BemError, Footprint, GridOptions, slide_on_grid, steady_on_grid};
 use indenters::{
     EquivalentLine, FlatPunch, IndenterError, PowerProfile, SampledLine, SlidingLoad, Sphere,
 };
@@ -106,7 +105,7 @@ fn line_too_low() -> Result<Finding> {
 fn flat_punch() -> Result<Finding> {
     let load = SlidingLoad::new(4.0, 1.0)?;
     let (punch, material) = (FlatPunch::new(1.0)?, Viscous::new(1.0)?);
-    let state = steady_friction(&punch, &material, &load, &FrictionOptions::default());
+    let state = steady_refined(&punch, &material, &load, &RefinementOptions::default());
     refused!(state => BemError::VerticalWall { .. } | BemError::InvalidParameter { .. } | BemError::Indenter(_))
 }
 
@@ -135,42 +134,35 @@ impl Scene {
         })
     }
 
-    fn march(&self, options: &MarchOptions) -> Result<(), BemError> {
-        march(&self.cone, &self.material, &self.load, options).map(drop)
+    fn march(&self, options: &GridOptions, distance: f64) -> Result<(), BemError> {
+        let load = self.load.after(distance)?;
+        slide_on_grid(&self.cone, &self.material, &load, options).map(drop)
     }
 
     fn stationary(&self, spacing: f64, half_width: f64) -> Result<(), BemError> {
         let options = SteadyOptions {
-            spacing: [spacing; 2],
-            phase: [0.0; 2],
-            footprint: Footprint::square(half_width),
             tolerance: 1e-6,
-            max_iterations: 100,
+            ..SteadyOptions::new([spacing; 2], Footprint::square(half_width))
         };
-        steady(&self.cone, &self.material, &self.load, &options).map(drop)
+        steady_on_grid(&self.cone, &self.material, &self.load, &options).map(drop)
     }
 }
 
-fn march_options(spacing: f64, half_width: f64) -> MarchOptions {
-    MarchOptions {
-        spacing: [spacing; 2],
-        footprint: Footprint::square(half_width),
-        sliding_distance: 5.0 * spacing,
-        contact: ContactOptions::default(),
-    }
+fn march_options(spacing: f64, half_width: f64) -> GridOptions {
+    GridOptions::new([spacing; 2], Footprint::square(half_width))
 }
 
 fn few_iterations() -> Result<Finding> {
     let mut options = march_options(0.05, 2.0);
     options.contact.max_iterations = 1;
-    let state = Scene::new()?.march(&options);
+    let state = Scene::new()?.march(&options, 0.25);
     refused!(state => BemError::ContactNotConverged { .. })
 }
 
 fn no_tolerance() -> Result<Finding> {
     let mut options = march_options(0.05, 2.0);
     options.contact.tolerance = 0.0;
-    let state = Scene::new()?.march(&options);
+    let state = Scene::new()?.march(&options, 0.25);
     refused!(state => BemError::InvalidParameter { parameter: "contact tolerance", .. })
 }
 
@@ -180,12 +172,12 @@ fn error_not_reached() -> Result<Finding> {
         material,
         load,
     } = Scene::new()?;
-    let options = FrictionOptions {
+    let options = RefinementOptions {
         relative_error: 1e-9,
         aspect: 0.5,
         max_unknowns: 1000,
     };
-    let state = steady_friction(&cone, &material, &load, &options);
+    let state = steady_refined(&cone, &material, &load, &options);
     refused!(state => BemError::FrictionNotReached { .. })
 }
 
@@ -202,7 +194,7 @@ fn too_coarse(spacing: f64) -> [Case; 2] {
             refused!(state => BemError::GridTooCoarse { .. })
         }),
         Case::new(format!("march, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.march(&march_options(spacing, 10.0 * spacing));
+            let state = Scene::new()?.march(&march_options(spacing, 10.0 * spacing), 5.0 * spacing);
             refused!(state => BemError::GridTooCoarse { .. })
         }),
     ]
@@ -215,9 +207,7 @@ fn too_small(half_width: f64) -> [Case; 2] {
             refused!(state => BemError::ContactReachesBoundary { .. })
         }),
         Case::new(format!("march, box {half_width}"), move || {
-            let mut options = march_options(0.05, half_width);
-            options.sliding_distance = 3.0;
-            let state = Scene::new()?.march(&options);
+            let state = Scene::new()?.march(&march_options(0.05, half_width), 3.0);
             refused!(state => BemError::ContactReachesBoundary { .. })
         }),
     ]
@@ -230,7 +220,7 @@ fn too_fine(spacing: f64) -> [Case; 2] {
             refused!(state => BemError::GridTooLarge { .. })
         }),
         Case::new(format!("march, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.march(&march_options(spacing, 2.0));
+            let state = Scene::new()?.march(&march_options(spacing, 2.0), 5.0 * spacing);
             refused!(state => BemError::GridTooLarge { .. })
         }),
     ]

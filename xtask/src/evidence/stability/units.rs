@@ -1,12 +1,11 @@
 //! The same scene in other units: whatever has no dimension stays as it is.
 
 use anyhow::Result;
-use bem_halfspace::indent::indent as indent_half_space;
-use bem_halfspace::slide::{SlideOptions as MarchOptions, slide as march_half_space};
-use bem_halfspace::steady::{SteadyOptions as StationaryOptions, steady as stationary_half_space};
-use bem_halfspace::{ContactOptions, Footprint, Resolution};
+use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::steady::SteadyOptions as StationaryOptions;
+use bem_halfspace::{Footprint, GridOptions, slide_on_grid, steady_on_grid};
 use friction_analytic::{ElasticContact, axisymmetric_sliding, low_speed_friction};
-use indenters::{EquivalentLine, RoundTippedCone, SlidingLoad};
+use indenters::{Control, EquivalentLine, RoundTippedCone, SlidingLoad};
 use mdr_core::{IndentOptions, SlideOptions, SteadyOptions, indent, slide, steady};
 use rheology::{StandardSolid, StandardSolidParameters, Viscous};
 
@@ -106,16 +105,12 @@ impl Units {
         [0.1, 1.0, 10.0].map(|time| time * self.time)
     }
 
-    fn resolution(self) -> Resolution {
-        Resolution {
-            spacing: [0.1 * self.length; 2],
-            footprint: Footprint::square(1.5 * self.length),
-            contact: ContactOptions {
-                // Two roundings of one scene end at the same digits only when the contact is solved so far.
-                tolerance: 1e-12,
-                ..ContactOptions::default()
-            },
-        }
+    fn grid(self) -> GridOptions {
+        let footprint = Footprint::square(1.5 * self.length);
+        let mut options = GridOptions::new([0.1 * self.length; 2], footprint);
+        // Two roundings of one scene end at the same digits only when the contact is solved so far.
+        options.contact.tolerance = 1e-12;
+        options
     }
 }
 
@@ -192,18 +187,13 @@ fn line_pressed(units: Units) -> Result<Numbers> {
 }
 
 fn half_space_stationary(units: Units) -> Result<Numbers> {
-    let Resolution {
-        spacing, footprint, ..
-    } = units.resolution();
+    let grid = units.grid();
     let options = StationaryOptions {
-        spacing,
-        phase: [0.0; 2],
-        footprint,
         // Any solution within the tolerance is right, so that it is smaller than what is asked of the invariance.
         tolerance: 1e-11,
-        max_iterations: 100,
+        ..StationaryOptions::new(grid.spacing, grid.footprint)
     };
-    let state = stationary_half_space(&units.cone()?, &units.solid()?, &units.load()?, &options)?;
+    let state = steady_on_grid(&units.cone()?, &units.solid()?, &units.load()?, &options)?;
     Ok(vec![
         ("friction coefficient", state.friction_coefficient),
         ("depth", state.depth.reference_depth / units.length),
@@ -211,18 +201,8 @@ fn half_space_stationary(units: Units) -> Result<Numbers> {
 }
 
 fn half_space_march(units: Units) -> Result<Numbers> {
-    let Resolution {
-        spacing,
-        footprint,
-        contact,
-    } = units.resolution();
-    let options = MarchOptions {
-        spacing,
-        footprint,
-        sliding_distance: 3.0 * units.length,
-        contact,
-    };
-    let state = march_half_space(&units.cone()?, &units.solid()?, &units.load()?, &options)?;
+    let load = units.load()?.after(3.0 * units.length)?;
+    let state = slide_on_grid(&units.cone()?, &units.solid()?, &load, &units.grid())?;
     let last = state.last();
     Ok(vec![
         ("friction coefficient", last.friction_coefficient),
@@ -232,8 +212,8 @@ fn half_space_march(units: Units) -> Result<Numbers> {
 }
 
 fn half_space_pressed(units: Units) -> Result<Numbers> {
-    let load = (units.force(), &units.times()[..]);
-    let rows = indent_half_space(&units.cone()?, &units.solid()?, load, &units.resolution())?;
+    let steps = IndentStep::constant(Control::NormalForce(units.force()), &units.times());
+    let rows = indent_history_on_grid(&units.cone()?, &units.solid()?, &steps, &units.grid())?;
     Ok(vec![
         ("depth", rows[2].indentation_depth / units.length),
         ("area", rows[2].contact_area / units.length / units.length),

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use bem_halfspace::BemError;
-use bem_halfspace::steady::{FrictionEstimate, FrictionOptions, steady_friction};
+use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
 use indenters::{
     Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, SlidingLoad,
     Sphere, Superposition, Surface, TruncatedParaboloid,
@@ -41,7 +41,7 @@ const WIDEST_MEDIAN: f64 = 30.0;
 /// Cases with the largest deviations that are printed even if their bars hold.
 const WORST: usize = 8;
 
-type Solve = Box<dyn Fn(&FrictionOptions) -> Result<FrictionEstimate, BemError>>;
+type Solve = Box<dyn Fn(&RefinementOptions) -> Result<SteadyEstimate, BemError>>;
 
 /// A body, and how its friction is computed in a scene whose depth scale F_N/(4ηv) is 1.
 struct Case {
@@ -63,7 +63,7 @@ impl Case {
             exponent: None,
             relative_error: ASKED,
             finer: FINER,
-            solve: Box::new(move |options| steady_friction(&body, &material, &load, options)),
+            solve: Box::new(move |options| steady_refined(&body, &material, &load, options)),
         })
     }
 
@@ -164,10 +164,10 @@ impl Case {
     }
 
     fn solve(&self, relative_error: f64, aspect: f64) -> Result<Reached> {
-        let options = FrictionOptions {
+        let options = RefinementOptions {
             relative_error,
             aspect,
-            ..FrictionOptions::default()
+            ..RefinementOptions::default()
         };
         let friction = as_far_as_reached((self.solve)(&options));
         friction.with_context(|| format!("{}, {options:?}", self.name))

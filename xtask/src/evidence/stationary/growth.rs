@@ -44,7 +44,8 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
     let scene = Scene::unit(2.0)?;
     let limit = scene
         .friction(REFERENCE_ERROR, ASPECT)?
-        .friction_coefficient;
+        .friction_coefficient
+        .value;
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };

@@ -145,8 +145,8 @@ fn stationary(scene: &Scene, relative_error: f64) -> Result<Solved> {
     let (estimate, cost) = measure_median(|| scene.friction(relative_error, 0.5))?;
     let last = estimate.refinements.last().context("no refinement")?;
     Ok(Solved {
-        friction: estimate.friction_coefficient,
-        estimated_error: estimate.error / estimate.friction_coefficient,
+        friction: estimate.friction_coefficient.value,
+        estimated_error: estimate.friction_coefficient.error / estimate.friction_coefficient.value,
         unknowns: last.unknowns,
         spacing: None,
         distance: None,
@@ -208,11 +208,14 @@ struct Spacing {
 /// The coarsest spacing of a refinement with square elements at which mean and scatter of single grids are exact enough.
 fn spacing(scene: &Scene, relative_error: f64) -> Result<Spacing> {
     let estimate = scene.friction(0.1 * relative_error, 1.0)?;
-    let limit = estimate.friction_coefficient;
+    let limit = estimate.friction_coefficient.value;
     // A coarse grid that is exact by accident is not taken: all finer ones must be exact enough too.
-    let refinements = estimate.refinements.iter().rev().map(|refinement| Spacing {
-        length: refinement.spacing,
-        error: ((refinement.friction_coefficient - limit).abs() + refinement.scatter) / limit,
+    let refinements = estimate.refinements.iter().rev().map(|refinement| {
+        let friction = refinement.friction_coefficient;
+        Spacing {
+            length: refinement.spacing,
+            error: ((friction.value - limit).abs() + friction.scatter) / limit,
+        }
     });
     let exact = refinements.take_while(|spacing| spacing.error < relative_error);
     exact

@@ -1,4 +1,4 @@
-//! Loads that close the gaps of a guessed contact, of either sign, and the depth that goes with them.
+//! Loads of either sign that satisfy the contact equations on a given active set, and the depth that goes with them.
 //!
 //! ```text
 //! h + K x − δ = 0  on the contact,      α δ + β Σ x = γ
@@ -26,31 +26,33 @@ const LARGEST_MATRIX: usize = 4000;
 
 /// Loads of the elements of a contact and the depth, in the units of the mesh.
 #[derive(Debug)]
-pub(super) struct Closure {
+pub(super) struct EquationSolution {
     pub(super) loads: Vec<f64>,
     pub(super) depth: f64,
     /// Whether the equations were factorised; if not, they were solved by iteration.
     pub(super) factorised: bool,
 }
 
-/// Closes the gaps of `contact` up to `tolerance`, the root of their mean square in units of the depth scale; `start`
-/// is a guess of the loads.
-pub(super) fn close_gaps(
-    (mesh, plans): (&Mesh, &mut Plans),
+/// Solves the equations of `contact` up to `tolerance`, the root mean square of the residual in units of the depth scale;
+/// `start` is a guess of the loads.
+pub(super) fn solve_equations(
+    mesh: &Mesh,
+    plans: &mut Plans,
     contact: &[usize],
     start: Vec<f64>,
     tolerance: f64,
-) -> Closure {
+) -> EquationSolution {
     let elements = contact.iter().copied();
     let mut region = Region::around(mesh, elements.clone());
     let small = is_factorised(contact.len(), region.n_places());
-    if small && mesh.kept != Some(SteadyOmission::Transforms) {
+    let redundant_work = mesh.options.redundant_work;
+    if small && redundant_work != Some(SteadyOmission::Transforms) {
         return factorise(mesh, contact);
     }
-    if mesh.kept == Some(SteadyOmission::OutsideContact) {
+    if redundant_work == Some(SteadyOmission::OutsideContact) {
         region = Region::of_all(mesh, elements);
     }
-    ContactSystem::new((mesh, plans), (contact, region)).iterate(start, tolerance)
+    ContactEquations::new(mesh, plans, contact, region).iterate(start, tolerance)
 }
 
 /// Whether so many unknowns in a box of so many elements are factorised.
@@ -59,7 +61,7 @@ fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
     n_unknowns <= LARGEST_MATRIX && work <= FACTORISED * n_places as f64
 }
 
-fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {
+fn factorise(mesh: &Mesh, contact: &[usize]) -> EquationSolution {
     let n = contact.len();
     let control = mesh.control();
     let matrix = Mat::from_fn(n + 1, n + 1, |row, column| match (row < n, column < n) {
@@ -76,7 +78,7 @@ fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {
         }
     });
     let solution = matrix.partial_piv_lu().solve(&right);
-    Closure {
+    EquationSolution {
         loads: (0..n).map(|row| solution[(row, 0)]).collect(),
         depth: solution[(n, 0)],
         factorised: true,
@@ -84,21 +86,18 @@ fn factorise(mesh: &Mesh, contact: &[usize]) -> Closure {
 }
 
 /// The equations of one contact, for iteration.
-struct ContactSystem<'mesh> {
+struct ContactEquations<'mesh> {
     mesh: &'mesh Mesh,
     contact: &'mesh [usize],
     region: Region,
     product: Product,
     preconditioner: WienerHopf,
-    /// What the preconditioner makes of a unit depth.
+    /// The preconditioner applied to a unit depth.
     lowered: Vec<f64>,
 }
 
-impl<'mesh> ContactSystem<'mesh> {
-    fn new(
-        (mesh, plans): (&'mesh Mesh, &mut Plans),
-        (contact, region): (&'mesh [usize], Region),
-    ) -> Self {
+impl<'mesh> ContactEquations<'mesh> {
+    fn new(mesh: &'mesh Mesh, plans: &mut Plans, contact: &'mesh [usize], region: Region) -> Self {
         let mut preconditioner = WienerHopf::new(plans, &region);
         Self {
             lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),
@@ -110,7 +109,7 @@ impl<'mesh> ContactSystem<'mesh> {
         }
     }
 
-    fn iterate(mut self, start: Vec<f64>, tolerance: f64) -> Closure {
+    fn iterate(mut self, start: Vec<f64>, tolerance: f64) -> EquationSolution {
         let (mut loads, mut depth) = self.start(start);
         let mut residual = self.displacements_below(&loads, depth);
         for (residual, &element) in residual.iter_mut().zip(self.contact) {
@@ -126,7 +125,7 @@ impl<'mesh> ContactSystem<'mesh> {
             *load += step;
         }
         depth += depth_step;
-        Closure {
+        EquationSolution {
             loads,
             depth,
             factorised: false,
@@ -140,7 +139,7 @@ impl<'mesh> ContactSystem<'mesh> {
             let depth = (control.right - control.load * self.total(&loads)) / control.depth;
             return (loads, depth);
         }
-        // A change of depth changes the force without gaps, nearly.
+        // A change of depth changes the force with hardly any residual.
         let missing = control.right / control.load - self.total(&loads);
         let change = missing / self.total(&self.lowered);
         for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
@@ -166,11 +165,11 @@ impl<'mesh> ContactSystem<'mesh> {
         moved
     }
 
-    /// The preconditioner with the control: loads and depth that cause about the given gaps and leave the control as
+    /// The preconditioner with the control: loads and depth that cause about the given residual and leave the control as
     /// it is.
-    fn correct(&mut self, gaps: &[f64]) -> (Vec<f64>, f64) {
+    fn correct(&mut self, residual: &[f64]) -> (Vec<f64>, f64) {
         let control = self.mesh.control();
-        let mut loads = self.preconditioner.loads(gaps, &self.region);
+        let mut loads = self.preconditioner.loads(residual, &self.region);
         let depth = -control.load * self.total(&loads)
             / (control.depth + control.load * self.total(&self.lowered));
         for (load, lowered) in loads.iter_mut().zip(&self.lowered) {

@@ -2,25 +2,49 @@
 //!
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
-use indenters::Surface;
+use indenters::{Control, Surface};
 use rheology::{CreepSpectrum, Material};
 
-use super::{IndentOptions, IndentRow, IndentStep, indent_history};
+use super::{IndentRow, IndentStep, indent_history_on_grid};
 use crate::error::{below_one, positive};
-use crate::{BemError, Control};
+use crate::{BemError, GridOptions};
 
-/// How exactly time is followed.
+/// Force or depth over time, and the times at which the state is wanted.
+#[derive(Clone, Copy)]
+pub struct ControlHistory<'a> {
+    /// Force or depth at a time \[s].
+    pub control: &'a dyn Fn(f64) -> Control,
+    /// Increasing times \[s] from above zero; jumps and kinks of the control belong among them.
+    pub times: &'a [f64],
+}
+
+impl std::fmt::Debug for ControlHistory<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let times = ("times", &self.times);
+        formatter
+            .debug_struct("ControlHistory")
+            .field(times.0, times.1)
+            .finish_non_exhaustive()
+    }
+}
+
+/// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeOptions {
+pub struct HistoryOptions {
+    /// The grid.
+    pub grid: GridOptions,
     /// Error of force and depth by the steps in time, relative to the largest of each in the history.
     pub relative_error: f64,
     /// Steps between two rows after which the refinement is given up.
     pub max_steps: usize,
 }
 
-impl Default for TimeOptions {
-    fn default() -> Self {
+impl HistoryOptions {
+    /// On a grid, with an error by the steps in time of at most 1e-3 and up to 256 steps between two rows.
+    #[must_use]
+    pub const fn new(grid: GridOptions) -> Self {
         Self {
+            grid,
             relative_error: 1e-3,
             max_steps: 256,
         }
@@ -35,7 +59,7 @@ pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
     pub rows: Vec<IndentRow>,
     /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the last
-    /// change by halving them, or what elements may do that yield within a step.
+    /// change by halving them, or the largest effect of elements that yield within a step.
     pub time_error: f64,
     /// Steps made between two rows.
     pub steps_per_row: usize,
@@ -77,7 +101,7 @@ impl PiecewiseLinear {
         })
     }
 
-    /// What is given at a time \[s].
+    /// Force or depth at a time \[s].
     #[must_use]
     pub fn at(&self, time: f64) -> Control {
         let after = self.points.partition_point(|(then, _)| *then < time);
@@ -93,32 +117,30 @@ impl PiecewiseLinear {
     }
 }
 
-/// Presses `surface` into an undeformed half space as the `control` over time says, and halves the steps between the
-/// `times` \[s] until the error asked for is met.
-///
-/// The times begin above zero and increase; the steps between two of them are equal. Jumps and kinks of the control belong
-/// among the times.
+/// Presses `surface` into an undeformed half space as a history says, and halves the steps between its times until the
+/// error asked for is met.
 ///
 /// # Errors
 /// [`BemError::TimeNotResolved`] when the error asked for is not met with the steps allowed; otherwise like
-/// [`indent_history`].
-pub fn indent_history_refined(
+/// [`indent_history_on_grid`].
+pub fn indent_history(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
-    (control, times): (&dyn Fn(f64) -> Control, &[f64]),
-    (options, time_options): (&IndentOptions, &TimeOptions),
+    history: &ControlHistory<'_>,
+    options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
-    below_one("relative_error", time_options.relative_error)?;
+    let relative_error = below_one("relative_error", options.relative_error)?;
+    let times = history.times;
     let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
-        let steps = subdivided(control, times, n);
-        let rows = indent_history(surface, material, &steps, options)?;
+        let steps = subdivided(history, n);
+        let rows = indent_history_on_grid(surface, material, &steps, &options.grid)?;
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
     let creep = material.creep();
     let (mut coarse, mut before): (Option<Vec<IndentRow>>, Option<Vec<IndentRow>>) = (None, None);
     let (mut n, mut error) = (1, 1.0);
     loop {
-        let last = 2 * n > time_options.max_steps;
+        let last = 2 * n > options.max_steps;
         match run(n) {
             Ok(fine) => {
                 let rows = coarse.map(|coarse| extrapolated(&coarse, &fine));
@@ -131,7 +153,7 @@ pub fn indent_history_refined(
             Err(BemError::ContactReachesBoundary { .. }) if !last => {}
             Err(refused) => return Err(refused),
         }
-        match before.take_if(|_| error <= time_options.relative_error) {
+        match before.take_if(|_| error <= relative_error) {
             Some(rows) => {
                 return Ok(IndentHistory {
                     rows,
@@ -146,14 +168,14 @@ pub fn indent_history_refined(
     Err(BemError::TimeNotResolved {
         steps: n,
         error,
-        relative_error: time_options.relative_error,
+        relative_error,
     })
 }
 
 /// `n` equal steps to each of the times.
-fn subdivided(control: &dyn Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<IndentStep> {
-    let starts = std::iter::once(0.0).chain(times.iter().copied());
-    let intervals = starts.zip(times);
+fn subdivided(history: &ControlHistory<'_>, n: usize) -> Vec<IndentStep> {
+    let starts = std::iter::once(0.0).chain(history.times.iter().copied());
+    let intervals = starts.zip(history.times);
     let steps = intervals.flat_map(|(start, &end)| {
         (1..=n).map(move |k| {
             if k == n {
@@ -166,7 +188,7 @@ fn subdivided(control: &dyn Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
     steps
         .map(|time| IndentStep {
             time,
-            control: control(time),
+            control: (history.control)(time),
         })
         .collect()
 }
@@ -182,7 +204,7 @@ fn extrapolated(coarse: &[IndentRow], fine: &[IndentRow]) -> Vec<IndentRow> {
     coarse.iter().zip(fine).map(row).collect()
 }
 
-/// What elements may do that yield faster than a step: their time relative to that between two rows, by their part of
+/// The effect of elements that yield faster than a step: their time relative to that between two rows, by their part of
 /// the compliance. No comparison of steps that are all longer would show it.
 fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
     let starts = std::iter::once(0.0).chain(times.iter().copied());

@@ -1,0 +1,112 @@
+//! Where contact may occur and how long it will be about, from surface, material and load: what a refinement starts from.
+
+use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
+use rheology::{Elastic, Material};
+
+use crate::steady::{depth_scale_of_body, depth_scale_of_surface};
+use crate::{BemError, Footprint};
+
+/// Elements along the contact length of the one-dimensional model on the coarsest grids.
+const COARSEST: f64 = 5.0;
+/// Height that is left of a steep flank one element further in, at least, on the coarsest grids.
+const RESOLVED: f64 = 0.3;
+/// Refinements by √2 at most; the limit of unknowns ends most before.
+pub(crate) const MAX_REFINEMENTS: i32 = 24;
+/// Heights up to this many depth scales may touch, as under a cusp.
+const HIGHEST: f64 = 2.0;
+/// Contact length of the one-dimensional model of a paraboloid over the length on which it is below a depth scale.
+const SHORTER: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// The grids on which a surface is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct GridPlan {
+    pub(crate) footprint: Footprint,
+    /// Δx of the coarsest grids, \[m].
+    pub(crate) coarsest_spacing: f64,
+    /// p of the sharpest point h ∼ r^p in contact; 2 or more for a smooth surface.
+    pub(crate) apex_exponent: f64,
+}
+
+impl GridPlan {
+    /// For a body that slides.
+    pub(crate) fn sliding(
+        surface: &dyn Surface,
+        material: &(impl Material + ?Sized),
+        load: &SlidingLoad,
+    ) -> Result<Self, BemError> {
+        if let Some(body) = surface.as_axisymmetric() {
+            let depth = match load.control() {
+                Control::NormalForce(_) => depth_scale_of_body(body, material, load)?,
+                Control::IndentationDepth(depth) => depth,
+            };
+            return Self::of_body(body, Footprint::sliding(surface, material, load)?, depth);
+        }
+        let [depth, highest] = match load.control() {
+            Control::NormalForce(_) => {
+                let depth = depth_scale_of_surface(surface, material, load)?;
+                [depth, HIGHEST * depth]
+            }
+            Control::IndentationDepth(depth) => [depth; 2],
+        };
+        Self::below(surface, depth, highest)
+    }
+
+    /// For a body that is pressed into an elastic half space of unit shear modulus, incompressible.
+    pub(crate) fn pressed(surface: &dyn Surface, control: Control) -> Result<Self, BemError> {
+        let [depth, highest] = match control {
+            Control::NormalForce(force) => {
+                let load = SlidingLoad::new(force, 1.0)?;
+                let spring = Elastic::new(1.0)?;
+                let depth = match surface.as_axisymmetric() {
+                    Some(body) => depth_scale_of_body(body, &spring, &load)?,
+                    None => depth_scale_of_surface(surface, &spring, &load)?,
+                };
+                [depth, HIGHEST * depth]
+            }
+            Control::IndentationDepth(depth) => [depth; 2],
+        };
+        Self::below(surface, depth, highest)
+    }
+
+    fn of_body(
+        body: &dyn Axisymmetric,
+        footprint: Footprint,
+        depth: f64,
+    ) -> Result<Self, BemError> {
+        let mut plan = Self {
+            footprint,
+            coarsest_spacing: contact_radius(body, depth)? / COARSEST,
+            apex_exponent: body.profile_exponent(),
+        };
+        // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
+        let [_, radius] = plan.footprint.x;
+        let flank_is_resolved = |refinement: &i32| {
+            let inside = (radius - plan.spacing(*refinement)).max(0.0);
+            body.profile_height(inside) >= RESOLVED * body.profile_height(radius)
+        };
+        if let Some(first) = (0..MAX_REFINEMENTS).find(flank_is_resolved) {
+            plan.coarsest_spacing = plan.spacing(first);
+        }
+        Ok(plan)
+    }
+
+    /// For a surface whose contact is about as long as the surface is below `depth`, and lies below `highest`, \[m].
+    fn below(surface: &dyn Surface, depth: f64, highest: f64) -> Result<Self, BemError> {
+        let [rear, front] = surface.extent_below(depth)[0];
+        Ok(Self {
+            footprint: Footprint::below(surface, highest)?,
+            coarsest_spacing: SHORTER * (0.5 * (front - rear)) / COARSEST,
+            apex_exponent: surface.apex_exponent(),
+        })
+    }
+
+    /// Δx after so many refinements by √2, \[m].
+    pub(crate) fn spacing(&self, refinement: i32) -> f64 {
+        self.coarsest_spacing * 2.0_f64.powf(-0.5 * f64::from(refinement))
+    }
+
+    /// Contact length, about, \[m].
+    pub(crate) fn length(&self) -> f64 {
+        COARSEST * self.coarsest_spacing
+    }
+}

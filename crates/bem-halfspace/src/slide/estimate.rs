@@ -1,0 +1,279 @@
+//! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
+
+use indenters::{Control, SlidingLoad, Surface};
+use numerics::{Accuracy, ErrorParts, Estimate};
+use rheology::{CreepSpectrum, Material};
+
+use crate::bars::{self, Quantities, Resolution, Resolved, Target, peak_has_limit};
+use crate::plan::GridPlan;
+use crate::slide::{
+    PressureField, StationaryOptions, Transient, slide_on_grid, slide_to_stationary,
+};
+use crate::{BemError, ContactOptions, GridOptions};
+
+/// Elements along the contact after which a march in time gives up; it takes about a minute.
+const LARGEST_GRID: usize = 32;
+/// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
+const LENGTHS: f64 = 24.0;
+const DRIFT: f64 = 0.05;
+/// Distances v λ of the slowest element until a solid counts as stationary.
+const MEMORIES: f64 = 12.0;
+/// Contact lengths after which a march to the stationary state is not begun.
+const LONGEST: f64 = 500.0;
+/// Change of the friction by which a solid counts as stationary, relative to the error asked for.
+const SETTLED: f64 = 0.1;
+
+/// The end of a march with its error bars; an error of 0 says that the quantity is given.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct SlideEstimate {
+    /// Friction coefficient μ = F_h/F_N after the sliding distance, or of the stationary state.
+    pub friction_coefficient: Estimate,
+    /// What the error of the friction coefficient consists of.
+    pub error_parts: ErrorParts,
+    /// Normal force F_N, \[N].
+    pub normal_force: Estimate,
+    /// Depth of the lowest point below the undeformed surface, \[m]; none for the stationary state of a material that
+    /// flows, into which the body sinks for ever.
+    pub indentation_depth: Option<Estimate>,
+    /// Contact area, \[m²].
+    pub contact_area: Estimate,
+    /// Largest pressure \[Pa], of smooth bodies of revolution on materials that react at once; everywhere else it grows
+    /// without limit on refinement, or is not known to have one.
+    pub peak_pressure: Option<Estimate>,
+    /// Error of the ends of the contact along x and y in [`finest`](Self::finest), \[m].
+    pub contact_box_error: f64,
+    /// The march on the finest grid: contact, pressure and history.
+    pub finest: Transient,
+    /// The finest grid.
+    pub options: GridOptions,
+}
+
+/// Slides `surface` over a linear viscoelastic half space from first touch on, in time, under a force or at a depth: over
+/// the sliding distance of the load, or without one until the state is stationary.
+///
+/// # Errors
+/// [`BemError::FrictionNotReached`], [`BemError::ForceNotReached`] and, where nothing is dissipated,
+/// [`BemError::DepthNotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
+/// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
+/// [`slide_on_grid`](super::slide_on_grid).
+pub fn slide(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    accuracy: impl Into<Accuracy>,
+) -> Result<SlideEstimate, BemError> {
+    let problem = Problem::new(&surface, material, load, accuracy.into())?;
+    problem.solve()
+}
+
+/// The end of one march.
+struct End {
+    friction: f64,
+    /// Error of the extrapolation to the stationary state, where that is asked for.
+    truncation: Option<f64>,
+    transient: Transient,
+}
+
+struct Problem<'a, M: ?Sized> {
+    surface: &'a dyn Surface,
+    material: &'a M,
+    load: &'a SlidingLoad,
+    creep: CreepSpectrum,
+    plan: GridPlan,
+    accuracy: Accuracy,
+}
+
+impl<'a, M: Material + ?Sized> Problem<'a, M> {
+    fn new(
+        surface: &'a dyn Surface,
+        material: &'a M,
+        load: &'a SlidingLoad,
+        accuracy: Accuracy,
+    ) -> Result<Self, BemError> {
+        Ok(Self {
+            plan: GridPlan::sliding(surface, material, load)?,
+            creep: material.creep(),
+            surface,
+            material,
+            load,
+            accuracy,
+        })
+    }
+
+    fn solve(&self) -> Result<SlideEstimate, BemError> {
+        let resolution = Resolution {
+            accuracy: self.accuracy,
+            // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
+            target: if self.is_elastic() {
+                Target::Depth
+            } else {
+                Target::Friction
+            },
+            largest: LARGEST_GRID,
+            order: bars::order_of_friction(self.plan.apex_exponent),
+        };
+        let resolved = bars::resolve(
+            &resolution,
+            |elements| self.march(self.plan.length() / elements as f64),
+            |end| end.quantities(),
+            |_, end| self.other_parts(end),
+        )?;
+        Ok(self.estimate(resolved))
+    }
+
+    fn is_elastic(&self) -> bool {
+        self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
+    }
+
+    /// Errors of the contact solver and of the finite distance.
+    fn other_parts(&self, end: &End) -> Quantities<ErrorParts> {
+        let mut parts = Quantities::all(ErrorParts::NONE);
+        if !self.is_elastic() {
+            parts.friction_coefficient = ErrorParts {
+                iteration: Some(iteration_error(self.surface, &end.transient.pressure)),
+                truncation: end.truncation,
+                ..ErrorParts::NONE
+            };
+        }
+        parts
+    }
+
+    fn estimate(&self, resolved: Resolved<End>) -> SlideEstimate {
+        let Resolved {
+            finest: end,
+            estimates,
+            parts,
+        } = resolved;
+        let mut friction = estimates.friction_coefficient;
+        let mut error_parts = parts.friction_coefficient;
+        if self.is_elastic() {
+            // There is none but what the elements make of it.
+            friction.error = friction.value.abs();
+            error_parts = ErrorParts::of_elements(friction.error);
+        }
+        let control = self.load.control();
+        let has_depth = self.load.sliding_distance().is_some() || self.creep.fluidity() == 0.0;
+        let depth = bars::depth(control, estimates.indentation_depth);
+        SlideEstimate {
+            friction_coefficient: friction,
+            error_parts,
+            normal_force: bars::force(control, estimates.normal_force),
+            indentation_depth: has_depth.then_some(depth),
+            contact_area: estimates.contact_area,
+            peak_pressure: peak_has_limit(self.surface, self.material)
+                .then_some(estimates.peak_pressure),
+            contact_box_error: bars::of_box(end.transient.pressure.grid.spacing()),
+            options: self.options(end.transient.pressure.grid.spacing()[0]),
+            finest: end.transient,
+        }
+    }
+
+    /// At a depth the body reaches the boundary of its footprint.
+    fn options(&self, spacing: f64) -> GridOptions {
+        let footprint = match self.load.control() {
+            Control::NormalForce(_) => self.plan.footprint,
+            Control::IndentationDepth(_) => self.plan.footprint.widened(spacing),
+        };
+        GridOptions::new([spacing; 2], footprint)
+    }
+
+    fn march(&self, spacing: f64) -> Result<End, BemError> {
+        let options = self.options(spacing);
+        match (self.load.control(), self.load.sliding_distance()) {
+            (Control::NormalForce(_), None) => self.to_stationary(&options),
+            _ => self.over_distance(self.load, &options),
+        }
+    }
+
+    fn over_distance(&self, load: &SlidingLoad, options: &GridOptions) -> Result<End, BemError> {
+        let transient = slide_on_grid(self.surface, self.material, load, options)?;
+        Ok(End {
+            friction: transient.last().friction_coefficient,
+            truncation: None,
+            transient,
+        })
+    }
+
+    fn to_stationary(&self, options: &GridOptions) -> Result<End, BemError> {
+        let memory = self.memory();
+        if memory > 0.0 {
+            return self.until_forgotten(memory, options);
+        }
+        let load = self.load.after(LENGTHS * self.plan.length())?;
+        let mut end = self.over_distance(&load, options)?;
+        if !self.is_elastic() {
+            let state = end.transient.stationary(DRIFT)?;
+            (end.friction, end.truncation) =
+                (state.friction_coefficient, Some(state.distance_error));
+        }
+        Ok(end)
+    }
+
+    /// Slides until a material that recovers has forgotten the first touch.
+    fn until_forgotten(&self, memory: f64, options: &GridOptions) -> Result<End, BemError> {
+        let length = self.plan.length();
+        let distance = LENGTHS * length + MEMORIES * memory;
+        if distance > LONGEST * length {
+            return Err(BemError::MemoryTooLong {
+                memory,
+                contact_length: length,
+                limit: LONGEST,
+            });
+        }
+        let stationary = StationaryOptions {
+            tolerance: match self.accuracy {
+                Accuracy::RelativeError(error) => SETTLED * error,
+                Accuracy::Elements(_) => SETTLED * DRIFT,
+            },
+            over_distance: 2.0 * length + memory,
+        };
+        let load = self.load.after(distance)?;
+        let end = slide_to_stationary(self.surface, self.material, &load, options, &stationary)?;
+        Ok(End {
+            friction: end.friction_coefficient,
+            truncation: Some(end.change * end.friction_coefficient.abs()),
+            transient: end.transient,
+        })
+    }
+
+    /// Distance in which the slowest element forgets, \[m].
+    fn memory(&self) -> f64 {
+        let elements = self.creep.elements().iter();
+        let times = elements.map(|element| element.retardation_time);
+        self.load.velocity() * times.fold(0.0, f64::max)
+    }
+}
+
+impl End {
+    fn quantities(&self) -> Quantities<f64> {
+        let last = self.transient.last();
+        Quantities {
+            friction_coefficient: self.friction,
+            normal_force: last.normal_force,
+            indentation_depth: last.indentation_depth,
+            contact_area: last.contact_area,
+            peak_pressure: self.transient.pressure.largest(),
+        }
+    }
+}
+
+/// How much a residual of the size of the tolerance changes the friction.
+///
+/// A residual that alternates from element to element changes the pressure by as many times its part of the displacement
+/// as there are elements along the contact, and the friction by as much of the mean modulus of the slope.
+fn iteration_error(surface: &dyn Surface, field: &PressureField) -> f64 {
+    let ([rows, columns], [dx, dy]) = (field.grid.shape(), field.grid.spacing());
+    let [mut load, mut rise] = [0.0; 2];
+    for (index, pressure) in field.pressure.iter().enumerate() {
+        let x = field.origin[0] + (index / columns) as f64 * dx;
+        let y = field.origin[1] + (index % columns) as f64 * dy;
+        let difference = surface.height([x + 0.5 * dx, y]) - surface.height([x - 0.5 * dx, y]);
+        load += pressure;
+        if *pressure > 0.0 {
+            rise += pressure * (difference / dx).abs();
+        }
+    }
+    ContactOptions::default().tolerance * rows as f64 * (rise / load)
+}

@@ -1,0 +1,381 @@
+//! Refinement to a requested error.
+//!
+//! The outline of the contact follows the elements. On one grid that scatters the friction around its trend, so each
+//! refinement averages over four grids that are shifted by half an element along x and y. The averages converge with
+//! the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p is slower, and are extrapolated.
+//! On materials that recover the outline is closed behind, and what is left of the scatter decides: it widens the error
+//! bar.
+
+use indenters::{Control, Surface};
+
+use crate::error::{below_one, positive};
+use crate::plan::{GridPlan, MAX_REFINEMENTS};
+use crate::steady::extrapolation::{Limit, extrapolate};
+use crate::steady::loading::Loading;
+use crate::steady::{Reuse, SteadyOptions, SteadySliding, solve};
+use crate::{BemError, Footprint};
+
+/// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
+const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+const PHASES_OF_STRIP: usize = 2;
+/// Order of the error that the singular front leaves.
+const FRONT_ORDER: f64 = 1.5;
+/// Refinements of which an error bar can come, at least.
+const FEWEST: i32 = 5;
+/// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
+const ELEMENTS_PER_UNKNOWN: f64 = 50.0;
+/// Elements that hardly cost anything.
+const ALWAYS_ALLOWED: f64 = 1e5;
+/// Active sets tried on one grid.
+const MAX_ITERATIONS: usize = 100;
+/// At the edge of a contact elements may change sides for ever; then the grid is this much finer, and its own spacing is
+/// the one that is reported.
+const FINER: [f64; 2] = [0.99, 0.98];
+/// Residual left on one grid, relative to the error asked for as a part of the mean slope, and what rounding allows.
+const RESIDUAL_SHARE: f64 = 1e-4;
+const SMALLEST_RESIDUAL: f64 = 1e-12;
+/// The same part under a strip: the potential of its whole length, which is absorbed in the depth, leaves more rounding.
+const RESIDUAL_SHARE_OF_STRIP: f64 = 1e-2;
+/// Friction as a part of the mean slope on the first grid, where it is not known yet, on materials that recover.
+const FIRST_PART: f64 = 1e-3;
+/// Friction that is known to this part of the mean slope counts as known: what is left of an elastic body is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// How far a friction coefficient is refined.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RefinementOptions {
+    /// Relative error asked for, of the friction coefficient, and of the normal force where the depth is given.
+    pub relative_error: f64,
+    /// Δy/Δx. The outline of the contact is steeper across the sliding direction than along it.
+    pub aspect: f64,
+    /// Refinement stops before a grid that will have more unknown pressures than this, judged by the grid before it, or
+    /// whose footprint has more than 50 times as many elements, and more than 1e5.
+    pub max_unknowns: usize,
+}
+
+impl Default for RefinementOptions {
+    /// A relative error of 1e-3, elements half as wide as long, and at most 40 000 unknowns, which take some seconds.
+    fn default() -> Self {
+        Self {
+            relative_error: 1e-3,
+            aspect: 0.5,
+            max_unknowns: 40_000,
+        }
+    }
+}
+
+/// A quantity over shifted grids.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Average {
+    /// Mean.
+    pub value: f64,
+    /// Standard deviation.
+    pub scatter: f64,
+}
+
+impl Average {
+    fn of(states: &[SteadySliding], quantity: impl Fn(&SteadySliding) -> f64) -> Self {
+        let count = states.len() as f64;
+        let value = states.iter().map(&quantity).sum::<f64>() / count;
+        let squares = states.iter().map(|state| (quantity(state) - value).powi(2));
+        Self {
+            value,
+            scatter: (squares.sum::<f64>() / (count - 1.0)).sqrt(),
+        }
+    }
+
+    fn times(self, factor: f64) -> Self {
+        Self {
+            value: factor * self.value,
+            scatter: factor * self.scatter,
+        }
+    }
+}
+
+/// One refinement: averages over shifted grids.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Refinement {
+    /// Δx, \[m].
+    pub spacing: f64,
+    /// Friction coefficient.
+    pub friction_coefficient: Average,
+    /// Normal force, \[N].
+    pub normal_force: Average,
+    /// Depth after the sliding distance of the load, or the
+    /// [reference depth](crate::steady::SinkingDepth::reference_depth) without one, \[m].
+    pub indentation_depth: Average,
+    /// Area of the elements in contact, \[m²].
+    pub contact_area: Average,
+    /// Largest pressure of an element, \[Pa].
+    pub peak_pressure: Average,
+    /// Unknown pressures on the largest of the grids.
+    pub unknowns: usize,
+}
+
+impl Refinement {
+    /// With forces and areas per length along y, of a strip of this length, \[m].
+    pub(super) fn per_length(self, length: f64) -> Self {
+        Self {
+            normal_force: self.normal_force.times(length.recip()),
+            contact_area: self.contact_area.times(length.recip()),
+            ..self
+        }
+    }
+}
+
+/// Refined grids whose limits are known to the error asked for.
+#[derive(Debug)]
+pub(super) struct Refined {
+    pub(super) friction_coefficient: Limit,
+    pub(super) normal_force: Limit,
+    pub(super) refinements: Vec<Refinement>,
+    /// The last solution on the finest grids, and its grid.
+    pub(super) finest: SteadySliding,
+    pub(super) options: SteadyOptions,
+}
+
+/// Refines until friction and force have the error asked for.
+pub(super) fn refine(
+    surface: &dyn Surface,
+    loading: Loading,
+    plan: &GridPlan,
+    options: &RefinementOptions,
+) -> Result<Refined, BemError> {
+    let relative_error = below_one("relative_error", options.relative_error)?;
+    positive("aspect", options.aspect)?;
+    let order = order_of_friction(plan.apex_exponent)?;
+    let mut grids = Grids {
+        surface,
+        loading,
+        plan,
+        options,
+        reuse: Reuse::default(),
+    };
+    let (mut index, first) = grids.coarsest()?;
+    let mut refinements = vec![first.averages];
+    let mut finest = (first.finest, first.options);
+    loop {
+        let friction = grids.friction(&refinements, order);
+        let force = grids.force(&refinements, order);
+        let rounding = ROUNDING * finest.0.mean_slope;
+        let is_known = friction.holds(relative_error) || friction.error <= rounding;
+        if is_known && force.holds(relative_error) {
+            let (finest, options) = finest;
+            return Ok(Refined {
+                friction_coefficient: friction,
+                normal_force: force,
+                refinements,
+                finest,
+                options,
+            });
+        }
+        index += 1;
+        let last = refinements.last();
+        if last.is_some_and(|last| !grids.allows(index, last)) {
+            return Err(not_reached(friction, force, relative_error));
+        }
+        let next = grids.refine(index)?;
+        refinements.push(next.averages);
+        finest = (next.finest, next.options);
+    }
+}
+
+/// The limit of averages with what is left of their scatter.
+pub(super) fn limit(
+    refinements: &[Refinement],
+    order: f64,
+    quantity: impl Fn(&Refinement) -> Average,
+) -> Limit {
+    let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
+    let mut limit = extrapolate(&values, order);
+    if let Some(last) = refinements.last() {
+        limit.error += quantity(last).scatter;
+    }
+    limit
+}
+
+/// Order of the error of the averages.
+pub(super) fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
+    let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
+    if order > 0.0 {
+        return Ok(order);
+    }
+    // The friction of the apex alone is infinite, as in the one-dimensional model.
+    Err(BemError::InvalidParameter {
+        parameter: "apex exponent",
+        value: apex_exponent,
+        allowed: "above 1/2",
+    })
+}
+
+fn not_reached(friction: Limit, force: Limit, relative_error: f64) -> BemError {
+    if force.holds(relative_error) {
+        return BemError::FrictionNotReached {
+            friction_coefficient: friction.value,
+            error: friction.error,
+            relative_error,
+        };
+    }
+    BemError::ForceNotReached {
+        normal_force: force.value,
+        error: force.error,
+        relative_error,
+    }
+}
+
+/// One refinement, and the last solution of it with its grid.
+struct Solved {
+    averages: Refinement,
+    finest: SteadySliding,
+    options: SteadyOptions,
+}
+
+/// A problem on finer and finer grids.
+struct Grids<'a> {
+    surface: &'a dyn Surface,
+    loading: Loading,
+    plan: &'a GridPlan,
+    options: &'a RefinementOptions,
+    reuse: Reuse,
+}
+
+impl Grids<'_> {
+    /// On a dashpot the scatter falls as fast as the rest of the error.
+    fn friction(&self, refinements: &[Refinement], order: f64) -> Limit {
+        let quantity = |refinement: &Refinement| {
+            let mut friction = refinement.friction_coefficient;
+            if self.loading.creep.only_flows() {
+                friction.scatter = 0.0;
+            }
+            friction
+        };
+        limit(refinements, order, quantity)
+    }
+
+    /// The normal force that is given, or the limit of those at the depth.
+    fn force(&self, refinements: &[Refinement], order: f64) -> Limit {
+        match self.loading.control() {
+            Control::NormalForce(value) => Limit { value, error: 0.0 },
+            Control::IndentationDepth(_) => limit(refinements, order, |r| r.normal_force),
+        }
+    }
+
+    /// The coarsest refinement on which the body is resolved, if enough of those that follow are within the limits.
+    fn coarsest(&mut self) -> Result<(i32, Solved), BemError> {
+        let mut index = 0;
+        loop {
+            let elements = self.n_elements(index + FEWEST - 1);
+            if elements > self.most_elements() {
+                return Err(BemError::GridTooLarge {
+                    elements,
+                    limit: self.most_elements(),
+                });
+            }
+            match self.refine(index) {
+                Err(BemError::SlopeNotResolved { .. } | BemError::GridTooCoarse { .. }) => {
+                    index += 1;
+                }
+                refinement => return Ok((index, refinement?)),
+            }
+        }
+    }
+
+    /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
+    fn allows(&self, refinement: i32, before: &Refinement) -> bool {
+        refinement < MAX_REFINEMENTS
+            && self.n_elements(refinement) <= self.most_elements()
+            && 2 * before.unknowns <= self.options.max_unknowns
+    }
+
+    /// Elements of the footprint.
+    fn n_elements(&self, refinement: i32) -> f64 {
+        let Footprint { x, y } = self.plan.footprint;
+        let [dx, dy] = self.edges(refinement);
+        (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
+    }
+
+    /// Edges of an element.
+    fn edges(&self, refinement: i32) -> [f64; 2] {
+        let dx = self.plan.spacing(refinement);
+        let strip = self.loading.strip();
+        [dx, strip.unwrap_or(self.options.aspect * dx)]
+    }
+
+    fn phases(&self) -> &'static [[f64; 2]] {
+        match self.loading.strip() {
+            Some(_) => &PHASES[..PHASES_OF_STRIP],
+            None => &PHASES,
+        }
+    }
+
+    fn most_elements(&self) -> f64 {
+        (ELEMENTS_PER_UNKNOWN * self.options.max_unknowns as f64).max(ALWAYS_ALLOWED)
+    }
+
+    /// The averages over the shifts, each started from the contact of the one before.
+    fn refine(&mut self, index: i32) -> Result<Solved, BemError> {
+        let spacing = self.edges(index);
+        let mut options = SteadyOptions {
+            max_iterations: MAX_ITERATIONS,
+            ..SteadyOptions::new(spacing, self.plan.footprint.widened(spacing[0]))
+        };
+        let mut states = Vec::new();
+        for &phase in self.phases() {
+            options.phase = phase;
+            options.tolerance = self.tolerance();
+            let state = self.solve_near(&options)?;
+            states.push(state.clone());
+            self.reuse.solution = Some(state);
+        }
+        let distance = self.loading.sliding_distance;
+        let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
+        let averages = Refinement {
+            spacing: spacing[0],
+            friction_coefficient: average(&|state| state.friction_coefficient),
+            normal_force: average(&|state| state.normal_force),
+            indentation_depth: average(&|state| state.depth.at(distance)),
+            contact_area: average(&|state| state.contact_area),
+            peak_pressure: average(&|state| state.pressure.largest()),
+            unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
+        };
+        let finest = states.swap_remove(states.len() - 1);
+        options.spacing = finest.pressure.grid.spacing();
+        Ok(Solved {
+            averages,
+            finest,
+            options,
+        })
+    }
+
+    /// The solution on a grid, or on a slightly finer one where pivoting cycles.
+    fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
+        let mut solution = solve(self.surface, &self.loading, options, &mut self.reuse);
+        for finer in FINER {
+            if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
+                break;
+            }
+            let other = SteadyOptions {
+                spacing: self.loading.scaled(options.spacing, finer),
+                ..*options
+            };
+            solution = solve(self.surface, &self.loading, &other, &mut self.reuse);
+        }
+        solution
+    }
+
+    /// A residual that disturbs the friction less than is asked: smaller where it is a small difference of large slopes.
+    fn tolerance(&self) -> f64 {
+        let part = match &self.reuse.solution {
+            Some(last) => last.friction_coefficient.abs() / last.mean_slope,
+            None if self.loading.creep.only_flows() => 1.0,
+            None => FIRST_PART,
+        };
+        let share = match self.loading.strip() {
+            Some(_) => RESIDUAL_SHARE_OF_STRIP,
+            None => RESIDUAL_SHARE,
+        };
+        (share * self.options.relative_error * part).max(SMALLEST_RESIDUAL)
+    }
+}
