@@ -21,8 +21,7 @@
 //! .parse()?;
 //! let answer = solve(&Problem::try_from(&scene)?)?;
 //! let friction = answer.friction_coefficient.expect("it slides");
-//! let error = answer.friction_coefficient_error.expect("an error bar");
-//! assert!(error < 1e-3 * friction, "{friction} ± {error}");
+//! assert!(friction.is_within(1e-3), "{} ± {}", friction.value, friction.error);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
@@ -34,10 +33,11 @@ pub mod sweep;
 mod text;
 
 pub use bem_halfspace::slide::PressureField;
+pub use numerics::{ErrorParts, Estimate};
 pub use scene::Scene;
 pub use solve::{
-    Answer, Body, ContactBox, ErrorParts, Fields, Grid, HistoryRow, Motion, NotOffered, Omission,
-    Problem, ReadFile, Revolution, SameProblem, SolveError, choose, problem_of, solve, solve_by,
+    Answer, Body, ContactBox, Fields, Grid, HistoryRow, Motion, NotOffered, Omission, Problem,
+    ReadFile, Revolution, SameProblem, SolveError, choose, problem_of, solve, solve_by,
 };
 pub use text::{WrongInput, line_of, line_of_record};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, rheology};

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
+use viscofriction::Estimate;
 use viscofriction::WrongInput;
 use viscofriction::scene::{Accuracy, Method, Model, Scene, scene_file};
 use viscofriction::solve::{Problem, choose, solve};
@@ -72,18 +73,16 @@ impl Request {
 
     pub(super) fn solve(&self, scene: &Scene) -> Result<Solved> {
         let answer = solve(&self.problem(scene)?)?;
-        let pair = if presses(scene) {
-            answer.indentation_depth.zip(answer.indentation_depth_error)
+        let known = if presses(scene) {
+            answer.indentation_depth
         } else {
-            let bar = answer.friction_coefficient_error;
-            answer.friction_coefficient.zip(bar)
+            answer.friction_coefficient
         };
-        let (value, error) = pair.context("the result has no number with an error bar")?;
-        let unknowns = answer.unknowns;
+        let Estimate { value, error } = known.context("the result has no friction, or no depth")?;
         Ok(Solved {
             value,
             error,
-            unknowns,
+            unknowns: answer.unknowns,
         })
     }
 

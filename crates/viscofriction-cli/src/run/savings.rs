@@ -1,6 +1,7 @@
 //! What each omission saves: the work is done once with it and once without, and the answers are compared.
 
 use anyhow::{Context, Result, bail};
+use viscofriction::Estimate;
 use viscofriction::scene::{Accuracy, Method};
 use viscofriction::solve::{Answer, Omission, Problem, SameProblem, solve_by};
 
@@ -124,8 +125,8 @@ fn by_method(problem: &Problem, answer: &Answer, method: Method) -> Result<Savin
     };
     let (again, left_out) = metered(|| Ok(solve_by(problem, answer.method, problem.accuracy)?))?;
     let (other, done) = metered(|| Ok(solve_by(problem, method, accuracy)?))?;
-    let [value, error] = asked(&again)?;
-    let [other, other_error] = asked(&other)?;
+    let Estimate { value, error } = again.asked();
+    let other = other.asked();
     if value.abs() <= error {
         bail!("the answer, {value:e} with an error of {error:.1e}, cannot be told from 0");
     }
@@ -134,20 +135,10 @@ fn by_method(problem: &Problem, answer: &Answer, method: Method) -> Result<Savin
         done,
         change: Change::OfMethod {
             method,
-            change: ((other - value) / value).abs(),
-            bars: [error, other_error].map(|error| error / value.abs()),
+            change: ((other.value - value) / value).abs(),
+            bars: [error, other.error].map(|error| error / value.abs()),
         },
     })
-}
-
-/// Friction with its error, or depth where nothing slides.
-fn asked(answer: &Answer) -> Result<[f64; 2]> {
-    let friction = answer
-        .friction_coefficient
-        .zip(answer.friction_coefficient_error);
-    let depth = answer.indentation_depth.zip(answer.indentation_depth_error);
-    let (value, error) = friction.or(depth).context("the answer has no error bar")?;
-    Ok([value, error])
 }
 
 /// Does the work on one thread, where the memory of all of it is counted.

@@ -2,7 +2,8 @@
 
 use comfy_table::Table;
 use viscofriction::scene::Model;
-use viscofriction::solve::{Answer, ErrorParts};
+use viscofriction::solve::Answer;
+use viscofriction::{ErrorParts, Estimate};
 
 /// One row per quantity, with its error and unit.
 pub(super) fn table(answer: &Answer) -> Table {
@@ -15,31 +16,20 @@ pub(super) fn table(answer: &Answer) -> Table {
         ["N", "m²"]
     };
     let rows = [
-        (
-            "friction coefficient",
-            answer.friction_coefficient,
-            answer.friction_coefficient_error,
-            "",
-        ),
-        (
-            "normal force",
-            Some(answer.normal_force),
-            answer.normal_force_error,
-            force,
-        ),
-        ("tangential force", answer.tangential_force, None, force),
-        (
-            "indentation depth",
-            answer.indentation_depth,
-            answer.indentation_depth_error,
-            "m",
-        ),
-        ("contact area", answer.contact_area, None, area),
-        ("peak pressure", answer.peak_pressure, None, "Pa"),
+        ("friction coefficient", answer.friction_coefficient, ""),
+        ("normal force", Some(answer.normal_force), force),
+        ("tangential force", answer.tangential_force(), force),
+        ("indentation depth", answer.indentation_depth, "m"),
+        ("contact area", answer.contact_area, area),
+        ("peak pressure", answer.peak_pressure, "Pa"),
     ];
-    for (name, value, error, unit) in rows {
-        if let Some(value) = value {
-            let error = error.map_or(String::new(), |error| format!("{error:.1e}"));
+    for (name, known, unit) in rows {
+        if let Some(Estimate { value, error }) = known {
+            let error = if error == 0.0 {
+                String::new()
+            } else {
+                format!("{error:.1e}")
+            };
             table.add_row([name.to_owned(), short(value), error, unit.to_owned()]);
         }
     }

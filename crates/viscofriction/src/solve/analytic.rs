@@ -9,10 +9,11 @@ use friction_analytic::{
     maxwell_sliding, power_sliding, superposition_sliding, transient_sliding,
 };
 use indenters::{Axisymmetric, PowerProfile, PressingLoad, SlidingLoad, contact_radius};
+use numerics::Estimate;
 use numerics::bracketed_root;
 use rheology::{Material, Viscous};
 
-use super::answer::{Answer, ContactBox};
+use super::answer::{Answer, ContactBox, within};
 use super::body::Revolution;
 use super::error::bail;
 use super::half_space::{Simple, simple};
@@ -40,7 +41,10 @@ pub(crate) fn slid(
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
         (Simple::Elastic, body) => {
             let load = PressingLoad::new(load.control(), 1.0)?;
-            Ok(pressed(body, material, &load)?.with_friction(0.0, 0.0))
+            Ok(Answer {
+                friction_coefficient: Some(Estimate::exact(0.0)),
+                ..pressed(body, material, &load)?
+            })
         }
         (Simple::Viscous(material), Revolution::Power(profile)) if model == Model::HalfSpace => {
             viscous_half_space(profile, &material, load)
@@ -61,14 +65,17 @@ fn viscous_line(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Re
     let state = match body {
         Revolution::Power(profile) => power_sliding(profile, material, &load),
         Revolution::Sum(profile) => superposition_sliding(profile, material, &load),
-        Revolution::Other(_) => axisymmetric_sliding(body, material, &load),
+        Revolution::Sphere(_) | Revolution::Other(_) => axisymmetric_sliding(body, material, &load),
     }?;
-    let answer = Answer::new(Method::Analytic, Model::Line, load.require_normal_force()?)
-        .with_friction(state.friction_coefficient, state.error);
+    let force = Estimate::exact(load.require_normal_force()?);
     let mut answer = Answer {
-        indentation_depth: Some(state.indentation_depth),
-        contact_box: ends(&state.contact_line).map(ContactBox::along),
-        ..answer
+        friction_coefficient: Some(Estimate {
+            value: state.friction_coefficient,
+            error: state.error,
+        }),
+        indentation_depth: Some(within(state.indentation_depth, SEARCHED)),
+        contact_box: ends(&state.contact_line).map(along),
+        ..Answer::new(Method::Analytic, Model::Line, force)
     };
     answer.fields.line_load = load_along(body, material, velocity, &state);
     Ok(answer)
@@ -81,6 +88,12 @@ fn line_load(material: &Viscous, control: Control, velocity: f64) -> Result<Slid
         Control::IndentationDepth(depth) => 4.0 * material.viscosity() * velocity * depth,
     };
     SlidingLoad::new(force, velocity).context("the force that belongs to the depth")
+}
+
+/// The contact of a closed form.
+fn along(ends: [f64; 2]) -> ContactBox {
+    let length = ends[1] - ends[0];
+    ContactBox::along(ends, SEARCHED * length)
 }
 
 fn ends(intervals: &[[f64; 2]]) -> Option<[f64; 2]> {
@@ -117,13 +130,13 @@ fn viscous_half_space(
     load: &SlidingLoad,
 ) -> Result<Answer> {
     let friction = half_space_power_friction(profile, material, load)?;
+    let force = Estimate::exact(load.require_normal_force()?);
     Ok(Answer {
-        ..Answer::new(
-            Method::Analytic,
-            Model::HalfSpace,
-            load.require_normal_force()?,
-        )
-        .with_friction(friction.value, friction.error)
+        friction_coefficient: Some(Estimate {
+            value: friction.value,
+            error: friction.error,
+        }),
+        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
 
@@ -136,12 +149,12 @@ fn viscous_transient(
     let distance = load.sliding_distance().context("no sliding distance")?;
     let load = &SlidingLoad::new(load.require_normal_force()?, load.velocity())?;
     let state = transient_sliding(profile, material, load, distance / load.velocity())?;
-    let friction = state.friction_coefficient;
+    let force = Estimate::exact(load.require_normal_force()?);
     Ok(Answer {
-        indentation_depth: Some(state.indentation_depth),
-        contact_box: Some(ContactBox::along(state.contact_line)),
-        ..Answer::new(Method::Analytic, Model::Line, load.require_normal_force()?)
-            .with_friction(friction, SEARCHED * friction)
+        friction_coefficient: Some(within(state.friction_coefficient, SEARCHED)),
+        indentation_depth: Some(within(state.indentation_depth, SEARCHED)),
+        contact_box: Some(along(state.contact_line)),
+        ..Answer::new(Method::Analytic, Model::Line, force)
     })
 }
 
@@ -168,16 +181,20 @@ fn viscoelastic_line(
         }
     };
     let state = at_front(front)?.context("there is no closed form on this material")?;
-    let force = match control {
-        Control::NormalForce(force) => force,
-        Control::IndentationDepth(_) => state.normal_force,
+    let (force, depth) = match control {
+        Control::NormalForce(force) => {
+            let depth = within(state.indentation_depth, SEARCHED);
+            (Estimate::exact(force), depth)
+        }
+        Control::IndentationDepth(depth) => {
+            (within(state.normal_force, SEARCHED), Estimate::exact(depth))
+        }
     };
-    let friction = state.friction_coefficient;
     Ok(Answer {
-        indentation_depth: Some(state.indentation_depth),
-        contact_box: Some(ContactBox::along(state.contact)),
+        friction_coefficient: Some(within(state.friction_coefficient, SEARCHED)),
+        indentation_depth: Some(depth),
+        contact_box: Some(along(state.contact)),
         ..Answer::new(Method::Analytic, Model::Line, force)
-            .with_friction(friction, SEARCHED * friction)
     })
 }
 
@@ -218,12 +235,16 @@ pub(crate) fn pressed(
         }
         _ => None,
     };
+    let (force, depth) = match control {
+        Control::NormalForce(_) => (Estimate::exact(force), within(depth, QUADRATURE)),
+        Control::IndentationDepth(_) => (within(force, QUADRATURE), Estimate::exact(depth)),
+    };
+    let across = [-radius, radius];
     Ok(Answer {
         indentation_depth: Some(depth),
-        indentation_depth_error: Some(QUADRATURE * depth),
-        contact_area: Some(PI * radius * radius),
-        contact_box: Some(ContactBox::around([-radius, radius], [-radius, radius])),
-        peak_pressure,
+        contact_area: Some(within(PI * radius * radius, 2.0 * QUADRATURE)),
+        contact_box: Some(ContactBox::around(across, across, QUADRATURE * radius)),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, QUADRATURE)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }

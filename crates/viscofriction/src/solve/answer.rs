@@ -1,79 +1,64 @@
-//! What a method answers, and how it is printed.
+//! What a method answers: quantities in SI, each with its error.
 
-use super::error::{Result, bail};
 use bem_halfspace::GridOptions;
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::steady::SteadyOptions;
-use serde::Serialize;
+use numerics::{ErrorParts, Estimate};
+use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
+use super::error::{Result, SolveError};
 use super::omission::Omission;
 use crate::scene::{Method, Model};
-use numerics::{ErrorParts, Estimate};
 
-/// One result, all SI; what a method does not know is left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+/// One result in SI; what a method does not know is left out.
+///
+/// As JSON it is flat: every quantity is followed by its absolute error, `friction_coefficient` by
+/// `friction_coefficient_error`; the error of what was given, or is exact, is 0.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
+    /// The method that was asked.
     pub method: Method,
     /// What the elastomer was taken to be.
     pub model: Model,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient: Option<f64>,
-    /// Absolute.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient_error: Option<f64>,
-    pub normal_force: f64,
-    /// Absolute; of a force that is given there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub normal_force_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tangential_force: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub indentation_depth: Option<f64>,
-    /// Absolute.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub indentation_depth_error: Option<f64>,
-    /// Of the friction coefficient; where nothing slides of the depth, or of the force where the depth is given.
-    #[serde(skip_serializing_if = "ErrorParts::is_none")]
+    /// μ = F_h/F_N; none where nothing slides.
+    pub friction_coefficient: Option<Estimate>,
+    /// F_N, \[N], or \[N/m] of a cylinder.
+    pub normal_force: Estimate,
+    /// Depth of the lowest point below the undeformed surface, \[m]; none where it has no end.
+    pub indentation_depth: Option<Estimate>,
+    /// Parts of the error of the friction coefficient; where nothing slides of the depth, or of the force at a given depth.
     pub error_parts: ErrorParts,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_area: Option<f64>,
-    /// Absolute; an area in closed form has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_area_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_pressure: Option<f64>,
-    /// Absolute; a pressure in closed form has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_pressure_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// \[m²], or the width \[m] of a cylinder's contact; none on a line.
+    pub contact_area: Option<Estimate>,
+    /// \[Pa]; none where it grows without limit on finer elements.
+    pub peak_pressure: Option<Estimate>,
+    /// The rectangle around the contact.
     pub contact_box: Option<ContactBox>,
-    /// Absolute, of each edge; edges in closed form have none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub contact_box_error: Option<f64>,
     /// Unknown pressures, elements or polynomials at the same time; none in a closed form.
     pub unknowns: usize,
     /// Iterations or time steps on the finest resolution.
     pub iterations: usize,
     /// Whether forces and areas are per length along y.
-    #[serde(skip)]
     pub is_per_length: bool,
+    /// Sentences about the validity of the answer.
+    pub warnings: Vec<String>,
     /// Parts of the method that the scene did not need.
     pub left_out: Vec<Omission>,
-    #[serde(skip)]
+    /// The finest boundary elements.
     pub grid: Option<Grid>,
-    #[serde(skip)]
+    /// Fields and histories.
     pub fields: Fields,
 }
 
-/// The rectangle around the contact, relative to the lowest point, \[m]; a line has no sides.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The rectangle around the contact, relative to the lowest point, \[m].
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactBox {
-    pub x_min: f64,
-    pub x_max: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub y_min: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub y_max: Option<f64>,
+    /// Rear and front end along the direction of motion.
+    pub x: [f64; 2],
+    /// Ends across it; none on a line.
+    pub y: Option<[f64; 2]>,
+    /// Absolute error of each end.
+    pub error: f64,
 }
 
 /// The finest boundary elements behind an answer.
@@ -90,121 +75,119 @@ pub enum Grid {
     March(GridOptions),
 }
 
-/// What only files hold.
+/// Fields and histories behind an answer; what a method does not have is empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fields {
     /// Pressure on the half space.
     pub pressure: Option<PressureField>,
     /// Position \[m] and load per length \[N/m] along the contact of a line.
     pub line_load: Vec<[f64; 2]>,
-    /// Position \[m] and pressure \[Pa] across a line contact.
+    /// Position \[m] and pressure \[Pa] across the contact of a cylinder.
     pub line_pressure: Vec<[f64; 2]>,
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
 }
 
 /// One step of sliding.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct HistoryRow {
+    /// Since first touch, \[m].
     pub sliding_distance_m: f64,
+    /// Since first touch, \[s].
     pub time_s: f64,
+    /// Depth of the lowest point, \[m].
     pub indentation_depth_m: f64,
+    /// F_h/F_N of the step.
     pub friction_coefficient: f64,
+}
+
+/// Quantities by their names in JSON and CSV, in this order, each with its error.
+const QUANTITIES: [(&str, fn(&Answer) -> Option<Estimate>); 6] = [
+    ("friction_coefficient", |answer| answer.friction_coefficient),
+    ("normal_force", |answer| Some(answer.normal_force)),
+    ("tangential_force", Answer::tangential_force),
+    ("indentation_depth", |answer| answer.indentation_depth),
+    ("contact_area", |answer| answer.contact_area),
+    ("peak_pressure", |answer| answer.peak_pressure),
+];
+
+/// A value that is known to a relative error.
+pub(crate) const fn within(value: f64, relative_error: f64) -> Estimate {
+    Estimate {
+        value,
+        error: relative_error * value.abs(),
+    }
 }
 
 impl Answer {
     /// An answer that knows nothing yet but the force.
-    pub(crate) const fn new(method: Method, model: Model, normal_force: f64) -> Self {
+    pub(crate) fn new(method: Method, model: Model, normal_force: Estimate) -> Self {
         Self {
             method,
             model,
             friction_coefficient: None,
-            friction_coefficient_error: None,
             normal_force,
-            normal_force_error: None,
-            tangential_force: None,
             indentation_depth: None,
-            indentation_depth_error: None,
             error_parts: ErrorParts::NONE,
             contact_area: None,
-            contact_area_error: None,
             peak_pressure: None,
-            peak_pressure_error: None,
             contact_box: None,
-            contact_box_error: None,
             unknowns: 0,
             iterations: 0,
             is_per_length: false,
+            warnings: Vec::new(),
             left_out: Vec::new(),
             grid: None,
-            fields: Fields {
-                pressure: None,
-                line_load: Vec::new(),
-                line_pressure: Vec::new(),
-                history: Vec::new(),
-            },
+            fields: Fields::default(),
         }
     }
 
-    /// With a friction coefficient and its absolute error.
-    pub(crate) fn with_friction(self, friction: f64, error: f64) -> Self {
-        Self {
-            friction_coefficient: Some(friction),
-            friction_coefficient_error: Some(error),
-            tangential_force: Some(friction * self.normal_force),
-            ..self
-        }
-    }
-
-    /// With what the error bar consists of.
-    pub(crate) fn with_parts(self, parts: ErrorParts) -> Self {
-        Self {
-            error_parts: parts,
-            ..self
-        }
-    }
-
-    /// With the area of the contact, and the largest pressure where it has a limit.
-    pub(crate) fn with_contact(self, area: Estimate, peak: Option<Estimate>) -> Self {
-        Self {
-            contact_area: Some(area.value),
-            contact_area_error: Some(area.error),
-            peak_pressure: peak.map(|peak| peak.value),
-            peak_pressure_error: peak.map(|peak| peak.error),
-            ..self
-        }
-    }
-
-    /// The quantities by their names in JSON and CSV.
+    /// F_h = μ F_N, \[N] or \[N/m]; none where nothing slides.
     #[must_use]
-    pub fn numbers(&self) -> [(&'static str, Option<f64>); 20] {
-        let edges = self.contact_box;
-        let parts = self.error_parts;
-        [
-            ("friction_coefficient", self.friction_coefficient),
-            (
-                "friction_coefficient_error",
-                self.friction_coefficient_error,
-            ),
-            ("normal_force", Some(self.normal_force)),
-            ("normal_force_error", self.normal_force_error),
-            ("tangential_force", self.tangential_force),
-            ("indentation_depth", self.indentation_depth),
-            ("indentation_depth_error", self.indentation_depth_error),
-            ("error_discretisation", parts.discretisation),
-            ("error_iteration", parts.iteration),
-            ("error_time_stepping", parts.time_stepping),
-            ("error_truncation", parts.truncation),
-            ("contact_area", self.contact_area),
-            ("contact_area_error", self.contact_area_error),
-            ("peak_pressure", self.peak_pressure),
-            ("peak_pressure_error", self.peak_pressure_error),
-            ("x_min", edges.map(|edges| edges.x_min)),
-            ("x_max", edges.map(|edges| edges.x_max)),
-            ("y_min", edges.and_then(|edges| edges.y_min)),
-            ("y_max", edges.and_then(|edges| edges.y_max)),
-            ("contact_box_error", self.contact_box_error),
-        ]
+    pub fn tangential_force(&self) -> Option<Estimate> {
+        let (friction, force) = (self.friction_coefficient?, self.normal_force);
+        Some(Estimate {
+            value: friction.value * force.value,
+            error: friction.error * force.value + friction.value.abs() * force.error,
+        })
+    }
+
+    /// The friction coefficient, or where nothing slides the depth, or the force at a given depth: what the relative
+    /// error is asked of.
+    #[must_use]
+    pub fn asked(&self) -> Estimate {
+        let depth = self
+            .indentation_depth
+            .filter(|_| self.normal_force.error == 0.0);
+        self.friction_coefficient
+            .or(depth)
+            .unwrap_or(self.normal_force)
+    }
+
+    /// All numbers by their names in CSV; those that are not known stay empty.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<(String, Option<f64>)> {
+        let mut numbers = Vec::new();
+        for (name, quantity) in QUANTITIES {
+            let known = quantity(self);
+            numbers.push((name.to_owned(), known.map(|known| known.value)));
+            numbers.push((format!("{name}_error"), known.map(|known| known.error)));
+        }
+        let parts = self.error_parts.named();
+        numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
+        let contact = self.contact_box.as_ref();
+        let edges = contact.map_or([None; 4], ContactBox::edges);
+        let names = EDGES.map(str::to_owned);
+        numbers.extend(names.into_iter().zip(edges));
+        let error = contact.map(|contact| contact.error);
+        numbers.push(("contact_box_error".to_owned(), error));
+        numbers
+    }
+
+    /// The names of all [`numbers`](Self::numbers).
+    pub(crate) fn columns() -> Vec<String> {
+        let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
+        empty.numbers().into_iter().map(|(name, _)| name).collect()
     }
 
     /// Refuses a quantity that overflows although what it follows from does not, such as an area from a length.
@@ -213,28 +196,70 @@ impl Answer {
         let mut known = numbers.filter_map(|(name, value)| Some((name, value?)));
         match known.find(|(_, value)| !value.is_finite()) {
             None => Ok(self),
-            Some((name, value)) => bail!("{name} is {value} in units of SI: no number is as large"),
+            Some((quantity, value)) => Err(SolveError::Overflow { quantity, value }),
         }
     }
 }
 
+/// The edges of the contact by their names.
+const EDGES: [&str; 4] = ["x_min", "x_max", "y_min", "y_max"];
+
 impl ContactBox {
-    /// Of a line.
-    pub(crate) const fn along([x_min, x_max]: [f64; 2]) -> Self {
+    /// On a line.
+    pub(crate) const fn along(x: [f64; 2], error: f64) -> Self {
+        Self { x, y: None, error }
+    }
+
+    /// On a surface.
+    pub(crate) const fn around(x: [f64; 2], y: [f64; 2], error: f64) -> Self {
         Self {
-            x_min,
-            x_max,
-            y_min: None,
-            y_max: None,
+            x,
+            y: Some(y),
+            error,
         }
     }
 
-    /// Of an area.
-    pub(crate) const fn around(x: [f64; 2], [y_min, y_max]: [f64; 2]) -> Self {
-        Self {
-            y_min: Some(y_min),
-            y_max: Some(y_max),
-            ..Self::along(x)
+    fn edges(&self) -> [Option<f64>; 4] {
+        let [rear, front] = self.x.map(Some);
+        let [right, left] = self.y.map_or([None; 2], |y| y.map(Some));
+        [rear, front, right, left]
+    }
+}
+
+impl Serialize for ContactBox {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (name, edge) in EDGES.into_iter().zip(self.edges()) {
+            if let Some(edge) = edge {
+                map.serialize_entry(name, &edge)?;
+            }
         }
+        map.end()
+    }
+}
+
+impl Serialize for Answer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("method", &self.method)?;
+        map.serialize_entry("model", &self.model)?;
+        for (name, quantity) in QUANTITIES {
+            if let Some(Estimate { value, error }) = quantity(self) {
+                map.serialize_entry(name, &value)?;
+                map.serialize_entry(&format!("{name}_error"), &error)?;
+            }
+        }
+        if let Some(contact) = &self.contact_box {
+            map.serialize_entry("contact_box", contact)?;
+            map.serialize_entry("contact_box_error", &contact.error)?;
+        }
+        if !self.error_parts.is_none() {
+            map.serialize_entry("error_parts", &self.error_parts)?;
+        }
+        map.serialize_entry("unknowns", &self.unknowns)?;
+        map.serialize_entry("iterations", &self.iterations)?;
+        map.serialize_entry("warnings", &self.warnings)?;
+        map.serialize_entry("left_out", &self.left_out)?;
+        map.end()
     }
 }

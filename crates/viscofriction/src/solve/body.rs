@@ -31,6 +31,8 @@ pub enum Revolution {
     Power(PowerProfile),
     /// A sum of powers.
     Sum(Superposition),
+    /// The exact sphere.
+    Sphere(Sphere),
     /// Any other.
     Other(Box<dyn Axisymmetric>),
 }
@@ -40,6 +42,7 @@ impl std::fmt::Debug for Revolution {
         match self {
             Self::Power(profile) => profile.fmt(formatter),
             Self::Sum(profile) => profile.fmt(formatter),
+            Self::Sphere(sphere) => sphere.fmt(formatter),
             Self::Other(_) => formatter.write_str("Other"),
         }
     }
@@ -50,6 +53,7 @@ impl Revolution {
         match self {
             Self::Power(profile) => profile,
             Self::Sum(profile) => profile,
+            Self::Sphere(sphere) => sphere,
             Self::Other(shape) => &**shape,
         }
     }
@@ -103,7 +107,10 @@ pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result
         Indenter::Cone(table) => power(key, PowerProfile::cone(table.slope)),
         Indenter::Paraboloid(table) => power(key, PowerProfile::paraboloid(table.curvature)),
         Indenter::Superposition(table) => sum(&table.terms),
-        Indenter::Sphere(table) => other(key, Sphere::new(table.radius)),
+        Indenter::Sphere(table) => {
+            let sphere = Sphere::new(table.radius).map_err(|error| refused(key, error))?;
+            Ok(Body::Revolution(Revolution::Sphere(sphere)))
+        }
         Indenter::FlatPunch(table) => other(key, FlatPunch::new(table.radius)),
         Indenter::FlatCone(table) => other(key, FlatCone::new(table.radius, table.slope)),
         Indenter::RoundTippedCone(table) => {

@@ -19,27 +19,26 @@ pub(crate) fn stationary(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = steady(surface, material, load, accuracy)?;
-    let SteadyEstimate {
-        friction_coefficient: friction,
-        finest,
-        ..
-    } = estimate;
+    let finest = estimate.finest;
     let mut answer = Answer {
-        indentation_depth: estimate.indentation_depth.map(|depth| depth.value),
-        indentation_depth_error: error_of_depth(load.control(), estimate.indentation_depth),
-        contact_box: Some(ContactBox::around(finest.contact_x, finest.contact_y)),
-        contact_box_error: Some(estimate.contact_box_error),
+        friction_coefficient: Some(estimate.friction_coefficient),
+        indentation_depth: estimate.indentation_depth,
+        error_parts: estimate.error_parts,
+        contact_area: Some(estimate.contact_area),
+        peak_pressure: estimate.peak_pressure,
+        contact_box: Some(ContactBox::around(
+            finest.contact_x,
+            finest.contact_y,
+            estimate.contact_box_error,
+        )),
         unknowns: finest.unknowns,
         iterations: finest.iterations,
         grid: Some(Grid::Stationary {
             options: estimate.options,
             factorised: finest.is_factorised(),
         }),
-        ..with_force(Method::BemSteady, load.control(), estimate.normal_force)
-    }
-    .with_friction(friction.value, friction.error)
-    .with_parts(estimate.error_parts)
-    .with_contact(estimate.contact_area, estimate.peak_pressure);
+        ..Answer::new(Method::BemSteady, Model::HalfSpace, estimate.normal_force)
+    };
     answer.fields.pressure = Some(finest.pressure);
     Ok(answer)
 }
@@ -52,23 +51,19 @@ pub(crate) fn line_contact(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = steady_line(cylinder, material, load, accuracy)?;
-    let LineEstimate {
-        friction_coefficient: friction,
-        finest,
-        ..
-    } = estimate;
+    let finest = estimate.finest;
     let force = load.require_normal_force()?;
     let mut answer = Answer {
         is_per_length: true,
-        contact_box: Some(ContactBox::along(finest.contact)),
-        contact_box_error: Some(estimate.contact_error),
+        friction_coefficient: Some(estimate.friction_coefficient),
+        error_parts: estimate.error_parts,
+        contact_area: Some(estimate.contact_width),
+        peak_pressure: estimate.peak_pressure,
+        contact_box: Some(ContactBox::along(finest.contact, estimate.contact_error)),
         unknowns: finest.unknowns,
         iterations: finest.iterations,
-        ..Answer::new(Method::BemSteady, Model::HalfSpace, force)
-    }
-    .with_friction(friction.value, friction.error)
-    .with_parts(estimate.error_parts)
-    .with_contact(estimate.contact_width, estimate.peak_pressure);
+        ..Answer::new(Method::BemSteady, Model::HalfSpace, Estimate::exact(force))
+    };
     answer.fields.line_pressure = finest.pressure;
     Ok(answer)
 }
@@ -81,25 +76,28 @@ pub(crate) fn transient(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = slide(surface, material, load, accuracy)?;
-    let SlideEstimate {
-        friction_coefficient: friction,
-        finest,
-        ..
-    } = estimate;
+    let finest = estimate.finest;
     let last = finest.last();
     let mut answer = Answer {
-        indentation_depth: estimate.indentation_depth.map(|depth| depth.value),
-        indentation_depth_error: error_of_depth(load.control(), estimate.indentation_depth),
-        contact_box: Some(ContactBox::around(last.contact_x, last.contact_y)),
-        contact_box_error: Some(estimate.contact_box_error),
+        friction_coefficient: Some(estimate.friction_coefficient),
+        indentation_depth: estimate.indentation_depth,
+        error_parts: estimate.error_parts,
+        contact_area: Some(estimate.contact_area),
+        peak_pressure: estimate.peak_pressure,
+        contact_box: Some(ContactBox::around(
+            last.contact_x,
+            last.contact_y,
+            estimate.contact_box_error,
+        )),
         unknowns: last.n_contact,
         iterations: finest.rows.len(),
         grid: Some(Grid::March(estimate.options)),
-        ..with_force(Method::BemTransient, load.control(), estimate.normal_force)
-    }
-    .with_friction(friction.value, friction.error)
-    .with_parts(estimate.error_parts)
-    .with_contact(estimate.contact_area, estimate.peak_pressure);
+        ..Answer::new(
+            Method::BemTransient,
+            Model::HalfSpace,
+            estimate.normal_force,
+        )
+    };
     answer.fields.history = finest.rows.iter().map(history_row).collect();
     answer.fields.pressure = Some(finest.pressure);
     Ok(answer)
@@ -113,7 +111,7 @@ pub(crate) fn pressed(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let PressEstimate {
-        indentation_depth: depth,
+        indentation_depth,
         normal_force,
         error_parts,
         contact_area,
@@ -123,36 +121,22 @@ pub(crate) fn pressed(
         options,
     } = indent::indent(surface, material, load, accuracy)?;
     let mut answer = Answer {
-        indentation_depth: Some(depth.value),
-        indentation_depth_error: error_of_depth(load.control(), Some(depth)),
-        contact_box: Some(ContactBox::around(finest.contact_x, finest.contact_y)),
-        contact_box_error: Some(contact_box_error),
+        indentation_depth: Some(indentation_depth),
+        error_parts,
+        contact_area: Some(contact_area),
+        peak_pressure,
+        contact_box: Some(ContactBox::around(
+            finest.contact_x,
+            finest.contact_y,
+            contact_box_error,
+        )),
         unknowns: finest.n_contact,
         iterations: 1,
         grid: Some(Grid::March(options)),
-        ..with_force(Method::BemTransient, load.control(), normal_force)
-    }
-    .with_parts(error_parts)
-    .with_contact(contact_area, peak_pressure);
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force)
+    };
     answer.fields.pressure = finest.pressure;
     Ok(answer)
-}
-
-/// A force that is given has no error.
-fn with_force(method: Method, control: Control, force: Estimate) -> Answer {
-    let error = matches!(control, Control::IndentationDepth(_)).then_some(force.error);
-    Answer {
-        normal_force_error: error,
-        ..Answer::new(method, Model::HalfSpace, force.value)
-    }
-}
-
-/// A depth that is given has no error.
-fn error_of_depth(control: Control, depth: Option<Estimate>) -> Option<f64> {
-    match control {
-        Control::NormalForce(_) => depth.map(|depth| depth.error),
-        Control::IndentationDepth(_) => None,
-    }
 }
 
 fn history_row(row: &SlideRow) -> HistoryRow {

@@ -31,6 +31,14 @@ pub enum SolveError {
     /// The error asked for was not reached on the finest resolution.
     #[error(transparent)]
     TooCoarse(#[from] numerics::NotReached),
+    /// A quantity that no number can hold.
+    #[error("{quantity} is {value} in units of SI: no number is as large")]
+    Overflow {
+        /// Its name.
+        quantity: String,
+        /// Infinite, or not a number.
+        value: f64,
+    },
     /// What was asked for was not reached; the sentence says what was.
     #[error("{0}")]
     NotReached(String),

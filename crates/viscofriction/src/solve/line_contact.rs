@@ -2,9 +2,11 @@
 
 use friction_analytic::cylinder_half_width_after_impulse;
 use indenters::Cylinder;
+use numerics::Estimate;
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox};
+use super::answer::{Answer, ContactBox, within};
+
 use super::error::{Result, bail};
 use super::half_space::{Simple, simple};
 use super::problem::{Motion, Problem};
@@ -23,6 +25,9 @@ pub(crate) fn answer(problem: &Problem, cylinder: &Cylinder, accuracy: Accuracy)
     }
 }
 
+/// Relative rounding of the closed form.
+const ROUNDING: f64 = 1e-14;
+
 /// Under a constant force, in closed form.
 fn pressed(
     cylinder: &Cylinder,
@@ -38,9 +43,12 @@ fn pressed(
     };
     Ok(Answer {
         is_per_length: true,
-        contact_area: Some(2.0 * half_width),
-        contact_box: Some(ContactBox::along([-half_width, half_width])),
-        peak_pressure,
-        ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+        contact_area: Some(within(2.0 * half_width, ROUNDING)),
+        contact_box: Some(ContactBox::along(
+            [-half_width, half_width],
+            ROUNDING * half_width,
+        )),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, ROUNDING)),
+        ..Answer::new(Method::Analytic, Model::HalfSpace, Estimate::exact(force))
     })
 }

@@ -7,12 +7,12 @@ use mdr_core::{
 };
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox, HistoryRow};
+use super::answer::{Answer, HistoryRow, within};
 use super::body::Revolution;
 use super::memory::ahead;
 use super::order_of_apex;
 use crate::scene::{Accuracy, Control, Method, Model};
-use numerics::{ErrorParts, Goal, Quantity, refine};
+use numerics::{ErrorParts, Estimate, Goal, Quantity, refine};
 
 /// Elements along the contact after which a march in time gives up.
 const LARGEST_CHAIN: usize = 4096;
@@ -47,14 +47,25 @@ pub(crate) fn stationary(
     }?;
     let error =
         state.friction_coefficient_error + STEADY_ROUNDING * state.friction_coefficient.abs();
-    let ends = state.contacts.first().zip(state.contacts.last());
+    let (force, depth) = match control {
+        Control::NormalForce(force) => {
+            let depth = within(state.indentation_depth, relative_error);
+            (Estimate::exact(force), depth)
+        }
+        Control::IndentationDepth(depth) => (
+            within(state.normal_force, relative_error),
+            Estimate::exact(depth),
+        ),
+    };
     Ok(Answer {
-        indentation_depth: Some(state.indentation_depth),
-        contact_box: ends.map(|(first, last)| ContactBox::along([first[0], last[1]])),
+        friction_coefficient: Some(Estimate {
+            value: state.friction_coefficient,
+            error,
+        }),
+        indentation_depth: Some(depth),
+        error_parts: ErrorParts::of_elements(state.friction_coefficient_error),
         unknowns: state.n_pieces,
-        ..Answer::new(Method::MdrSteady, Model::Line, state.normal_force)
-            .with_friction(state.friction_coefficient, error)
-            .with_parts(ErrorParts::of_elements(state.friction_coefficient_error))
+        ..Answer::new(Method::MdrSteady, Model::Line, force)
     })
 }
 
@@ -97,18 +108,16 @@ pub(crate) fn transient(
     let resolved = refine(&goal, solve, |rows| [ride.friction(rows)], others)?;
     let (rows, [error], [parts]) = (resolved.value, resolved.error, resolved.parts);
     let last = last(&rows)?;
+    let force = Estimate::exact(load.require_normal_force()?);
     let mut answer = Answer {
-        indentation_depth: Some(last.indentation_depth),
-        contact_box: Some(ContactBox::along(last.contact)),
+        friction_coefficient: Some(Estimate {
+            value: ride.friction(&rows).value,
+            error,
+        }),
+        error_parts: parts,
         unknowns: last.n_contact,
         iterations: rows.len(),
-        ..Answer::new(
-            Method::MdrTransient,
-            Model::Line,
-            load.require_normal_force()?,
-        )
-        .with_friction(ride.friction(&rows).value, error)
-        .with_parts(parts)
+        ..Answer::new(Method::MdrTransient, Model::Line, force)
     };
     answer.fields.history = rows.iter().map(history).collect();
     Ok(answer)

@@ -14,6 +14,7 @@ mod omission;
 mod pressing;
 mod problem;
 mod same_problem;
+mod validity;
 
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
@@ -29,6 +30,7 @@ use self::error::bail;
 use indenters::{PressingLoad, SlidingLoad, Surface};
 
 use self::omission::plan;
+use self::validity::warnings;
 use crate::scene::{Accuracy, Control, Method};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -61,6 +63,7 @@ pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result
     let answer = Answer {
         model,
         left_out,
+        warnings: warnings(&problem.body, &answer),
         ..answer
     };
     answer.finite()

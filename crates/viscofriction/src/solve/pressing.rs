@@ -14,10 +14,10 @@ use friction_analytic::indentation_after_impulse;
 use indenters::{Axisymmetric, EquivalentLine};
 use rheology::{Material, RheologyError, Viscous};
 
-use super::answer::{Answer, ContactBox};
+use super::answer::Answer;
 use super::body::Revolution;
 use crate::scene::{Accuracy, Control, Method, Model};
-use numerics::{Goal, Quantity, Refined, no_other_error, refine};
+use numerics::{Estimate, Goal, Quantity, Refined, no_other_error, refine};
 
 /// The dashpot on which an impulse does what the material does with F J(t).
 pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
@@ -73,12 +73,14 @@ pub(crate) fn chain(
         elements,
     } = refine(&goal, solve, depth, no_other_error)?;
     Ok(Answer {
-        indentation_depth: Some(row.indentation_depth),
-        indentation_depth_error: Some(error),
-        contact_box: row.contact.map(ContactBox::along),
+        indentation_depth: Some(Estimate {
+            value: row.indentation_depth,
+            error,
+        }),
+        error_parts: parts,
         unknowns: row.n_contact,
         iterations: elements,
-        ..Answer::new(Method::MdrTransient, Model::Line, force).with_parts(parts)
+        ..Answer::new(Method::MdrTransient, Model::Line, Estimate::exact(force))
     })
 }
 
@@ -166,7 +168,8 @@ mod tests {
                 let got = chain(&body, &material, (force, 1.0), accuracy).expect("a depth");
                 let [value, expected] =
                     [&got, &exact].map(|answer| answer.indentation_depth.expect("a depth"));
-                let bar = got.indentation_depth_error.expect("a bar");
+                let (bar, value, expected) = (value.error, value.value, expected.value);
+
                 assert!(
                     (value - expected).abs() <= bar && bar < 0.2 * expected,
                     "{force} N, {elements} elements: {value} ± {bar} instead of {expected}"

@@ -5,32 +5,6 @@ use crate::solve::{Answer, Result};
 
 /// The columns before and after the keys that vary.
 const BEFORE: [&str; 3] = ["sweep", "point", "points"];
-const AFTER: [&str; 24] = [
-    "method",
-    "model",
-    "friction_coefficient",
-    "friction_coefficient_error",
-    "normal_force",
-    "normal_force_error",
-    "tangential_force",
-    "indentation_depth",
-    "indentation_depth_error",
-    "error_discretisation",
-    "error_iteration",
-    "error_time_stepping",
-    "error_truncation",
-    "contact_area",
-    "contact_area_error",
-    "peak_pressure",
-    "peak_pressure_error",
-    "x_min",
-    "x_max",
-    "y_min",
-    "y_max",
-    "contact_box_error",
-    "unknowns",
-    "failure",
-];
 
 /// The fields of a row; times are not among them, because they differ from run to run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,7 +23,7 @@ impl Row {
         match answer {
             Ok(answer) => fields.extend(results(&answer)),
             Err(error) => {
-                fields.extend(vec![String::new(); AFTER.len() - 1]);
+                fields.extend(vec![String::new(); Answer::columns().len() + 3]);
                 // A row is a line.
                 fields.push(error.to_string().replace(['\n', '\r'], " "));
             }
@@ -69,8 +43,11 @@ impl Row {
 /// The names of the columns.
 #[must_use]
 pub fn header(plan: &Plan) -> Vec<String> {
-    let names = BEFORE.into_iter().chain(plan.keys()).chain(AFTER);
-    names.map(str::to_owned).collect()
+    let before = BEFORE.into_iter().chain(plan.keys()).map(str::to_owned);
+    let names = ["method", "model"].map(str::to_owned);
+    let after = ["unknowns", "failure"].map(str::to_owned);
+    let columns = Answer::columns();
+    before.chain(names).chain(columns).chain(after).collect()
 }
 
 /// What tells a row from every other: sweep, point counted from 1, number of points, values.
@@ -93,7 +70,7 @@ fn results(answer: &Answer) -> Vec<String> {
         answer.method.name().to_owned(),
         answer.model.name().to_owned(),
     ];
-    fields.extend(answer.numbers().map(|(_, value)| number(value)));
+    fields.extend(answer.numbers().into_iter().map(|(_, value)| number(value)));
     fields.push(answer.unknowns.to_string());
     fields.push(String::new());
     fields

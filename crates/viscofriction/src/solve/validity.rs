@@ -1,0 +1,54 @@
+//! Where the linear theory of the contact ends.
+
+use indenters::{Axisymmetric as _, Surface as _};
+
+use super::answer::Answer;
+use super::body::{Body, Revolution};
+
+/// Mean slope of the surface in contact above which linear theory is no longer accurate.
+const STEEPEST: f64 = 0.5;
+/// Depth over the radius of a sphere, likewise.
+const DEEPEST: f64 = 1.0 / 3.0;
+
+/// Sentences about the validity of an answer, none where linear theory holds.
+pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > STEEPEST) {
+        warnings.push(format!(
+            "the mean slope of the surface in contact is {slope:.2}, and linear theory needs a small one: above {STEEPEST} \
+             its answers are rough"
+        ));
+    }
+    let depth = answer.indentation_depth.map_or(0.0, |depth| depth.value);
+    if let Body::Revolution(Revolution::Sphere(sphere)) = body
+        && depth > DEEPEST * sphere.radius()
+    {
+        warnings.push(format!(
+            "the indentation depth {depth:.3e} m is more than a third of the radius {:.3e} m of the sphere, where linear \
+             theory ends",
+            sphere.radius()
+        ));
+    }
+    warnings
+}
+
+/// From the lowest point to the farthest edge of the contact; where no edge is known the friction, which is a mean of the
+/// slope.
+fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
+    let Some(contact) = &answer.contact_box else {
+        return answer.friction_coefficient.map(|friction| friction.value);
+    };
+    let radius = contact.x[0].abs().max(contact.x[1].abs());
+    let height = match body {
+        Body::Revolution(body) => body.profile_height(radius),
+        Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),
+        Body::HeightMap(map) => {
+            let heights = contact.x.map(|x| map.height([x, 0.0]));
+            heights
+                .into_iter()
+                .filter(|height| height.is_finite())
+                .fold(0.0, f64::max)
+        }
+    };
+    (height.is_finite() && radius > 0.0).then(|| height / radius)
+}
