@@ -1,5 +1,7 @@
-//! What the commands read, checked without computing anything.
+//! What the commands read: files and the standard input, none of them without end.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use viscofriction::WrongInput;
@@ -7,8 +9,46 @@ use viscofriction::scene::{Source, height_map, profile};
 use viscofriction::solve::problem_of;
 
 use crate::material::check_table;
-use crate::output::read_input;
 use crate::sweep::check_rows;
+
+/// Larger files are no input of this program, \[bytes].
+const LARGEST_FILE: u64 = 1 << 30;
+/// A scene is written by a person, and names the files that are large.
+const LARGEST_SCENE: u64 = 1 << 24;
+
+/// Reads a whole file that the command line or a scene names.
+pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
+    let wrong =
+        |problem: &dyn std::fmt::Display| WrongInput(format!("{}: {problem}", path.display()));
+    let file = path.metadata().map_err(|error| wrong(&error))?;
+    if !file.is_file() {
+        let needed = "a regular file is needed, and not a folder, a device or a pipe";
+        return Err(wrong(&needed));
+    }
+    let file = File::open(path).map_err(|error| wrong(&error))?;
+    read_at_most(LARGEST_FILE, file).map_err(|problem| wrong(&problem))
+}
+
+/// The scene in a file, or on the standard input.
+pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
+    let contents = if path == Path::new("-") {
+        read_at_most(LARGEST_SCENE, std::io::stdin())
+            .map_err(|problem| WrongInput(format!("-: {problem}")))?
+    } else {
+        read_input(path)?
+    };
+    Source::new(path, contents)
+}
+
+fn read_at_most(most: u64, file: impl Read) -> Result<Vec<u8>, String> {
+    let mut contents = Vec::new();
+    let read = file.take(most + 1).read_to_end(&mut contents);
+    read.map_err(|error| error.to_string())?;
+    if contents.len() as u64 > most {
+        return Err(format!("there are more than {most} bytes"));
+    }
+    Ok(contents)
+}
 
 /// A kind of file that the commands read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,11 +2,6 @@
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "this crate talks to a person at a terminal"
-)]
 
 mod input;
 mod material;
@@ -18,14 +13,19 @@ mod sweep;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
+use clap_complete::Shell;
 pub use viscofriction::WrongInput;
 
 pub use input::{InputKind, check_input};
 
 /// Friction of rigid bodies that slide over rubber and other viscoelastic materials.
 #[derive(Debug, Parser)]
-#[command(name = "viscofriction", version)]
+#[command(
+    name = "viscofriction",
+    version,
+    after_help = "Example: viscofriction run scene.toml --out result"
+)]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -40,7 +40,16 @@ enum Command {
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),
     /// Print the JSON Schema of scene files.
+    #[command(after_help = "Example: viscofriction scene-schema > scene.schema.json")]
     SceneSchema,
+    /// Print what completes the commands and options of this program in a shell.
+    #[command(
+        after_help = "Example: viscofriction completions bash > ~/.local/share/bash-completion/completions/viscofriction"
+    )]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
 }
 
 /// Does what the command line asks for.
@@ -51,17 +60,29 @@ pub fn execute() -> ExitCode {
         Command::Sweep(options) => sweep::sweep(&options),
         Command::FitMaterial(options) => material::fit(&options),
         Command::SceneSchema => scene_schema(),
+        Command::Completions { shell } => completions(shell),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error:#}");
+        Err(error) if !output::is_closed_pipe(&error) => {
+            output::say(&format!("error: {error:#}"));
             let wrong_input = error.downcast_ref::<WrongInput>().is_some();
             ExitCode::from(if wrong_input { 2 } else { 1 })
         }
+        _ => ExitCode::SUCCESS,
     }
 }
 
 fn scene_schema() -> anyhow::Result<()> {
     output::print_text(&viscofriction::scene::json_schema()?)
+}
+
+fn completions(shell: Shell) -> anyhow::Result<()> {
+    let mut script = Vec::new();
+    clap_complete::generate(
+        shell,
+        &mut CommandLine::command(),
+        "viscofriction",
+        &mut script,
+    );
+    output::print_text(&String::from_utf8(script)?)
 }

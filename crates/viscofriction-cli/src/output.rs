@@ -1,7 +1,7 @@
-//! What the program reads, prints and writes; nothing that a person has is replaced unless they say so.
+//! What the program prints and writes; nothing that a person has is replaced unless they say so.
 
-use std::fs;
-use std::io::{ErrorKind, Read as _, Write as _};
+use std::fs::{self, File, TryLockError};
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
@@ -9,69 +9,58 @@ use serde::Serialize;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
-/// Larger files are no input of this program, \[bytes].
-const LARGEST_INPUT: u64 = 1 << 30;
-
-/// Reads a whole file that the command line or a scene names.
-pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
-    let wrong =
-        |problem: &dyn std::fmt::Display| WrongInput(format!("{}: {problem}", path.display()));
-    let file = fs::metadata(path).map_err(|error| wrong(&error))?;
-    if !file.is_file() {
-        return Err(wrong(
-            &"a regular file is needed, and not a folder, a device or a pipe",
-        ));
-    }
-    if file.len() > LARGEST_INPUT {
-        return Err(wrong(&format!(
-            "the file has {} bytes, and at most {LARGEST_INPUT} are read",
-            file.len()
-        )));
-    }
-    fs::read(path).map_err(|error| wrong(&error))
-}
-
-/// Reads the standard input to its end.
-pub(crate) fn read_standard_input() -> Result<Vec<u8>, WrongInput> {
-    let mut contents = Vec::new();
-    let read = std::io::stdin()
-        .take(LARGEST_INPUT)
-        .read_to_end(&mut contents);
-    read.map_err(|error| WrongInput(format!("-: {error}")))?;
-    Ok(contents)
-}
-
-/// Prints a line; a reader that has seen enough is no error.
+/// Prints a line.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }
 
-/// Prints a text; a reader that has seen enough is no error.
+/// Prints a text; a pipe that is closed is an error, by which the program ends quietly.
 pub(crate) fn print_text(text: &str) -> Result<()> {
     let mut output = std::io::stdout();
-    match output
-        .write_all(text.as_bytes())
-        .and_then(|()| output.flush())
-    {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error).context("printing"),
-        _ => Ok(()),
-    }
+    output.write_all(text.as_bytes())?;
+    Ok(output.flush()?)
 }
 
-/// CSV with a header line; numbers read back to the same f64.
-pub(crate) fn to_csv<R: Serialize>(rows: &[R]) -> Result<String> {
+/// Whether somebody who reads the output has seen enough.
+pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
+    let cause = error.chain().find_map(|cause| cause.downcast_ref());
+    cause.is_some_and(|cause: &std::io::Error| cause.kind() == ErrorKind::BrokenPipe)
+}
+
+/// Says a line beside the output; where nobody reads it, nothing is lost.
+pub(crate) fn say(text: &str) {
+    writeln!(std::io::stderr(), "{text}").ok();
+}
+
+/// CSV with a line of names, which rows with fields have already; numbers read back to the same f64.
+pub(crate) fn to_csv(
+    names: &[&str],
+    rows: impl IntoIterator<Item = impl Serialize>,
+) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
+    if !names.is_empty() {
+        writer.write_record(names)?;
+    }
     for row in rows {
         writer.serialize(row)?;
     }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+    Ok(writer.into_inner()?)
+}
+
+/// A picture as SVG and as PNG.
+pub(crate) fn picture(figure: &Figure) -> Result<(String, Vec<u8>)> {
+    let drawing = draw(figure)?;
+    let png = render_png(&drawing, PNG_WIDTH)?;
+    Ok((drawing.svg, png))
 }
 
 /// A file that is whole or not there.
 #[derive(Debug, Clone)]
 pub(crate) struct OutputFile {
     path: PathBuf,
-    replaces: bool,
+    overwrite: bool,
+    /// Of the file that is replaced.
+    permissions: Option<fs::Permissions>,
 }
 
 impl OutputFile {
@@ -80,21 +69,23 @@ impl OutputFile {
     /// # Errors
     /// [`WrongInput`] for a device, a pipe, a socket or a folder, and for a file that is there unless it may be replaced.
     pub(crate) fn new(path: &Path, overwrite: bool) -> Result<Self, WrongInput> {
-        let path = followed(path);
-        match fs::metadata(&path) {
-            Ok(file) if !file.is_file() => Err(WrongInput(format!(
-                "--out {}: only a regular file is written, and this is none",
-                path.display()
-            ))),
-            Ok(_) if !overwrite => Err(WrongInput(format!(
-                "--out {}: the file is there already; --overwrite replaces it",
-                path.display()
-            ))),
-            found => Ok(Self {
-                path,
-                replaces: found.is_ok(),
-            }),
-        }
+        let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
+        let permissions = match fs::metadata(path) {
+            Ok(file) if !file.is_file() => {
+                return Err(wrong("only a regular file is written, and this is none"));
+            }
+            Ok(_) if !overwrite => {
+                return Err(wrong("the file is there already; --overwrite replaces it"));
+            }
+            Ok(file) => Some(file.permissions()),
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(error) => return Err(wrong(&error.to_string())),
+        };
+        Ok(Self {
+            path: followed(path),
+            overwrite,
+            permissions,
+        })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -104,48 +95,71 @@ impl OutputFile {
     /// Writes the file under another name and then gives it its own, so that an interruption leaves the old one or the
     /// new one. A file that is replaced keeps its permissions.
     pub(crate) fn write(&self, contents: &[u8]) -> Result<()> {
-        let say = || format!("writing {}", self.path.display());
-        let folder = match self.path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        fs::create_dir_all(folder).with_context(say)?;
-        let mut part = tempfile::Builder::new()
-            .prefix(".viscofriction-")
-            .suffix(".part")
-            .permissions(self.permissions()?)
-            .tempfile_in(folder)
-            .with_context(say)?;
-        part.write_all(contents).with_context(say)?;
-        if self.replaces {
-            part.persist(&self.path).map(|_| ()).with_context(say)
+        self.try_write(contents)
+            .with_context(|| format!("writing {}", self.path.display()))
+    }
+
+    fn try_write(&self, contents: &[u8]) -> Result<()> {
+        let folder = folder_of(&self.path);
+        fs::create_dir_all(folder)?;
+        let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
+        part.write_all(contents)?;
+        if let Some(permissions) = &self.permissions {
+            part.as_file().set_permissions(permissions.clone())?;
+        }
+        if self.overwrite {
+            part.persist(&self.path)?;
         } else {
-            part.persist_noclobber(&self.path)
-                .map(|_| ())
-                .with_context(say)
+            // Somebody else may have written it meanwhile.
+            part.persist_noclobber(&self.path)?;
         }
-    }
-
-    fn permissions(&self) -> Result<fs::Permissions> {
-        match fs::metadata(&self.path) {
-            Ok(file) => Ok(file.permissions()),
-            Err(_) => new_file_permissions(),
-        }
+        Ok(())
     }
 }
 
-/// Those of any new file; what the umask forbids is taken away by the system.
-#[cfg(unix)]
-#[expect(clippy::unnecessary_wraps, reason = "elsewhere they must be asked for")]
-fn new_file_permissions() -> Result<fs::Permissions> {
-    use std::os::unix::fs::PermissionsExt as _;
-    Ok(fs::Permissions::from_mode(0o666))
+/// The folder that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
 }
 
-/// Those of any new file.
-#[cfg(not(unix))]
-fn new_file_permissions() -> Result<fs::Permissions> {
-    Ok(tempfile::tempfile()?.metadata()?.permissions())
+/// The name of a file in its folder.
+pub(crate) fn name_of(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}
+
+/// What the name of an unfinished file begins with.
+fn part_start(name: &str) -> String {
+    format!(".{name}.viscofriction-")
+}
+
+const PART_END: &str = ".part";
+
+/// A file that is removed unless it is finished, with the permissions of any new file.
+fn new_part(start: &str, folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(start).suffix(PART_END);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // What the umask forbids is taken away by the system.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// Removes what a program that was killed has left of these files.
+pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let part = entry.file_name().to_string_lossy().into_owned();
+        let of = |name: &&str| part.starts_with(&part_start(name));
+        if part.ends_with(PART_END) && names.iter().any(of) {
+            fs::remove_file(entry.path()).ok();
+        }
+    }
 }
 
 /// The file that a symbolic link names, whether or not that is there.
@@ -161,54 +175,80 @@ pub(crate) fn followed(path: &Path) -> PathBuf {
     path
 }
 
-/// A folder for the files of one result.
-#[derive(Debug, Clone)]
+/// Takes what only one program may write, and keeps it as long as the file is open.
+///
+/// # Errors
+/// [`WrongInput`] while another program has it.
+pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(WrongInput(format!(
+            "--out {}: another viscofriction is writing it",
+            path.display()
+        ))),
+        // Some file systems have no locks.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(()),
+    }
+}
+
+/// A folder for the files of one result; nobody else writes into it as long as this value lives.
+#[derive(Debug)]
 pub(crate) struct OutputFolder {
     path: PathBuf,
-    overwrite: bool,
+    files: Vec<(String, OutputFile)>,
+    _lock: Option<File>,
 }
 
 impl OutputFolder {
-    /// A folder that can be made, or is there without any of the files that may be written.
+    /// A folder that was made, or is there without any of the files that may be written.
     ///
     /// # Errors
-    /// [`WrongInput`] as of [`OutputFile::new`], before anything is computed.
+    /// [`WrongInput`] as of [`OutputFile::new`] and [`lock`], before anything is computed.
     pub(crate) fn new(path: &Path, overwrite: bool, names: &[&str]) -> Result<Self, WrongInput> {
+        let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         if path.exists() && !path.is_dir() {
-            return Err(WrongInput(format!(
-                "--out {}: a folder is needed",
-                path.display()
-            )));
+            return Err(wrong("a folder is needed"));
         }
-        let folder = Self {
-            path: path.to_owned(),
-            overwrite,
+        let file = |name: &&str| {
+            let file = OutputFile::new(&path.join(name), overwrite)?;
+            Ok(((*name).to_owned(), file))
         };
-        for name in names {
-            folder.file(name)?;
+        let files = names.iter().map(file).collect::<Result<_, _>>()?;
+        fs::create_dir_all(path).map_err(|error| wrong(&error.to_string()))?;
+        // Not every system opens folders.
+        let folder = File::open(path).ok();
+        if let Some(folder) = &folder {
+            lock(folder, path)?;
+            remove_parts(path, names);
         }
-        Ok(folder)
+        Ok(Self {
+            path: path.to_owned(),
+            files,
+            _lock: folder,
+        })
     }
 
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    fn file(&self, name: &str) -> Result<OutputFile, WrongInput> {
-        OutputFile::new(&self.path.join(name), self.overwrite)
-    }
-
-    /// Writes a file into the folder.
+    /// Writes one of the files that were announced.
     pub(crate) fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
-        self.file(name)?.write(contents)
+        let file = self.files.iter().find(|(known, _)| known == name);
+        let (_, file) = file.with_context(|| format!("{name} was not announced"))?;
+        file.write(contents)
     }
 
     /// Draws a picture as SVG and as PNG.
     pub(crate) fn draw(&self, name: &str, figure: &Figure) -> Result<()> {
-        let say = || format!("drawing {name}");
-        let drawing = draw(figure).with_context(say)?;
-        self.write(&format!("{name}.svg"), drawing.svg.as_bytes())?;
-        let png = render_png(&drawing, PNG_WIDTH).with_context(say)?;
+        let (svg, png) = picture(figure).with_context(|| format!("drawing {name}"))?;
+        self.write(&format!("{name}.svg"), svg.as_bytes())?;
         self.write(&format!("{name}.png"), &png)
+    }
+}
+
+impl Drop for OutputFolder {
+    /// A folder without files says nothing; one that has some is not removed by the system.
+    fn drop(&mut self) {
+        fs::remove_dir(&self.path).ok();
     }
 }

@@ -1,23 +1,27 @@
 //! Progress on a terminal; silent elsewhere.
 
+use std::time::Duration;
+
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar over `steps` steps of a task.
+/// A bar over `steps` steps of a task, with the time that is left.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
-    if let Ok(style) = ProgressStyle::with_template("{msg:24} {bar:32} {pos}/{len}  {elapsed}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    bar
+    styled(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}, {eta} left")
 }
 
 /// A sign of life for one task without steps.
 pub(crate) fn spinner(task: String) -> ProgressBar {
-    let bar = ProgressBar::new_spinner().with_message(task);
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}  {elapsed}") {
+    styled(
+        ProgressBar::new_spinner().with_message(task),
+        "{spinner} {msg}  {elapsed}",
+    )
+}
+
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    bar.enable_steady_tick(Duration::from_millis(200));
     bar
 }

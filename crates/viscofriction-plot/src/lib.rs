@@ -52,7 +52,7 @@ pub use colour::{Colour, ColourScale};
 pub use error::PlotError;
 pub use figure::{Figure, Panel, draw};
 pub use legend::LegendPlace;
-pub use map::Map;
+pub use map::{Map, Proportions};
 pub use matrix::{Cell, Matrix, MatrixRow};
 pub use png::{PNG_WIDTH, render_png};
 pub use series::{Dash, Fill, Line, Marker, Series, Shape};

@@ -1,4 +1,4 @@
-//! Maps: a field on a rectangular grid in true proportions, with a colour bar.
+//! Maps: a field on a rectangular grid, with a colour bar.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use crate::frame::{Frame, TickSide, bottom_margin, side_margin, top_margin};
 use crate::marks::draw_series;
 use crate::series::Series;
 
-/// Field on a rectangular grid; a unit of length is equally long on both axes.
+/// Field on a rectangular grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
     /// Text above the frame.
@@ -29,6 +29,17 @@ pub struct Map {
     pub colours: ColourScale,
     /// Outlines or points drawn over the field; their labels are not shown.
     pub overlays: Vec<Series>,
+    /// What the lengths of the axes mean.
+    pub proportions: Proportions,
+}
+
+/// How long the axes of a map are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Proportions {
+    /// A unit of length is equally long on both.
+    True,
+    /// Both fill the panel, because their units differ.
+    Free,
 }
 
 /// Largest size of the data rectangle, \[px\].
@@ -39,8 +50,8 @@ impl Draw for Map {
     fn validate(&self) -> Result<(), PlotError> {
         for axis in [&self.x, &self.y] {
             axis.validate()?;
-            if axis.scale == Scale::Log10 {
-                return Err(axis.refused("be linear, because a map has true proportions"));
+            if axis.scale == Scale::Log10 && self.proportions == Proportions::True {
+                return Err(axis.refused("be linear, because the map has true proportions"));
             }
         }
         self.validate_size()?;
@@ -90,13 +101,18 @@ impl Map {
 
     fn frame(&self, [x, y]: Pixel, left: f64) -> Result<Frame<'_>, PlotError> {
         let right = BAR_GAP + self.colours.bar_width()?;
-        let [x_span, y_span] = [&self.x, &self.y].map(|axis| axis.range[1] - axis.range[0]);
-        let scale = ((PANEL_WIDTH - left - right) / x_span).min(LARGEST_HEIGHT / y_span);
+        let largest = [PANEL_WIDTH - left - right, LARGEST_HEIGHT];
+        let spans = [&self.x, &self.y].map(|axis| axis.range[1] - axis.range[0]);
+        let scale = (largest[0] / spans[0]).min(largest[1] / spans[1]);
+        let [width, height] = match self.proportions {
+            Proportions::True => spans.map(|span| scale * span),
+            Proportions::Free => largest,
+        };
         let area = Area {
             left: x + left,
             top: y + top_margin(self.title.as_deref()),
-            width: scale * x_span,
-            height: scale * y_span,
+            width,
+            height,
         };
         Ok(Frame {
             area,

@@ -2,7 +2,7 @@
 
 use crate::figures::stationary::{Contact, Row};
 use viscofriction_plot::{
-    Axis, Colour, ColourScale, Dash, Figure, Line, Map, Marker, Series, Shape,
+    Axis, Colour, ColourScale, Dash, Figure, Line, Map, Marker, Proportions, Series, Shape,
 };
 
 /// Window of every panel, in contact lengths of the one-dimensional model.
@@ -61,6 +61,7 @@ fn map(contact: &Contact) -> Map {
             label: "P / mean P".into(),
             range: [0.0, BRIGHTEST],
         },
+        proportions: Proportions::True,
         overlays: vec![
             outline(contact),
             circle(),

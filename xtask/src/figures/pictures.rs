@@ -7,7 +7,7 @@ use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
 use viscofriction_plot::{
     Axis, Chart, Colour, ColourScale, Dash, Drawing, Figure, LegendPlace, Line, Map, Marker,
-    Series, Shape, draw,
+    Proportions, Series, Shape, draw,
 };
 
 /// One picture of the report.
@@ -281,5 +281,6 @@ fn pressure_map(approach: &Approach, name: &str) -> Map {
             range: [lowest, highest],
         },
         overlays: Vec::new(),
+        proportions: Proportions::True,
     }
 }

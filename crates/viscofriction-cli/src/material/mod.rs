@@ -4,6 +4,7 @@ mod columns;
 mod output_files;
 mod picture;
 mod shifting;
+mod swapped;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -17,12 +18,15 @@ use rheology::fit::{
 
 use viscofriction::WrongInput;
 
-use crate::output::{OutputFolder, print_line, print_text, read_input};
+use crate::input::read_input;
+use crate::output::{OutputFolder, print_line, print_text};
+use crate::progress;
 use shifting::Shifted;
 use table::{Measurements, Table};
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
+#[command(after_help = "Example: viscofriction fit-material measured.csv --out rubber")]
 pub(crate) struct FitMaterial {
     /// Table of comma separated values: a line of names (f or ω, E' and E'' or G' and G'', perhaps T; or t and E_relax or
     /// G_relax), a line of units (Hz or rad/s, Pa to GPa, C or K, s), then one line per measurement.
@@ -76,9 +80,6 @@ pub(crate) struct FitMaterial {
 
 /// Reads the table, fits it, and writes the material and its picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
-    let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &output_files::NAMES));
-    let out = out.transpose()?;
     let shear_per_tension = shear_per_tension(options.poisson_ratio)?;
     let table = Table::read(
         &options.data,
@@ -87,7 +88,16 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     )?;
     let shifted = shifting::shifted(&table, options)?;
     let curve = curve(&table, &shifted, &options.data)?;
-    let found = identify(&curve, &options.identification()).map_err(wrong_option)?;
+    let out = options.out.as_deref();
+    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &output_files::NAMES));
+    let out = out.transpose()?;
+    let bar = progress::spinner(format!("fitting {}", options.data.display()));
+    let found = identify(&curve, &options.identification()).map_err(wrong_option);
+    if !found.as_ref().is_ok_and(swapped::is_good) {
+        swapped::check(&table, &shifted, options.ending())?;
+    }
+    bar.finish_and_clear();
+    let found = found?;
     let fitted = Fitted {
         options,
         shifted,
@@ -116,12 +126,15 @@ struct Fitted<'a> {
 }
 
 impl FitMaterial {
-    fn identification(&self) -> IdentifyOptions {
-        let ending = if self.liquid {
+    const fn ending(&self) -> Ending {
+        if self.liquid {
             Ending::Liquid
         } else {
             Ending::Solid
-        };
+        }
+    }
+
+    fn identification(&self) -> IdentifyOptions {
         let defaults = IdentifyOptions::default();
         let control = match (self.branches, self.smoothing, self.parsimony) {
             (Some(n_branches), Some(weight), _) => Control::Smooth { n_branches, weight },
@@ -129,7 +142,10 @@ impl FitMaterial {
             (None, _, Some(tolerance)) => Control::Parsimony { tolerance },
             (None, _, None) => defaults.control,
         };
-        IdentifyOptions { ending, control }
+        IdentifyOptions {
+            ending: self.ending(),
+            control,
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Result;
-use serde::Serialize;
+use rheology::fit::{ModulusPoint, RelaxationPoint};
 
 use super::table::{Measurements, Table};
 use super::{Fitted, picture};
@@ -18,57 +18,33 @@ pub(super) const NAMES: [&str; 5] = [
     "shifts.csv",
 ];
 
-/// Measured and fitted moduli at one frequency.
-#[derive(Debug, Serialize)]
-pub(super) struct ModulusRow {
-    pub(super) angular_frequency_rad_per_s: f64,
-    pub(super) storage_pa: f64,
-    pub(super) loss_pa: f64,
-    pub(super) storage_fit_pa: f64,
-    pub(super) loss_fit_pa: f64,
-    /// |G*_fit/G* − 1|
-    pub(super) relative_error: f64,
-}
-
-/// Measured and fitted modulus at one time.
-#[derive(Debug, Serialize)]
-pub(super) struct RelaxationRow {
-    pub(super) time_s: f64,
-    pub(super) modulus_pa: f64,
-    pub(super) modulus_fit_pa: f64,
-    pub(super) relative_error: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct ShiftRow {
-    temperature: f64,
-    log10_shift_factor: f64,
-}
+/// Columns of fit.csv: what was measured, the same of the series, and the relative error |G_fit/G − 1|.
+const OSCILLATION: [&str; 6] = [
+    "angular_frequency_rad_per_s",
+    "storage_pa",
+    "loss_pa",
+    "storage_fit_pa",
+    "loss_fit_pa",
+    "relative_error",
+];
+const RELAXATION: [&str; 4] = ["time_s", "modulus_pa", "modulus_fit_pa", "relative_error"];
 
 /// Measured against fitted, as rows of a table.
-pub(super) enum Comparison {
-    Oscillation(Vec<ModulusRow>),
-    Relaxation(Vec<RelaxationRow>),
+pub(super) struct Comparison {
+    pub(super) names: &'static [&'static str],
+    pub(super) rows: Vec<Vec<f64>>,
 }
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
 pub(super) fn write(table: &Table, fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
     let comparison = compare(table, fitted)?;
-    let rows = match &comparison {
-        Comparison::Oscillation(rows) => to_csv(rows)?,
-        Comparison::Relaxation(rows) => to_csv(rows)?,
-    };
-    out.write("fit.csv", rows.as_bytes())?;
+    let rows = to_csv(comparison.names, &comparison.rows)?;
+    out.write("fit.csv", &rows)?;
     out.draw("fit", &picture::figure(&comparison))?;
     if let Some(shifted) = &fitted.shifted {
-        let shifts = shifted.master.log10_factors.iter();
-        let shifts: Vec<ShiftRow> = shifts
-            .map(|&[temperature, log10_shift_factor]| ShiftRow {
-                temperature,
-                log10_shift_factor,
-            })
-            .collect();
-        out.write("shifts.csv", to_csv(&shifts)?.as_bytes())?;
+        let names = ["temperature", "log10_shift_factor"];
+        let shifts = to_csv(&names, &shifted.master.log10_factors)?;
+        out.write("shifts.csv", &shifts)?;
     }
     // Last: with it the others are there.
     out.write("material.toml", material(fitted)?.as_bytes())
@@ -76,40 +52,41 @@ pub(super) fn write(table: &Table, fitted: &Fitted<'_>, out: &OutputFolder) -> R
 
 fn compare(table: &Table, fitted: &Fitted<'_>) -> Result<Comparison> {
     let spectrum = &fitted.found.spectrum;
-    let modulus_row = |point: &rheology::fit::ModulusPoint| {
-        let fit = spectrum.complex_modulus(point.angular_frequency)?;
-        let error = (fit.storage - point.storage).hypot(fit.loss - point.loss);
-        Ok(ModulusRow {
-            angular_frequency_rad_per_s: point.angular_frequency,
-            storage_pa: point.storage,
-            loss_pa: point.loss,
-            storage_fit_pa: fit.storage,
-            loss_fit_pa: fit.loss,
-            relative_error: error / point.storage.hypot(point.loss),
-        })
+    let oscillation = |point: &ModulusPoint| {
+        let ModulusPoint {
+            angular_frequency,
+            storage,
+            loss,
+        } = *point;
+        let fit = spectrum.complex_modulus(angular_frequency)?;
+        let error = (fit.storage - storage).hypot(fit.loss - loss) / storage.hypot(loss);
+        Ok(vec![
+            angular_frequency,
+            storage,
+            loss,
+            fit.storage,
+            fit.loss,
+            error,
+        ])
     };
-    Ok(match (&fitted.shifted, &table.measurements) {
-        (Some(shifted), _) => {
-            let rows = shifted.master.points.iter().map(modulus_row);
-            Comparison::Oscillation(rows.collect::<Result<_>>()?)
-        }
+    let rows: Result<Vec<Vec<f64>>> = match (&fitted.shifted, &table.measurements) {
+        (Some(shifted), _) => shifted.master.points.iter().map(oscillation).collect(),
         (None, Measurements::Oscillation(rows)) => {
-            let rows = rows.iter().map(|row| modulus_row(&row.point));
-            Comparison::Oscillation(rows.collect::<Result<_>>()?)
+            rows.iter().map(|row| oscillation(&row.point)).collect()
         }
         (None, Measurements::Relaxation(rows)) => {
-            let rows = rows.iter().map(|row| {
-                let fit = spectrum.relaxation_modulus(row.point.time)?;
-                Ok(RelaxationRow {
-                    time_s: row.point.time,
-                    modulus_pa: row.point.modulus,
-                    modulus_fit_pa: fit,
-                    relative_error: (fit / row.point.modulus - 1.0).abs(),
-                })
-            });
-            Comparison::Relaxation(rows.collect::<Result<_>>()?)
+            let row = |RelaxationPoint { time, modulus }: RelaxationPoint| {
+                let fit = spectrum.relaxation_modulus(time)?;
+                Ok(vec![time, modulus, fit, (fit / modulus - 1.0).abs()])
+            };
+            rows.iter().map(|measured| row(measured.point)).collect()
         }
-    })
+    };
+    let names = match &table.measurements {
+        Measurements::Oscillation(_) => &OSCILLATION[..],
+        Measurements::Relaxation(_) => &RELAXATION,
+    };
+    Ok(Comparison { names, rows: rows? })
 }
 
 /// The table `[material.prony]` of a scene file.

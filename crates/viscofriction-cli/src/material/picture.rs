@@ -1,88 +1,41 @@
 //! Measured and fitted moduli, and the error between them.
 
-use super::output_files::{Comparison, ModulusRow, RelaxationRow};
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
 
+use super::output_files::Comparison;
+
 pub(super) fn figure(comparison: &Comparison) -> Figure {
-    let charts = match comparison {
-        Comparison::Oscillation(rows) => oscillation(rows),
-        Comparison::Relaxation(rows) => relaxation(rows),
+    let (x, moduli) = match comparison.names.len() {
+        6 => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),
+        _ => ("time t [s]", &["G"][..]),
     };
+    // A logarithm has no zero; the CSV file has all points.
+    let points = |column: usize| -> Vec<[f64; 2]> {
+        let points = comparison.rows.iter().map(|row| [row[0], row[column]]);
+        points.filter(|point| point[1] > 0.0).collect()
+    };
+    let n = moduli.len();
+    let coloured = || moduli.iter().zip([Colour::Blue, Colour::Red]).enumerate();
+    let measured = coloured().map(|(index, (name, colour))| {
+        let marker = Marker::open(Shape::Circle);
+        Series::markers(points(1 + index), marker, colour).labelled(format!("{name} measured"))
+    });
+    let fitted = coloured().map(|(index, (name, colour))| {
+        let line = Line::thick(Dash::Solid);
+        Series::line(points(1 + n + index), line, colour).labelled(format!("{name} of the series"))
+    });
+    let marker = Marker::filled(Shape::Diamond);
+    let errors = Series::markers(points(1 + 2 * n), marker, Colour::Black);
+    let panels = [
+        chart(x, "modulus [Pa]", measured.chain(fitted).collect()),
+        chart(x, "relative error of the modulus", vec![errors]),
+    ];
     Figure {
-        panels: charts.map(Panel::from).into(),
+        panels: panels.map(Panel::from).into(),
         columns: 2,
     }
-}
-
-fn oscillation(rows: &[ModulusRow]) -> [Chart; 2] {
-    let points = |value: fn(&ModulusRow) -> f64| {
-        positive(
-            rows.iter()
-                .map(|row| [row.angular_frequency_rad_per_s, value(row)]),
-        )
-    };
-    let [storage, loss] = [Colour::Blue, Colour::Red];
-    let moduli = vec![
-        measured("G′ measured", points(|row| row.storage_pa), storage),
-        measured("G″ measured", points(|row| row.loss_pa), loss),
-        fitted(
-            "G′ of the series",
-            points(|row| row.storage_fit_pa),
-            storage,
-        ),
-        fitted("G″ of the series", points(|row| row.loss_fit_pa), loss),
-    ];
-    let errors = vec![error(points(|row| row.relative_error))];
-    let x = "angular frequency ω [rad/s]";
-    [
-        chart(x, "modulus [Pa]", moduli),
-        chart(x, "relative error of G*", errors),
-    ]
-}
-
-fn relaxation(rows: &[RelaxationRow]) -> [Chart; 2] {
-    let points = |value: fn(&RelaxationRow) -> f64| {
-        positive(rows.iter().map(|row| [row.time_s, value(row)]))
-    };
-    let moduli = vec![
-        measured("G measured", points(|row| row.modulus_pa), Colour::Blue),
-        fitted(
-            "G of the series",
-            points(|row| row.modulus_fit_pa),
-            Colour::Red,
-        ),
-    ];
-    let errors = vec![error(points(|row| row.relative_error))];
-    let x = "time t [s]";
-    [
-        chart(x, "modulus [Pa]", moduli),
-        chart(x, "relative error of G", errors),
-    ]
-}
-
-/// A logarithm has no zero; the CSV file has all points.
-fn positive(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    points.filter(|point| point[1] > 0.0).collect()
-}
-
-fn measured(label: &str, points: Vec<[f64; 2]>, colour: Colour) -> Series {
-    Series {
-        label: Some(label.to_owned()),
-        ..Series::markers(points, Marker::open(Shape::Circle), colour)
-    }
-}
-
-fn fitted(label: &str, points: Vec<[f64; 2]>, colour: Colour) -> Series {
-    Series {
-        label: Some(label.to_owned()),
-        ..Series::line(points, Line::thick(Dash::Solid), colour)
-    }
-}
-
-fn error(points: Vec<[f64; 2]>) -> Series {
-    Series::markers(points, Marker::filled(Shape::Diamond), Colour::Black)
 }
 
 fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {

@@ -6,22 +6,25 @@ mod pictures;
 mod savings;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use viscofriction::WrongInput;
-use viscofriction::scene::{Method, Source};
+use viscofriction::scene::Method;
 use viscofriction::solve::{Answer, Omission, Problem, problem_of, solve};
 
-use crate::output::{OutputFolder, print_line, read_input, read_standard_input};
+use crate::input::{read_input, read_scene};
+use crate::output::{OutputFolder, print_line, say};
 use crate::progress;
+pub(crate) use pictures::around;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: viscofriction run examples/scenes/sphere-standard-solid.toml")]
+#[command(
+    after_help = "Example: viscofriction run examples/scenes/sphere-standard-solid.toml --out result"
+)]
 pub(crate) struct Run {
     /// The scene file, or - for the standard input; docs/scenes.md describes it.
     scene: PathBuf,
@@ -86,12 +89,11 @@ pub(crate) struct Timed<'a> {
 
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
-    let source = source(&options.scene)?;
-    let overwrite = options.overwrite;
-    let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, overwrite, &files::NAMES));
-    let out = out.transpose()?;
+    let source = read_scene(&options.scene)?;
     let (problem, method) = problem_of(&source, options.method.map(Method::from), read_input)?;
+    let out = options.out.as_deref();
+    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &files::NAMES));
+    let out = out.transpose()?;
     let bar = progress::spinner(format!("{} by {}", source.path().display(), method.name()));
     let started = Instant::now();
     let answer = in_pool(&problem);
@@ -105,27 +107,18 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         answer: &answer,
         seconds,
     };
-    print(&answer, options.format, problem.method.is_none())?;
+    // Before anything is printed, because a pipe that is closed ends the program.
     if let Some(out) = &out {
         files::write(&answer, out)?;
-        if options.format == Format::Table {
-            print_line(&format!("written into {}", out.path().display()))?;
-        }
+    }
+    print(&answer, options.format, problem.method.is_none())?;
+    if let (Some(out), Format::Table) = (&out, options.format) {
+        print_line(&format!("written into {}", out.path().display()))?;
     }
     if options.explain {
         explain(&problem, &answer, options.format)?;
     }
     Ok(())
-}
-
-/// The scene in a file, or on the standard input.
-pub(crate) fn source(path: &Path) -> Result<Source, WrongInput> {
-    let contents = if path == Path::new("-") {
-        read_standard_input()?
-    } else {
-        read_input(path)?
-    };
-    Source::new(path, contents)
 }
 
 /// Solves on as many threads as the scene says, or on all.
@@ -165,7 +158,7 @@ fn explain(problem: &Problem, answer: &Timed<'_>, format: Format) -> Result<()> 
     bar.finish_and_clear();
     let omissions = omissions?;
     match format {
-        Format::Json => eprintln!("{omissions}"),
+        Format::Json => say(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,
     }
     Ok(())

@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use viscofriction::PressureField;
 use viscofriction::solve::HistoryRow;
 use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Series,
+    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Proportions, Series,
 };
 
 /// The pressure over the contact.
@@ -36,17 +36,8 @@ pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
             range: [lowest.min(highest - 1e-3), highest],
         },
         overlays: Vec::new(),
+        proportions: Proportions::True,
     }))
-}
-
-/// The load along the contact of a line.
-pub(super) fn line_load(points: &[[f64; 2]]) -> Figure {
-    curve("position x [m]", "load per length [N/m]", points.to_vec())
-}
-
-/// The pressure across a line contact.
-pub(super) fn line_pressure(points: &[[f64; 2]]) -> Figure {
-    curve("position x [m]", "pressure [Pa]", points.to_vec())
 }
 
 /// The friction coefficient from first touch on.
@@ -59,7 +50,8 @@ pub(super) fn history(rows: &[HistoryRow]) -> Figure {
     )
 }
 
-fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
+/// One quantity over another.
+pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
     let range = |axis: usize| around(points.iter().map(|point| point[axis]));
     Figure::single(Chart {
         title: None,
@@ -71,7 +63,7 @@ fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
 }
 
 /// A range that holds zero and all values, with some room.
-fn around(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn around(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] = values.fold([0.0_f64; 2], |[low, high], value| {
         [low.min(value), high.max(value)]
     });

@@ -92,7 +92,7 @@ fn saving(problem: &Problem, answer: &Timed<'_>, omission: Omission) -> Result<S
 
 fn of_files(answer: &Timed<'_>) -> Result<Saving> {
     let folder = tempfile::tempdir()?;
-    let out = OutputFolder::new(folder.path(), true, &[])?;
+    let out = OutputFolder::new(folder.path(), true, &files::NAMES)?;
     let ((), done) = metered(|| files::write(answer, &out))?;
     Ok(Saving {
         left_out: Cost::default(),
@@ -150,7 +150,6 @@ fn metered<T: Send>(work: impl Fn() -> Result<T> + Sync) -> Result<(T, Cost)> {
         anyhow::Ok((value, memory.bytes_max))
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let ((value, bytes), cost) = pool.install(|| meter::measure_median(counted))?;
-    let seconds = cost.processor_seconds;
+    let ((value, bytes), seconds) = pool.install(|| meter::measure_median(counted))?;
     Ok((value, Cost { seconds, bytes }))
 }

@@ -1,7 +1,7 @@
 //! The file of a sweep, which grows row by row.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::{File, OpenOptions};
 use std::io::{Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,8 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, header, identity};
 
 use super::wrong_row;
-use crate::output::{OutputFile, followed, read_input};
+use crate::input::read_input;
+use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts};
 
 /// What happens to a file that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,15 +37,9 @@ pub(super) struct SweepFile {
 
 impl SweepFile {
     /// Begins a file, or goes on with one; what an interruption left of its last line is cut off.
-    pub(super) fn open(path: &Path, plan: &Plan, existing: Existing) -> Result<Self> {
-        let path = followed(path);
-        let is_there = path.exists();
-        OutputFile::new(&path, existing != Existing::Refuse)
-            .map_err(|error| go_on(is_there, error))?;
+    pub(super) fn open(path: PathBuf, plan: &Plan, existing: Existing) -> Result<Self> {
         let say = || format!("writing {}", path.display());
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).with_context(say)?;
-        }
+        std::fs::create_dir_all(folder_of(&path)).with_context(say)?;
         let mut file = OpenOptions::new()
             .write(true)
             .create(true)
@@ -52,90 +47,79 @@ impl SweepFile {
             .open(&path)
             .with_context(say)?;
         lock(&file, &path)?;
-        let mut rows = Vec::new();
-        let mut end = 0;
-        if is_there && existing == Existing::GoOn {
+        remove_parts(folder_of(&path), &[&name_of(&path)]);
+        let mut table = RowTable::default();
+        if existing == Existing::GoOn {
             let contents = read_input(&path)?;
-            let table = row_table(&path, &contents)?;
+            table = row_table(&path, &contents)?;
             check(&path, plan, &table)?;
-            end = if table.header.is_empty() {
-                0
-            } else {
-                whole(&contents).len()
-            };
-            rows = table.rows;
+            let end = whole(&contents).len() as u64;
+            file.set_len(end).with_context(say)?;
+        } else {
+            file.set_len(0).with_context(say)?;
         }
-        file.set_len(end as u64).with_context(say)?;
         file.seek(SeekFrom::End(0)).with_context(say)?;
         let header = header(plan);
-        if end == 0 {
+        if table.header.is_empty() {
             file.write_all(line(&header)?.as_bytes())
                 .with_context(say)?;
         }
         Ok(Self {
             header,
-            sorted: rows.is_sorted_by_key(|row| row.point),
-            rows: rows.into_iter().map(|row| (row.point, row)).collect(),
+            sorted: table.rows.is_sorted_by_key(|row| row.point),
+            rows: table.rows.into_iter().map(|row| (row.point, row)).collect(),
             file,
             path,
         })
-    }
-
-    pub(super) fn path(&self) -> &Path {
-        &self.path
     }
 
     pub(super) fn has(&self, point: usize) -> bool {
         self.rows.contains_key(&point)
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Writes a row in one piece.
+    /// Writes a row, or nothing of it.
     pub(super) fn append(&mut self, row: &Row) -> Result<()> {
         let text = line(&row.fields)?;
-        let written = self.file.write_all(text.as_bytes());
-        written.with_context(|| format!("writing {}", self.path.display()))?;
+        let end = self.file.stream_position()?;
+        if let Err(error) = self.file.write_all(text.as_bytes()) {
+            self.file.set_len(end).ok();
+            return Err(error).with_context(|| format!("writing {}", self.path.display()));
+        }
         let last = self.rows.last_key_value();
         self.sorted &= last.is_none_or(|(point, _)| *point < row.point);
         self.rows.insert(row.point, row.clone());
         Ok(())
     }
 
-    /// Puts the rows in order and counts those that failed.
-    pub(super) fn finish(&self) -> Result<usize> {
+    /// Puts the rows in order.
+    pub(super) fn finish(&self) -> Result<RowTable> {
+        let table = RowTable {
+            header: self.header.clone(),
+            rows: self.rows.values().cloned().collect(),
+        };
         if !self.sorted {
-            let fields = self.rows.values().map(|row| &row.fields);
-            let text = lines(&self.header, fields)?;
-            OutputFile::new(&self.path, true)?.write(text.as_bytes())?;
+            OutputFile::new(&self.path, true)?.write(table.text()?.as_bytes())?;
         }
-        Ok(self.rows.values().filter(|row| row.failed()).count())
+        Ok(table)
     }
 }
 
-/// Two programs that write one file would lose the rows of one of them.
-fn lock(file: &File, path: &Path) -> Result<()> {
-    match file.try_lock() {
-        Ok(()) => Ok(()),
-        Err(TryLockError::WouldBlock) => Err(WrongInput(format!(
-            "--out {}: another sweep is writing this file",
-            path.display()
-        ))
-        .into()),
-        Err(TryLockError::Error(error)) => {
-            Err(error).with_context(|| format!("locking {}", path.display()))
-        }
-    }
-}
-
-/// A sweep has another way with a file that is there.
-fn go_on(is_there: bool, WrongInput(problem): WrongInput) -> WrongInput {
-    if is_there && problem.ends_with("--overwrite replaces it") {
-        return WrongInput(format!("{problem}, and --resume goes on with it"));
-    }
-    WrongInput(problem)
+/// The file that may be written.
+///
+/// # Errors
+/// [`WrongInput`] as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
+pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongInput> {
+    let file = OutputFile::new(path, existing != Existing::Refuse);
+    let file = file.map_err(|WrongInput(problem)| {
+        let there = problem.ends_with("--overwrite replaces it");
+        let resume = if there {
+            ", and --resume goes on with it"
+        } else {
+            ""
+        };
+        WrongInput(problem + resume)
+    });
+    Ok(file?.path().to_owned())
 }
 
 /// A file up to its last whole line.
@@ -145,10 +129,21 @@ fn whole(contents: &[u8]) -> &[u8] {
 }
 
 /// The whole lines of a file of rows.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct RowTable {
     pub(super) header: Vec<String>,
     pub(super) rows: Vec<Row>,
+}
+
+impl RowTable {
+    /// The text of the file.
+    pub(super) fn text(&self) -> Result<String> {
+        let mut text = line(&self.header)?;
+        for row in &self.rows {
+            text.push_str(&line(&row.fields)?);
+        }
+        Ok(text)
+    }
 }
 
 /// Reads a file up to its last whole line.
@@ -181,7 +176,8 @@ pub(super) fn row_table(path: &Path, bytes: &[u8]) -> Result<RowTable, WrongInpu
 
 /// Rows of another sweep are refused.
 fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
-    let other = "the file is of another scene or has other values of --vary; give another --out";
+    let other = "the file is of another scene, of other values of --vary, or from before a file that the scene \
+                 names was changed; give another --out";
     let empty = table.rows.is_empty() && table.header.is_empty();
     if !empty && table.header != header(plan) {
         return Err(wrong_row(path, 1, other));
@@ -193,18 +189,6 @@ fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
         }
     }
     Ok(())
-}
-
-/// A header and rows as the text of a file.
-pub(super) fn lines<'a>(
-    header: &[String],
-    rows: impl Iterator<Item = &'a Vec<String>>,
-) -> Result<String> {
-    let mut text = line(header)?;
-    for row in rows {
-        text.push_str(&line(row)?);
-    }
-    Ok(text)
 }
 
 /// One record with the end of its line.

@@ -5,6 +5,7 @@
 
 mod file;
 mod merge;
+mod picture;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
@@ -15,9 +16,11 @@ use rayon::prelude::*;
 use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, Shard, Vary, header};
 
-use crate::output::{print_text, read_input};
+use crate::input::{read_input, read_scene};
+use crate::output::{print_text, say};
 use crate::progress;
-use file::{Existing, SweepFile, line};
+use file::{Existing, SweepFile, checked, line};
+use picture::PictureFiles;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
@@ -28,8 +31,8 @@ pub(crate) struct Sweep {
     /// The scene file, or - for the standard input; docs/scenes.md describes it.
     #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     scene: Option<PathBuf>,
-    /// A key of the scene and its values: `load.velocity=1e-3:1:10:log`; with several of them every combination is
-    /// computed, the last key fastest.
+    /// A key of the scene and its values: `load.velocity=1e-3:1:10:log`, or a list, `load.velocity=1,2,5`; with several
+    /// of them every combination is computed, the last key fastest.
     #[arg(
         long,
         value_name = "KEY=START:STOP:COUNT[:log]",
@@ -46,7 +49,7 @@ pub(crate) struct Sweep {
     /// Join the files of shards.
     #[arg(long, value_name = "FILE", num_args = 1..)]
     merge: Vec<PathBuf>,
-    /// The CSV file [default: the standard output].
+    /// The CSV file, beside which a picture is drawn [default: the standard output].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Begin anew if the file is there.
@@ -59,50 +62,71 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
-    let plan = Plan::new(crate::run::source(scene)?, &options.vary, read_input)?;
+    let plan = Plan::new(read_scene(scene)?, &options.vary, read_input)?;
     let threads = plan.validate()?.unwrap_or(0);
-    let existing = match (options.resume, options.overwrite) {
-        (true, _) => Existing::GoOn,
-        (_, true) => Existing::Replace,
-        _ => Existing::Refuse,
-    };
-    let mut file = match &options.out {
-        Some(path) => Some(SweepFile::open(path, &plan, existing)?),
-        None => None,
-    };
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
-    let there = |point: &usize| file.as_ref().is_some_and(|file| file.has(*point));
-    let missing: Vec<usize> = (0..plan.n_points())
-        .filter(mine)
-        .filter(|point| !there(point))
-        .collect();
-    let failures = match &mut file {
-        Some(file) => {
-            compute(&plan, &missing, threads, |row| file.append(row))?;
-            file.finish()?
-        }
+    let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
+    let [n_failed, n_points] = match &options.out {
+        Some(out) => into_file(&plan, points, threads, (out, options.existing()))?,
         None => {
             print_text(&line(&header(&plan))?)?;
-            let mut failures = 0;
-            compute(&plan, &missing, threads, |row| {
-                failures += usize::from(row.failed());
+            let mut n_failed = 0;
+            compute(&plan, &points, threads, |row| {
+                n_failed += usize::from(row.failed());
                 print_text(&line(&row.fields)?)
             })?;
-            failures
+            [n_failed, points.len()]
         }
     };
-    if let Some(file) = &file {
-        eprintln!(
-            "{} points computed, {} in {}",
-            missing.len(),
-            file.len(),
-            file.path().display()
+    if n_failed > 0 {
+        bail!(
+            "{n_failed} of {n_points} points could not be computed; the column `failure` says why"
         );
     }
-    if failures > 0 {
-        bail!("{failures} points could not be computed; the column `failure` says why");
-    }
     Ok(())
+}
+
+impl Sweep {
+    const fn existing(&self) -> Existing {
+        match (self.resume, self.overwrite) {
+            (true, _) => Existing::GoOn,
+            (_, true) => Existing::Replace,
+            _ => Existing::Refuse,
+        }
+    }
+}
+
+/// Computes the points that a file does not have, and draws all of it; returns how many rows failed, and how many there are.
+fn into_file(
+    plan: &Plan,
+    mut points: Vec<usize>,
+    threads: usize,
+    (out, existing): (&Path, Existing),
+) -> Result<[usize; 2]> {
+    let path = checked(out, existing)?;
+    let open = || SweepFile::open(path.clone(), plan, existing);
+    let (mut file, pictures) = match existing {
+        // Rows of another sweep are named before their picture.
+        Existing::GoOn if path.exists() => {
+            (open()?, PictureFiles::resumed(out, &plan.fingerprint)?)
+        }
+        _ => {
+            let pictures = PictureFiles::new(out, existing == Existing::Replace)?;
+            (open()?, pictures)
+        }
+    };
+    points.retain(|point| !file.has(*point));
+    compute(plan, &points, threads, |row| file.append(row))?;
+    let table = file.finish()?;
+    pictures.draw(&table)?;
+    let n_rows = table.rows.len();
+    say(&format!(
+        "{} points computed, {n_rows} in {}",
+        points.len(),
+        path.display()
+    ));
+    let failed = table.rows.iter().filter(|row| row.failed());
+    Ok([failed.count(), n_rows])
 }
 
 /// Computes points on several threads, and hands over each row in the order in which it is finished.
@@ -117,26 +141,24 @@ fn compute(
         .build()?;
     let bar = progress::bar("sweep", points.len());
     let (finished, rows) = mpsc::channel();
+    // One point after the other, so that the file grows nearly in order; where nobody takes rows any more, nothing is
+    // computed any more.
+    let each = |finished: &mut mpsc::Sender<_>, &point: &usize| {
+        finished.send(plan.solve(point)).map_err(|_| ())
+    };
+    let all = || {
+        points
+            .par_iter()
+            .with_max_len(1)
+            .try_for_each_with(finished, each)
+    };
     let taken = std::thread::scope(|scope| {
-        scope.spawn(|| {
-            pool.install(|| {
-                // One point after the other, so that the file grows nearly in order.
-                points
-                    .par_iter()
-                    .with_max_len(1)
-                    .try_for_each_with(finished, |finished, &point| {
-                        // Where nobody takes rows any more, nothing is computed any more.
-                        finished.send(plan.solve(point)).map_err(|_| ())
-                    })
-                    .ok();
-            });
-        });
-        let taken = rows.into_iter().try_for_each(|row| {
+        scope.spawn(|| pool.install(all).ok());
+        rows.into_iter().try_for_each(|row| {
             take(&row?)?;
             bar.inc(1);
             Ok(())
-        });
-        taken
+        })
     });
     bar.finish_and_clear();
     taken

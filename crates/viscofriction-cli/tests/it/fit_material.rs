@@ -1,35 +1,19 @@
 //! From a table of measured moduli to the material of a scene.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Output;
 
-/// An empty folder of this name.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::remove_dir_all(&folder).ok();
-    fs::create_dir_all(&folder).expect("the folder can be made");
-    folder
-}
+use crate::support::{argument, folder, measured, text, viscofriction};
 
 fn fit_material(table: &Path, out: &Path, options: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_viscofriction"))
-        .arg("fit-material")
-        .arg(table)
-        .arg("--out")
-        .arg(out)
-        .args(options)
-        .output()
-        .expect("the command runs")
+    let arguments = ["fit-material", argument(table), "--out", argument(out)];
+    viscofriction(&[&arguments[..], options].concat())
 }
 
-fn message(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-fn measured(name: &str) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    root.join("../crates/rheology/tests/data").join(name)
+fn fitted(table: &Path, out: &Path, options: &[&str]) {
+    let output = fit_material(table, out, options);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
 }
 
 fn material(out: &Path) -> toml::Table {
@@ -43,12 +27,11 @@ fn material(out: &Path) -> toml::Table {
 fn a_master_curve_becomes_the_material_of_a_scene() {
     let out = folder("master");
     let table = measured("pyvisco_frequency_master.csv");
-    let output = fit_material(
+    fitted(
         &table,
         &out,
         &["--branches", "20", "--poisson-ratio", "0.4"],
     );
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
     let prony = material(&out);
     let branches = prony["branches"].as_array().expect("a list");
     assert!(
@@ -78,8 +61,7 @@ fn a_master_curve_becomes_the_material_of_a_scene() {
 fn isotherms_are_shifted_onto_one_curve() {
     let out = folder("isotherms");
     let table = measured("pyvisco_frequency_raw.csv");
-    let output = fit_material(&table, &out, &["--reference-temperature", "-5"]);
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+    fitted(&table, &out, &["--reference-temperature", "-5"]);
     let shifts = fs::read_to_string(out.join("shifts.csv")).expect("shifts.csv is there");
     let shifts: Vec<[f64; 2]> = shifts
         .lines()
@@ -131,8 +113,7 @@ fn a_liquid_and_a_relaxation_are_fitted_too() {
         format!("ω, G′, G″\nrad/s, kPa, kPa\n{}", rows.concat()),
     )
     .expect("a file");
-    let output = fit_material(&table, &out, &["--liquid"]);
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+    fitted(&table, &out, &["--liquid"]);
     let prony = material(&out);
     let branch = &prony["branches"][0];
     for (name, expected) in [("modulus", 3e3), ("relaxation_time", 2.0)] {
@@ -143,132 +124,66 @@ fn a_liquid_and_a_relaxation_are_fitted_too() {
         );
     }
     let table = measured("pyvisco_time_master.csv");
-    let output = fit_material(&table, &out, &["--branches", "10"]);
-    assert_eq!(output.status.code(), Some(0), "{}", message(&output));
+    fitted(&table, &out, &["--branches", "10", "--overwrite"]);
 }
 
 const GOOD: &str = "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11,1\n";
-
-/// Tables with one wrong cell, and what is said about it.
-const WRONG_CELLS: &[(&str, &str)] = &[
-    (
-        "f,E',E''\nHz,MPa,MPa\n2,10,1\n1,11,1\n",
-        "line 4, column 1 (f): expected more than in the line before, 2, but found '1'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,10,1\n1,11,1\n",
-        "line 4, column 1 (f): expected more than in the line before, 1, but found '1'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,-11,1\n",
-        "line 4, column 2 (E'): expected a number greater than 0, but found '-11'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n0,10,1\n2,11,1\n",
-        "line 3, column 1 (f): expected a number greater than 0, but found '0'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,10,nan\n2,11,1\n",
-        "line 3, column 3 (E''): expected a finite number, but found 'nan'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11\n",
-        "line 4, column 3 (E''): expected a finite number, but found ''",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,ten,1\n2,11,1\n",
-        "line 3, column 2 (E'): expected a finite number, but found 'ten'",
-    ),
-];
-
-/// Tables with a wrong head or too few lines.
-const WRONG_HEADS: &[(&str, &str)] = &[
-    (
-        "f,E',E''\n1,10,1\n2,11,1\n",
-        "line 2, column 1 (f): expected the unit of f: Hz, mHz, kHz or rad/s, but found '1'",
-    ),
-    (
-        "f,E',E''\nHz,MPa,psi\n1,10,1\n2,11,1\n",
-        "line 2, column 3 (E''): expected the unit of E'': Pa, kPa, MPa or GPa, but found 'psi'",
-    ),
-    (
-        "f,E''\nHz,MPa\n1,1\n2,1\n",
-        "line 1: there must be a column E' or G'",
-    ),
-    (
-        "f,E'\nHz,MPa\n1,1\n2,1\n",
-        "line 1: there must be a column E'' or G''",
-    ),
-    (
-        "E',E''\nMPa,MPa\n1,1\n2,1\n",
-        "line 1: there must be a column f or ω",
-    ),
-    (
-        "f,E',G''\nHz,MPa,MPa\n1,1,1\n2,1,1\n",
-        "line 1, column 3 (G''): expected a loss modulus to go with E', but found 'G'''",
-    ),
-    (
-        "f,E',E'',E'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n",
-        "line 1, column 4 (E'): expected a quantity once",
-    ),
-    (
-        "f,E',E''\nHz,MPa,MPa\n1,10,1\n",
-        "at least 2 measurements are needed after the lines of names and units, but there are 1",
-    ),
-    ("", "a line of names and a line of units are needed"),
-];
-
-#[test]
-fn wrong_tables_name_line_column_and_what_is_expected() {
-    let out = folder("wrong");
-    for (text, needed) in [WRONG_CELLS, WRONG_HEADS].concat() {
-        let table = out.join("wrong.csv");
-        fs::write(&table, text).expect("a file");
-        let output = fit_material(&table, &out, &[]);
-        let said = message(&output);
-        assert_eq!(output.status.code(), Some(2), "{text:?}: {said}");
-        assert!(
-            said.contains("wrong.csv") && said.contains(needed),
-            "{text:?} says: {said}"
-        );
-    }
-    assert!(
-        !out.join("material.toml").exists(),
-        "a material from a wrong table"
-    );
-}
 
 #[test]
 fn wrong_options_end_with_status_2() {
     let out = folder("options");
     let table = out.join("good.csv");
     fs::write(&table, GOOD).expect("a file");
-    for (options, needed) in [
+    let [good, missing] = [&table, Path::new("no-such-file.csv")];
+    for (table, options, needed) in [
         (
-            &["--poisson-ratio", "0.6"][..],
+            good,
+            "--poisson-ratio 0.6",
             "--poisson-ratio must be greater than -1 and at most 0.5, but is 0.6",
         ),
         (
-            &["--branches", "0"],
+            good,
+            "--branches 0",
             "--branches must be from 1 to 200, but is 0",
         ),
-        (&["--parsimony", "-1"], "--parsimony"),
-        (&["--smoothing", "1"], "--branches"),
-        (
-            &["--branches", "2", "--parsimony", "0.1"],
-            "cannot be used with",
-        ),
+        (good, "--parsimony -1", "--parsimony"),
+        (good, "--smoothing 1", "--branches"),
+        (good, "--branches 2 --parsimony 0.1", "cannot be used with"),
+        (missing, "--branches 2", "no-such-file.csv"),
     ] {
-        let output = fit_material(&table, &out, options);
-        let said = message(&output);
+        let options: Vec<&str> = options.split(' ').collect();
+        let output = fit_material(table, &out, &options);
+        let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{options:?}: {said}");
         assert!(said.contains(needed), "{options:?} says: {said}");
     }
-    let missing = fit_material(Path::new("no-such-file.csv"), &out, &[]);
-    assert_eq!(missing.status.code(), Some(2), "{}", message(&missing));
-    assert!(
-        message(&missing).contains("no-such-file.csv"),
-        "{}",
-        message(&missing)
-    );
+}
+
+/// As they are, no positive branches come closer than a fifth to them.
+#[test]
+fn swapped_columns_are_refused_and_nothing_is_written() {
+    let folder = folder("swapped");
+    let [table, out] = ["swapped.csv", "out"].map(|name| folder.join(name));
+    let moduli = fs::read_to_string(measured("pyvisco_frequency_master.csv")).expect("a table");
+    let (names, rest) = moduli.split_once('\n').expect("a line of names");
+    let is_storage = |name: &str| name.contains("stor") || name.trim() == "E'";
+    let swapped: Vec<&str> = names
+        .split(',')
+        .map(|name| match name.trim() {
+            name if is_storage(name) => "E''",
+            "E''" | "E_loss" => "E'",
+            _ => name,
+        })
+        .collect();
+    fs::write(&table, format!("{}\n{rest}", swapped.join(","))).expect("a table");
+    for options in [&[][..], &["--branches", "20"]] {
+        let output = fit_material(&table, &out, options);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(
+            message.contains("storage and loss modulus seem to be swapped"),
+            "{message}"
+        );
+        assert!(!out.exists(), "a material from swapped columns");
+    }
 }

@@ -11,128 +11,82 @@ use proptest::sample::Index;
 use proptest::test_runner::{RngSeed, TestRunner};
 use viscofriction_cli::{InputKind, check_input};
 
-use crate::support::{example, npy};
+use crate::support::{example, measured, npy};
 
 /// What happens to a file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 enum Mutation {
-    FlipBit(Index, u8),
-    Insert(Index, &'static str),
+    FlipBit,
+    Insert,
     /// A number by another value.
-    Replace(Index, &'static str),
-    DeleteLine(Index),
+    Replace,
+    DeleteLine,
     /// A line once more, before another one: keys that are there twice, or in the table of others.
-    RepeatLine(Index, Index),
+    RepeatLine,
     /// A line loses its end.
-    CutLine(Index, Index),
+    CutLine,
     /// The file loses its end.
-    Truncate(Index),
+    Truncate,
 }
 
-const VALUES: [&str; 24] = [
-    "0",
-    "-0.0",
-    "-1",
-    "nan",
-    "-nan",
-    "inf",
-    "-inf",
-    "1e308",
-    "-1e308",
-    "1e400",
-    "1e-308",
-    "5e-324",
-    "1e-400",
-    "0.5000000000000001",
-    "9223372036854775807",
-    "-9223372036854775808",
-    "18446744073709551616",
-    "0x10",
-    "1_000",
-    "1e",
-    "\"1\"",
-    "[]",
-    "{}",
-    "",
-];
+/// Values in the place of a number, each between commas.
+const VALUES: &str = "0,-0.0,-1,nan,-nan,inf,-inf,1e308,-1e308,1e400,1e-308,5e-324,1e-400,0.5000000000000001,\
+    9223372036854775807,-9223372036854775808,18446744073709551616,0x10,1_000,1e,\"1\",[],{},";
+/// What is put somewhere, each between bars.
+const INSERTS: &str = "[|]|[[|{|}|=|.|,|\"|'|\"\"\"|#|\n|\r|\0|\u{feff}|é| |[solve]\n|[indenter.sphere]\n|a.b.c = 1\n|\
+    x = [[[[[[[[1]]]]]]]]\n|nan,nan\n|1,2,3,4,5,6,7\n";
 
-const INSERTS: [&str; 24] = [
-    "[",
-    "]",
-    "[[",
-    "{",
-    "}",
-    "=",
-    ".",
-    ",",
-    "\"",
-    "'",
-    "\"\"\"",
-    "#",
-    "\n",
-    "\r",
-    "\0",
-    "\u{feff}",
-    "é",
-    " ",
-    "[solve]\n",
-    "[indenter.sphere]\n",
-    "a.b.c = 1\n",
-    "x = [[[[[[[[1]]]]]]]]\n",
-    "nan,nan\n",
-    "1,2,3,4,5,6,7\n",
-];
-
-fn mutation() -> impl Strategy<Value = Mutation> {
-    let index = any::<Index>;
-    prop_oneof![
-        1 => (index(), 0_u8..8).prop_map(|(at, bit)| Mutation::FlipBit(at, bit)),
-        1 => (index(), prop::sample::select(&INSERTS[..])).prop_map(|(at, text)| Mutation::Insert(at, text)),
-        3 => (index(), prop::sample::select(&VALUES[..])).prop_map(|(at, text)| Mutation::Replace(at, text)),
-        1 => index().prop_map(Mutation::DeleteLine),
-        1 => (index(), index()).prop_map(|(from, to)| Mutation::RepeatLine(from, to)),
-        1 => (index(), index()).prop_map(|(line, end)| Mutation::CutLine(line, end)),
-        1 => index().prop_map(Mutation::Truncate),
-    ]
+/// A mutation, and two places that it may choose.
+fn mutation() -> impl Strategy<Value = (Mutation, Index, Index)> {
+    let kind = prop_oneof![
+        1 => Just(Mutation::FlipBit),
+        1 => Just(Mutation::Insert),
+        3 => Just(Mutation::Replace),
+        1 => Just(Mutation::DeleteLine),
+        1 => Just(Mutation::RepeatLine),
+        1 => Just(Mutation::CutLine),
+        1 => Just(Mutation::Truncate),
+    ];
+    (kind, any::<Index>(), any::<Index>())
 }
 
-impl Mutation {
-    fn of(&self, text: &[u8]) -> Vec<u8> {
-        if text.is_empty() {
-            return Vec::new();
-        }
-        let mut bytes = text.to_vec();
-        let mut lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
-        match self {
-            Self::FlipBit(at, bit) => bytes[at.index(text.len())] ^= 1 << bit,
-            Self::Insert(at, new) => {
-                let at = at.index(text.len());
-                bytes.splice(at..at, new.bytes());
-            }
-            Self::Replace(at, new) => {
-                let numbers = numbers(text);
-                if !numbers.is_empty() {
-                    bytes.splice(numbers[at.index(numbers.len())].clone(), new.bytes());
-                }
-            }
-            Self::Truncate(at) => bytes.truncate(at.index(text.len())),
-            Self::DeleteLine(line) => {
-                lines.remove(line.index(lines.len()));
-                bytes = lines.concat();
-            }
-            Self::RepeatLine(from, to) => {
-                lines.insert(to.index(lines.len()), lines[from.index(lines.len())]);
-                bytes = lines.concat();
-            }
-            Self::CutLine(line, end) => {
-                let line =
-                    &mut lines[line.index(text.split_inclusive(|byte| *byte == b'\n').count())];
-                *line = &line[..end.index(line.len())];
-                bytes = lines.concat();
-            }
-        }
-        bytes
+fn mutated(text: &[u8], (mutation, at, other): (Mutation, Index, Index)) -> Vec<u8> {
+    if text.is_empty() {
+        return Vec::new();
     }
+    let mut bytes = text.to_vec();
+    let place = at.index(text.len());
+    let mut lines: Vec<&[u8]> = text.split_inclusive(|byte| *byte == b'\n').collect();
+    let line = at.index(lines.len());
+    let one_of = |texts: &'static str, end: char| {
+        let texts: Vec<&str> = texts.split(end).collect();
+        texts[other.index(texts.len())].bytes()
+    };
+    match mutation {
+        Mutation::FlipBit => bytes[place] ^= 1 << other.index(8),
+        Mutation::Insert => drop(bytes.splice(place..place, one_of(INSERTS, '|'))),
+        Mutation::Replace => {
+            let numbers = numbers(text);
+            if !numbers.is_empty() {
+                let number = numbers[at.index(numbers.len())].clone();
+                bytes.splice(number, one_of(VALUES, ','));
+            }
+        }
+        Mutation::Truncate => bytes.truncate(place),
+        Mutation::DeleteLine => {
+            lines.remove(line);
+            bytes = lines.concat();
+        }
+        Mutation::RepeatLine => {
+            lines.insert(other.index(lines.len()), lines[line]);
+            bytes = lines.concat();
+        }
+        Mutation::CutLine => {
+            lines[line] = &lines[line][..other.index(lines[line].len())];
+            bytes = lines.concat();
+        }
+    }
+    bytes
 }
 
 /// Where numbers stand.
@@ -189,9 +143,8 @@ fn fuzz(kind: InputKind, files: &[(PathBuf, Vec<u8>)], cases: u32) -> u32 {
     let strategy = (any::<Index>(), prop::collection::vec(mutation(), 1..5));
     let outcome = runner.run(&strategy, |(file, mutations)| {
         let (path, text) = file.get(files);
-        let contents = mutations
-            .iter()
-            .fold(text.clone(), |text, mutation| mutation.of(&text));
+        let mutations = mutations.into_iter();
+        let contents = mutations.fold(text.clone(), |text, mutation| mutated(&text, mutation));
         match check_input(kind, path, &contents) {
             Ok(()) => accepted.set(accepted.get() + 1),
             Err(error) => prop_assert!(
@@ -215,8 +168,7 @@ fn read(path: PathBuf) -> (PathBuf, Vec<u8>) {
 
 /// The first lines of a table of measured moduli.
 fn moduli(name: &str) -> (PathBuf, Vec<u8>) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (path, contents) = read(root.join("../crates/rheology/tests/data").join(name));
+    let (path, contents) = read(measured(name));
     let lines = contents.split_inclusive(|byte| *byte == b'\n').take(24);
     (path, lines.collect::<Vec<_>>().concat())
 }

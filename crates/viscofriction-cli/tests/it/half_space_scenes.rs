@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::support::{argument, complaint, folder, run_json};
+use crate::support::{argument, bar, folder, number, run_json};
 
 const PARABOLOID: &str = "[indenter.paraboloid]\ncurvature = 50\n";
 const ELASTIC: &str = "[material.elastic]\nshear_modulus = 1e6\npoisson_ratio = 0.3\n";
@@ -26,19 +26,6 @@ fn write(path: &Path, [body, material, load, solve]: [&str; 4]) {
 
 fn answer(name: &str, parts: [&str; 4]) -> Value {
     run_json(&[argument(&scene(name, parts))])
-}
-
-fn number(result: &Value, field: &str) -> f64 {
-    let value = result[field].as_f64();
-    value.unwrap_or_else(|| panic!("{field} is missing in {result}"))
-}
-
-/// A quantity with its error.
-fn bar(result: &Value, field: &str) -> [f64; 2] {
-    [
-        number(result, field),
-        number(result, &format!("{field}_error")),
-    ]
 }
 
 fn agree(name: &str, [one, one_error]: [f64; 2], [other, other_error]: [f64; 2]) {
@@ -200,39 +187,5 @@ fn a_map_of_a_paraboloid_is_the_paraboloid() {
         assert_eq!(result["method"], "bem-transient", "{result}");
         let expected = number(&exact, field);
         agree(field, bar(&result, field), [expected, 1e-2 * expected]);
-    }
-}
-
-#[test]
-fn what_a_body_or_a_depth_cannot_be_asked_is_refused_with_what_can() {
-    let (path, body) = map();
-    let force = "normal_force = 1.0\nvelocity = 0.01\n";
-    let depth = "indentation_depth = 1e-4\nvelocity = 0.01\n";
-    for (parts, line, needed) in [
-        (
-            [&*body, VISCOUS, force, "method = \"mdr-steady\"\n"],
-            10,
-            "needs a body of revolution, and a height map is none; boundary elements take it; these do: bem-steady",
-        ),
-        (
-            [&*body, VISCOUS, force, "model = \"line\"\n"],
-            1,
-            "no method answers this scene yet",
-        ),
-        (
-            [PARABOLOID, VISCOUS, depth, "method = \"bem-steady\"\n"],
-            9,
-            "a depth belongs to a distance; give solve.sliding_distance",
-        ),
-        (
-            [PARABOLOID, SOLID, depth, "method = \"bem-transient\"\n"],
-            11,
-            "at a depth it marches over a distance; give solve.sliding_distance",
-        ),
-    ] {
-        write(&path, parts);
-        let place = format!("{}:{line}", path.display());
-        let complaint = complaint(&["run", argument(&path)], &place, needed);
-        assert!(complaint.is_none(), "{parts:?}: {complaint:?}");
     }
 }

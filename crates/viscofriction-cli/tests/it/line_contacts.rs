@@ -3,14 +3,7 @@
 use std::f64::consts::PI;
 use std::fs;
 
-use serde_json::Value;
-
-use crate::support::{argument, complaint, example, folder, run_json, text, viscofriction};
-
-fn number(result: &Value, field: &str) -> f64 {
-    let value = result[field].as_f64();
-    value.unwrap_or_else(|| panic!("{field} is missing in {result}"))
-}
+use crate::support::{argument, example, folder, number, run_json, text, viscofriction};
 
 /// Hunter's closed form for γ = 0.1 and z = l/(vτ) = 2 (casebook, VIS-04).
 const LOAD: f64 = 6.61211679922975;
@@ -85,47 +78,4 @@ fn units_per_length_are_printed_and_the_pressure_is_written() {
     let spacing = rows[1][0] - rows[0][0];
     let force: f64 = rows.iter().map(|row| row[1] * spacing).sum();
     assert!((force / 2000.0 - 1.0).abs() < 1e-9, "{force} of 2000 N/m");
-}
-
-#[test]
-fn what_a_line_contact_has_no_answer_for_is_refused() {
-    let path = folder("no-line-contact").join("scene.toml");
-    let base = hunter("relative_error = 1e-2\n");
-    let solid = "[material.standard-solid]\nequilibrium_modulus = 1e5\nmaxwell_modulus = 1e6\nviscosity = 1e3\n";
-    let viscous = "[material.viscous]\nviscosity = 1e3\n\n\n";
-    let force = base.lines().find(|line| line.starts_with("normal_force"));
-    let force = force.expect("a force");
-    for (scene, line, needed) in [
-        (
-            base.replace(force, "indentation_depth = 1e-5"),
-            1,
-            "a line contact has no depth",
-        ),
-        (
-            base.replace(solid, viscous),
-            1,
-            "a half space that flows sinks the faster",
-        ),
-        (
-            format!("{base}model = \"line\"\n"),
-            1,
-            "the one-dimensional model is for bodies of revolution",
-        ),
-        (
-            format!("{base}method = \"bem-transient\"\n"),
-            12,
-            "its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it; \
-             these do: bem-steady",
-        ),
-        (
-            format!("{base}method = \"mdr-steady\"\n"),
-            12,
-            "a cylinder is none; these do: bem-steady",
-        ),
-    ] {
-        fs::write(&path, &scene).expect("a scene");
-        let place = format!("{}:{line}", path.display());
-        let complaint = complaint(&["run", argument(&path)], &place, needed);
-        assert!(complaint.is_none(), "{scene}: {complaint:?}");
-    }
 }

@@ -3,14 +3,13 @@
 mod any_scene_is_answered;
 mod documented_commands;
 mod explained_omissions;
+mod files;
 mod fit_material;
 mod fuzzed_inputs;
 mod half_space_scenes;
 mod height_maps_of_numpy;
 mod line_contacts;
-mod malformed_numbers;
-mod malformed_scenes;
-mod malformed_tables;
+mod malformed;
 mod scenes;
 mod support;
 mod sweeps;

@@ -1,16 +1,11 @@
 //! Every committed scene is answered, and answers agree across methods.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::support::{argument, example, folder, run_json, text, viscofriction};
-
-fn number(result: &Value, field: &str) -> f64 {
-    let value = result[field].as_f64();
-    value.unwrap_or_else(|| panic!("{field} is missing in {result}"))
-}
+use crate::support::{argument, bar, example, folder, number, run_json, text, viscofriction};
 
 #[test]
 fn every_committed_scene_is_answered() {
@@ -101,13 +96,28 @@ fn each_method_names_the_parts_that_it_has() {
     }
 }
 
+/// A committed scene on the one-dimensional model, in a folder of this name.
+fn on_the_line(name: &str, scene: &str) -> PathBuf {
+    let path = folder(name).join(scene);
+    fs::copy(example("profile.csv"), path.with_file_name("profile.csv")).expect("a profile");
+    let text = fs::read_to_string(example(scene)).expect("a scene");
+    let text = text.replace("method = \"bem-transient\"", "method = \"mdr-transient\"");
+    let table = if text.contains("[solve]") {
+        ""
+    } else {
+        "\n[solve]"
+    };
+    let text = (text + table).replace("[solve]", "[solve]\nmodel = \"line\"");
+    fs::write(&path, text).expect("a scene");
+    path
+}
+
 #[test]
 fn the_cone_of_the_paper_has_the_friction_of_equation_21() {
-    let scene = example("cone-viscous.toml");
+    let scene = on_the_line("equation-21", "cone-viscous.toml");
     for method in ["analytic", "mdr-steady", "mdr-transient"] {
         let result = run_json(&[argument(&scene), "--method", method]);
-        let [value, error] = ["friction_coefficient", "friction_coefficient_error"]
-            .map(|field| number(&result, field));
+        let [value, error] = bar(&result, "friction_coefficient");
         let expected = 0.05 * std::f64::consts::PI;
         assert!(
             (value - expected).abs() <= error + 1e-15 && error < 1e-3 * expected,
@@ -128,7 +138,8 @@ fn a_material_that_is_viscous_by_another_name_is_the_same() {
     let write = |name: &str, material: &str| {
         let path = folder.join(name);
         let text = format!(
-            "[indenter.paraboloid]\ncurvature = 50.0\n{material}\n[load]\nnormal_force = 1.0\nvelocity = 0.01\n"
+            "[indenter.paraboloid]\ncurvature = 50.0\n{material}\n[load]\nnormal_force = 1.0\nvelocity = 0.01\n\
+             [solve]\nmodel = \"line\"\n"
         );
         fs::write(&path, text).expect("a scene");
         run_json(&[argument(&path)])
@@ -173,18 +184,21 @@ fn error_bars_of_marches_hold_against_closed_forms() {
         ),
     ] {
         let path = example(scene);
-        let exact = run_json(&[argument(&path), "--method", "analytic"]);
         let result = run_json(&[argument(&path), "--method", method]);
+        let same_model = on_the_line("closed-form", scene);
+        let exact = run_json(&[argument(&same_model), "--method", "analytic"]);
         assert_bar_holds(&result, number(&exact, field), (field, 1e-2));
     }
 }
 
 #[test]
 fn the_bar_of_a_chain_with_memory_holds_against_the_closed_form() {
-    let path = example("maxwell-paraboloid.toml");
-    let exact = run_json(&[argument(&path)]);
+    let exact = run_json(&[argument(&on_the_line(
+        "maxwell-exact",
+        "maxwell-paraboloid.toml",
+    ))]);
     let coarse = folder("maxwell").join("scene.toml");
-    let text = fs::read_to_string(&path).expect("a scene");
+    let text = fs::read_to_string(example("maxwell-paraboloid.toml")).expect("a scene");
     fs::write(&coarse, text + "\n[solve]\nelements = 128\n").expect("a scene");
     let result = run_json(&[argument(&coarse), "--method", "mdr-transient"]);
     let field = "friction_coefficient";
@@ -192,8 +206,7 @@ fn the_bar_of_a_chain_with_memory_holds_against_the_closed_form() {
 }
 
 fn assert_bar_holds(result: &Value, expected: f64, (field, largest): (&str, f64)) {
-    let [value, error] =
-        [field.to_owned(), format!("{field}_error")].map(|field| number(result, &field));
+    let [value, error] = bar(result, field);
     assert!(
         (value - expected).abs() <= error + 1e-10 * expected && error <= largest * expected,
         "{expected} instead of {result}"
@@ -209,12 +222,12 @@ fn both_half_space_methods_and_the_table_agree_within_their_error_bars() {
     let coarse = text.replace("relative_error = 1e-2", "elements = 12");
     fs::write(&march, coarse.replace("bem-steady", "bem-transient")).expect("a scene");
     let closed = folder("closed").join("scene.toml");
-    let by_table = text.replace("method = \"bem-steady\"", "model = \"half-space\"");
+    let by_table = text.replace("method = \"bem-steady\"\n", "");
     fs::write(&closed, by_table).expect("a scene");
     let bars = [&scene, &march, &closed].map(|path| {
         let result = run_json(&[argument(path)]);
         assert_eq!(result["model"], "half-space", "{result}");
-        ["friction_coefficient", "friction_coefficient_error"].map(|field| number(&result, field))
+        bar(&result, "friction_coefficient")
     });
     for [value, error] in bars {
         let [expected, exact] = bars[2];
@@ -266,15 +279,52 @@ fn files_read_back_to_the_same_numbers() {
         .map(|bytes| f64::from_le_bytes(bytes.try_into().expect("eight bytes")))
         .collect();
     assert_eq!(values, pressures, "NPY and CSV hold the same field");
-    for name in [
-        "pressure.svg",
-        "pressure.png",
-        "history.csv",
-        "history.svg",
-        "pressure_x.npy",
+}
+
+/// Fields, histories and pictures of every method that has them.
+#[test]
+fn every_method_writes_the_files_of_what_it_knows() {
+    let pressure =
+        "pressure.csv pressure.npy pressure.png pressure.svg pressure_x.npy pressure_y.npy";
+    let history = "history.csv history.png history.svg";
+    let load = "line_load.csv line_load.npy line_load.png line_load.svg";
+    let line_pressure = "line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg";
+    for (scene, method, written) in [
+        ("cone-half-space", "bem-steady", vec![pressure]),
+        (
+            "half-space-run-in",
+            "bem-transient",
+            vec![history, pressure],
+        ),
+        ("cone-viscous", "mdr-transient", vec![history]),
+        ("cylinder-solid", "bem-steady", vec![line_pressure]),
+        ("cone-viscous", "analytic", vec![load]),
     ] {
-        let length = fs::metadata(out.join(name)).map_or(0, |file| file.len());
-        assert!(length > 100, "{name} has {length} bytes");
+        let out = folder("files-of-method").join("out");
+        let path = match method {
+            "analytic" => on_the_line("files-of-line", &format!("{scene}.toml")),
+            _ => example(&format!("{scene}.toml")),
+        };
+        run_json(&[argument(&path), "--method", method, "--out", argument(&out)]);
+        let files = fs::read_dir(&out)
+            .expect("a folder")
+            .map(|file| file.expect("a file"));
+        let mut names: Vec<String> = files
+            .map(|file| {
+                let length = file.metadata().expect("a length").len();
+                assert!(length > 50, "{:?} has {length} bytes", file.path());
+                file.file_name().to_string_lossy().into_owned()
+            })
+            .collect();
+        names.sort();
+        let mut expected = written
+            .join(" ")
+            .split(' ')
+            .map(str::to_owned)
+            .collect::<Vec<_>>();
+        expected.push("result.json".to_owned());
+        expected.sort();
+        assert_eq!(names, expected, "{scene} by {method}");
     }
 }
 

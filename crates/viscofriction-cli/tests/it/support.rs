@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use serde_json::Value;
+
 /// An empty folder of this name.
 pub(crate) fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -53,8 +55,25 @@ pub(crate) fn example(name: &str) -> PathBuf {
     root.join("../../examples/scenes").join(name)
 }
 
+/// A committed table of measured moduli.
+pub(crate) fn measured(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    root.join("../rheology/tests/data").join(name)
+}
+
+/// A quantity of a result.
+pub(crate) fn number(result: &Value, field: &str) -> f64 {
+    let value = result[field].as_f64();
+    value.unwrap_or_else(|| panic!("{field} is missing in {result}"))
+}
+
+/// A quantity with its error.
+pub(crate) fn bar(result: &Value, field: &str) -> [f64; 2] {
+    [field.to_owned(), format!("{field}_error")].map(|field| number(result, &field))
+}
+
 /// The result of a scene as JSON.
-pub(crate) fn run_json(arguments: &[&str]) -> serde_json::Value {
+pub(crate) fn run_json(arguments: &[&str]) -> Value {
     let output = viscofriction(&[&["run", "--format", "json"], arguments].concat());
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");

@@ -5,7 +5,7 @@ mod refusals;
 
 use viscofriction_plot::{
     Axis, Cell, Chart, Colour, ColourScale, Dash, LegendPlace, Line, Map, Marker, Matrix,
-    MatrixRow, Series, Shape,
+    MatrixRow, Proportions, Series, Shape,
 };
 
 fn chart() -> Chart {
@@ -52,6 +52,7 @@ fn map() -> Map {
             range: [0.0, 2.0],
         },
         overlays: vec![],
+        proportions: Proportions::True,
     }
 }
 

@@ -8,13 +8,16 @@ use crate::scene::{SceneError, Source, scene_file, split_index};
 use crate::solve::{Problem, ReadFile, choose, not_offered, solve};
 use crate::text::WrongInput;
 
+/// Keys of a scene whose values are names of files.
+const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
+
 /// A scene and the keys that vary.
 #[derive(Debug)]
 pub struct Plan {
     source: Source,
     table: Table,
     vary: Vec<Vary>,
-    /// Of the scene and what varies, whatever comments and order.
+    /// Of the scene, the contents of the files that it names, and what varies, whatever comments and order.
     pub fingerprint: String,
     read: ReadFile,
 }
@@ -34,7 +37,7 @@ impl Plan {
         }
         let points = vary
             .iter()
-            .try_fold(1_usize, |n, vary| n.checked_mul(vary.count));
+            .try_fold(1_usize, |n, vary| n.checked_mul(vary.values.len()));
         if points.is_none_or(|points| points > MOST_POINTS) {
             return Err(WrongInput(format!(
                 "--vary gives more than {MOST_POINTS} points"
@@ -45,7 +48,12 @@ impl Plan {
         if let Some(Value::Table(solve)) = scene.get_mut("solve") {
             solve.remove("threads");
         }
-        let fingerprint = fingerprint(&format!("{scene}\n{vary:?}"));
+        let mut text = format!("{scene}\n{vary:?}").into_bytes();
+        for file in named_files(&table) {
+            // A file that cannot be read is refused with the key that names it, by the first point.
+            text.extend(read(&source.folder().join(file)).unwrap_or_default());
+        }
+        let fingerprint = fingerprint(&text);
         Ok(Self {
             source,
             table,
@@ -64,7 +72,7 @@ impl Plan {
     /// Number of points, all combinations of the values.
     #[must_use]
     pub fn n_points(&self) -> usize {
-        self.vary.iter().map(|vary| vary.count).product()
+        self.vary.iter().map(|vary| vary.values.len()).product()
     }
 
     /// The keys that vary.
@@ -78,8 +86,9 @@ impl Plan {
         let mut rest = point;
         let mut values: Vec<f64> = Vec::new();
         for vary in self.vary.iter().rev() {
-            values.push(vary.value(rest % vary.count));
-            rest /= vary.count;
+            let count = vary.values.len();
+            values.push(vary.values[rest % count]);
+            rest /= count;
         }
         values.reverse();
         values
@@ -163,10 +172,23 @@ fn number(value: f64) -> Value {
     Value::Float(value)
 }
 
+/// The files that a scene names, wherever it does.
+fn named_files(table: &Table) -> Vec<&str> {
+    let mut files = Vec::new();
+    for (key, value) in table {
+        match value {
+            Value::Table(inner) => files.extend(named_files(inner)),
+            Value::String(file) if FILE_KEYS.contains(&key.as_str()) => files.push(file.as_str()),
+            _ => {}
+        }
+    }
+    files
+}
+
 /// FNV-1a, 64 bits, as 16 digits.
-fn fingerprint(text: &str) -> String {
-    let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+fn fingerprint(text: &[u8]) -> String {
+    let hash = text.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
     });
     format!("{hash:016x}")
 }

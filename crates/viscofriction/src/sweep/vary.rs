@@ -5,13 +5,10 @@ use std::str::FromStr;
 /// A key and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vary {
-    /// Such as `load.velocity`.
+    /// The path of the key, such as `load.velocity`.
     pub key: String,
-    start: f64,
-    stop: f64,
-    /// Number of values.
-    pub count: usize,
-    log: bool,
+    /// In the order in which they were given.
+    pub values: Vec<f64>,
 }
 
 /// Every `count`-th point, beginning with the `number`-th.
@@ -30,28 +27,71 @@ impl FromStr for Vary {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let form = "KEY=START:STOP:COUNT[:log] is needed";
+        let form = "KEY=START:STOP:COUNT[:log] or KEY=a,b,c is needed";
         let (key, values) = text.split_once('=').ok_or(form)?;
+        let key = key.trim();
+        if key.is_empty() {
+            return Err(form.to_owned());
+        }
         let parts: Vec<&str> = values.split(':').collect();
-        let (start, stop, count, log) = match parts[..] {
-            [start, stop, count] => (start, stop, count, false),
-            [start, stop, count, "log"] => (start, stop, count, true),
+        let values = match parts[..] {
+            [start, stop, count] => Range::new(start, stop, count)?.values(Range::linear),
+            [start, stop, count, "log"] => {
+                let range = Range::new(start, stop, count)?;
+                if !(range.start > 0.0 && range.stop > 0.0) {
+                    let needed = "START and STOP must be greater than 0 on a logarithmic scale";
+                    return Err(needed.to_owned());
+                }
+                range.values(Range::logarithmic)
+            }
+            [list] if list.contains(',') => {
+                let values = list.split(',').map(|value| number("a value", value.trim()));
+                values.collect::<Result<_, _>>()?
+            }
             _ => return Err(form.to_owned()),
         };
-        let vary = Self {
-            key: key.trim().to_owned(),
+        Ok(Self {
+            key: key.to_owned(),
+            values,
+        })
+    }
+}
+
+/// Values between two ends, which are met exactly.
+struct Range {
+    start: f64,
+    stop: f64,
+    count: usize,
+}
+
+impl Range {
+    fn new(start: &str, stop: &str, count: &str) -> Result<Self, String> {
+        Ok(Self {
             start: number("START", start)?,
             stop: number("STOP", stop)?,
             count: whole("COUNT", count, MOST_POINTS)?,
-            log,
+        })
+    }
+
+    fn values(&self, at: fn(&Self, f64) -> f64) -> Vec<f64> {
+        let value = |index: usize| match index {
+            0 => self.start,
+            index if index + 1 == self.count => self.stop,
+            index => at(self, index as f64 / (self.count - 1) as f64),
         };
-        if vary.key.is_empty() {
-            return Err(form.to_owned());
-        }
-        if log && !(vary.start > 0.0 && vary.stop > 0.0) {
-            return Err("START and STOP must be greater than 0 on a logarithmic scale".to_owned());
-        }
-        Ok(vary)
+        (0..self.count).map(value).collect()
+    }
+
+    fn linear(&self, fraction: f64) -> f64 {
+        self.start + (self.stop - self.start) * fraction
+    }
+
+    fn logarithmic(&self, fraction: f64) -> f64 {
+        let value = self.start * (self.stop / self.start).powf(fraction);
+        let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
+        // Rounding of the quotient, of its power and of the product.
+        let is_power = (value / power - 1.0).abs() <= 8.0 * f64::EPSILON;
+        if is_power { power } else { value }
     }
 }
 
@@ -71,24 +111,6 @@ fn whole(name: &str, text: &str, most: usize) -> Result<usize, String> {
         _ => Err(format!(
             "{name} must be a whole number from 1 to {most}, but is {text}"
         )),
-    }
-}
-
-impl Vary {
-    /// The value of a given index; both ends are met exactly.
-    #[must_use]
-    pub fn value(&self, index: usize) -> f64 {
-        if index == 0 {
-            return self.start;
-        }
-        if index + 1 == self.count {
-            return self.stop;
-        }
-        let fraction = index as f64 / (self.count - 1) as f64;
-        if self.log {
-            return self.start * (self.stop / self.start).powf(fraction);
-        }
-        self.start + (self.stop - self.start) * fraction
     }
 }
 

@@ -3,7 +3,8 @@
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
 use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Series, Shape,
+    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Proportions,
+    Series, Shape,
 };
 
 use super::sliding::solid;
@@ -184,6 +185,7 @@ pub(super) fn validity(
                     .into_iter()
                     .chain(outline(borders))
                     .collect(),
+                proportions: Proportions::True,
             };
             panels.push(map.into());
         }

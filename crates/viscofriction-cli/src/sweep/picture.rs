@@ -1,0 +1,245 @@
+//! What came out of a sweep over what varies, beside its file.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use viscofriction::WrongInput;
+use viscofriction_plot::{
+    Axis, Chart, Colour, ColourScale, Figure, LegendPlace, Map, Marker, Proportions, Series, Shape,
+};
+
+use super::file::RowTable;
+use crate::output::{OutputFile, picture, say};
+use crate::run::around;
+
+/// What is drawn: the first of which a row has an error, as its column and as the label of its axis.
+const QUANTITIES: [(&str, &str); 3] = [
+    ("friction_coefficient", "friction coefficient"),
+    ("indentation_depth", "indentation depth [m]"),
+    ("normal_force", "normal force [N]"),
+];
+/// The column before the keys that vary, and the one behind them.
+const AROUND_KEYS: [&str; 2] = ["points", "method"];
+/// Values that follow each other by an equal step or factor do so up to this part of it.
+const EQUAL: f64 = 1e-6;
+/// Values of a list that span a larger factor are drawn over their logarithm.
+const WIDE: f64 = 100.0;
+
+/// The picture of a sweep, as SVG and as PNG.
+#[derive(Debug)]
+pub(super) struct PictureFiles {
+    svg: OutputFile,
+    png: OutputFile,
+}
+
+impl PictureFiles {
+    /// The files beside that of the rows.
+    ///
+    /// # Errors
+    /// [`WrongInput`] as of [`OutputFile::new`].
+    pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
+        let [svg, png] = ["svg", "png"].map(|extension| beside(rows, extension));
+        Ok(Self {
+            svg: OutputFile::new(&svg, overwrite)?,
+            png: OutputFile::new(&png, overwrite)?,
+        })
+    }
+
+    /// The files of a sweep that is taken up again: its own picture is drawn anew, another one stays.
+    pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
+        let drawn = std::fs::read_to_string(beside(rows, "svg")).unwrap_or_default();
+        Self::new(rows, drawn.ends_with(&signature(fingerprint)))
+    }
+
+    /// Draws what can be drawn, and says why where nothing can.
+    pub(super) fn draw(&self, table: &RowTable) -> Result<()> {
+        let (svg, png) = match figure(table).and_then(|figure| picture(&figure)) {
+            Ok(files) => files,
+            Err(problem) => {
+                say(&format!("no picture: {problem:#}"));
+                return Ok(());
+            }
+        };
+        let fingerprint = table.rows.first().map_or("", |row| &row.fields[0]);
+        self.svg.write((svg + &signature(fingerprint)).as_bytes())?;
+        self.png.write(&png)
+    }
+}
+
+/// The name of a picture: that of the rows with another extension, or one more.
+fn beside(rows: &Path, extension: &str) -> PathBuf {
+    if rows.extension().is_some_and(|own| own == "csv") {
+        return rows.with_extension(extension);
+    }
+    let mut name = rows.as_os_str().to_owned();
+    name.push(format!(".{extension}"));
+    PathBuf::from(name)
+}
+
+/// By this the picture of a sweep is known.
+fn signature(fingerprint: &str) -> String {
+    format!("<!-- sweep {fingerprint} -->\n")
+}
+
+fn figure(table: &RowTable) -> Result<Figure> {
+    let place = |name: &str| table.header.iter().position(|column| column == name);
+    let [before, behind] = AROUND_KEYS.map(place);
+    let (before, behind) = before
+        .zip(behind)
+        .context("the columns are not those of a sweep")?;
+    let column = |place: usize| -> Vec<Option<f64>> {
+        let cells = table.rows.iter().map(|row| row.fields[place].parse().ok());
+        cells.collect()
+    };
+    let errors = |name: &str| place(&format!("{name}_error")).map(&column);
+    let is_known =
+        |name: &str| errors(name).is_some_and(|errors| errors.iter().any(Option::is_some));
+    let drawn = QUANTITIES.iter().find(|(name, _)| is_known(name));
+    let (name, label) = drawn.context("no point has a result with an error")?;
+    let values = place(name).map(&column).unwrap_or_default();
+    let keys: Vec<(&str, Vec<Option<f64>>)> = (before + 1..behind)
+        .map(|place| (&*table.header[place], column(place)))
+        .collect();
+    match &keys[..] {
+        [(key, over)] => {
+            let errors = errors(name).unwrap_or_default();
+            Ok(chart((key, over), (label, &values), &errors))
+        }
+        [one, other] => map([one, other], (label, &values)),
+        _ => bail!("more than two keys vary"),
+    }
+}
+
+/// A name, and what stands in its column.
+type Column<'a> = (&'a str, &'a [Option<f64>]);
+
+fn chart((key, over): Column<'_>, (label, values): Column<'_>, errors: &[Option<f64>]) -> Figure {
+    let points = over.iter().zip(values).zip(errors);
+    let points = points.filter_map(|((x, y), error)| Some(([(*x)?, (*y)?], error.unwrap_or(0.0))));
+    let (mut points, mut errors): (Vec<[f64; 2]>, Vec<f64>) = points.unzip();
+    let ends = points.iter().zip(&errors);
+    let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
+    let y = Axis::linear(label, around(ends));
+    let places = sorted(points.iter().map(|point| point[0]));
+    let x = match spacing(&places) {
+        Spacing::Factor => Axis::decades(key, places.iter().copied()),
+        Spacing::Step | Spacing::Irregular => Axis::linear(key, ends_of(&places)),
+    };
+    // Points of shards and of several threads come in any order.
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|one, other| points[*one][0].total_cmp(&points[*other][0]));
+    points = order.iter().map(|index| points[*index]).collect();
+    errors = order.iter().map(|index| errors[*index]).collect();
+    let markers = Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue);
+    Figure::single(Chart {
+        title: None,
+        x,
+        y,
+        legend: LegendPlace::Free,
+        series: vec![Series {
+            errors: Some(errors),
+            ..markers
+        }],
+    })
+}
+
+fn map(keys: [&(&str, Vec<Option<f64>>); 2], (label, values): Column<'_>) -> Result<Figure> {
+    let places = keys.map(|(_, over)| sorted(over.iter().copied().flatten()));
+    let [columns, rows] = [places[0].len(), places[1].len()];
+    let mut field = vec![None; columns * rows];
+    for (index, value) in values.iter().enumerate() {
+        let place = |axis: usize| {
+            let value = keys[axis].1[index]?;
+            places[axis]
+                .iter()
+                .position(|other| other.total_cmp(&value).is_eq())
+        };
+        if let Some((column, row)) = place(0).zip(place(1)) {
+            field[row * columns + column] = *value;
+        }
+    }
+    let [x, y] = [0, 1].map(|axis| cells(keys[axis].0, &places[axis]));
+    let [low, high] = ends_of(&sorted(values.iter().copied().flatten()));
+    Ok(Figure::single(Map {
+        title: None,
+        x: x?,
+        y: y?,
+        columns,
+        values: field,
+        colours: ColourScale {
+            label: label.to_owned(),
+            range: [low, high],
+        },
+        overlays: Vec::new(),
+        proportions: Proportions::Free,
+    }))
+}
+
+/// An axis of cells that are as wide as the values in their middle are apart.
+fn cells(key: &str, places: &[f64]) -> Result<Axis> {
+    let (Some(first), Some(last), true) = (places.first(), places.last(), places.len() > 1) else {
+        bail!("{key} has only one value");
+    };
+    let steps = (places.len() - 1) as f64;
+    match spacing(places) {
+        Spacing::Step => {
+            let half = 0.5 * (last - first) / steps;
+            Ok(Axis::linear(key, [first - half, last + half]))
+        }
+        Spacing::Factor if is_geometric(places) => {
+            let half = (last / first).powf(0.5 / steps);
+            Ok(Axis::log10(key, [first / half, last * half]))
+        }
+        _ => bail!("the values of {key} are neither an equal step nor an equal factor apart"),
+    }
+}
+
+/// How values follow each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Step,
+    Factor,
+    Irregular,
+}
+
+fn spacing(places: &[f64]) -> Spacing {
+    let wide = matches!((places.first(), places.last()), (Some(first), Some(last)) if *first > 0.0 && last / first >= WIDE);
+    if is_equal(places.windows(2).map(|pair| pair[1] - pair[0])) {
+        Spacing::Step
+    } else if is_geometric(places) || wide {
+        Spacing::Factor
+    } else {
+        Spacing::Irregular
+    }
+}
+
+fn is_geometric(places: &[f64]) -> bool {
+    let factors = places.windows(2).map(|pair| (pair[1] / pair[0]).ln());
+    places.first().is_some_and(|first| *first > 0.0) && is_equal(factors)
+}
+
+fn is_equal(steps: impl Iterator<Item = f64>) -> bool {
+    let steps = sorted(steps);
+    let (Some(least), Some(most)) = (steps.first(), steps.last()) else {
+        return true;
+    };
+    most - least <= EQUAL * most
+}
+
+/// Every value once.
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|one, other| one.total_cmp(other).is_eq());
+    values
+}
+
+/// From the least to the largest of sorted values; some room around a single one.
+fn ends_of(values: &[f64]) -> [f64; 2] {
+    let [low, high] = [values.first(), values.last()].map(|value| value.copied().unwrap_or(0.0));
+    if high > low {
+        return [low, high];
+    }
+    let room = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
+    [low - room, high + room]
+}
