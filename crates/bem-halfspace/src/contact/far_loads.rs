@@ -37,9 +37,8 @@ pub(super) const SMALLEST: usize = Bands::LARGEST_BLOCK;
 pub(super) struct FarLoads {
     /// w, a list.
     weights: Vec<f64>,
-    smallest: Level,
-    /// Blocks of twice the edges, and so on to one block.
-    larger: Vec<Level>,
+    /// The smallest blocks, those of twice the edges, and so on to one block.
+    levels: Vec<Level>,
 }
 
 /// Blocks of one size.
@@ -59,20 +58,17 @@ struct Level {
 impl FarLoads {
     /// With k as the part `weight` of the displacement of a block under its own load.
     pub(super) fn new(grid: &Grid, weight: f64) -> Self {
+        let mut levels = Vec::new();
         let (mut blocks, mut edge) = (*grid, 1);
-        while edge < SMALLEST {
+        while edge < SMALLEST || blocks.n_elements() > 1 {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
-        }
-        let smallest = Level::new(&blocks, edge, (grid, weight));
-        let mut larger = Vec::new();
-        while blocks.n_elements() > 1 {
-            (blocks, edge) = (blocks.blocks(), 2 * edge);
-            larger.push(Level::new(&blocks, edge, (grid, weight)));
+            if edge >= SMALLEST {
+                levels.push(Level::new(&blocks, edge, (grid, weight)));
+            }
         }
         Self {
             weights: Vec::with_capacity(grid.n_elements()),
-            smallest,
-            larger,
+            levels,
         }
     }
 
@@ -96,67 +92,53 @@ impl FarLoads {
     }
 
     fn find_sums(&mut self, contact: &ActiveSet) {
-        let Self {
-            weights,
-            smallest,
-            larger,
-        } = self;
-        let sums = [contact.blocks(SMALLEST, &mut smallest.sums)];
+        let (weights, levels) = (&self.weights, &mut self.levels);
+        let sums = [contact.blocks(SMALLEST, &mut levels[0].sums)];
         contact.bands().for_each_part(sums, |band, [sums]| {
             let weights = &weights[contact.places(band)];
             sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
         });
-        smallest.find_own();
-        let mut smaller = &*smallest;
-        for level in larger {
+        levels[0].find_own();
+        for_each_larger(levels, |smaller, level| {
             let load = |block: usize| smaller.sums[block] * (1.0 - smaller.own[block]);
             add_blocks((smaller.shape, load), (level.shape, &mut level.sums));
             level.find_own();
-            smaller = level;
-        }
+        });
     }
 
-    /// The list w, and where the sums of w r over the smallest blocks go for a residual r.
+    /// The list w, and the place of the sums of w r over the smallest blocks for a residual r.
     pub(super) fn weights_and_loads(&mut self) -> (&[f64], &mut [f64]) {
-        (&self.weights, &mut self.smallest.values)
-    }
-
-    /// Finds the displacements from the loads.
-    pub(super) fn move_blocks(&mut self) {
-        self.find_gaps();
-        self.find_displacements();
+        (&self.weights, &mut self.levels[0].values)
     }
 
     /// The list w, and the displacements v of the smallest blocks.
     pub(super) fn weights_and_displacements(&self) -> (&[f64], &[f64]) {
-        (&self.weights, &self.smallest.values)
+        (&self.weights, &self.levels[0].values)
     }
 
-    /// From small blocks to large ones.
-    fn find_gaps(&mut self) {
-        let Self {
-            smallest, larger, ..
-        } = self;
-        smallest.divide_by_sums();
-        let mut smaller = &*smallest;
-        for level in larger {
+    /// Finds the displacements from the loads: mean gaps from small blocks to large ones, displacements back.
+    pub(super) fn move_blocks(&mut self) {
+        self.levels[0].divide_by_sums();
+        for_each_larger(&mut self.levels, |smaller, level| {
             let load = |block: usize| {
                 smaller.sums[block] * (1.0 - smaller.own[block]) * smaller.values[block]
             };
             add_blocks((smaller.shape, load), (level.shape, &mut level.values));
             level.divide_by_sums();
-            smaller = level;
-        }
-    }
-
-    /// From large blocks to small ones.
-    fn find_displacements(&mut self) {
+        });
         let mut larger = None;
-        for level in self.larger.iter_mut().rev() {
+        for level in self.levels.iter_mut().rev() {
             level.find_displacements_in(larger);
             larger = Some(&*level);
         }
-        self.smallest.find_displacements_in(larger);
+    }
+}
+
+/// Does work on every level but the first, with that of half the edges, from small blocks to large ones.
+fn for_each_larger(levels: &mut [Level], work: impl Fn(&Level, &mut Level)) {
+    for index in 1..levels.len() {
+        let (smaller, larger) = levels.split_at_mut(index);
+        work(&smaller[index - 1], &mut larger[0]);
     }
 }
 

@@ -159,9 +159,7 @@ impl<'a> Iteration<'a> {
         };
         let vanishes = self.control == Control::NormalForce(0.0);
         let separation = self.separation;
-        let Fields {
-            contact, spread, ..
-        } = &mut *self.fields;
+        let (contact, spread) = (&mut self.fields.contact, &mut self.fields.spread);
         let load = &*self.load;
         contact.assign(|element| {
             let guessed = load[element] > 0.0 && separation[element].is_finite();
@@ -185,9 +183,7 @@ impl<'a> Iteration<'a> {
     }
 
     fn list_contact(&mut self) {
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
+        let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
         contact.find_runs();
         listed.take(contact, [self.separation, self.load]);
     }
@@ -198,9 +194,7 @@ impl<'a> Iteration<'a> {
             return;
         };
         let sum = self.total_load();
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
+        let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
         contact
             .bands()
             .for_each_part([contact.list(&mut listed.load)], |_, [load]| {
@@ -212,16 +206,12 @@ impl<'a> Iteration<'a> {
     }
 
     fn total_load(&self) -> f64 {
-        let Fields {
-            contact, listed, ..
-        } = &*self.fields;
+        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
         contact.sum(|places| sum([&listed.load[places]], |[load]| load))
     }
 
     fn write_load(&mut self) {
-        let Fields {
-            contact, listed, ..
-        } = &*self.fields;
+        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
         contact.scatter(&listed.load, self.load);
     }
 
@@ -266,9 +256,7 @@ impl<'a> Iteration<'a> {
 
     /// Clears what has just left the contact, while the runs are still those before.
     fn clear_left(&mut self) {
-        let Fields {
-            contact, spread, ..
-        } = &mut *self.fields;
+        let (contact, spread) = (&mut self.fields.contact, &mut self.fields.spread);
         let bands = contact.bands();
         bands.for_each([&mut *self.load, spread], |band, fields| {
             let first = bands.elements(band).start;

@@ -135,7 +135,7 @@ fn solve_here(
     state.take_guess(grid, load_per_pressure);
     let solved = solve_in_front_of_mirrors(loads, state, &options.into());
     state.scale_load(grid, 1.0 / load_per_pressure);
-    state.list_contact(grid);
+    state.list_contact();
     let solved = solved?;
     Ok(Contact {
         indentation_depth: solved.indentation_depth,

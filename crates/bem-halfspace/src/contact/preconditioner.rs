@@ -103,12 +103,8 @@ impl Preconditioner {
         result: &mut [f64],
     ) {
         self.spread(contact, residual, field);
-        let block_rows = self.blocks.grid().shape()[0];
-        self.blocks.apply(
-            &mut self.workspace,
-            (&self.means, 0..block_rows),
-            (&mut self.images, 0..block_rows),
-        );
+        self.blocks
+            .apply_to_all(&mut self.workspace, &self.means, &mut self.images);
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
         contact

@@ -1,7 +1,6 @@
 //! Pressure and buffers of a contact solve.
 
-use crate::bands::{Bands, resize};
-use crate::chunks::Starts;
+use crate::bands::Bands;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::iteration::Fields;
 use crate::convolution::Surroundings;
@@ -16,8 +15,6 @@ pub struct ContactState {
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
-    /// How many of them there are before each band, and in all.
-    starts: Vec<usize>,
     /// Whether the iteration may run on a box around the contact.
     pub(super) may_have_box: bool,
     /// The grid, and what surrounds it, for which everything below was made when it was first needed.
@@ -40,7 +37,6 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
-            starts: vec![0],
             may_have_box: true,
             kind: None,
             workspace: None,
@@ -88,46 +84,29 @@ impl ContactState {
 
     /// Takes what the caller left as a first guess, times a factor; anything but a positive number is taken as zero.
     pub(super) fn take_guess(&mut self, grid: &Grid, factor: f64) {
-        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
-            for load in load {
-                let guess = *load * factor;
-                let is_load = guess > 0.0 && guess.is_finite();
-                *load = if is_load { guess } else { 0.0 };
-            }
+        self.for_each_load(grid, |load| {
+            let guess = load * factor;
+            let is_load = guess > 0.0 && guess.is_finite();
+            if is_load { guess } else { 0.0 }
         });
     }
 
     pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
+        self.for_each_load(grid, |load| load * factor);
+    }
+
+    fn for_each_load(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
         Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
             for load in load {
-                *load *= factor;
+                *load = replace(*load);
             }
         });
     }
 
-    pub(super) fn list_contact(&mut self, grid: &Grid) {
-        let bands = Bands::new(grid.shape());
-        let load = &self.load;
-        let loaded = |band| {
-            let elements = bands.elements(band);
-            elements.filter(|&element| load[element] > 0.0)
-        };
-        self.starts.resize(bands.n_bands() + 1, 0);
-        let count = |band, [count]: [&mut [usize]; 1]| count[0] = loaded(band).count();
-        let counts = [(&mut self.starts[1..], Starts::Every(1))];
-        bands.for_each_part(counts, count);
-        let mut n_contact = 0;
-        for start in &mut self.starts {
-            n_contact += *start;
-            *start = n_contact;
-        }
-        resize(&mut self.contact, 0, n_contact);
-        let list = |band, [places]: [&mut [usize]; 1]| {
-            for (place, element) in places.iter_mut().zip(loaded(band)) {
-                *place = element;
-            }
-        };
-        let contact = [(&mut self.contact[..], Starts::Listed(&self.starts))];
-        bands.for_each_part(contact, list);
+    pub(super) fn list_contact(&mut self) {
+        self.contact.clear();
+        let elements = self.load.iter().enumerate();
+        let loaded = elements.filter(|(_, load)| **load > 0.0);
+        self.contact.extend(loaded.map(|(element, _)| element));
     }
 }

@@ -153,6 +153,17 @@ impl Convolution {
         ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))
     }
 
+    /// Computes `K P` on the whole grid.
+    pub(crate) fn apply_to_all(
+        &self,
+        workspace: &mut ConvolutionWorkspace,
+        pressure: &[f64],
+        result: &mut [f64],
+    ) {
+        let rows = self.grid.shape()[0];
+        self.apply(workspace, (pressure, 0..rows), (result, 0..rows));
+    }
+
     /// Computes `K P` in the rows `wanted` of `result` from the rows `loaded` of `pressure`; the pressure outside
     /// these rows is taken as zero and the other rows of the result are left as they are.
     ///
@@ -219,13 +230,8 @@ mod tests {
     }
 
     fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
-        let rows = convolution.grid().shape()[0];
         let mut result = vec![0.0; pressure.len()];
-        convolution.apply(
-            &mut convolution.workspace(),
-            (pressure, 0..rows),
-            (&mut result, 0..rows),
-        );
+        convolution.apply_to_all(&mut convolution.workspace(), pressure, &mut result);
         result
     }
 

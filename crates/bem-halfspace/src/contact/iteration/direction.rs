@@ -9,16 +9,10 @@ impl Iteration<'_> {
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.
     pub(super) fn step(&mut self) {
         self.find_direction();
-        let rows = self.convolution.grid().shape()[0];
-        let Fields {
-            contact,
-            listed,
-            spread,
-            image,
-            ..
-        } = &mut *self.fields;
+        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
+        let image = &mut self.fields.image;
         self.convolution
-            .apply(self.workspace, (spread, 0..rows), (image, 0..rows));
+            .apply_to_all(self.workspace, &self.fields.spread, image);
         let direction = &listed.direction;
         let energy = contact.bands().fold(
             [contact.list(&mut listed.image)],
@@ -28,7 +22,7 @@ impl Iteration<'_> {
             },
             |left, right| left + right,
         );
-        // The load of a single element has nowhere to go.
+        // The load of a single element is the force.
         let length = if energy == 0.0 {
             0.0
         } else {

@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
-use crate::contact::iteration::{Fields, Iteration};
-use crate::contact::listed::Listed;
+use crate::contact::iteration::Iteration;
 use crate::contact::reductions::{add, lower, reduce, sum};
 use crate::contact::violations::Violations;
 
@@ -59,13 +58,9 @@ impl Iteration<'_> {
     /// Computes the displacement from the load.
     pub(super) fn refresh(&mut self) {
         self.write_load();
-        let rows = self.convolution.grid().shape()[0];
-        let (load, displacement) = (&self.load[..], &mut self.displacement[..]);
         self.convolution
-            .apply(self.workspace, (load, 0..rows), (displacement, 0..rows));
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
+            .apply_to_all(self.workspace, self.load, self.displacement);
+        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
         let (fields, depth) = ([self.separation, self.displacement], self.indentation_depth);
         let separation = &listed.separation;
         let in_band = |band, [displacement]: [&mut [f64]; 1]| {
@@ -82,36 +77,23 @@ impl Iteration<'_> {
 
     /// Moves load and displacement by so many directions.
     pub(super) fn advance(&mut self, length: f64) {
-        let Fields {
-            contact,
-            listed,
-            image,
-            ..
-        } = &mut *self.fields;
-        let Listed {
-            separation,
-            load,
-            displacement,
-            direction,
-            image: listed_image,
-            ..
-        } = listed;
+        let (contact, image) = (&self.fields.contact, &self.fields.image);
+        let listed = &mut self.fields.listed;
+        let separation = &listed.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
             let (elements, places) = (contact.bands().elements(band), contact.places(band));
             add(field, length, &image[elements.clone()]);
-            add(displacement, length, &listed_image[places.clone()]);
-            add(load, length, &direction[places.clone()]);
-            let (outside, inside) = (
-                [&heights[elements], field],
-                [&separation[places], displacement],
-            );
+            add(displacement, length, &listed.image[places.clone()]);
+            add(load, length, &listed.direction[places.clone()]);
+            let outside = [&heights[elements], field];
+            let inside = [&separation[places], displacement];
             Heights::of_band((contact, band), outside, inside, depth)
         };
         let moved = [
             contact.field(self.displacement),
-            contact.list(displacement),
-            contact.list(load),
+            contact.list(&mut listed.displacement),
+            contact.list(&mut listed.load),
         ];
         self.heights = contact.bands().fold(moved, in_band, Heights::both);
         self.fresh = false;
@@ -120,9 +102,7 @@ impl Iteration<'_> {
 
     /// At a given force the depth is the mean height of the contact, so that the gaps there have the mean zero.
     pub(super) fn find_depth(&mut self) {
-        let Fields {
-            contact, listed, ..
-        } = &*self.fields;
+        let (contact, listed) = (&self.fields.contact, &self.fields.listed);
         self.indentation_depth = match self.control {
             Control::IndentationDepth(depth) => depth,
             Control::NormalForce(_) if contact.len() == 0 => {
@@ -145,9 +125,7 @@ impl Iteration<'_> {
 
     /// Stores the residual of the linear equations, minus the gap in the contact, and finds what is violated.
     pub(super) fn measure(&mut self) -> Violations {
-        let Fields {
-            contact, listed, ..
-        } = &mut *self.fields;
+        let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
         let (separation, displacement, load) =
             (&listed.separation, &listed.displacement, &listed.load);
         let own_influence = self.convolution.self_influence();
