@@ -5,6 +5,8 @@
 //! reaches.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+mod assertions;
+
 use std::fmt::Write as _;
 
 use serde_json::Value;

@@ -1,3 +1,4 @@
+use casebook::{assert_close, assert_matches};
 use friction_analytic::{
     DivergenceCause, FrictionError, axisymmetric_sliding, line_sliding, power_sliding,
     superposition_sliding,
@@ -7,7 +8,7 @@ use indenters::{
     contact_radius,
 };
 
-use crate::support::{assert_close, body, with_depth};
+use crate::support::{body, with_depth};
 
 /// The sum that a chain of `n` elements per (a − b) makes of ∫ h̃'² dx / D, with an element edge at the kink b.
 fn discrete_friction(body: &dyn Axisymmetric, [kink, front]: [f64; 2], n: u32) -> f64 {
@@ -43,12 +44,10 @@ fn a_slope_jump_diverges_like_a_logarithm() {
             jump: kink.slope_jump,
         };
         assert_eq!(cause, expected, "{}", case.id());
-        assert_close("d", indentation_depth, depth, 1e-15);
-        assert_close(
-            "x_d",
-            contact_length,
-            contact_radius(body.as_ref(), depth).unwrap(),
-            1e-15,
+        assert_close!(indentation_depth => depth, within 1e-15);
+        assert_close!(
+            contact_length => contact_radius(body.as_ref(), depth).unwrap(),
+            within 1e-15
         );
         let ends = [kink.radius, contact_length];
         let coarse = discrete_friction(body.as_ref(), ends, 2_000);
@@ -68,12 +67,7 @@ fn a_contact_that_ends_at_the_jump_has_friction() {
     let depth_at_kink = std::f64::consts::FRAC_PI_2 * tip * 0.5;
     let (material, load) = with_depth(depth_at_kink * (1.0 - 1e-9));
     let state = axisymmetric_sliding(&body, &material, &load).unwrap();
-    assert_close(
-        "μ",
-        state.friction_coefficient,
-        std::f64::consts::FRAC_PI_2 * tip,
-        1e-11,
-    );
+    assert_close!(state.friction_coefficient => std::f64::consts::FRAC_PI_2 * tip, within 1e-11);
     let (material, load) = with_depth(depth_at_kink * (1.0 + 1e-9));
     let result = axisymmetric_sliding(&body, &material, &load);
     let diverges = matches!(
@@ -149,7 +143,7 @@ fn a_sharp_apex_diverges_in_every_function() {
                 DivergenceCause::ApexExponent { exponent: p },
                 "p = {p}"
             );
-            assert_close("d", indentation_depth, depth, 1e-15);
+            assert_close!(indentation_depth => depth, within 1e-15);
         }
     }
 }
@@ -177,10 +171,7 @@ fn the_same_line_without_its_body_is_not_converged() {
         AnalyticLine::new(|x| cone.line_height(x), |x| cone.line_slope(x), [0.5, 2.0]).unwrap();
     let (material, load) = with_depth(0.1);
     let result = line_sliding(&line, &material, &load);
-    assert!(
-        matches!(result, Err(FrictionError::NotConverged { .. })),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::NotConverged { .. }));
 }
 
 #[test]

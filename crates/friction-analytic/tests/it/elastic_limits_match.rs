@@ -1,10 +1,11 @@
+use casebook::assert_close;
 use friction_analytic::{
     DivergenceCause, ElasticContact, FrictionError, high_speed_friction, low_speed_friction,
 };
 use indenters::{Axisymmetric, FlatCone, PowerProfile, stretch};
 use rheology::{StandardSolid, StandardSolidParameters};
 
-use crate::support::{assert_close, body};
+use crate::support::body;
 
 fn solid([g1, g2, tau]: [f64; 3]) -> StandardSolid {
     StandardSolid::new(StandardSolidParameters {
@@ -70,26 +71,16 @@ fn power_profiles_have_both_limits_in_closed_form() {
         let fast = high_speed_friction(&profile, &solid, contact).unwrap();
         let rate = g2 / tau / (g1 + g2);
         let expected = rate / v * kc * 2.0 * p / (2.0 * p + 1.0) * a.powf(p);
-        assert_close(
-            &format!("fast μ, p = {p}"),
-            fast.half_space,
-            expected,
-            1e-11,
-        );
+        assert_close!(fast.half_space => expected, within 1e-11; "fast μ, p = {p}");
         let force = 8.0 * (g1 + g2) * p / (p + 1.0) * profile.line_height(a) * a;
-        assert_close(&format!("fast F, p = {p}"), fast.normal_force, force, 1e-12);
+        assert_close!(fast.normal_force => force, within 1e-12; "fast F, p = {p}");
         if p <= 0.5 {
             continue;
         }
         let slow = low_speed_friction(&profile, &solid, contact).unwrap();
         let expected = g2 * tau * v / g1 * kc * p * (p + 1.0) / (2.0 * p - 1.0) * a.powf(p - 2.0);
-        assert_close(&format!("slow μ, p = {p}"), slow.line, expected, 1e-11);
-        assert_close(
-            &format!("slow F, p = {p}"),
-            slow.normal_force,
-            force * g1 / (g1 + g2),
-            1e-12,
-        );
+        assert_close!(slow.line => expected, within 1e-11; "slow μ, p = {p}");
+        assert_close!(slow.normal_force => force * g1 / (g1 + g2), within 1e-12; "slow F, p = {p}");
     }
 }
 

@@ -1,3 +1,4 @@
+use casebook::assert_close;
 use friction_analytic::{
     FrictionError, Indentation, impulse_to_depth, indentation_after_impulse,
     power_indentation_after_impulse, time_to_depth,
@@ -9,7 +10,7 @@ use numerics::integrate;
 use proptest::prelude::*;
 use rheology::Viscous;
 
-use crate::support::{Bare, assert_close, body, fixed_cases};
+use crate::support::{Bare, body, fixed_cases};
 
 #[test]
 fn impulse_decides_indentation() {
@@ -56,17 +57,13 @@ fn impulse_is_the_elastic_force_with_viscosity_for_modulus() {
         let from_depth = impulse_to_depth(body.as_ref(), &material, depth).unwrap();
         case.check("F", from_depth);
         let contact = indentation_after_impulse(body.as_ref(), &material, force).unwrap();
-        assert_close(
-            &format!("{}: a", case.id()),
-            contact.contact_radius,
-            case.input("a"),
-            case.relative_tolerance(),
+        assert_close!(
+            contact.contact_radius => case.input("a"),
+            within case.relative_tolerance(); "{}: a", case.id()
         );
-        assert_close(
-            &format!("{}: d", case.id()),
-            contact.indentation_depth,
-            depth,
-            case.relative_tolerance(),
+        assert_close!(
+            contact.indentation_depth => depth,
+            within case.relative_tolerance(); "{}: d", case.id()
         );
         // dF/dd = 8 G a: central difference over 1e-4 d, whose error is of the order of 1e-8.
         let step = 1e-4 * depth;
@@ -106,13 +103,8 @@ fn any_shape_goes_the_way_of_its_own_quadrature() {
     for impulse in [1e-9, 0.5, 20.0, 200.0] {
         let closed_line = indentation_after_impulse(&sphere, &material, impulse).unwrap();
         let bare = indentation_after_impulse(&Bare(&sphere), &material, impulse).unwrap();
-        assert_close("a", bare.contact_radius, closed_line.contact_radius, 1e-12);
-        assert_close(
-            "d",
-            bare.indentation_depth,
-            closed_line.indentation_depth,
-            1e-11,
-        );
+        assert_close!(bare.contact_radius => closed_line.contact_radius, within 1e-12);
+        assert_close!(bare.indentation_depth => closed_line.indentation_depth, within 1e-11);
     }
 }
 
@@ -143,13 +135,8 @@ fn a_punch_sinks_in_proportion_to_the_impulse() {
     let material = Viscous::new(eta).unwrap();
     for impulse in [1e-6, 1.0, 1e6] {
         let contact = indentation_after_impulse(&punch, &material, impulse).unwrap();
-        assert_close("a", contact.contact_radius, radius, 1e-16);
-        assert_close(
-            "d",
-            contact.indentation_depth,
-            impulse / (8.0 * eta * radius),
-            1e-15,
-        );
+        assert_close!(contact.contact_radius => radius, within 1e-16);
+        assert_close!(contact.indentation_depth => impulse / (8.0 * eta * radius), within 1e-15);
     }
 }
 
@@ -219,8 +206,11 @@ proptest! {
         let impulse = 10_f64.powf(log_impulse) * length * length;
         let closed = power_indentation_after_impulse(&profile, &material, impulse).unwrap();
         let searched = indentation_after_impulse(&profile, &material, impulse).unwrap();
-        assert_close("a", searched.contact_radius, closed.contact_radius, 1e-12);
+        assert_close!(searched.contact_radius => closed.contact_radius, within 1e-12);
         // d = κ c a^p multiplies the rounding of a with p.
-        assert_close("d", searched.indentation_depth, closed.indentation_depth, 1e-12 + 1e-14 * p);
+        assert_close!(
+            searched.indentation_depth => closed.indentation_depth,
+            within 1e-12 + 1e-14 * p
+        );
     }
 }

@@ -1,11 +1,11 @@
-use casebook::Case;
+use casebook::{Case, assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, StationarySliding, axisymmetric_sliding, line_sliding,
     one_sided_sinking_velocity, sinking_velocity,
 };
 use indenters::{AnalyticLine, Axisymmetric, EquivalentLine, Hyperboloid, RigidLine, SampledLine};
 
-use crate::support::{assert_close, with_depth};
+use crate::support::with_depth;
 
 /// e (x³/3 − 3x²/2 + 2x), moving to the right, or its mirror image on the same interval.
 fn cubic(e: f64, domain: [f64; 2], direction: f64) -> impl RigidLine {
@@ -55,7 +55,7 @@ fn leading_edge_carries_the_load() {
                     "{}",
                     case.id()
                 );
-                assert_close("the needed depth", needed_depth, depth, 1e-15);
+                assert_close!(needed_depth => depth, within 1e-15);
                 let offered = if direction > 0.0 { 1.5 * e } else { 0.0 };
                 let difference = (available_depth - offered).abs();
                 assert!(
@@ -71,7 +71,7 @@ fn leading_edge_carries_the_load() {
 
 fn check_contact(case: &Case, depth: f64, state: &StationarySliding) {
     case.check("mu", state.friction_coefficient);
-    assert_close("d", state.indentation_depth, depth, 1e-15);
+    assert_close!(state.indentation_depth => depth, within 1e-15);
     let ends: Vec<f64> = state.contact_line.concat();
     let expected = case
         .expected_list("intervals")
@@ -113,7 +113,7 @@ fn a_table_slides_on_the_visible_parts_of_its_pieces() {
     let line = SampledLine::new(positions.collect(), heights).unwrap();
     let (material, load) = with_depth(depth);
     let state = line_sliding(&line, &material, &load).unwrap();
-    assert_close("μ", state.friction_coefficient, sum / depth, 1e-14);
+    assert_close!(state.friction_coefficient => sum / depth, within 1e-14);
     let velocity = sinking_velocity(&line, &state.contact_line, &material, &load).unwrap();
     assert!(
         velocity.abs() <= 1e-14 * load.velocity(),
@@ -130,18 +130,11 @@ fn the_front_half_of_a_body_is_a_line_with_the_same_friction() {
         let (material, load) = with_depth(depth);
         let from_line = line_sliding(&line, &material, &load).unwrap();
         let from_body = axisymmetric_sliding(&body, &material, &load).unwrap();
-        assert_close(
-            "μ",
-            from_line.friction_coefficient,
-            from_body.friction_coefficient,
-            1e-12,
+        assert_close!(
+            from_line.friction_coefficient => from_body.friction_coefficient,
+            within 1e-12
         );
-        assert_close(
-            "x_d",
-            from_line.contact_length(),
-            from_body.contact_length(),
-            1e-12,
-        );
+        assert_close!(from_line.contact_length() => from_body.contact_length(), within 1e-12);
     }
 }
 
@@ -181,7 +174,7 @@ fn one_sided_contact_follows_equation_15() {
     let expected = force / (4.0 * eta * a) - v * slope * a / a;
     for function in [sinking_velocity, one_sided_sinking_velocity] {
         let velocity = function(&line, &[[0.0, a]], &material, &load).unwrap();
-        assert_close("v_z", velocity, expected, 1e-14);
+        assert_close!(velocity => expected, within 1e-14);
     }
 }
 
@@ -197,22 +190,15 @@ fn equation_15_is_refused_where_it_does_not_hold() {
     // Both flanks touch: the rise is zero, and only the load resists.
     let both = [[-0.2, 0.2]];
     let result = one_sided_sinking_velocity(&line, &both, &material, &load);
-    assert!(
-        matches!(result, Err(FrictionError::NotOneSided { .. })),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::NotOneSided { .. }));
     let velocity = sinking_velocity(&line, &both, &material, &load).unwrap();
-    assert_close(
-        "v_z of both flanks",
-        velocity,
-        load.velocity() * 0.1 / 0.4,
-        1e-14,
-    );
+    assert_close!(velocity => load.velocity() * 0.1 / 0.4, within 1e-14);
     for contact in [[[0.1, 0.4]], [[-0.1, 0.4]]] {
         let result = one_sided_sinking_velocity(&line, &contact, &material, &load);
-        assert!(
-            matches!(result, Err(FrictionError::NotOneSided { .. })),
-            "{contact:?}: {result:?}"
+        assert_matches!(
+            result,
+            Err(FrictionError::NotOneSided { .. }),
+            "{contact:?}"
         );
     }
     let result = one_sided_sinking_velocity(&line, &[[0.0, 0.6]], &material, &load);
@@ -232,17 +218,15 @@ fn contacts_that_are_no_contacts_are_refused() {
         vec![[0.0, f64::INFINITY]],
     ] {
         let result = sinking_velocity(&line, &contact, &material, &load);
-        assert!(
-            matches!(result, Err(FrictionError::InvalidContact { .. })),
-            "{contact:?}: {result:?}"
+        assert_matches!(
+            result,
+            Err(FrictionError::InvalidContact { .. }),
+            "{contact:?}"
         );
     }
     for contact in [vec![], vec![[2.0, 4.0]]] {
         let result = sinking_velocity(&line, &contact, &material, &load);
-        assert!(
-            matches!(result, Err(FrictionError::OutOfRange { .. })),
-            "{contact:?}: {result:?}"
-        );
+        assert_matches!(result, Err(FrictionError::OutOfRange { .. }), "{contact:?}");
     }
 }
 
@@ -251,8 +235,5 @@ fn a_line_without_an_end_is_refused() {
     let body = Hyperboloid::new(0.5, 0.3).unwrap();
     let (material, load) = with_depth(0.1);
     let result = line_sliding(&EquivalentLine(&body), &material, &load);
-    assert!(
-        matches!(result, Err(FrictionError::Indenter(_))),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::Indenter(_)));
 }

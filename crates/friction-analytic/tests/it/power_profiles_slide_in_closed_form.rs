@@ -1,8 +1,9 @@
+use casebook::{assert_close, assert_matches};
 use friction_analytic::{FrictionError, power_sliding, stationary_depth};
 use indenters::{PowerProfile, stretch};
 use proptest::prelude::*;
 
-use crate::support::{assert_close, fixed_cases, material_and_load, sliding, with_depth};
+use crate::support::{fixed_cases, material_and_load, sliding, with_depth};
 
 #[test]
 fn power_profiles_slide_in_closed_form() {
@@ -94,25 +95,15 @@ fn cone_and_paraboloid_follow_equations_21_and_22() {
     let (force, eta, v, c) = (2.0, 50.0, 0.1, 0.4);
     let (material, load) = material_and_load([force, eta, v]);
     let cone = power_sliding(&PowerProfile::cone(c).unwrap(), &material, &load).unwrap();
-    assert_close(
-        "μ of the cone",
-        cone.friction_coefficient,
-        FRAC_PI_2 * c,
-        1e-15,
-    );
+    assert_close!(cone.friction_coefficient => FRAC_PI_2 * c, within 1e-15);
     let front = force / (2.0 * PI * c * eta * v);
-    assert_close("contact of the cone", cone.contact_line[0][1], front, 2e-15);
+    assert_close!(cone.contact_line[0][1] => front, within 2e-15);
     let paraboloid = PowerProfile::paraboloid(c).unwrap();
     let state = power_sliding(&paraboloid, &material, &load).unwrap();
     let mu = 2.0 / 3.0 * (2.0 * c * force / (eta * v)).sqrt();
-    assert_close("μ of the paraboloid", state.friction_coefficient, mu, 2e-15);
+    assert_close!(state.friction_coefficient => mu, within 2e-15);
     let front = (force / (8.0 * c * eta * v)).sqrt();
-    assert_close(
-        "contact of the paraboloid",
-        state.contact_line[0][1],
-        front,
-        2e-15,
-    );
+    assert_close!(state.contact_line[0][1] => front, within 2e-15);
 }
 
 #[test]
@@ -141,29 +132,24 @@ fn what_leaves_the_range_of_numbers_is_an_error() {
     for numbers in [[1e300, 1e-300, 1.0], [1e-300, 1e300, 1.0]] {
         let (material, load) = material_and_load(numbers);
         let result = power_sliding(&cone, &material, &load);
-        assert!(
-            matches!(
-                result,
-                Err(FrictionError::OutOfRange {
-                    quantity: "indentation depth",
-                    ..
-                })
-            ),
-            "{numbers:?}: {result:?}"
+        assert_matches!(
+            result,
+            Err(FrictionError::OutOfRange {
+                quantity: "indentation depth",
+                ..
+            }),
+            "{numbers:?}"
         );
     }
     let sharp = PowerProfile::new(1e-300, 0.6).unwrap();
     let (material, load) = with_depth(1.0);
     let result = power_sliding(&sharp, &material, &load);
-    assert!(
-        matches!(
-            result,
-            Err(FrictionError::OutOfRange {
-                quantity: "contact length",
-                ..
-            })
-        ),
-        "{result:?}"
+    assert_matches!(
+        result,
+        Err(FrictionError::OutOfRange {
+            quantity: "contact length",
+            ..
+        })
     );
 }
 
@@ -183,7 +169,7 @@ proptest! {
         let inverse = p.recip();
         let number = p * p / (2.0 * p - 1.0) * stretch(p).unwrap().powf(inverse) * 4_f64.powf(inverse - 1.0);
         let unit = c.powf(inverse) * (force / (eta * v)).powf(1.0 - inverse);
-        assert_close("μ", state.friction_coefficient, number * unit, 1e-12);
+        assert_close!(state.friction_coefficient => number * unit, within 1e-12);
         let smallest = state.indentation_depth / state.contact_length();
         prop_assert!(
             state.friction_coefficient >= smallest * (1.0 - 1e-12),

@@ -1,3 +1,4 @@
+use casebook::{assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, StationarySliding, axisymmetric_sliding, power_sliding, superposition_sliding,
 };
@@ -6,7 +7,7 @@ use indenters::{
 };
 use proptest::prelude::*;
 
-use crate::support::{Bare, assert_close, body, fixed_cases, with_depth};
+use crate::support::{Bare, body, fixed_cases, with_depth};
 
 fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
     let (material, load) = with_depth(depth);
@@ -55,18 +56,11 @@ fn a_jump_of_the_curvature_costs_no_accuracy() {
         })
         .sum();
     // Simpson's rule leaves (1/2000)^4, that is 1e-13.
-    assert_close(
-        "μ",
-        state.friction_coefficient,
-        (tip + outside) / depth,
-        1e-11,
-    );
+    assert_close!(state.friction_coefficient => (tip + outside) / depth, within 1e-11);
     // The transform by quadrature knows the slope to 1e-14, and near the kink to 1e-12.
-    assert_close(
-        "μ of the bare body",
-        slide(&Bare(&cone), depth).friction_coefficient,
-        state.friction_coefficient,
-        1e-10,
+    assert_close!(
+        slide(&Bare(&cone), depth).friction_coefficient => state.friction_coefficient,
+        within 1e-10
     );
 }
 
@@ -91,11 +85,9 @@ fn quadrature_agrees_with_the_closed_form_for_every_exponent() {
             let what = format!("μ for p = {p}, scale {scale:e}");
             // Both start from a rounded p, which weighs 1/(2p − 1); x_d of the closed form is rounded in logarithms.
             let tolerance = 1e-12 + f64::EPSILON / (2.0 * p - 1.0);
-            assert_close(
-                &what,
-                numerical.friction_coefficient,
-                exact.friction_coefficient,
-                tolerance,
+            assert_close!(
+                numerical.friction_coefficient => exact.friction_coefficient,
+                within tolerance; "{what}"
             );
             let difference = (numerical.friction_coefficient - exact.friction_coefficient).abs();
             let claimed = numerical.error + exact.error;
@@ -114,21 +106,14 @@ fn the_transform_by_quadrature_gives_the_same_friction() {
         let with_form = slide(&profile, 0.1);
         let bare = slide(&Bare(&profile), 0.1);
         let what = format!("μ for p = {p}");
-        assert_close(
-            &what,
-            bare.friction_coefficient,
-            with_form.friction_coefficient,
-            1e-11,
+        assert_close!(
+            bare.friction_coefficient => with_form.friction_coefficient,
+            within 1e-11; "{what}"
         );
     }
     let sphere = Sphere::new(2.0).unwrap();
     let (with_form, bare) = (slide(&sphere, 0.1), slide(&Bare(&sphere), 0.1));
-    assert_close(
-        "μ of the sphere",
-        bare.friction_coefficient,
-        with_form.friction_coefficient,
-        1e-11,
-    );
+    assert_close!(bare.friction_coefficient => with_form.friction_coefficient, within 1e-11);
 }
 
 #[test]
@@ -145,18 +130,11 @@ fn a_single_term_slides_like_its_power() {
         let sum = superposition_sliding(&sum, &material, &load).unwrap();
         // c x^p is rounded in proportion to p.
         let tolerance = 1e-14 + 4.0 * f64::EPSILON * p;
-        assert_close(
-            &format!("μ, p = {p}"),
-            sum.friction_coefficient,
-            power.friction_coefficient,
-            tolerance,
+        assert_close!(
+            sum.friction_coefficient => power.friction_coefficient,
+            within tolerance; "μ, p = {p}"
         );
-        assert_close(
-            &format!("x_d, p = {p}"),
-            sum.contact_length(),
-            power.contact_length(),
-            1e-14,
-        );
+        assert_close!(sum.contact_length() => power.contact_length(), within 1e-14; "x_d, p = {p}");
     }
 }
 
@@ -177,24 +155,16 @@ fn a_sum_that_turns_downwards_is_refused() {
     let limit = std::f64::consts::PI.powi(2) / 32.0;
     let (material, load) = with_depth(limit * (1.0 + 1e-6));
     let refused = superposition_sliding(&sum, &material, &load);
-    assert!(
-        matches!(
-            refused,
-            Err(FrictionError::Indenter(
-                IndenterError::NonMonotoneLine { .. }
-            ))
-        ),
-        "{refused:?}"
+    assert_matches!(
+        refused,
+        Err(FrictionError::Indenter(
+            IndenterError::NonMonotoneLine { .. }
+        ))
     );
     let (material, load) = with_depth(0.9 * limit);
     let closed = superposition_sliding(&sum, &material, &load).unwrap();
     let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
-    assert_close(
-        "μ",
-        closed.friction_coefficient,
-        numerical.friction_coefficient,
-        1e-11,
-    );
+    assert_close!(closed.friction_coefficient => numerical.friction_coefficient, within 1e-11);
 }
 
 proptest! {
@@ -217,7 +187,7 @@ proptest! {
         let (material, load) = with_depth(0.3 * scale);
         let closed = superposition_sliding(&sum, &material, &load).unwrap();
         let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
-        assert_close("μ", closed.friction_coefficient, numerical.friction_coefficient, 1e-11);
+        assert_close!(closed.friction_coefficient => numerical.friction_coefficient, within 1e-11);
         // Cauchy and Schwarz: the steepest use of a given depth is a constant slope.
         let smallest = closed.indentation_depth / closed.contact_length();
         prop_assert!(closed.friction_coefficient >= smallest * (1.0 - 1e-12),

@@ -25,14 +25,6 @@ pub(crate) fn with_depth(depth: f64) -> (Viscous, SlidingLoad) {
     material_and_load([depth, 0.5, 0.5])
 }
 
-/// Asserts that two numbers agree within a relative tolerance.
-pub(crate) fn assert_close(what: &str, actual: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (actual - expected).abs() <= tolerance * expected.abs(),
-        "{what} is {actual:e}, expected {expected:e} within {tolerance:e}"
-    );
-}
-
 /// The same cases in every run, and no file left behind.
 pub(crate) fn fixed_cases(cases: u32) -> Config {
     Config {

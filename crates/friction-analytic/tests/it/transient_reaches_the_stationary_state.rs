@@ -1,4 +1,4 @@
-use casebook::Case;
+use casebook::{Case, assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, cone_depth_by_equation_15, power_sliding, sinking_velocity,
     sliding_distance_to_depth, stationary_depth, transient_sliding,
@@ -6,7 +6,7 @@ use friction_analytic::{
 use indenters::{Axisymmetric, EquivalentLine, PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
-use crate::support::{assert_close, sliding, with_depth};
+use crate::support::{sliding, with_depth};
 
 /// The rows give the line, s |x| or k x²; the body is flatter by κ.
 fn profile(case: &Case) -> PowerProfile {
@@ -29,11 +29,9 @@ fn depth_friction_and_contact_match_the_exact_solution() {
         case.check("mu", state.friction_coefficient);
         case.check("x_trail", state.contact_line[0]);
         // Where Eq. (8) takes the line to the depth.
-        assert_close(
-            "front",
-            profile.line_height(state.contact_line[1]),
-            state.indentation_depth,
-            1e-13,
+        assert_close!(
+            profile.line_height(state.contact_line[1]) => state.indentation_depth,
+            within 1e-13
         );
         if case.expected("d_eq15").is_some() {
             let depth =
@@ -87,7 +85,7 @@ fn distance_and_depth_are_inverse() {
             let time = distance / load.velocity();
             let state = transient_sliding(&profile, &material, &load, time).unwrap();
             let what = format!("d/D after {distance} with p = {}", profile.exponent());
-            assert_close(&what, state.indentation_depth, fraction * 0.1, 1e-13);
+            assert_close!(state.indentation_depth => fraction * 0.1, within 1e-13; "{what}");
         }
         for fraction in [-0.1, 1.0, f64::NAN] {
             let result = sliding_distance_to_depth(&profile, &material, &load, fraction);
@@ -130,10 +128,10 @@ fn the_exact_solution_satisfies_the_balance_of_forces() {
                 / (2.0 * step);
             let what = format!("dd/dt at v t/x_d = {slid}, p = {}", profile.exponent());
             // Central difference: 1e-10 from the step, 1e-16/1e-5 from rounding, over a rate that has fallen to e^-3.
-            assert_close(&what, rate, velocity, 1e-9);
+            assert_close!(rate => velocity, within 1e-9; "{what}");
             let friction = friction_of(&profile, &material, &load, (state.contact_line, velocity));
             let what = format!("μ at v t/x_d = {slid}, p = {}", profile.exponent());
-            assert_close(&what, state.friction_coefficient, friction, 1e-11);
+            assert_close!(state.friction_coefficient => friction, within 1e-11; "{what}");
         }
     }
 }
@@ -164,18 +162,8 @@ fn late_and_early_times_keep_their_digits() {
         let length = stationary.contact_length();
         let late =
             transient_sliding(&profile, &material, &load, 1e6 * length / load.velocity()).unwrap();
-        assert_close(
-            "d",
-            late.indentation_depth,
-            stationary.indentation_depth,
-            1e-15,
-        );
-        assert_close(
-            "μ",
-            late.friction_coefficient,
-            stationary.friction_coefficient,
-            1e-14,
-        );
+        assert_close!(late.indentation_depth => stationary.indentation_depth, within 1e-15);
+        assert_close!(late.friction_coefficient => stationary.friction_coefficient, within 1e-14);
         let endless = transient_sliding(&profile, &material, &load, f64::MAX).unwrap();
         assert_eq!(endless, late, "after the longest time");
         let start = transient_sliding(&profile, &material, &load, 0.0).unwrap();
@@ -192,12 +180,7 @@ fn late_and_early_times_keep_their_digits() {
                 .indentation_depth
         });
         let p = profile.exponent();
-        assert_close(
-            "d(100 t)/d(t)",
-            second / first,
-            100_f64.powf(p / (p + 1.0)),
-            1e-13,
-        );
+        assert_close!(second / first => 100_f64.powf(p / (p + 1.0)), within 1e-13);
     }
 }
 
@@ -221,12 +204,7 @@ fn equation_15_overestimates_early_depths_by_root_two() {
         let exact = transient_sliding(&cone, &material, &load, time)
             .unwrap()
             .indentation_depth;
-        assert_close(
-            &format!("ratio at v t/x_d = {slid:e}"),
-            printed / exact,
-            expected,
-            tolerance,
-        );
+        assert_close!(printed / exact => expected, within tolerance; "ratio at v t/x_d = {slid:e}");
     }
 }
 
@@ -241,18 +219,16 @@ fn other_profiles_and_bad_times_are_refused() {
             cone_depth_by_equation_15(&profile, &material, &load, 1.0).map(|_| ()),
         ];
         for result in results {
-            assert!(
-                matches!(result, Err(FrictionError::UnsupportedExponent { .. })),
-                "p = {p}: {result:?}"
+            assert_matches!(
+                result,
+                Err(FrictionError::UnsupportedExponent { .. }),
+                "p = {p}"
             );
         }
     }
     let paraboloid = PowerProfile::paraboloid(1.0).unwrap();
     let result = cone_depth_by_equation_15(&paraboloid, &material, &load, 1.0);
-    assert!(
-        matches!(result, Err(FrictionError::UnsupportedExponent { .. })),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::UnsupportedExponent { .. }));
     let cone = PowerProfile::cone(1.0).unwrap();
     for time in [-1.0, f64::NAN, f64::INFINITY] {
         for result in [

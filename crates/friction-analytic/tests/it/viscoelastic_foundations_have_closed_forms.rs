@@ -2,15 +2,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use casebook::Case;
+use casebook::{Case, assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, SlidingContact, ViscoelasticSliding, WavyLine, kelvin_voigt_sliding,
     maxwell_sliding, wavy_sliding,
 };
 use indenters::PowerProfile;
 use rheology::{KelvinVoigt, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum};
-
-use crate::support::assert_close;
 
 fn profile(case: &Case) -> PowerProfile {
     if case.has_input("s") {
@@ -55,11 +53,9 @@ fn maxwell_foundations_match_the_casebook_without_cancellation() {
         let material = Maxwell::new(modulus, modulus * time).unwrap();
         let state = maxwell_sliding(&profile(&case), &material, contact(&case)).unwrap();
         check(&case, &state);
-        assert_close(
-            case.id(),
-            state.friction_coefficient,
-            case.expected("mu").unwrap(),
-            1e-10,
+        assert_close!(
+            state.friction_coefficient => case.expected("mu").unwrap(),
+            within 1e-10; "{}", case.id()
         );
     }
 }
@@ -94,10 +90,7 @@ fn other_profiles_and_contacts_that_cannot_be_are_refused() {
         velocity: 1.0,
     };
     let result = kelvin_voigt_sliding(&PowerProfile::new(1.0, 1.5).unwrap(), &material, good);
-    assert!(
-        matches!(result, Err(FrictionError::UnsupportedExponent { .. })),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::UnsupportedExponent { .. }));
     let cone = PowerProfile::cone(1.0).unwrap();
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for contact in [
@@ -108,10 +101,7 @@ fn other_profiles_and_contacts_that_cannot_be_are_refused() {
             },
         ] {
             let result = kelvin_voigt_sliding(&cone, &material, contact);
-            assert!(
-                matches!(result, Err(FrictionError::InvalidParameter { .. })),
-                "{bad}: {result:?}"
-            );
+            assert_matches!(result, Err(FrictionError::InvalidParameter { .. }), "{bad}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use casebook::Case;
+use casebook::{Case, assert_matches};
 use friction_analytic::{FrictionError, SurfaceWave, WavySliding, wavy_surface_sliding};
 use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
@@ -125,14 +125,12 @@ fn waves_that_interfere_or_are_none_are_refused() {
         }],
     ] {
         let result = wavy_surface_sliding(&bad, &material(case), 1.0);
-        assert!(
-            matches!(result, Err(FrictionError::InvalidParameter { .. })),
-            "{bad:?}: {result:?}"
+        assert_matches!(
+            result,
+            Err(FrictionError::InvalidParameter { .. }),
+            "{bad:?}"
         );
     }
     let result = wavy_surface_sliding(&[good], &material(case), f64::MAX);
-    assert!(
-        matches!(result, Err(FrictionError::OutOfRange { .. })),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(FrictionError::OutOfRange { .. }));
 }

@@ -1,3 +1,4 @@
+use casebook::assert_matches;
 use indenters::{
     Axisymmetric, FlatCone, FlatPunch, IndenterError, PiecewiseLinearProfile, PowerProfile, Sphere,
     contact_radius,
@@ -128,10 +129,9 @@ fn a_turn_far_below_the_contact_radius_is_not_overlooked() {
     };
     let result = contact_radius(&body, 3.0);
     // The paraboloid moves the turn of the pit by a relative 1e-6.
-    assert!(
-        matches!(result, Err(IndenterError::NonMonotoneLine { limiting_radius, .. })
-            if (limiting_radius / (1.501_975_268 * length) - 1.0).abs() < 1e-5),
-        "{result:?}"
+    assert_matches!(
+        result,
+        Err(IndenterError::NonMonotoneLine { limiting_radius, .. }) if (limiting_radius / (1.501_975_268 * length) - 1.0).abs() < 1e-5
     );
 }
 
@@ -203,21 +203,15 @@ fn depths_beyond_the_numbers_are_refused() {
     // (1 / 2)^(1e6) and 2^(1e6) metres are no numbers.
     let flat = PowerProfile::new(1.0, 1e-6).unwrap();
     let low = contact_radius(&flat, 0.5);
-    assert!(
-        matches!(
-            low,
-            Err(IndenterError::InvalidParameter {
-                parameter: "depth",
-                ..
-            })
-        ),
-        "{low:?}"
+    assert_matches!(
+        low,
+        Err(IndenterError::InvalidParameter {
+            parameter: "depth",
+            ..
+        })
     );
     let high = contact_radius(&flat, 2.0);
-    assert!(
-        matches!(high, Err(IndenterError::NotHighEnough { available, .. }) if available < 1.01),
-        "{high:?}"
-    );
+    assert_matches!(high, Err(IndenterError::NotHighEnough { available, .. }) if available < 1.01);
 }
 
 proptest! {

@@ -1,5 +1,6 @@
 //! A height map is exact at its nodes, bilinear between them, ends at its edge, and has its lowest point at the origin.
 
+use casebook::assert_matches;
 use indenters::{HeightMap, IndenterError, Surface};
 
 /// Heights a + b x + c y + d x y, which a bilinear surface reproduces, lowest at row 1 and column 2.
@@ -82,27 +83,22 @@ fn grids_that_do_not_fit_are_refused() {
     let new = |shape, spacing, heights: &[f64]| HeightMap::new(shape, spacing, heights.to_vec());
     let square = [0.0, 1.0, 2.0, 3.0];
     let few = new([1, 4], [1.0; 2], &square);
-    assert!(
-        matches!(few, Err(IndenterError::TooFew { length: 1, .. })),
-        "{few:?}"
-    );
+    assert_matches!(few, Err(IndenterError::TooFew { length: 1, .. }));
     let many = new([2, 3], [1.0; 2], &square);
-    assert!(
-        matches!(
-            many,
-            Err(IndenterError::LengthMismatch {
-                first_length: 6,
-                ..
-            })
-        ),
-        "{many:?}"
+    assert_matches!(
+        many,
+        Err(IndenterError::LengthMismatch {
+            first_length: 6,
+            ..
+        })
     );
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         for spacing in [[bad, 1.0], [1.0, bad]] {
             let result = new([2, 2], spacing, &square);
-            assert!(
-                matches!(result, Err(IndenterError::InvalidParameter { .. })),
-                "{spacing:?}: {result:?}"
+            assert_matches!(
+                result,
+                Err(IndenterError::InvalidParameter { .. }),
+                "{spacing:?}"
             );
         }
     }
@@ -112,9 +108,10 @@ fn grids_that_do_not_fit_are_refused() {
         [-1e308, 1e308, 0.0, 0.0],
     ] {
         let result = new([2, 2], [1.0; 2], &heights);
-        assert!(
-            matches!(result, Err(IndenterError::InvalidParameter { .. })),
-            "{heights:?}: {result:?}"
+        assert_matches!(
+            result,
+            Err(IndenterError::InvalidParameter { .. }),
+            "{heights:?}"
         );
     }
 }

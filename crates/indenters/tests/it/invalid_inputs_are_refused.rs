@@ -1,3 +1,4 @@
+use casebook::assert_matches;
 use indenters::{
     AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, IndenterError,
     PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone, SampledLine, SlidingLoad,
@@ -179,10 +180,7 @@ fn lines_need_a_finite_domain_and_finite_heights() {
         [0.0, 1.0],
     );
     let result = leading_edge(&gap.unwrap());
-    assert!(
-        matches!(result, Err(IndenterError::InvalidParameter { value, .. }) if value.is_nan()),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(IndenterError::InvalidParameter { value, .. }) if value.is_nan());
     // Finite at both ends, with a pole at the turning point 1/2.
     let pole = AnalyticLine::new(
         |x| 1.0 / (x - 0.5).powi(2),
@@ -190,14 +188,11 @@ fn lines_need_a_finite_domain_and_finite_heights() {
         [0.0, 1.0],
     );
     let result = leading_edge(&pole.unwrap());
-    assert!(
-        matches!(
-            result,
-            Err(IndenterError::InvalidParameter {
-                parameter: "height of the line",
-                ..
-            })
-        ),
-        "{result:?}"
+    assert_matches!(
+        result,
+        Err(IndenterError::InvalidParameter {
+            parameter: "height of the line",
+            ..
+        })
     );
 }

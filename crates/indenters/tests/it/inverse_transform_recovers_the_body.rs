@@ -1,3 +1,4 @@
+use casebook::assert_matches;
 use indenters::{AnalyticLine, EquivalentLine, IndenterError, inverse_abel};
 
 use crate::casebook_bodies::body;
@@ -47,8 +48,5 @@ fn an_accuracy_that_is_not_reached_is_not_claimed() {
     let height = |x: f64| if x < 1e-300 { 0.0 } else { x.recip().sin() };
     let line = AnalyticLine::new(height, |_| 0.0, [0.0, 1.0]).unwrap();
     let result = inverse_abel(&line, 0.7, 1e-12);
-    assert!(
-        matches!(result, Err(IndenterError::NotConverged { reached, .. }) if reached > 1e-12),
-        "{result:?}"
-    );
+    assert_matches!(result, Err(IndenterError::NotConverged { reached, .. }) if reached > 1e-12);
 }

@@ -1,4 +1,4 @@
-use casebook::Case;
+use casebook::{Case, assert_matches};
 use indenters::{
     AnalyticLine, EquivalentLine, IndenterError, LeadingEdgeOptions, PiecewiseLinearProfile,
     PowerProfile, RigidLine, SampledLine, contact_line, leading_edge, leading_edge_with,
@@ -35,10 +35,10 @@ fn contact_lines_of_the_cubic_agree_with_the_casebook() {
             let depth = unit * case.input("D_over_eps") * case.input("eps");
             let result = contact_line(&cubic(&case, unit), depth);
             let Some(expected) = case.expected_list("intervals") else {
-                assert!(
-                    matches!(result, Err(IndenterError::NotHighEnough { available, .. }) if available < depth),
-                    "{} in the unit {unit}: {result:?}",
-                    case.id()
+                assert_matches!(
+                    result,
+                    Err(IndenterError::NotHighEnough { available, .. }) if available < depth,
+                    "{} in the unit {unit}: {result:?}", case.id()
                 );
                 continue;
             };
@@ -190,13 +190,9 @@ fn kinks_of_a_body_are_seen() {
 fn a_body_without_an_end_is_referred_to_its_radius() {
     let cone = PowerProfile::cone(0.3).unwrap();
     let result = leading_edge(&EquivalentLine(&cone));
-    assert!(
-        matches!(
-            result,
-            Err(IndenterError::InvalidParameter { parameter: "end of the domain", value, .. })
-            if value == f64::NEG_INFINITY
-        ),
-        "{result:?}"
+    assert_matches!(
+        result,
+        Err(IndenterError::InvalidParameter { parameter: "end of the domain", value, .. }) if value == f64::NEG_INFINITY
     );
 }
 

@@ -1,3 +1,4 @@
+use casebook::assert_matches;
 use indenters::{Axisymmetric, IndenterError, PiecewiseLinearProfile, contact_radius};
 
 #[test]
@@ -63,9 +64,9 @@ fn a_notch_narrower_than_the_search_is_seen_at_its_edge() {
     let radii = vec![0.0, 1.0, 1.001, 2.0];
     let table = PiecewiseLinearProfile::new(radii, vec![0.0, 1.0, 1.0, 2.0]).unwrap();
     let result = contact_radius(&table, 3.0);
-    assert!(
-        matches!(result, Err(IndenterError::NonMonotoneLine { limiting_radius, .. })
-            if (limiting_radius - 1.0).abs() <= 0.0),
+    assert_matches!(
+        result,
+        Err(IndenterError::NonMonotoneLine { limiting_radius, .. }) if (limiting_radius - 1.0).abs() <= 0.0,
         "{result:?} instead of the edge at 1"
     );
 }

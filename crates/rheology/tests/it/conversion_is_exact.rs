@@ -1,6 +1,7 @@
+use casebook::assert_close;
 use rheology::{CreepSpectrum, RelaxationSpectrum};
 
-use crate::support::{assert_close, casebook_spectrum, spectrum};
+use crate::support::{casebook_spectrum, spectrum};
 
 fn spectrum_of(model: &str) -> RelaxationSpectrum {
     let cases = casebook::group("RHE-05");
@@ -17,14 +18,9 @@ fn check_elements(case: &casebook::Case, creep: &CreepSpectrum) {
     for (index, element) in creep.elements().iter().enumerate() {
         let what = format!("{}: J[{index}]", case.id());
         let tolerance = case.relative_tolerance();
-        assert_close(&what, element.compliance, expected[0][index], tolerance);
+        assert_close!(element.compliance => expected[0][index], within tolerance; "{what}");
         let what = format!("{}: λ[{index}]", case.id());
-        assert_close(
-            &what,
-            element.retardation_time,
-            expected[1][index],
-            tolerance,
-        );
+        assert_close!(element.retardation_time => expected[1][index], within tolerance; "{what}");
     }
 }
 

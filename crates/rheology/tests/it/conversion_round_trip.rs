@@ -1,10 +1,11 @@
+use casebook::assert_close;
 use proptest::prelude::*;
 use rheology::{
     CreepSpectrum, KelvinChain, Material, Prony, RelaxationBranch, RelaxationSpectrum,
     RetardationElement,
 };
 
-use crate::support::{assert_close, fixed_cases, spectrum};
+use crate::support::{fixed_cases, spectrum};
 
 /// What surrounds the branches: lone spring and lone dashpot, each absent, weak or strong.
 fn frame() -> impl Strategy<Value = (f64, f64)> {
@@ -92,15 +93,15 @@ proptest! {
         let slowest = before.branches().last().map_or(1.0, |b| b.relaxation_time);
         for omega in frequencies() {
             let [old, new] = [&before, &after].map(|m| m.complex_modulus(omega).unwrap());
-            assert_close(&format!("G' at ω = {omega:e}"), new.storage, old.storage, RESPONSE);
-            assert_close(&format!("G'' at ω = {omega:e}"), new.loss, old.loss, RESPONSE);
+            assert_close!(new.storage => old.storage, within RESPONSE; "G' at ω = {omega:e}");
+            assert_close!(new.loss => old.loss, within RESPONSE; "G'' at ω = {omega:e}");
             let time = omega.recip();
             let [old, new] = [&before, &after].map(|m| m.relaxation_modulus(time).unwrap());
             // A rounded relaxation time changes e^(−t/τ) by t/τ roundings.
             let tolerance = RESPONSE * (1.0 + time / slowest);
             // Denormal numbers have fewer digits.
             if old > 1e-300 {
-                assert_close(&format!("G at t = {time:e}"), new, old, tolerance);
+                assert_close!(new => old, within tolerance; "G at t = {time:e}");
             }
         }
     }
@@ -114,12 +115,12 @@ proptest! {
             return Ok(());
         }
         let tolerance = RESPONSE + 10.0 * f64::EPSILON / gap;
-        assert_close("G_∞", after.equilibrium_modulus(), before.equilibrium_modulus(), RESPONSE);
-        assert_close("η₀", after.viscosity(), before.viscosity(), RESPONSE);
+        assert_close!(after.equilibrium_modulus() => before.equilibrium_modulus(), within RESPONSE);
+        assert_close!(after.viscosity() => before.viscosity(), within RESPONSE);
         prop_assert_eq!(after.branches().len(), before.branches().len(), "gap {}", gap);
         for (new, old) in after.branches().iter().zip(before.branches()) {
-            assert_close("a modulus", new.modulus, old.modulus, tolerance);
-            assert_close("a time", new.relaxation_time, old.relaxation_time, tolerance);
+            assert_close!(new.modulus => old.modulus, within tolerance);
+            assert_close!(new.relaxation_time => old.relaxation_time, within tolerance);
         }
     }
 
@@ -144,10 +145,10 @@ proptest! {
         }
         if relaxation.equilibrium_modulus() > 0.0 {
             let expected = relaxation.equilibrium_modulus().recip();
-            assert_close("J(∞)", creep.equilibrium_compliance(), expected, RESPONSE);
+            assert_close!(creep.equilibrium_compliance() => expected, within RESPONSE);
         } else {
             let initial = creep.creep_compliance(0.0).unwrap();
-            assert_close("J(0)", initial, relaxation.glass_modulus().recip(), 1e-15);
+            assert_close!(initial => relaxation.glass_modulus().recip(), within 1e-15);
         }
     }
 }
@@ -170,16 +171,11 @@ fn kelvin_chains_survive_the_round_trip() {
                 "J₀ = {instantaneous}, 1/η = {fluidity}"
             );
             for (new, old) in back.elements().iter().zip(creep.elements()) {
-                assert_close("J_k", new.compliance, old.compliance, RESPONSE);
-                assert_close("λ_k", new.retardation_time, old.retardation_time, RESPONSE);
+                assert_close!(new.compliance => old.compliance, within RESPONSE);
+                assert_close!(new.retardation_time => old.retardation_time, within RESPONSE);
             }
-            assert_close(
-                "J₀",
-                back.instantaneous_compliance(),
-                instantaneous,
-                RESPONSE,
-            );
-            assert_close("1/η_f", back.fluidity(), fluidity, RESPONSE);
+            assert_close!(back.instantaneous_compliance() => instantaneous, within RESPONSE);
+            assert_close!(back.fluidity() => fluidity, within RESPONSE);
         }
     }
 }
@@ -192,11 +188,11 @@ fn degenerate_spectra_convert() {
     let close = spectrum(1.0, 0.0, &[1.0, 2.0], &[1.0, 1.0 + 3e-9]);
     assert_eq!(close.branches().len(), 1, "one branch: {close:?}");
     // The mean, weighted with the moduli, keeps the viscosity.
-    assert_close("η", close.zero_shear_viscosity(), 3.0 + 6e-9, 1e-15);
+    assert_close!(close.zero_shear_viscosity() => 3.0 + 6e-9, within 1e-15);
     let dashpots = spectrum(0.0, 2.0, &[3.0], &[5.0]).to_creep().unwrap();
     // 1/G* = 1/(2 s + 15 s/(1 + 5 s)): λ = 10/17, 1/η_f = 1/17, J = 1/2 (λ − λ²/5 · …) = 75/289.
-    assert_close("1/η_f", dashpots.fluidity(), 1.0 / 17.0, 1e-15);
+    assert_close!(dashpots.fluidity() => 1.0 / 17.0, within 1e-15);
     let element = dashpots.elements()[0];
-    assert_close("λ", element.retardation_time, 10.0 / 17.0, 1e-15);
-    assert_close("J", element.compliance, 75.0 / 289.0, 1e-15);
+    assert_close!(element.retardation_time => 10.0 / 17.0, within 1e-15);
+    assert_close!(element.compliance => 75.0 / 289.0, within 1e-15);
 }

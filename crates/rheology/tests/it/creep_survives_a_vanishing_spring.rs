@@ -1,7 +1,8 @@
+use casebook::assert_close;
 use proptest::prelude::*;
 use rheology::Material;
 
-use crate::support::{assert_close, fixed_cases, solid};
+use crate::support::{fixed_cases, solid};
 
 #[test]
 fn creep_survives_a_vanishing_spring() {
@@ -23,20 +24,10 @@ fn creep_survives_a_vanishing_spring() {
 #[test]
 fn creep_starts_in_the_glass_and_ends_in_the_equilibrium() {
     let solid = solid([2.0, 6.0, 3.0]);
-    assert_close(
-        "J(0)",
-        solid.creep_compliance(0.0).unwrap(),
-        1.0 / 8.0,
-        1e-16,
-    );
-    assert_close(
-        "J(∞)",
-        solid.creep_compliance(1e6).unwrap(),
-        1.0 / 2.0,
-        1e-15,
-    );
-    assert_close("G(0)", solid.relaxation_modulus(0.0).unwrap(), 8.0, 1e-16);
-    assert_close("G(∞)", solid.relaxation_modulus(1e6).unwrap(), 2.0, 1e-16);
+    assert_close!(solid.creep_compliance(0.0).unwrap() => 1.0 / 8.0, within 1e-16);
+    assert_close!(solid.creep_compliance(1e6).unwrap() => 1.0 / 2.0, within 1e-15);
+    assert_close!(solid.relaxation_modulus(0.0).unwrap() => 8.0, within 1e-16);
+    assert_close!(solid.relaxation_modulus(1e6).unwrap() => 2.0, within 1e-16);
 }
 
 /// ∫₀ᵗ G(t − s) J(s) ds = t, what makes one the inverse of the other.
@@ -61,7 +52,7 @@ fn creep_is_the_inverse_of_relaxation() {
                     * solid.creep_compliance(s).unwrap()
             })
             .sum();
-        assert_close("∫ G J", sum * width / 3.0, t, 1e-9);
+        assert_close!(sum * width / 3.0 => t, within 1e-9);
     }
 }
 
@@ -77,6 +68,6 @@ proptest! {
         let time = 10_f64.powf(log_time) * solid.relaxation_time();
         let decay = (-time / solid.retardation_time()).exp();
         let textbook = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * decay;
-        assert_close("J", solid.creep_compliance(time).unwrap(), textbook, 1e-13);
+        assert_close!(solid.creep_compliance(time).unwrap() => textbook, within 1e-13);
     }
 }

@@ -1,9 +1,10 @@
+use casebook::assert_close;
 use rheology::RelaxationSpectrum;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
 
-use crate::support::{assert_close, named_spectrum, spectrum};
+use crate::support::{named_spectrum, spectrum};
 
 /// Number of the pairs `x, y, …` of a table with two header lines.
 fn table(text: &str) -> Vec<Vec<f64>> {
@@ -42,15 +43,13 @@ fn exact_data_give_back_their_spectrum() {
         let found = identify(&curve, &branches(3, ending)).unwrap();
         // The refinement stops when the squares fall by less than 1e-4 of themselves.
         assert!(found.rms_relative_error < 1e-6, "{ending:?}: {found:?}");
-        assert_close(
-            "G_∞",
-            found.spectrum.equilibrium_modulus(),
-            given.equilibrium_modulus(),
-            1e-5,
+        assert_close!(
+            found.spectrum.equilibrium_modulus() => given.equilibrium_modulus(),
+            within 1e-5
         );
         for (new, old) in found.spectrum.branches().iter().zip(given.branches()) {
-            assert_close("a modulus", new.modulus, old.modulus, 1e-5);
-            assert_close("a time", new.relaxation_time, old.relaxation_time, 1e-5);
+            assert_close!(new.modulus => old.modulus, within 1e-5);
+            assert_close!(new.relaxation_time => old.relaxation_time, within 1e-5);
         }
     }
 }
@@ -145,8 +144,8 @@ fn parsimony_finds_the_number_of_branches() {
     assert_eq!(found.spectrum.branches().len(), 3, "{found:?}");
     // Errors of 1 %, of random sign, over some forty numbers per branch.
     for (new, old) in found.spectrum.branches().iter().zip(given.branches()) {
-        assert_close("a modulus", new.modulus, old.modulus, 5e-3);
-        assert_close("a time", new.relaxation_time, old.relaxation_time, 1e-2);
+        assert_close!(new.modulus => old.modulus, within 5e-3);
+        assert_close!(new.relaxation_time => old.relaxation_time, within 1e-2);
     }
 }
 
@@ -196,12 +195,7 @@ fn identification_does_not_depend_on_units() {
     });
     let scaled = MeasuredCurve::oscillation(points.collect()).unwrap();
     let scaled = identify(&scaled, &branches(6, Ending::Solid)).unwrap();
-    assert_close(
-        "rms",
-        scaled.rms_relative_error,
-        found.rms_relative_error,
-        1e-9,
-    );
+    assert_close!(scaled.rms_relative_error => found.rms_relative_error, within 1e-9);
     for (new, old) in scaled
         .spectrum
         .branches()
@@ -209,13 +203,8 @@ fn identification_does_not_depend_on_units() {
         .zip(found.spectrum.branches())
     {
         // The refinement stops where its squares are flat to 1e-4; rounding moves the place.
-        assert_close("a modulus", new.modulus * 1e12, old.modulus, 1e-6);
-        assert_close(
-            "a time",
-            new.relaxation_time * 1e9,
-            old.relaxation_time,
-            1e-6,
-        );
+        assert_close!(new.modulus * 1e12 => old.modulus, within 1e-6);
+        assert_close!(new.relaxation_time * 1e9 => old.relaxation_time, within 1e-6);
     }
 }
 

@@ -1,8 +1,7 @@
+use casebook::{assert_close, assert_matches};
 use rheology::{
     Elastic, FractionalMaxwell, FractionalMaxwellParameters, Material, RheologyError, Springpot,
 };
-
-use crate::support::assert_close;
 
 #[test]
 fn springpot_has_its_closed_forms() {
@@ -99,12 +98,7 @@ fn fractional_standard_solid_creeps_like_its_closed_form() {
         let x: f64 = (time / tau).sqrt() * g1 / (g1 + g2);
         let relaxed = (x * x).exp() * libm::erfc(x);
         let exact = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * relaxed;
-        assert_close(
-            &format!("J({time})"),
-            creep.creep_compliance(time).unwrap(),
-            exact,
-            1e-9,
-        );
+        assert_close!(creep.creep_compliance(time).unwrap() => exact, within 1e-9; "J({time})");
     }
 }
 
@@ -131,8 +125,9 @@ fn what_cannot_be_expanded_is_refused() {
     for error in [0.0, 1e-16, 0.5, f64::NAN] {
         let refused = springpot.expand([1.0, 2.0], error).unwrap_err();
         let expected = "relative_error";
-        assert!(
-            matches!(refused, RheologyError::InvalidParameter { parameter, .. } if parameter == expected),
+        assert_matches!(
+            refused,
+            RheologyError::InvalidParameter { parameter, .. } if parameter == expected,
             "{error}: {refused}"
         );
     }

@@ -1,6 +1,7 @@
+use casebook::assert_close;
 use rheology::Material;
 
-use crate::support::{assert_close, solid};
+use crate::support::solid;
 
 #[test]
 fn moduli_match_equation_2() {
@@ -25,11 +26,11 @@ fn no_frequency_overflows() {
             let tangent = solid.loss_tangent(omega).unwrap();
             let what = format!("tan δ at Ω = {omega:e}, γ = {gamma:e}");
             // Each of the three is rounded a handful of times.
-            assert_close(&what, tangent, loss / storage, 2e-15);
+            assert_close!(tangent => loss / storage, within 2e-15; "{what}");
             let asymptote = omega.min(omega.recip());
             let deviation = asymptote * asymptote;
             let what = format!("G'' at Ω = {omega:e}, γ = {gamma:e}");
-            assert_close(&what, loss, asymptote / (1.0 + deviation), 1e-15);
+            assert_close!(loss => asymptote / (1.0 + deviation), within 1e-15; "{what}");
         }
     }
 }

@@ -1,6 +1,7 @@
+use casebook::assert_close;
 use rheology::{ExponentialStep, RelaxationSpectrum};
 
-use crate::support::{assert_close, assert_same, named_spectrum, spectrum};
+use crate::support::{assert_same, named_spectrum, spectrum};
 
 /// φ₁(x) = (1 − e^(−x))/x is the stiffness of a single branch, x φ₁(x) the compliance of a single element.
 #[test]
@@ -35,7 +36,7 @@ fn ramp_and_hold(material: &RelaxationSpectrum, time: f64, n_steps: u32) -> f64 
         strain += increment;
         now = next;
     }
-    assert_close("the strain at the end", strain, time.min(1.0), 1e-12);
+    assert_close!(strain => time.min(1.0), within 1e-12);
     stress
 }
 
@@ -71,11 +72,9 @@ fn constant_load_creeps_exactly_for_any_step() {
                 let exact = creep
                     .creep_compliance(time_step * f64::from(count))
                     .unwrap();
-                assert_close(
-                    &format!("{model}: J after {count} steps of {time_step}"),
-                    displacement,
-                    exact,
-                    1e-14,
+                assert_close!(
+                    displacement => exact,
+                    within 1e-14; "{model}: J after {count} steps of {time_step}"
                 );
             }
         }

@@ -16,14 +16,6 @@ pub(crate) fn parameters([g1, g2, eta]: [f64; 3]) -> StandardSolidParameters {
     }
 }
 
-/// Asserts that two numbers agree within a relative tolerance.
-pub(crate) fn assert_close(what: &str, actual: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (actual - expected).abs() <= tolerance * expected.abs(),
-        "{what} is {actual:e}, expected {expected:e} within {tolerance:e}"
-    );
-}
-
 /// The same cases in every run, and no file left behind.
 pub(crate) fn fixed_cases() -> Config {
     Config {

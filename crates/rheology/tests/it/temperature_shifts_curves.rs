@@ -1,6 +1,7 @@
+use casebook::{assert_close, assert_matches};
 use rheology::{ArrheniusShift, RheologyError, WlfShift};
 
-use crate::support::{assert_close, named_spectrum};
+use crate::support::named_spectrum;
 
 #[test]
 fn wlf_matches_exact_numbers_about_any_reference() {
@@ -9,8 +10,9 @@ fn wlf_matches_exact_numbers_about_any_reference() {
         let law = WlfShift::new([c1, c2], 20.0).unwrap();
         let shift = law.log10_factor(20.0 + difference);
         if case.expected_error().is_some() {
-            assert!(
-                matches!(shift, Err(RheologyError::BelowWlfPole { .. })),
+            assert_matches!(
+                shift,
+                Err(RheologyError::BelowWlfPole { .. }),
                 "{}: {shift:?}",
                 case.id()
             );
@@ -24,12 +26,7 @@ fn wlf_matches_exact_numbers_about_any_reference() {
         // a_T(T; T_r') = a_T(T; T_r)/a_T(T_r'; T_r)
         let composed =
             law.log10_factor(33.0).unwrap() - law.log10_factor(20.0 + difference).unwrap();
-        assert_close(
-            "the composed shift",
-            other.log10_factor(33.0).unwrap(),
-            composed,
-            1e-12,
-        );
+        assert_close!(other.log10_factor(33.0).unwrap() => composed, within 1e-12);
     }
 }
 
@@ -39,8 +36,8 @@ fn wlf_constants_come_back_from_their_shifts() {
     let shifts = [10.0, 30.0, 50.0, 70.0, 120.0].map(|t| [t, law.log10_factor(t).unwrap()]);
     let [c1, c2] = WlfShift::through(&shifts, 50.0).unwrap().constants();
     // The two equations are a few hundred times worse conditioned than the shifts.
-    assert_close("C₁", c1, 8.86, 1e-12);
-    assert_close("C₂", c2, 101.6, 1e-12);
+    assert_close!(c1 => 8.86, within 1e-12);
+    assert_close!(c2 => 101.6, within 1e-12);
     let too_few = WlfShift::through(&shifts[1..3], 50.0).unwrap_err();
     assert_eq!(
         too_few,
@@ -57,7 +54,7 @@ fn wlf_constants_come_back_from_their_shifts() {
 fn arrhenius_shifts_by_its_activation_energy() {
     let law = ArrheniusShift::new(80e3, 298.15).unwrap();
     let expected = 80e3 / 8.314_462_618 * (1.0 / 308.15 - 1.0 / 298.15) / 10_f64.ln();
-    assert_close("log a_T", law.log10_factor(308.15).unwrap(), expected, 1e-9);
+    assert_close!(law.log10_factor(308.15).unwrap() => expected, within 1e-9);
     assert!(law.log10_factor(-1.0).is_err(), "below absolute zero");
 }
 
@@ -69,8 +66,8 @@ fn a_shift_multiplies_every_time() {
     for omega in [1e-3, 1.0, 1e6] {
         let here = shifted.complex_modulus(omega).unwrap();
         let there = cold.complex_modulus(1e-3 * omega).unwrap();
-        assert_close("G'", here.storage, there.storage, 1e-14);
-        assert_close("G''", here.loss, there.loss, 1e-14);
+        assert_close!(here.storage => there.storage, within 1e-14);
+        assert_close!(here.loss => there.loss, within 1e-14);
     }
 }
 
@@ -136,8 +133,8 @@ mod isotherms {
         );
         for point in master.points {
             let exact = material.complex_modulus(point.angular_frequency).unwrap();
-            assert_close("G'", point.storage, exact.storage, 1e-12);
-            assert_close("G''", point.loss, exact.loss, 1e-12);
+            assert_close!(point.storage => exact.storage, within 1e-12);
+            assert_close!(point.loss => exact.loss, within 1e-12);
         }
     }
 
@@ -150,6 +147,6 @@ mod isotherms {
             point.storage *= 1e-4;
         }
         let error = automatic_master_curve(&two, 42.0).unwrap_err();
-        assert!(matches!(error, RheologyError::NoOverlap { .. }), "{error}");
+        assert_matches!(error, RheologyError::NoOverlap { .. }, "{error}");
     }
 }

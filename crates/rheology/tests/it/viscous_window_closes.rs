@@ -1,6 +1,7 @@
+use casebook::assert_close;
 use rheology::{Material, StandardSolid};
 
-use crate::support::{assert_close, solid};
+use crate::support::solid;
 
 #[test]
 fn loss_peak_and_viscous_window_match_the_closed_forms() {
@@ -38,12 +39,7 @@ fn loss_tangent_is_one_at_the_ends_of_the_window_and_larger_inside() {
         let solid = solid([gamma, 1.0, 3.0]);
         let [lower, upper] = solid.viscous_window().expect("the window is open");
         for end in [lower, upper] {
-            assert_close(
-                "tan δ at an end",
-                solid.loss_tangent(end).unwrap(),
-                1.0,
-                1e-14,
-            );
+            assert_close!(solid.loss_tangent(end).unwrap() => 1.0, within 1e-14);
         }
         let peak = solid.loss_peak();
         assert!(
@@ -51,7 +47,7 @@ fn loss_tangent_is_one_at_the_ends_of_the_window_and_larger_inside() {
             "γ = {gamma}: the peak {peak:?} lies outside [{lower}, {upper}]"
         );
         let at_peak = solid.loss_tangent(peak.angular_frequency).unwrap();
-        assert_close("tan δ at the peak", at_peak, peak.loss_tangent, 1e-15);
+        assert_close!(at_peak => peak.loss_tangent, within 1e-15);
         for shift in [0.9, 1.1] {
             let beside = solid.loss_tangent(shift * peak.angular_frequency).unwrap();
             assert!(
@@ -76,5 +72,5 @@ fn window_is_closed_from_its_threshold_up() {
     // Half width √(1 − 4γ(1+γ)) / (2 (1+γ)) with 1 − 4γ(1+γ) = 4 √2 · 1e-14 γ_c to leading order; γ itself is
     // rounded to 1e-16, that is to 1 % of its distance from the threshold.
     let half_width = (4.0 * 2_f64.sqrt() * 1e-14 * threshold).sqrt() / (2.0 * (1.0 + threshold));
-    assert_close("half width", 0.5 * (upper - lower), half_width, 0.01);
+    assert_close!(0.5 * (upper - lower) => half_width, within 0.01);
 }
