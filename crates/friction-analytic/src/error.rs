@@ -152,28 +152,31 @@ pub enum FrictionError {
     },
 }
 
-/// Checks that `value` is finite and greater than zero.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
-    if value.is_finite() && value > 0.0 {
+/// Checks that `value` is one that its parameter may take.
+pub(crate) fn in_range(
+    parameter: &'static str,
+    value: f64,
+    holds: bool,
+    allowed: &'static str,
+) -> Result<f64, FrictionError> {
+    if holds {
         return Ok(value);
     }
     Err(FrictionError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and greater than 0",
+        allowed,
     })
 }
 
-/// Checks that `value` is finite and not negative.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
+    let holds = value.is_finite() && value > 0.0;
+    in_range(parameter, value, holds, "finite and greater than 0")
+}
+
 pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(value);
-    }
-    Err(FrictionError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite and at least 0",
-    })
+    let holds = value.is_finite() && value >= 0.0;
+    in_range(parameter, value, holds, "finite and at least 0")
 }
 
 /// Checks that a result which is positive on paper is so in floating-point numbers.

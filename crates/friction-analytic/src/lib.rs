@@ -66,7 +66,7 @@ pub use indentation::{
 pub use line::line_sliding;
 pub use line_contact::cylinder_half_width_after_impulse;
 pub use power::power_sliding;
-pub use scaling::{ScalingFactor, half_space_power_friction, scaling_factor};
+pub use scaling::{half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
 pub use stationary::{StationarySliding, stationary_depth};
 pub use superposition::superposition_sliding;

@@ -55,16 +55,13 @@ fn slope_energy(
 ) -> Result<Estimate, FrictionError> {
     let kinks = line.kinks();
     let square = |x: f64| line.slope(x).powi(2);
-    let mut sum = Estimate {
-        value: 0.0,
-        error: 0.0,
-    };
-    for [start, end] in intervals.iter().copied() {
+    let energy = |&[start, end]: &[f64; 2]| {
         let inside = kinks.iter().copied().filter(|x| start < *x && *x < end);
         let ends: Vec<f64> = [start].into_iter().chain(inside).chain([end]).collect();
-        let part = over_pieces(square, &ends);
-        sum.value += part.value;
-        sum.error += part.error;
-    }
-    accepted("integral of the squared slope", sum)
+        over_pieces(square, &ends)
+    };
+    accepted(
+        "integral of the squared slope",
+        intervals.iter().map(energy).sum(),
+    )
 }

@@ -12,16 +12,8 @@ const ACCEPTED_ACCURACY: f64 = 1e-10;
 
 /// The integral over the pieces between successive `ends`.
 pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
-    let mut sum = Estimate {
-        value: 0.0,
-        error: 0.0,
-    };
-    for piece in ends.windows(2) {
-        let part = integrate(&integrand, [piece[0], piece[1]], REQUESTED_ACCURACY);
-        sum.value += part.value;
-        sum.error += part.error;
-    }
-    sum
+    let piece = |ends: &[f64]| integrate(&integrand, [ends[0], ends[1]], REQUESTED_ACCURACY);
+    ends.windows(2).map(piece).sum()
 }
 
 /// The integral, if its error is small enough to count as an answer.
@@ -30,7 +22,7 @@ pub(crate) fn accepted(
     integral: Estimate,
 ) -> Result<Estimate, FrictionError> {
     let Estimate { value, error } = integral;
-    if value.is_finite() && error <= ACCEPTED_ACCURACY * value.abs() {
+    if integral.is_within(ACCEPTED_ACCURACY) {
         return Ok(integral);
     }
     Err(FrictionError::NotConverged {

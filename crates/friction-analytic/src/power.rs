@@ -48,3 +48,23 @@ pub fn power_sliding(
         error: rounding * friction_coefficient,
     })
 }
+
+/// The two profiles for which more than the stationary state of a dashpot has a closed form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shape {
+    Cone,
+    Paraboloid,
+}
+
+impl Shape {
+    pub(crate) fn of(profile: &PowerProfile) -> Result<Self, FrictionError> {
+        match profile.exponent() {
+            1.0 => Ok(Self::Cone),
+            2.0 => Ok(Self::Paraboloid),
+            exponent => Err(FrictionError::UnsupportedExponent {
+                exponent,
+                supported: "1 or 2",
+            }),
+        }
+    }
+}

@@ -14,7 +14,7 @@ use rheology::Viscous;
 
 use crate::FrictionError;
 use crate::error::representable;
-use crate::stationary::checked_depth;
+use crate::stationary::depth_under_force;
 
 /// How far the rise of the contact may differ from the depth, relative to the depth, to count as equal: the contact is
 /// known from a root search or from the caller's table.
@@ -33,8 +33,7 @@ pub fn sinking_velocity(
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
-    load.require_normal_force()?;
-    let depth = checked_depth(material, load)?;
+    let depth = depth_under_force(material, load)?;
     let length = contact_length(contact)?;
     let rise = rise(line, contact)?;
     // F/(4 η) = D v.
@@ -53,8 +52,7 @@ pub fn one_sided_sinking_velocity(
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
-    load.require_normal_force()?;
-    let stationary_depth = checked_depth(material, load)?;
+    let stationary_depth = depth_under_force(material, load)?;
     let length = contact_length(contact)?;
     let rise = rise(line, contact)?;
     let front = contact

@@ -39,11 +39,7 @@ pub(crate) fn slope_energy(
     let ends = ends_outside_apex(body, radius);
     let inner = from_apex(body, ends[0]);
     let outer = over_pieces(|x| body.line_slope(x).powi(2), &ends);
-    let sum = Estimate {
-        value: inner.value + outer.value,
-        error: inner.error + outer.error,
-    };
-    accepted("integral of the squared slope", sum)
+    accepted("integral of the squared slope", inner + outer)
 }
 
 /// The kinks inside the radius, and the radius.
@@ -71,7 +67,5 @@ fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Estimate {
         let x = end * s.powf(rate.recip());
         square(x) * x / (rate * s)
     };
-    let mut integral = over_pieces(integrand, &[APEX_REACH.powf(rate), 1.0]);
-    integral.value += innermost;
-    integral
+    over_pieces(integrand, &[APEX_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
 }

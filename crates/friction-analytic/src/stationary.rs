@@ -53,6 +53,15 @@ pub(crate) fn checked_depth(material: &Viscous, load: &SlidingLoad) -> Result<f6
     representable("indentation depth", stationary_depth(material, load))
 }
 
+/// The stationary depth of a load that sinks on its own.
+pub(crate) fn depth_under_force(
+    material: &Viscous,
+    load: &SlidingLoad,
+) -> Result<f64, FrictionError> {
+    load.require_normal_force()?;
+    checked_depth(material, load)
+}
+
 /// The numerator over both divisors, all positive, without an intermediate result outside the range of numbers unless
 /// the quotient itself lies there.
 pub(crate) fn quotient(numerator: f64, [one, other]: [f64; 2]) -> f64 {

@@ -19,8 +19,9 @@ use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::{not_negative, representable};
-use crate::stationary::checked_depth;
+use crate::error::{in_range, not_negative, representable};
+use crate::power::Shape;
+use crate::stationary::depth_under_force;
 
 /// A moment of sliding before the stationary state is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,13 +34,6 @@ pub struct TransientSliding {
     pub contact_line: [f64; 2],
     /// Present coefficient of friction.
     pub friction_coefficient: f64,
-}
-
-/// The two profiles whose transient has a closed form.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Shape {
-    Cone,
-    Paraboloid,
 }
 
 /// What the transient depends on.
@@ -82,13 +76,8 @@ pub fn sliding_distance_to_depth(
     fraction: f64,
 ) -> Result<f64, FrictionError> {
     let scales = Scales::new(profile, material, load)?;
-    if !(0.0..1.0).contains(&fraction) {
-        return Err(FrictionError::InvalidParameter {
-            parameter: "fraction",
-            value: fraction,
-            allowed: "at least 0 and less than 1",
-        });
-    }
+    let holds = (0.0..1.0).contains(&fraction);
+    in_range("fraction", fraction, holds, "at least 0 and less than 1")?;
     Ok(scales.length
         * match scales.shape {
             Shape::Cone if fraction <= 0.5 => fraction * fraction,
@@ -137,8 +126,7 @@ impl Scales {
         material: &Viscous,
         load: &SlidingLoad,
     ) -> Result<Self, FrictionError> {
-        load.require_normal_force()?;
-        let depth = checked_depth(material, load)?;
+        let depth = depth_under_force(material, load)?;
         Ok(Self {
             shape: Shape::of(profile)?,
             depth,
@@ -190,21 +178,6 @@ impl Scales {
 }
 
 impl Shape {
-    fn of(profile: &PowerProfile) -> Result<Self, FrictionError> {
-        let exponent = profile.exponent();
-        let is = |value: f64| exponent.total_cmp(&value).is_eq();
-        if is(1.0) {
-            return Ok(Self::Cone);
-        }
-        if is(2.0) {
-            return Ok(Self::Paraboloid);
-        }
-        Err(FrictionError::UnsupportedExponent {
-            exponent,
-            supported: "1 or 2",
-        })
-    }
-
     /// v t*/x_d.
     const fn lift_off(self) -> f64 {
         match self {

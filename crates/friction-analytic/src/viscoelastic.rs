@@ -17,6 +17,7 @@ use rheology::{KelvinVoigt, Maxwell};
 use crate::FrictionError;
 use crate::error::{positive, representable};
 use crate::pieces::{accepted, over_pieces};
+use crate::power::Shape;
 
 /// A contact of which the front and the speed are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,11 +54,11 @@ pub fn kelvin_voigt_sliding(
     material: &KelvinVoigt,
     contact: SlidingContact,
 ) -> Result<ViscoelasticSliding, FrictionError> {
-    let question = Question::new(profile, contact)?;
+    let problem = Problem::new(profile, contact)?;
     let modulus = material.shear_modulus();
     let shift = material.viscosity() / modulus * contact.velocity;
     let length = positive("distance of retardation", shift)?;
-    let Question { front, shape, .. } = question;
+    let Problem { front, shape, .. } = problem;
     let ratio = length / front;
     let [rear, load, friction] = match shape {
         Shape::Cone => {
@@ -75,7 +76,7 @@ pub fn kelvin_voigt_sliding(
             [rear, load, work / load]
         }
     };
-    question.answer(rear, modulus * load, friction)
+    problem.result(rear, modulus * load, friction)
 }
 
 /// Sliding of a cone or paraboloid on a Maxwell foundation.
@@ -88,15 +89,15 @@ pub fn maxwell_sliding(
     material: &Maxwell,
     contact: SlidingContact,
 ) -> Result<ViscoelasticSliding, FrictionError> {
-    let question = Question::new(profile, contact)?;
+    let problem = Problem::new(profile, contact)?;
     let modulus = material.shear_modulus();
     let length = material.viscosity() / modulus * contact.velocity;
-    let ratio = positive("ratio of front and distance", question.front / length)?;
-    let [rear, load, friction] = match question.shape {
+    let ratio = positive("ratio of front and distance", problem.front / length)?;
+    let [rear, load, friction] = match problem.shape {
         Shape::Cone => maxwell_cone(ratio),
         Shape::Paraboloid => maxwell_paraboloid(ratio)?,
     };
-    question.answer(rear, modulus * load, friction)
+    problem.result(rear, modulus * load, friction)
 }
 
 /// x_l/x_r, ∫ w dx/(G s x_r²) and μ/s for Y = x_r/l: `∫ w dx = −G s l² ln(1 − q²)`, `∫ w h̃' dx = 2 G s² l² (artanh q − q)`.
@@ -177,35 +178,19 @@ fn phi(z: f64) -> [f64; 3] {
     [one, (1.0 - one) / z, rest]
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Shape {
-    Cone,
-    Paraboloid,
-}
-
-struct Question {
+struct Problem {
     shape: Shape,
     front: f64,
     depth: f64,
 }
 
-impl Question {
+impl Problem {
     fn new(profile: &PowerProfile, contact: SlidingContact) -> Result<Self, FrictionError> {
         let front = positive("front", contact.front)?;
         positive("velocity", contact.velocity)?;
-        let exponent = profile.exponent();
-        let shape = match exponent {
-            1.0 => Shape::Cone,
-            2.0 => Shape::Paraboloid,
-            _ => {
-                return Err(FrictionError::UnsupportedExponent {
-                    exponent,
-                    supported: "1 or 2",
-                });
-            }
-        };
+        let shape = Shape::of(profile)?;
         // κ c x_r^p.
-        let depth = profile.stretch() * profile.coefficient() * front.powf(exponent);
+        let depth = profile.stretch() * profile.coefficient() * front.powf(profile.exponent());
         Ok(Self {
             shape,
             front,
@@ -214,7 +199,7 @@ impl Question {
     }
 
     /// `rear` in units of x_r, `load` ∫ w dx in units of d x_r, `friction` in units of d/x_r.
-    fn answer(
+    fn result(
         &self,
         rear: f64,
         load: f64,

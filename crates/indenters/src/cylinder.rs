@@ -4,32 +4,16 @@
 //! h(x) = x²/(2R)
 //! ```
 
-use crate::error::positive;
-use crate::{IndenterError, Surface};
+use crate::Surface;
+use crate::shape::shape;
 
-/// The parabola of a cylinder that is infinite along y, as in the theory of line contacts (Hertz 1881; Hunter 1961).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Cylinder {
-    radius: f64,
-}
-
-impl Cylinder {
+shape! {
+    /// The parabola of a cylinder that is infinite along y, as in the theory of line contacts (Hertz 1881; Hunter 1961).
+    Cylinder;
     /// A cylinder of `radius` R > 0 \[m].
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when the radius is not finite and greater than zero.
-    pub fn new(radius: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-        })
-    }
-
+    new;
     /// Radius R, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
+    radius: radius;
 }
 
 impl Surface for Cylinder {

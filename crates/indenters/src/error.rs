@@ -113,32 +113,29 @@ pub enum IndenterError {
     },
 }
 
-/// Checks that `value` is finite and greater than zero.
-///
-/// # Errors
-/// [`IndenterError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
-    if value.is_finite() && value > 0.0 {
+/// Checks that `value` is one that its parameter may take.
+pub(crate) fn in_range(
+    parameter: &'static str,
+    value: f64,
+    holds: bool,
+    allowed: &'static str,
+) -> Result<f64, IndenterError> {
+    if holds {
         return Ok(value);
     }
     Err(IndenterError::InvalidParameter {
         parameter,
         value,
-        allowed: "finite and greater than 0",
+        allowed,
     })
 }
 
-/// Checks that `value` is finite.
-///
-/// # Errors
-/// [`IndenterError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
+    let holds = value.is_finite() && value > 0.0;
+    in_range(parameter, value, holds, "finite and greater than 0")
+}
+
 pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
-    if value.is_finite() {
-        return Ok(value);
-    }
-    Err(IndenterError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite",
-    })
+    let holds = value.is_finite();
+    in_range(parameter, value, holds, "finite")
 }

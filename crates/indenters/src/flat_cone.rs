@@ -4,41 +4,19 @@
 //! h(r) = t (r − b)        h̃(x) = t x arccos(b / x)        outside the flat end of radius b
 //! ```
 
-use crate::error::positive;
 use crate::right_triangle::{arc_cosine, leg};
-use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, Kink, surface_of_revolution};
 
-/// A cone whose tip is cut off; flat up to its `radius`, then rising with its `slope`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct FlatCone {
-    radius: f64,
-    slope: f64,
-}
-
-impl FlatCone {
+shape! {
+    /// A cone whose tip is cut off; flat up to its `radius`, then rising with its `slope`.
+    FlatCone;
     /// Flat up to the `radius` b > 0 \[m], then a cone of `slope` t > 0.
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
-    pub fn new(radius: f64, slope: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-            slope: positive("slope", slope)?,
-        })
-    }
-
+    new;
     /// Radius b of the flat end, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
+    radius: radius;
     /// Slope t of the cone.
-    #[must_use]
-    pub const fn cone_slope(&self) -> f64 {
-        self.slope
-    }
+    slope: cone_slope;
 }
 
 impl Axisymmetric for FlatCone {

@@ -1,32 +1,18 @@
 //! The cylindrical punch with a flat end.
 
-use crate::error::positive;
-use crate::{Axisymmetric, IndenterError, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, surface_of_revolution};
 
-/// A flat end with a vertical wall around it; the contact circle is its rim at every depth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct FlatPunch {
-    radius: f64,
+shape! {
+    /// A flat end with a vertical wall around it; the contact circle is its rim at every depth.
+    FlatPunch;
+    /// A punch of `radius` > 0 \[m].
+    new;
+    /// Radius of the flat end, \[m].
+    radius: radius;
 }
 
 impl FlatPunch {
-    /// A punch of `radius` > 0 \[m].
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when the radius is not finite and greater than zero.
-    pub fn new(radius: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-        })
-    }
-
-    /// Radius of the flat end, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
     fn inside_or_wall(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             0.0

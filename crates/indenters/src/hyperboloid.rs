@@ -4,40 +4,18 @@
 //! h(r) = t (√(r² + b²) − b)        h̃(x) = t x arctan(x / b)
 //! ```
 
-use crate::error::positive;
-use crate::{Axisymmetric, IndenterError, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, surface_of_revolution};
 
-/// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Hyperboloid {
-    radius: f64,
-    slope: f64,
-}
-
-impl Hyperboloid {
+shape! {
+    /// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
+    Hyperboloid;
     /// A tip of the size `radius` b > 0 \[m] on a cone of `slope` t > 0; the radius of curvature of the tip is b / t.
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
-    pub fn new(radius: f64, slope: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-            slope: positive("slope", slope)?,
-        })
-    }
-
+    new;
     /// Size b of the tip, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
+    radius: radius;
     /// Slope t of the cone that the body approaches.
-    #[must_use]
-    pub const fn cone_slope(&self) -> f64 {
-        self.slope
-    }
+    slope: cone_slope;
 }
 
 impl Axisymmetric for Hyperboloid {

@@ -50,6 +50,7 @@ pub mod revolution;
 mod right_triangle;
 mod round_tipped_cone;
 mod sampled_line;
+mod shape;
 mod sphere;
 mod stretch;
 mod superposition;

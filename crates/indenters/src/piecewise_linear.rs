@@ -4,6 +4,7 @@
 //! h̃(x) = x Σ m_i [arcsin(min(r_(i+1), x) / x) − arcsin(min(r_i, x) / x)]        m_i slope of piece i
 //! ```
 
+use crate::error::in_range;
 use crate::right_triangle::{arc_sine_difference, leg};
 use crate::table::{Column, check_table};
 use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
@@ -41,9 +42,12 @@ impl PiecewiseLinearProfile {
                 values: &heights,
             },
         )?;
-        starts_at_zero("first radius", radii[0])?;
-        starts_at_zero("first height", heights[0])?;
-        refuse_negative(&heights)?;
+        in_range("first radius", radii[0], radii[0] == 0.0, "0")?;
+        in_range("first height", heights[0], heights[0] == 0.0, "0")?;
+        for &height in &heights {
+            let allowed = "at least 0, the height of the lowest point";
+            in_range("heights", height, height >= 0.0, allowed)?;
+        }
         let slopes: Vec<f64> = radii
             .windows(2)
             .zip(heights.windows(2))
@@ -84,28 +88,6 @@ impl PiecewiseLinearProfile {
             .take_while(|(ends, _)| ends[0] < x)
             .map(|(ends, slope)| slope * arc_sine_difference([ends[0], ends[1].min(x)], x))
             .sum()
-    }
-}
-
-fn starts_at_zero(parameter: &'static str, value: f64) -> Result<(), IndenterError> {
-    if value == 0.0 {
-        return Ok(());
-    }
-    Err(IndenterError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "0",
-    })
-}
-
-fn refuse_negative(heights: &[f64]) -> Result<(), IndenterError> {
-    match heights.iter().find(|height| **height < 0.0) {
-        None => Ok(()),
-        Some(value) => Err(IndenterError::InvalidParameter {
-            parameter: "heights",
-            value: *value,
-            allowed: "at least 0, the height of the lowest point",
-        }),
     }
 }
 

@@ -5,42 +5,22 @@
 //! h̃(x) = t x² / b     up to x = b,   t x [arccos(b / x) + (x − √(x² − b²)) / b]  beyond
 //! ```
 
-use crate::error::positive;
 use crate::right_triangle::{arc_cosine, leg};
-use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, Kink, surface_of_revolution};
 
-/// A cone that touches a paraboloid at `radius`, where slope and height agree.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct RoundTippedCone {
-    radius: f64,
-    slope: f64,
+shape! {
+    /// A cone that touches a paraboloid at `radius`, where slope and height agree.
+    RoundTippedCone;
+    /// A tip up to the `radius` b > 0 \[m], then a cone of `slope` t > 0.
+    new;
+    /// Radius b at which the tip ends, \[m].
+    radius: radius;
+    /// Slope t of the cone.
+    slope: cone_slope;
 }
 
 impl RoundTippedCone {
-    /// A tip up to the `radius` b > 0 \[m], then a cone of `slope` t > 0.
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
-    pub fn new(radius: f64, slope: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-            slope: positive("slope", slope)?,
-        })
-    }
-
-    /// Radius b at which the tip ends, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// Slope t of the cone.
-    #[must_use]
-    pub const fn cone_slope(&self) -> f64 {
-        self.slope
-    }
-
     /// (x − √(x² − b²)) / b without cancellation.
     fn overhang(&self, x: f64) -> f64 {
         self.radius / (x + leg(x, self.radius))

@@ -4,33 +4,17 @@
 //! h(r) = R − √(R² − r²)        h̃(x) = x artanh(x / R)        (Segedin 1957, Mathematika 4, 156)
 //! ```
 
-use crate::error::positive;
 use crate::right_triangle::leg;
-use crate::{Axisymmetric, IndenterError, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, surface_of_revolution};
 
-/// The lower half of a sphere; it ends at the equator.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Sphere {
-    radius: f64,
-}
-
-impl Sphere {
+shape! {
+    /// The lower half of a sphere; it ends at the equator.
+    Sphere;
     /// A sphere of `radius` R > 0 \[m].
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when the radius is not finite and greater than zero.
-    pub fn new(radius: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-        })
-    }
-
+    new;
     /// Radius R, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
+    radius: radius;
 }
 
 impl Axisymmetric for Sphere {

@@ -4,7 +4,7 @@
 //! h(r) = Σ c_k r^(p_k)        h̃(x) = Σ κ(p_k) c_k |x|^(p_k)
 //! ```
 
-use crate::error::{finite, positive};
+use crate::error::{in_range, positive};
 use crate::power::scaled_power;
 use crate::{Axisymmetric, IndenterError, stretch, surface_of_revolution};
 
@@ -40,7 +40,8 @@ impl Superposition {
     pub fn new(mut terms: Vec<PowerTerm>) -> Result<Self, IndenterError> {
         for term in &terms {
             positive("exponent", term.exponent)?;
-            nonzero("coefficient", term.coefficient)?;
+            let holds = term.coefficient.is_finite() && term.coefficient != 0.0;
+            in_range("coefficient", term.coefficient, holds, "finite and not 0")?;
         }
         terms.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
         let leading = terms.first().ok_or(IndenterError::TooFew {
@@ -61,29 +62,13 @@ impl Superposition {
     }
 }
 
-fn nonzero(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
-    if value != 0.0 {
-        return finite(parameter, value);
-    }
-    Err(IndenterError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite and not 0",
-    })
-}
-
 fn refuse_repeated_exponents(terms: &[PowerTerm]) -> Result<(), IndenterError> {
-    match terms
-        .windows(2)
-        .find(|pair| pair[0].exponent >= pair[1].exponent)
-    {
-        None => Ok(()),
-        Some(pair) => Err(IndenterError::InvalidParameter {
-            parameter: "exponent",
-            value: pair[1].exponent,
-            allowed: "different from the exponents of the other terms",
-        }),
+    for pair in terms.windows(2) {
+        let [before, exponent] = [pair[0].exponent, pair[1].exponent];
+        let allowed = "different from the exponents of the other terms";
+        in_range("exponent", exponent, before < exponent, allowed)?;
     }
+    Ok(())
 }
 
 fn line_term(term: &PowerTerm) -> Result<PowerTerm, IndenterError> {

@@ -4,42 +4,20 @@
 //! h(r) = c (r² − b²)        h̃(x) = 2 c x √(x² − b²)        outside the flat end of radius b
 //! ```
 
-use crate::error::positive;
 use crate::right_triangle::leg;
-use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
+use crate::shape::shape;
+use crate::{Axisymmetric, Kink, surface_of_revolution};
 
-/// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct TruncatedParaboloid {
-    radius: f64,
-    curvature: f64,
-}
-
-impl TruncatedParaboloid {
+shape! {
+    /// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
+    TruncatedParaboloid;
     /// Flat up to the `radius` b > 0 \[m], then `curvature · (r² − b²)`, curvature c > 0 in \[1/m]; the radius of
     /// curvature is `1 / (2 curvature)`.
-    ///
-    /// # Errors
-    /// [`IndenterError::InvalidParameter`] when one of them is not finite and greater than zero.
-    pub fn new(radius: f64, curvature: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius: positive("radius", radius)?,
-            curvature: positive("curvature", curvature)?,
-        })
-    }
-
+    new;
     /// Radius b of the flat end, \[m].
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
+    radius: radius;
     /// Coefficient c of the paraboloid, \[1/m].
-    #[must_use]
-    pub const fn paraboloid_curvature(&self) -> f64 {
-        self.curvature
-    }
+    curvature: paraboloid_curvature;
 }
 
 impl Axisymmetric for TruncatedParaboloid {

@@ -85,37 +85,36 @@ pub enum RheologyError {
     },
 }
 
-const POSITIVE: &str = "finite and greater than 0";
-const NOT_NEGATIVE: &str = "finite and at least 0";
-
-/// Checks that `value` is finite and greater than zero.
-///
-/// # Errors
-/// [`RheologyError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
-    if value.is_finite() && value > 0.0 {
+/// Checks that `value` is one that its parameter may take.
+pub(crate) fn in_range(
+    parameter: &'static str,
+    value: f64,
+    holds: bool,
+    allowed: &'static str,
+) -> Result<f64, RheologyError> {
+    if holds {
         return Ok(value);
     }
     Err(RheologyError::InvalidParameter {
         parameter,
         value,
-        allowed: POSITIVE,
+        allowed,
     })
 }
 
-/// Checks that `value` is finite and not negative.
-///
-/// # Errors
-/// [`RheologyError::InvalidParameter`] naming `parameter` otherwise.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
+    let holds = value.is_finite() && value > 0.0;
+    in_range(parameter, value, holds, "finite and greater than 0")
+}
+
 pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(value);
-    }
-    Err(RheologyError::InvalidParameter {
-        parameter,
-        value,
-        allowed: NOT_NEGATIVE,
-    })
+    let holds = value.is_finite() && value >= 0.0;
+    in_range(parameter, value, holds, "finite and at least 0")
+}
+
+pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
+    let holds = value.is_finite();
+    in_range(parameter, value, holds, "finite")
 }
 
 /// Puts the place in a list into the error about one of its members.

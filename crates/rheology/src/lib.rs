@@ -44,13 +44,9 @@ pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellPar
 pub use fractional::springpot::Springpot;
 pub use material::Material;
 pub use materials::compressible::Compressible;
-pub use materials::elastic::Elastic;
-pub use materials::kelvin_chain::KelvinChain;
-pub use materials::kelvin_voigt::KelvinVoigt;
-pub use materials::maxwell::Maxwell;
-pub use materials::prony::Prony;
+pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
+pub use materials::generalised::{KelvinChain, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
-pub use materials::viscous::Viscous;
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;

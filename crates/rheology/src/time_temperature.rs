@@ -6,7 +6,7 @@
 //! ```
 //! (Williams, Landel & Ferry 1955, J. Am. Chem. Soc. 77, 3701, DOI 10.1021/ja01619a008)
 
-use crate::error::positive;
+use crate::error::{finite, positive};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// Gas constant R, [J/(mol K)].
@@ -38,7 +38,7 @@ impl WlfShift {
         Ok(Self {
             c1: positive("c1", c1)?,
             c2: positive("c2", c2)?,
-            reference_temperature: finite(reference_temperature)?,
+            reference_temperature: finite("temperature", reference_temperature)?,
         })
     }
 
@@ -53,7 +53,7 @@ impl WlfShift {
     /// # Errors
     /// [`RheologyError::BelowWlfPole`] at and below T_r − C₂, where the law has no meaning.
     pub fn log10_factor(&self, temperature: f64) -> Result<f64, RheologyError> {
-        let above_reference = finite(temperature)? - self.reference_temperature;
+        let above_reference = finite("temperature", temperature)? - self.reference_temperature;
         if above_reference <= -self.c2 {
             return Err(RheologyError::BelowWlfPole {
                 temperature,
@@ -148,15 +148,4 @@ impl RelaxationSpectrum {
             branches.collect(),
         )
     }
-}
-
-fn finite(temperature: f64) -> Result<f64, RheologyError> {
-    if temperature.is_finite() {
-        return Ok(temperature);
-    }
-    Err(RheologyError::InvalidParameter {
-        parameter: "temperature",
-        value: temperature,
-        allowed: "finite",
-    })
 }

@@ -8,24 +8,15 @@
 mod scaling_table;
 
 use indenters::{PowerProfile, SlidingLoad};
+use numerics::Estimate;
 use rheology::Viscous;
 
+use crate::error::in_range;
 use crate::{FrictionError, power_sliding};
 use scaling_table::NODES;
 
 /// Nodes of one interpolating polynomial.
 const STENCIL: usize = 6;
-
-/// A value with its absolute error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct ScalingFactor {
-    /// s(p), or another quantity that was scaled with it.
-    pub value: f64,
-    /// Absolute error of the value.
-    pub error: f64,
-}
 
 /// The scaling factor s(p) of the profile c r^p between half space and one-dimensional model.
 ///
@@ -35,15 +26,11 @@ pub struct ScalingFactor {
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for exponents outside the table, from 0.501 to 64. At p = 1/2 both frictions
 /// diverge; their ratio does not.
-pub fn scaling_factor(exponent: f64) -> Result<ScalingFactor, FrictionError> {
+pub fn scaling_factor(exponent: f64) -> Result<Estimate, FrictionError> {
     let [first, last] = [NODES[0][0], NODES[NODES.len() - 1][0]];
-    if !(first..=last).contains(&exponent) {
-        return Err(FrictionError::InvalidParameter {
-            parameter: "exponent",
-            value: exponent,
-            allowed: "between 0.501 and 64, where s(p) was computed",
-        });
-    }
+    let holds = (first..=last).contains(&exponent);
+    let allowed = "between 0.501 and 64, where s(p) was computed";
+    in_range("exponent", exponent, holds, allowed)?;
     let above = NODES.partition_point(|[node, ..]| *node < exponent);
     let start = above.saturating_sub(STENCIL / 2).min(NODES.len() - STENCIL);
     Ok(interpolate(&NODES[start..start + STENCIL], exponent))
@@ -57,35 +44,30 @@ pub fn half_space_power_friction(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
-) -> Result<ScalingFactor, FrictionError> {
+) -> Result<Estimate, FrictionError> {
     let line = power_sliding(profile, material, load)?;
     let factor = scaling_factor(profile.exponent())?;
-    Ok(ScalingFactor {
+    Ok(Estimate {
         value: factor.value * line.friction_coefficient,
         error: factor.error * line.friction_coefficient + factor.value * line.error,
     })
 }
 
 /// Lagrange's polynomial in ln(2p − 1) through the nodes.
-fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> ScalingFactor {
+fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> Estimate {
     let place = |exponent: f64| (2.0 * exponent - 1.0).ln();
     let at = place(exponent);
-    let mut result = ScalingFactor {
-        value: 0.0,
-        error: 0.0,
-    };
-    for (index, [node, value, error]) in nodes.iter().enumerate() {
+    let term = |(index, &[node, value, error]): (usize, &[f64; 3])| {
         let others = nodes
             .iter()
             .enumerate()
             .filter(|(other, _)| *other != index);
         let weight: f64 = others
-            .map(|(_, [other, ..])| (at - place(*other)) / (place(*node) - place(*other)))
+            .map(|(_, [other, ..])| (at - place(*other)) / (place(node) - place(*other)))
             .product();
-        result.value += weight * value;
-        result.error += weight.abs() * error;
-    }
-    result
+        Estimate { value, error } * weight
+    };
+    nodes.iter().enumerate().map(term).sum()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What was measured, over frequency or over time.
 
 use crate::RheologyError;
-use crate::error::{in_list, not_negative, positive};
+use crate::error::{in_list, in_range, not_negative, positive};
 
 /// Moduli at one frequency of oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,14 +94,9 @@ impl MeasuredCurve {
 }
 
 fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, RheologyError> {
-    if value.is_finite() && value > last {
-        return Ok(value);
-    }
-    Err(RheologyError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite, greater than 0 and greater than the one before",
-    })
+    let holds = value.is_finite() && value > last;
+    let allowed = "finite, greater than 0 and greater than the one before";
+    in_range(parameter, value, holds, allowed)
 }
 
 fn enough(given: usize) -> Result<(), RheologyError> {

@@ -6,7 +6,7 @@ use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
 use super::system::{Row, rows};
-use crate::error::{not_negative, positive};
+use crate::error::{in_range, not_negative, positive};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// What happens after a long time.
@@ -235,12 +235,6 @@ fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
 }
 
 fn legal(n_branches: usize) -> Result<usize, RheologyError> {
-    if (1..=MAX_BRANCHES).contains(&n_branches) {
-        return Ok(n_branches);
-    }
-    Err(RheologyError::InvalidParameter {
-        parameter: "n_branches",
-        value: n_branches as f64,
-        allowed: "from 1 to 200",
-    })
+    let holds = (1..=MAX_BRANCHES).contains(&n_branches);
+    in_range("n_branches", n_branches as f64, holds, "from 1 to 200").map(|_| n_branches)
 }

@@ -1,0 +1,42 @@
+//! What bodies have in common that are given by a few positive numbers.
+
+/// A body whose parameters are all finite and greater than zero: its type, its constructor and what gives them back.
+macro_rules! shape {
+    (
+        $(#[$doc:meta])*
+        $shape:ident;
+        $(#[$new:meta])*
+        new;
+        $($(#[$parameter_doc:meta])* $parameter:ident: $getter:ident;)+
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        pub struct $shape {
+            $($parameter: f64,)+
+        }
+
+        impl $shape {
+            $(#[$new])*
+            ///
+            /// # Errors
+            /// [`IndenterError::InvalidParameter`](crate::IndenterError::InvalidParameter) when a parameter is not finite and
+            /// greater than zero.
+            pub fn new($($parameter: f64),+) -> Result<Self, $crate::IndenterError> {
+                Ok(Self {
+                    $($parameter: $crate::error::positive(stringify!($parameter), $parameter)?,)+
+                })
+            }
+
+            $(
+                $(#[$parameter_doc])*
+                #[must_use]
+                pub const fn $getter(&self) -> f64 {
+                    self.$parameter
+                }
+            )+
+        }
+    };
+}
+
+pub(crate) use shape;

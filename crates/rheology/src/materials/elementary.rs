@@ -1,0 +1,163 @@
+//! Spring, dashpot, and both in parallel or in series.
+//!
+//! ```text
+//! σ = 2 η dε/dt        (3), the linear viscous law of the paper
+//! ```
+
+use crate::error::positive;
+use crate::{
+    CreepSpectrum, Material, RelaxationBranch, RelaxationSpectrum, RetardationElement,
+    RheologyError,
+};
+
+/// A material of positive parameters: its type, its constructor and what gives them back.
+macro_rules! elementary {
+    (
+        $(#[$doc:meta])*
+        $material:ident;
+        $(#[$new:meta])*
+        new;
+        $($(#[$parameter_doc:meta])* $parameter:ident, its inverse $inverse:literal;)+
+        $(=> $(#[$time_doc:meta])* $time:ident;)?
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+        pub struct $material {
+            $($parameter: f64,)+
+        }
+
+        impl $material {
+            $(#[$new])*
+            ///
+            /// # Errors
+            /// [`RheologyError::InvalidParameter`] when a parameter, its inverse or the time η/G is not finite and greater
+            /// than zero.
+            pub fn new($($parameter: f64),+) -> Result<Self, RheologyError> {
+                $(positive(stringify!($parameter), $parameter)?;)+
+                $(positive($inverse, $parameter.recip())?;)+
+                let material = Self { $($parameter),+ };
+                $(positive(stringify!($time), material.$time())?;)?
+                Ok(material)
+            }
+
+            $(
+                $(#[$parameter_doc])*
+                #[must_use]
+                pub const fn $parameter(&self) -> f64 {
+                    self.$parameter
+                }
+            )+
+
+            $(
+                $(#[$time_doc])*
+                #[must_use]
+                pub fn $time(&self) -> f64 {
+                    self.viscosity / self.shear_modulus
+                }
+            )?
+        }
+    };
+}
+
+elementary! {
+    /// A spring: an elastic material, incompressible.
+    Elastic;
+    /// A material of `shear_modulus` G > 0, \[Pa].
+    new;
+    /// Shear modulus G, \[Pa].
+    shear_modulus, its inverse "compliance";
+}
+
+elementary! {
+    /// A dashpot: an incompressible, linearly viscous material.
+    Viscous;
+    /// A material of shear `viscosity` η > 0, [Pa s].
+    new;
+    /// Shear viscosity η, [Pa s].
+    viscosity, its inverse "fluidity";
+}
+
+elementary! {
+    /// A solid: a spring and a dashpot in parallel, incompressible.
+    KelvinVoigt;
+    /// A solid of `shear_modulus` G > 0 \[Pa] and `viscosity` η > 0 [Pa s].
+    new;
+    /// Shear modulus G of the spring, \[Pa].
+    shear_modulus, its inverse "compliance";
+    /// Shear viscosity η of the dashpot, [Pa s].
+    viscosity, its inverse "fluidity";
+    =>
+    /// Time η/G in which the strain creeps at constant stress, \[s].
+    retardation_time;
+}
+
+elementary! {
+    /// A fluid: a spring and a dashpot in series, incompressible.
+    Maxwell;
+    /// A fluid of `shear_modulus` G > 0 \[Pa] and `viscosity` η > 0 [Pa s].
+    new;
+    /// Shear modulus G of the spring, \[Pa].
+    shear_modulus, its inverse "compliance";
+    /// Shear viscosity η of the dashpot, [Pa s].
+    viscosity, its inverse "fluidity";
+    =>
+    /// Time η/G in which the stress relaxes at constant strain, \[s].
+    relaxation_time;
+}
+
+impl Material for Elastic {
+    /// G(t) = G.
+    fn relaxation(&self) -> RelaxationSpectrum {
+        RelaxationSpectrum::without_branches(self.shear_modulus, 0.0)
+    }
+
+    /// J(t) = 1/G.
+    fn creep(&self) -> CreepSpectrum {
+        CreepSpectrum::without_elements(self.shear_modulus.recip(), 0.0)
+    }
+}
+
+impl Material for Viscous {
+    /// G(t) = η δ(t).
+    fn relaxation(&self) -> RelaxationSpectrum {
+        RelaxationSpectrum::without_branches(0.0, self.viscosity)
+    }
+
+    /// J(t) = t/η.
+    fn creep(&self) -> CreepSpectrum {
+        CreepSpectrum::without_elements(0.0, self.viscosity.recip())
+    }
+}
+
+impl Material for KelvinVoigt {
+    /// G(t) = G + η δ(t).
+    fn relaxation(&self) -> RelaxationSpectrum {
+        RelaxationSpectrum::without_branches(self.shear_modulus, self.viscosity)
+    }
+
+    /// J(t) = (1 − e^(−G t/η))/G.
+    fn creep(&self) -> CreepSpectrum {
+        let element = RetardationElement {
+            compliance: self.shear_modulus.recip(),
+            retardation_time: self.retardation_time(),
+        };
+        CreepSpectrum::single(0.0, element)
+    }
+}
+
+impl Material for Maxwell {
+    /// G(t) = G e^(−G t/η).
+    fn relaxation(&self) -> RelaxationSpectrum {
+        let branch = RelaxationBranch {
+            modulus: self.shear_modulus,
+            relaxation_time: self.relaxation_time(),
+        };
+        RelaxationSpectrum::single(0.0, branch)
+    }
+
+    /// J(t) = 1/G + t/η.
+    fn creep(&self) -> CreepSpectrum {
+        CreepSpectrum::without_elements(self.shear_modulus.recip(), self.viscosity.recip())
+    }
+}
