@@ -125,7 +125,7 @@ fn checked(
     positive("velocity", contact.velocity)?;
     let radius = positive("contact_radius", contact.contact_radius)?;
     let depth = representable("indentation depth", body.checked_line_height(radius)?)?;
-    // Tells whether the line rises all the way.
+    // Refuses a line that turns down before.
     contact_radius(body, depth)?;
     Ok((radius, depth))
 }

@@ -1,4 +1,4 @@
-//! Why a question about friction has no answer.
+//! Why friction, depth or a contact cannot be given.
 
 use std::fmt;
 
@@ -22,9 +22,9 @@ pub enum DivergenceCause {
         /// By how much.
         jump: f64,
     },
-    /// The contact reaches a vertical wall.
-    VerticalWall {
-        /// Radius of the wall, \[m].
+    /// The contact reaches a vertical edge.
+    VerticalEdge {
+        /// Radius of the edge, \[m].
         radius: f64,
     },
 }
@@ -40,10 +40,10 @@ impl fmt::Display for DivergenceCause {
                 formatter,
                 "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
             ),
-            Self::VerticalWall { radius } => {
+            Self::VerticalEdge { radius } => {
                 write!(
                     formatter,
-                    "the contact reaches a vertical wall at radius {radius}"
+                    "the contact reaches a vertical edge at radius {radius}"
                 )
             }
         }
@@ -89,7 +89,7 @@ pub enum FrictionError {
         /// What the leading edge offers, \[m].
         available_depth: f64,
     },
-    /// A numerical integral or root did not reach the accuracy that counts as an answer.
+    /// A numerical integral or root did not reach the accuracy needed.
     #[error("{quantity} is {value} with an estimated error of {error}, which is too large")]
     NotConverged {
         /// What was computed.

@@ -84,7 +84,7 @@ pub fn indentation_after_impulse(
     };
     accepted("contact moment", moment(body, radius))?;
     let depth = representable("indentation depth", body.line_height(radius))?;
-    // Tells whether the line rises all the way.
+    // Refuses a line that turns down before.
     contact_radius(body, depth)?;
     Ok(Indentation {
         contact_radius: radius,

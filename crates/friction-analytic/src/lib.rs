@@ -3,7 +3,7 @@
 //!
 //! - Stationary sliding: depth (12), contact line and coefficient of friction (16), for [power profiles](power_sliding),
 //!   their [sums](superposition_sliding), any [body of revolution](axisymmetric_sliding) and any [line](line_sliding).
-//! - The way there: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
+//! - Towards the stationary state: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
 //!   paraboloid from first touch.
 //! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too.
 //! - Other materials: cone and paraboloid on a [Kelvin–Voigt](kelvin_voigt_sliding) and a [Maxwell](maxwell_sliding)
@@ -13,7 +13,7 @@
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
 //!
-//! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the answer is
+//! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the result is
 //! [`FrictionError::FrictionDiverges`] with its cause.
 //!
 //! ```

@@ -1,13 +1,13 @@
-//! Integrals over several pieces, and when they count as known.
+//! Integrals over several pieces, and the accuracy that is needed of them.
 
 use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
 
 /// Relative accuracy asked of an integral. Slopes that are integrals themselves are known to 1e-14, so that less could
-/// not be told from noise.
+/// not be distinguished from noise.
 const REQUESTED_ACCURACY: f64 = 1e-12;
-/// Relative accuracy from which on an integral counts as known.
+/// Relative accuracy that an integral needs.
 const ACCEPTED_ACCURACY: f64 = 1e-10;
 
 /// The integral over the pieces between successive `ends`.
@@ -16,7 +16,7 @@ pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estim
     ends.windows(2).map(piece).sum()
 }
 
-/// The integral, if its error is small enough to count as an answer.
+/// The integral, if its error is small enough.
 pub(crate) fn accepted(
     quantity: &'static str,
     integral: Estimate,

@@ -16,7 +16,7 @@ use crate::FrictionError;
 use crate::error::representable;
 use crate::stationary::depth_under_force;
 
-/// How far the rise of the contact may differ from the depth, relative to the depth, to count as equal: the contact is
+/// How far the rise of the contact may differ from the depth, relative to the depth, and be taken as equal: the contact is
 /// known from a root search or from the caller's table.
 const SAME_HEIGHT: f64 = 1e-9;
 

@@ -6,7 +6,7 @@ use numerics::Estimate;
 use crate::pieces::{accepted, over_pieces};
 use crate::{DivergenceCause, FrictionError};
 
-/// Part of the first stretch in which the line counts as its leading power. Any other power of the profile whose
+/// Part of the first stretch in which the line is taken as its leading power. Any other power of the profile whose
 /// exponent is larger by 0.11 or more has fallen to rounding there.
 const APEX_REACH: f64 = 1e-150;
 
@@ -27,8 +27,8 @@ pub(crate) fn divergence_cause(
             jump: kink.slope_jump,
         });
     }
-    let wall = radius >= body.max_radius() && body.line_height(radius) < depth;
-    wall.then_some(DivergenceCause::VerticalWall { radius })
+    let at_edge = radius >= body.max_radius() && body.line_height(radius) < depth;
+    at_edge.then_some(DivergenceCause::VerticalEdge { radius })
 }
 
 /// ∫₀^a h̃'(x)² dx, \[m], for a line without a reason to diverge.

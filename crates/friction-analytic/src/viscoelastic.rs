@@ -1,6 +1,6 @@
 //! Cone and paraboloid on a Kelvin–Voigt and on a Maxwell foundation, in closed form.
 //!
-//! With h̃ = s |x| or k x², l = v τ and the leading edge x_r, the foundation carries `4 w` per length, and lets go at x_l:
+//! With h̃ = s |x| or k x², l = v τ and the leading edge x_r, the foundation carries `4 w` per length, and the contact ends at x_l:
 //!
 //! ```text
 //! Kelvin–Voigt   w = G u + η v h̃'           paraboloid: x_l = −x_r²/(l + √(l² + x_r²))     cone: x_l = −(x_r − l)⁺

@@ -7,6 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::IndenterError;
+use crate::forward::forward;
 use crate::right_triangle::arc_cosine;
 use numerics::integrate_from_ends;
 
@@ -77,46 +78,16 @@ pub trait Axisymmetric: Send + Sync {
     }
 }
 
-macro_rules! forward_to_body {
-    ($pointer:ty) => {
-        impl<P: Axisymmetric + ?Sized> Axisymmetric for $pointer {
-            fn profile_height(&self, radius: f64) -> f64 {
-                (**self).profile_height(radius)
-            }
-
-            fn profile_slope(&self, radius: f64) -> f64 {
-                (**self).profile_slope(radius)
-            }
-
-            fn profile_curvature(&self, radius: f64) -> f64 {
-                (**self).profile_curvature(radius)
-            }
-
-            fn profile_exponent(&self) -> f64 {
-                (**self).profile_exponent()
-            }
-
-            fn max_radius(&self) -> f64 {
-                (**self).max_radius()
-            }
-
-            fn kinks(&self) -> Vec<Kink> {
-                (**self).kinks()
-            }
-
-            fn line_height(&self, x: f64) -> f64 {
-                (**self).line_height(x)
-            }
-
-            fn line_slope(&self, x: f64) -> f64 {
-                (**self).line_slope(x)
-            }
-        }
-    };
-}
-
-forward_to_body!(&P);
-forward_to_body!(Box<P>);
+forward!(Axisymmetric, {
+    fn profile_height(&self, radius: f64) -> f64;
+    fn profile_slope(&self, radius: f64) -> f64;
+    fn profile_curvature(&self, radius: f64) -> f64;
+    fn profile_exponent(&self) -> f64;
+    fn max_radius(&self) -> f64;
+    fn kinks(&self) -> Vec<Kink>;
+    fn line_height(&self, x: f64) -> f64;
+    fn line_slope(&self, x: f64) -> f64;
+});
 
 fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, IndenterError> {
     let upper = body.max_radius();

@@ -10,7 +10,7 @@ use numerics::bracketed_root;
 
 /// Step of the search, the eighth part of an octave.
 const STEP: f64 = 1.090_507_732_665_257_7;
-/// Octaves over which the line must follow its leading power before all below counts as the apex.
+/// Octaves over which the line must follow its leading power before everything below it is taken as the apex.
 const APEX_OCTAVES: u32 = 40;
 /// How closely it must do so there, relative to the exponent.
 const APEX_DEVIATION: f64 = 1e-2;
@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// A body that is flat to its end, as [`FlatPunch`](crate::FlatPunch), has its own radius at every depth. The line is
 /// searched from the apex outwards in steps of a tenth of the radius; valleys narrower than that are not seen unless they
-/// begin at a kink. Asked for an unreachable depth, the function tells the limiting radius by its error.
+/// begin at a kink. The error of an unreachable depth holds the limiting radius.
 ///
 /// # Errors
 /// [`IndenterError::NonMonotoneLine`] when the line turns down first, `NotHighEnough` when the body ends first,

@@ -1,8 +1,8 @@
-//! What can be wrong with an indenter, its load, or a question about it.
+//! Why an indenter, its load or a geometric problem is refused.
 
 use thiserror::Error;
 
-/// Why an indenter, a load or a geometric question is refused.
+/// Why an indenter, a load or a geometric problem is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum IndenterError {
     /// A parameter is not a number, or outside the range it may take.
@@ -60,7 +60,7 @@ pub enum IndenterError {
         upper: f64,
     },
     /// The equivalent line turns downwards before it reaches the depth asked for: there the contact is no longer a
-    /// single circle and the method of dimensionality reduction does not answer.
+    /// single circle and the method of dimensionality reduction does not hold.
     #[error(
         "the equivalent line rises only up to radius {limiting_radius}, where its height is {limiting_depth}; \
          a depth of {depth} was asked for"

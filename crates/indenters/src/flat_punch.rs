@@ -4,7 +4,7 @@ use crate::shape::shape;
 use crate::{Axisymmetric, surface_of_revolution};
 
 shape! {
-    /// A flat end with a vertical wall around it; the contact circle is its rim at every depth.
+    /// A flat end with a vertical edge around it; the contact circle is its rim at every depth.
     FlatPunch;
     /// A punch of `radius` > 0 \[m].
     new;
@@ -13,7 +13,7 @@ shape! {
 }
 
 impl FlatPunch {
-    fn inside_or_wall(&self, radius: f64) -> f64 {
+    fn inside_or_edge(&self, radius: f64) -> f64 {
         if radius <= self.radius {
             0.0
         } else {
@@ -24,15 +24,15 @@ impl FlatPunch {
 
 impl Axisymmetric for FlatPunch {
     fn profile_height(&self, radius: f64) -> f64 {
-        self.inside_or_wall(radius)
+        self.inside_or_edge(radius)
     }
 
     fn profile_slope(&self, radius: f64) -> f64 {
-        self.inside_or_wall(radius)
+        self.inside_or_edge(radius)
     }
 
     fn profile_curvature(&self, radius: f64) -> f64 {
-        self.inside_or_wall(radius)
+        self.inside_or_edge(radius)
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -44,11 +44,11 @@ impl Axisymmetric for FlatPunch {
     }
 
     fn line_height(&self, x: f64) -> f64 {
-        self.inside_or_wall(x.abs())
+        self.inside_or_edge(x.abs())
     }
 
     fn line_slope(&self, x: f64) -> f64 {
-        x.signum() * self.inside_or_wall(x.abs())
+        x.signum() * self.inside_or_edge(x.abs())
     }
 }
 

@@ -10,7 +10,7 @@ use crate::error::{finite, positive};
 use crate::{IndenterError, RigidLine};
 use numerics::integrate;
 
-/// How often intervals may be halved, all in all, in search of kinks nobody told about; one kink takes about 30.
+/// How often intervals may be halved, all in all, in search of kinks that the line does not name; one kink takes about 30.
 const MAX_BISECTIONS: usize = 1000;
 
 /// Height h(r) \[m] of the body of revolution whose equivalent line is the right half of `line`, at a `radius` r > 0 \[m].

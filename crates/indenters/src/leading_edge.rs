@@ -11,7 +11,7 @@ use crate::error::{finite, positive};
 use crate::{IndenterError, RigidLine};
 use numerics::bracketed_root;
 
-/// How closely a line is looked at.
+/// How finely a line is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LeadingEdgeOptions {
     /// Equal intervals of the domain searched for one turning point each; without effect on a

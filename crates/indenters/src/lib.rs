@@ -1,8 +1,8 @@
 //! Rigid indenters: their profiles, the equivalent lines of the method of dimensionality reduction, and the part of a
 //! moving line that touches.
 //!
-//! A body of revolution `h(r)` ([`Axisymmetric`]) is replaced by a line `h̃(x)` ([`RigidLine`]) that answers the same
-//! contact question in one dimension. All lengths are in metres.
+//! A body of revolution `h(r)` ([`Axisymmetric`]) is replaced by a line `h̃(x)` ([`RigidLine`]) that has the same
+//! contact in one dimension. All lengths are in metres.
 //!
 //! The equivalent line of a cone is steeper by κ₁ = π/2, that of a paraboloid by κ₂ = 2 (Kürschner 2014, Eq. 9):
 //!
@@ -36,6 +36,7 @@ mod error;
 mod extent;
 mod flat_cone;
 mod flat_punch;
+mod forward;
 mod height_map;
 mod hyperboloid;
 mod inverse_abel;

@@ -1,6 +1,7 @@
 //! Rigid lines of the one-dimensional model.
 
 use crate::Axisymmetric;
+use crate::forward::forward;
 use crate::monotone_breaks::find_breaks;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
@@ -28,34 +29,13 @@ pub trait RigidLine {
     }
 }
 
-macro_rules! forward_to_line {
-    ($pointer:ty) => {
-        impl<L: RigidLine + ?Sized> RigidLine for $pointer {
-            fn height(&self, x: f64) -> f64 {
-                (**self).height(x)
-            }
-
-            fn slope(&self, x: f64) -> f64 {
-                (**self).slope(x)
-            }
-
-            fn domain(&self) -> [f64; 2] {
-                (**self).domain()
-            }
-
-            fn kinks(&self) -> Vec<f64> {
-                (**self).kinks()
-            }
-
-            fn monotone_breaks(&self, samples: usize) -> Vec<f64> {
-                (**self).monotone_breaks(samples)
-            }
-        }
-    };
-}
-
-forward_to_line!(&L);
-forward_to_line!(Box<L>);
+forward!(RigidLine, {
+    fn height(&self, x: f64) -> f64;
+    fn slope(&self, x: f64) -> f64;
+    fn domain(&self) -> [f64; 2];
+    fn kinks(&self) -> Vec<f64>;
+    fn monotone_breaks(&self, samples: usize) -> Vec<f64>;
+});
 
 /// The equivalent line of a body of revolution, `h̃(x)`, with its apex at `x = 0`.
 #[derive(Debug, PartialEq)]

@@ -8,7 +8,7 @@ const MAX_BISECTIONS: u32 = 40;
 
 /// Positions, increasing, from end to end of the domain, between which the line only rises or only falls.
 ///
-/// Looks at `samples` equal intervals of the (finite) domain, finer between kinks, for a change of sign of the slope. Two
+/// Searches `samples` equal intervals of the (finite) domain, finer between kinks, for a change of sign of the slope. Two
 /// turning points inside one of them are not seen.
 pub(crate) fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     let [lower, upper] = line.domain();
@@ -53,7 +53,7 @@ fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     stations
 }
 
-/// One step inside, so that at a kink the side of this interval speaks.
+/// One step inside, so that at a kink the slope is that on the side of this interval.
 fn inside([left, right]: [f64; 2]) -> [f64; 2] {
     [left.next_up(), right.next_down()]
 }
@@ -69,7 +69,7 @@ fn first_not_zero(candidates: [f64; 3]) -> f64 {
 
 #[expect(
     clippy::cast_precision_loss,
-    reason = "nobody samples a line at 2^53 points"
+    reason = "a line is sampled at fewer than 2^53 points"
 )]
 fn as_float(count: usize) -> f64 {
     count as f64

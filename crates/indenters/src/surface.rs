@@ -2,6 +2,7 @@
 
 use crate::Axisymmetric;
 use crate::extent::search;
+use crate::forward::forward;
 
 /// The surface of a rigid body as the half space sees it: height and gradient over the plane.
 ///
@@ -74,42 +75,18 @@ pub trait Surface: Send + Sync {
     }
 }
 
-macro_rules! forward_to_surface {
-    ($pointer:ty) => {
-        impl<S: Surface + ?Sized> Surface for $pointer {
-            fn height(&self, position: [f64; 2]) -> f64 {
-                (**self).height(position)
-            }
+forward!(Surface, {
+    fn height(&self, position: [f64; 2]) -> f64;
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2];
+    fn mirrors(&self) -> [bool; 2];
+    fn extent_below(&self, height: f64) -> [[f64; 2]; 2];
+    fn apex_exponent(&self) -> f64;
+    fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric>;
+});
 
-            fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-                (**self).gradient(position)
-            }
-
-            fn mirrors(&self) -> [bool; 2] {
-                (**self).mirrors()
-            }
-
-            fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
-                (**self).extent_below(height)
-            }
-
-            fn apex_exponent(&self) -> f64 {
-                (**self).apex_exponent()
-            }
-
-            fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-                (**self).as_axisymmetric()
-            }
-        }
-    };
-}
-
-forward_to_surface!(&S);
-forward_to_surface!(Box<S>);
-
-/// A surface that does not tell of its mirrors, so that solvers compute both sides of them.
+/// A surface whose mirrors are hidden, so that solvers compute both sides of them.
 ///
-/// The answers are the same up to rounding, but for slopes on kinks, which have two: this is for those who want to see
+/// The results are the same up to rounding, but for slopes on kinks, which have two: this is for those who want to see
 /// that, or what a mirror saves.
 #[derive(Debug, Clone, Copy)]
 pub struct Unmirrored<'a, S: ?Sized>(pub &'a S);

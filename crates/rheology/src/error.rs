@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a material, or a question about it, is refused.
+/// Why a material, or an argument of one of its functions, is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RheologyError {
     /// A parameter is not a number, or outside the range it may take.

@@ -1,4 +1,4 @@
-//! What every material can answer.
+//! What every material has: two spectra, and the moduli and compliances that follow.
 
 use std::fmt::Debug;
 

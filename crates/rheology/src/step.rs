@@ -99,7 +99,7 @@ impl ExponentialStep {
 
     /// Output at the end of the step with zero input, for every point.
     ///
-    /// Values of `state` beyond `n_fields() · history.len()` are not looked at.
+    /// Values of `state` beyond `n_fields() · history.len()` are ignored.
     pub fn history(&self, state: &[f64], history: &mut [f64]) {
         debug_assert_eq!(
             state.len(),

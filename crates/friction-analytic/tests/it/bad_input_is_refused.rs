@@ -1,3 +1,4 @@
+use casebook::assert_matches;
 use friction_analytic::{ElasticContact, FrictionError, high_speed_friction, low_speed_friction};
 use indenters::{IndenterError, Sphere};
 use rheology::{StandardSolid, StandardSolidParameters};
@@ -45,9 +46,9 @@ fn elastic_contacts_that_cannot_be_are_refused() {
         velocity: 1.0,
     };
     let result = low_speed_friction(&sphere, &solid, beyond);
-    let outside = matches!(
+    assert_matches!(
         result,
-        Err(FrictionError::Indenter(IndenterError::OutOfDomain { .. }))
+        Err(FrictionError::Indenter(IndenterError::OutOfDomain { .. })),
+        " at the equator of the sphere"
     );
-    assert!(outside, "{result:?} at the equator of the sphere");
 }

@@ -70,14 +70,14 @@ fn a_contact_that_ends_at_the_jump_has_friction() {
     assert_close!(state.friction_coefficient => std::f64::consts::FRAC_PI_2 * tip, within 1e-11);
     let (material, load) = with_depth(depth_at_kink * (1.0 + 1e-9));
     let result = axisymmetric_sliding(&body, &material, &load);
-    let diverges = matches!(
+    assert_matches!(
         result,
         Err(FrictionError::FrictionDiverges {
             cause: DivergenceCause::SlopeJump { .. },
             ..
-        })
+        }),
+        " beyond the kink"
     );
-    assert!(diverges, "{result:?} beyond the kink");
 }
 
 /// A cone that gets steeper at a radius.
@@ -149,13 +149,13 @@ fn a_sharp_apex_diverges_in_every_function() {
 }
 
 #[test]
-fn a_vertical_wall_diverges_at_every_depth() {
+fn a_vertical_edge_diverges_at_every_depth() {
     let punch = FlatPunch::new(0.5).unwrap();
     for depth in [1e-9, 0.1, 1e9] {
         let (material, load) = with_depth(depth);
         let result = axisymmetric_sliding(&punch, &material, &load);
         let expected = FrictionError::FrictionDiverges {
-            cause: DivergenceCause::VerticalWall { radius: 0.5 },
+            cause: DivergenceCause::VerticalEdge { radius: 0.5 },
             indentation_depth: depth,
             contact_length: 0.5,
         };

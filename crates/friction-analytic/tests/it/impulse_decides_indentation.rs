@@ -1,4 +1,4 @@
-use casebook::assert_close;
+use casebook::{assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, Indentation, impulse_to_depth, indentation_after_impulse,
     power_indentation_after_impulse, time_to_depth,
@@ -97,7 +97,7 @@ fn the_reciprocal_theorem_gives_the_same_force() {
 }
 
 #[test]
-fn any_shape_goes_the_way_of_its_own_quadrature() {
+fn any_shape_is_integrated_without_its_line() {
     let material = Viscous::new(3.0).unwrap();
     let sphere = Sphere::new(2.0).unwrap();
     for impulse in [1e-9, 0.5, 20.0, 200.0] {
@@ -149,37 +149,37 @@ fn bad_impulses_depths_and_bodies_are_refused() {
             power_indentation_after_impulse(&cone, &material, impulse),
             indentation_after_impulse(&cone, &material, impulse),
         ] {
-            let named = matches!(
+            assert_matches!(
                 result,
                 Err(FrictionError::InvalidParameter {
                     parameter: "impulse",
                     ..
-                })
+                }),
+                "impulse {impulse}"
             );
-            assert!(named, "impulse {impulse}: {result:?}");
         }
     }
     for depth in [0.0, -1.0, f64::NAN] {
         let result = impulse_to_depth(&cone, &material, depth);
-        let named = matches!(
+        assert_matches!(
             result,
             Err(FrictionError::Indenter(IndenterError::InvalidParameter {
                 parameter: "depth",
                 ..
-            }))
+            })),
+            "depth {depth}"
         );
-        assert!(named, "depth {depth}: {result:?}");
     }
     for force in [0.0, -1.0, f64::NAN] {
         let result = time_to_depth(&cone, &material, 1.0, force);
-        let named = matches!(
+        assert_matches!(
             result,
             Err(FrictionError::InvalidParameter {
                 parameter: "normal_force",
                 ..
-            })
+            }),
+            "force {force}"
         );
-        assert!(named, "force {force}: {result:?}");
     }
     // h̃ = (π/2) x − 2 x² falls from x = π/8 on, and so does its moment later.
     let terms = [(1.0, 1.0), (-1.0, 2.0)].map(|(coefficient, exponent)| PowerTerm {

@@ -202,8 +202,11 @@ fn equation_15_is_refused_where_it_does_not_hold() {
         );
     }
     let result = one_sided_sinking_velocity(&line, &[[0.0, 0.6]], &material, &load);
-    let beyond = matches!(result, Err(FrictionError::BeyondStationaryDepth { .. }));
-    assert!(beyond, "{result:?} at depth 0.12 of 0.1");
+    assert_matches!(
+        result,
+        Err(FrictionError::BeyondStationaryDepth { .. }),
+        " at depth 0.12 of 0.1"
+    );
 }
 
 #[test]

@@ -16,6 +16,10 @@ fn profile(case: &Case) -> PowerProfile {
     PowerProfile::paraboloid(case.input("k") / 2.0).unwrap()
 }
 
+fn cone_and_paraboloid() -> [PowerProfile; 2] {
+    [PowerProfile::cone(0.3), PowerProfile::paraboloid(2.0)].map(Result::unwrap)
+}
+
 #[test]
 fn depth_friction_and_contact_match_the_exact_solution() {
     for case in casebook::group("MDR-02") {
@@ -48,13 +52,8 @@ fn distance_to_99_percent_matches() {
         .find(|case| !case.has_input("shape"));
     let case = case.expect("the group has the row of the 99 per cent distance");
     let (material, load) = with_depth(0.1);
-    for (name, profile) in [
-        ("cone_vt_over_xd", PowerProfile::cone(0.3).unwrap()),
-        (
-            "paraboloid_vt_over_xd",
-            PowerProfile::paraboloid(2.0).unwrap(),
-        ),
-    ] {
+    let names = ["cone_vt_over_xd", "paraboloid_vt_over_xd"];
+    for (name, profile) in names.into_iter().zip(cone_and_paraboloid()) {
         let distance = sliding_distance_to_depth(&profile, &material, &load, 0.99).unwrap();
         let length = profile.line_position(stationary_depth(&material, &load));
         case.check(name, distance / length);
@@ -64,23 +63,12 @@ fn distance_to_99_percent_matches() {
 #[test]
 fn distance_and_depth_are_inverse() {
     let (material, load) = with_depth(0.1);
-    for profile in [
-        PowerProfile::cone(0.3).unwrap(),
-        PowerProfile::paraboloid(2.0).unwrap(),
-    ] {
-        for fraction in [
-            0.0,
-            1e-9,
-            0.1,
-            0.25,
-            0.25001,
-            0.4,
-            0.5,
-            0.50001,
-            0.9,
-            0.99,
-            1.0 - 1e-6,
-        ] {
+    for profile in cone_and_paraboloid() {
+        let (early, late) = (
+            [0.0, 1e-9, 0.1, 0.25, 0.25001],
+            [0.4, 0.5, 0.50001, 0.9, 0.99],
+        );
+        for fraction in early.into_iter().chain(late).chain([1.0 - 1e-6]) {
             let distance = sliding_distance_to_depth(&profile, &material, &load, fraction).unwrap();
             let time = distance / load.velocity();
             let state = transient_sliding(&profile, &material, &load, time).unwrap();
@@ -89,14 +77,14 @@ fn distance_and_depth_are_inverse() {
         }
         for fraction in [-0.1, 1.0, f64::NAN] {
             let result = sliding_distance_to_depth(&profile, &material, &load, fraction);
-            let named = matches!(
+            assert_matches!(
                 result,
                 Err(FrictionError::InvalidParameter {
                     parameter: "fraction",
                     ..
-                })
+                }),
+                "fraction {fraction}"
             );
-            assert!(named, "fraction {fraction}: {result:?}");
         }
     }
 }
@@ -107,10 +95,7 @@ fn distance_and_depth_are_inverse() {
 fn the_exact_solution_satisfies_the_balance_of_forces() {
     let (material, load) = with_depth(0.1);
     let v = load.velocity();
-    for profile in [
-        PowerProfile::cone(0.3).unwrap(),
-        PowerProfile::paraboloid(2.0).unwrap(),
-    ] {
+    for profile in cone_and_paraboloid() {
         let length = profile.line_position(0.1);
         for slid in [0.01, 0.1, 0.16, 0.3, 1.0, 3.0] {
             let time = slid * length / v;
@@ -154,10 +139,7 @@ fn friction_of(
 #[test]
 fn late_and_early_times_keep_their_digits() {
     let (material, load) = with_depth(0.1);
-    for profile in [
-        PowerProfile::cone(0.3).unwrap(),
-        PowerProfile::paraboloid(2.0).unwrap(),
-    ] {
+    for profile in cone_and_paraboloid() {
         let stationary = power_sliding(&profile, &material, &load).unwrap();
         let length = stationary.contact_length();
         let late =
@@ -235,14 +217,14 @@ fn other_profiles_and_bad_times_are_refused() {
             transient_sliding(&cone, &material, &load, time).map(|_| ()),
             cone_depth_by_equation_15(&cone, &material, &load, time).map(|_| ()),
         ] {
-            let named = matches!(
+            assert_matches!(
                 result,
                 Err(FrictionError::InvalidParameter {
                     parameter: "time",
                     ..
-                })
+                }),
+                "time {time}"
             );
-            assert!(named, "time {time}: {result:?}");
         }
     }
 }

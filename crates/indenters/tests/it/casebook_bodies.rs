@@ -2,8 +2,8 @@
 
 use casebook::Case;
 use indenters::{
-    Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone,
-    Sphere, Superposition, TruncatedParaboloid,
+    Axisymmetric, FlatCone, FlatPunch, Hyperboloid, IndenterError, PowerProfile, PowerTerm,
+    RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
 /// A paraboloid with a cosine on it; its line is left to the numerical transform.
@@ -67,30 +67,25 @@ pub(crate) fn superposition(terms: &[(f64, f64)]) -> Superposition {
     Superposition::new(terms.collect()).unwrap()
 }
 
+/// A body of which only the surface matters.
+pub(crate) fn boxed<S: Axisymmetric + 'static>(
+    shape: Result<S, IndenterError>,
+) -> Box<dyn Axisymmetric> {
+    Box::new(shape.unwrap())
+}
+
 /// The body of a row of IND-02, IND-03, IND-05.
 pub(crate) fn body(case: &Case) -> Box<dyn Axisymmetric> {
-    let radius_of_curvature = |name| 0.5 / case.input(name);
-    let flat = |case: &Case| [case.input("b"), case.input("tan_theta")];
+    let input = |name| case.input(name);
     match case.input_text("shape") {
-        "power" => Box::new(PowerProfile::new(case.input("c"), case.input("p")).unwrap()),
-        "sphere" => Box::new(Sphere::new(case.input("R")).unwrap()),
+        "power" => boxed(PowerProfile::new(input("c"), input("p"))),
+        "sphere" => boxed(Sphere::new(input("R"))),
         // The casebook names this one in the title of its row only.
-        "" => Box::new(FlatPunch::new(case.input("a")).unwrap()),
-        "flat-ended cone" => {
-            let [radius, slope] = flat(case);
-            Box::new(FlatCone::new(radius, slope).unwrap())
-        }
-        "round-tipped cone" => {
-            let [radius, slope] = flat(case);
-            Box::new(RoundTippedCone::new(radius, slope).unwrap())
-        }
-        "truncated paraboloid" => {
-            Box::new(TruncatedParaboloid::new(case.input("b"), radius_of_curvature("R")).unwrap())
-        }
-        "hyperboloid" => {
-            let radius = case.input("b");
-            Box::new(Hyperboloid::new(radius, case.input("L") / radius).unwrap())
-        }
+        "" => boxed(FlatPunch::new(input("a"))),
+        "flat-ended cone" => boxed(FlatCone::new(input("b"), input("tan_theta"))),
+        "round-tipped cone" => boxed(RoundTippedCone::new(input("b"), input("tan_theta"))),
+        "truncated paraboloid" => boxed(TruncatedParaboloid::new(input("b"), 0.5 / input("R"))),
+        "hyperboloid" => boxed(Hyperboloid::new(input("b"), input("L") / input("b"))),
         other => unnamed_body(case, other),
     }
 }

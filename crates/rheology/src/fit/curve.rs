@@ -79,7 +79,7 @@ impl MeasuredCurve {
         &self.0
     }
 
-    /// The shortest and the longest time that the curve tells of, 1/ω or t.
+    /// The shortest and the longest time that the curve covers, 1/ω or t.
     pub(super) fn time_window(&self) -> [f64; 2] {
         let window = match &self.0 {
             Points::Oscillation(points) => [points.last(), points.first()]

@@ -64,7 +64,7 @@ impl ActiveSet {
         (gradients[best] > tolerance).then_some(best)
     }
 
-    /// Lets one more unknown grow, then moves to the unconstrained minimum, dropping what becomes negative on the way.
+    /// Lets one more unknown grow, then moves to the unconstrained minimum, dropping what would become negative.
     fn enter(&mut self, index: usize) {
         self.passive.push(index);
         while !self.passive.is_empty() {
@@ -82,11 +82,11 @@ impl ActiveSet {
         }
     }
 
-    /// The place among the passive unknowns of the one that reaches zero first on the way to `minimum`, and the
-    /// fraction of the way.
+    /// The place among the passive unknowns of the one that reaches zero first between here and `minimum`, and at
+    /// which fraction of the distance.
     fn first_to_vanish(&self, minimum: &DVector<f64>) -> Option<(usize, f64)> {
-        let on_the_way = self.passive.iter().zip(minimum).enumerate();
-        on_the_way
+        let moving = self.passive.iter().zip(minimum).enumerate();
+        moving
             .filter(|(_, (_, goal))| **goal <= 0.0)
             .map(|(place, (&i, goal))| {
                 let now = self.solution[i];

@@ -5,7 +5,7 @@
 //! ```
 //! The integrand is analytic in a strip around the real axis of ln s: the trapezoidal rule errs by about
 //! 2 e^(−2π d/h), with half the width d ≤ π/2 of the strip, where s = −iω (Trefethen & Weideman 2014, SIAM Rev. 56, 385,
-//! DOI 10.1137/130932132). Slower branches than the band can tell apart act as a spring, faster ones as a dashpot.
+//! DOI 10.1137/130932132). Slower branches than the band can distinguish act as a spring, faster ones as a dashpot.
 
 use std::f64::consts::PI;
 use std::iter::successors;

@@ -148,7 +148,7 @@ impl StandardSolid {
         if margin <= 0.0 {
             return None;
         }
-        // 1 − 4 γ (1 + γ), factored so that it keeps its digits where the window closes.
+        // 1 − 4 γ (1 + γ), factored so that it keeps its digits where the window vanishes.
         let discriminant = 4.0 * margin * (margin + 2.0 * gamma + 1.0);
         let sum = 1.0 + discriminant.sqrt();
         let tau = self.relaxation_time();
