@@ -9,7 +9,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ball = Sphere::new(5e-3)?;
     let pitch = Viscous::new(2e8)?; // shear viscosity [Pa s]
     let force = 0.04; // its weight [N]
-    for hours in [1.0, 24.0, 24.0 * 365.0] {
+    for hours in [1.0, 6.0, 24.0] {
         let contact = indentation_after_impulse(&ball, &pitch, force * 3600.0 * hours)?;
         println!(
             "after {hours:6} h: {:.2} mm deep, contact radius {:.2} mm",
