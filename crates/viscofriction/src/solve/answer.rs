@@ -101,8 +101,11 @@ pub struct HistoryRow {
     pub friction_coefficient: f64,
 }
 
+/// Reads a quantity of an answer.
+type Quantity = fn(&Answer) -> Option<Estimate>;
+
 /// Quantities by their names in JSON and CSV, in this order, each with its error.
-const QUANTITIES: [(&str, fn(&Answer) -> Option<Estimate>); 6] = [
+const QUANTITIES: [(&str, Quantity); 6] = [
     ("friction_coefficient", |answer| answer.friction_coefficient),
     ("normal_force", |answer| Some(answer.normal_force)),
     ("tangential_force", Answer::tangential_force),

@@ -1,9 +1,9 @@
 //! What boundary elements say, as answers.
 
 use bem_halfspace::indent::{self, PressEstimate};
-use bem_halfspace::slide::{SlideEstimate, SlideRow, slide};
-use bem_halfspace::steady::{LineEstimate, SteadyEstimate, steady, steady_line};
-use indenters::{Control, Cylinder, PressingLoad, SlidingLoad, Surface};
+use bem_halfspace::slide::{SlideRow, slide};
+use bem_halfspace::steady::{steady, steady_line};
+use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
 use numerics::Estimate;
 use rheology::Material;
 
