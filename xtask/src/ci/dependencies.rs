@@ -39,10 +39,10 @@ pub(crate) fn measure(options: &Dependencies) -> Result<()> {
     let text = page.split("\n| ").next().unwrap_or_default();
     let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
     for library in Workspace::read()?.libraries() {
-        let counts = Counts::of(library)?;
+        let rows = rows(library)?;
         let seconds = processor_seconds_to_build(library)?;
-        crates += &format!("{} {seconds:.0} |\n", counts.row);
-        direct += &counts.direct.concat();
+        crates += &format!("{} {seconds:.0} |\n", rows[0]);
+        direct += &rows[1..].concat();
     }
     let page = [text, &crates, &direct].concat();
     write_atomically(&options.out, page.as_bytes())?;
@@ -53,8 +53,7 @@ pub(crate) fn measure(options: &Dependencies) -> Result<()> {
 pub(super) fn check(workspace: &Workspace) -> Result<()> {
     let page = committed()?;
     for library in workspace.libraries() {
-        let counts = Counts::of(library)?;
-        for row in counts.direct.iter().chain([&counts.row]) {
+        for row in rows(library)? {
             ensure!(
                 page.contains(row.as_str()),
                 "{COMMITTED} lacks {row:?}; `cargo xtask dependencies --out {COMMITTED}` makes it current"
@@ -68,37 +67,24 @@ fn committed() -> Result<String> {
     fs::read_to_string(workspace_root().join(COMMITTED)).context(COMMITTED)
 }
 
-/// Rows of the page about a crate.
-struct Counts {
-    /// Up to the time.
-    row: String,
-    /// One for each direct dependency, with the number of crates that it alone would bring.
-    direct: Vec<String>,
-}
-
-impl Counts {
-    fn of(library: &str) -> Result<Self> {
-        let all = tree(library, "normal,build")?;
-        let linked = tree(library, "normal,no-proc-macro")?;
-        let [distinct_all, linked] = [&all[1..], &linked[1..]].map(distinct);
-        // Behind the version of a crate of the workspace stands its folder.
-        let is_ours = |package: &&&str| package.ends_with(')');
-        let ours = linked.iter().filter(is_ours).count();
-        let others = linked.len() - ours;
-        let building = distinct_all.difference(&linked).count();
-        let starts = (1..all.len()).filter(|start| all[*start].0 == 1);
-        let direct = starts.map(|start| {
-            let inner = all[start + 1..].iter().take_while(|(depth, _)| *depth > 1);
-            let subtree = &all[start..=start + inner.count()];
-            let name = all[start].1.split(' ').next().unwrap_or_default();
-            let count = distinct(subtree).len();
-            format!("| `{library}` | `{name}` | {count} |\n")
-        });
-        Ok(Self {
-            row: format!("| `{library}` | {ours} | {others} | {building} |"),
-            direct: direct.collect(),
-        })
+/// The row of a crate up to its time, and one for each direct dependency, with the number of crates that it alone would
+/// bring.
+fn rows(library: &str) -> Result<Vec<String>> {
+    let all = tree(library, "normal,build")?;
+    let linked = tree(library, "normal,no-proc-macro")?;
+    let [distinct_all, linked] = [&all[1..], &linked[1..]].map(distinct);
+    // Behind the version of a crate of the workspace stands its folder.
+    let ours = linked.iter().filter(|name| name.ends_with(')')).count();
+    let others = linked.len() - ours;
+    let building = distinct_all.difference(&linked).count();
+    let mut rows = vec![format!("| `{library}` | {ours} | {others} | {building} |")];
+    for start in (1..all.len()).filter(|start| all[*start].0 == 1) {
+        let inner = all[start + 1..].iter().take_while(|(depth, _)| *depth > 1);
+        let count = distinct(&all[start..=start + inner.count()]).len();
+        let name = all[start].1.split(' ').next().unwrap_or_default();
+        rows.push(format!("| `{library}` | `{name}` | {count} |\n"));
     }
+    Ok(rows)
 }
 
 /// The depth of each crate in the tree of one, and the crate, as `libm v0.2.16`.
