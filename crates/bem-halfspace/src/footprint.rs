@@ -68,8 +68,10 @@ impl Footprint {
     /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
     pub fn below(surface: &(impl Surface + ?Sized), height: f64) -> Result<Self, BemError> {
         positive("indentation depth", height)?;
-        if let Some(body) = surface.as_axisymmetric() {
-            return Self::of_body_below(body, height);
+        let body = surface.as_axisymmetric();
+        // A body that ends lower, as a flat punch, has its end for a boundary.
+        if let Some(square) = body.and_then(|body| Self::of_body_below(body, height).ok()) {
+            return Ok(square);
         }
         let [x, y] = surface.extent_below(height);
         if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {

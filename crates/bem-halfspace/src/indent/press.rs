@@ -4,7 +4,7 @@
 //! unit modulus, and a constant depth makes G(t) times its force (Lee & Radok 1960), with J and G taken
 //! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
 
-use indenters::{Control, PressingLoad, Surface};
+use indenters::{Control, PressingLoad, Surface, contact_radius};
 use numerics::{Accuracy, ErrorParts, Estimate};
 use rheology::{Elastic, Material};
 
@@ -73,7 +73,7 @@ pub struct PressEstimate {
 /// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
 ///
 /// # Errors
-/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::DepthNotReached`] and [`BemError::ForceNotReached`]
+/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::DepthNotReached`] and [`BemError::ForceNotReached`]
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
 pub fn press(
     surface: &(impl Surface + ?Sized),
@@ -254,6 +254,10 @@ fn estimate(
     )?;
     let ((elements, finest), known) = (resolved.finest, resolved.estimates);
     let options = options(elements);
+    if let Some(body) = surface.as_axisymmetric() {
+        // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
+        contact_radius(body, finest.indentation_depth)?;
+    }
     let has_peak = finest.pressure.is_some() && bars::peak_has_limit(surface, &Elastic::new(1.0)?);
     Ok(PressEstimate {
         indentation_depth: bars::depth(control, known.indentation_depth),

@@ -7,6 +7,7 @@ mod apex_similarity;
 mod arbitrary_motions;
 mod axisymmetric_contact;
 mod bad_input;
+mod bars_of_contacts;
 mod contact_identities;
 mod contact_limits;
 mod convolution_is_the_sum;
