@@ -13,7 +13,6 @@ mod evidence;
 mod figures;
 mod meter;
 mod output;
-mod progress;
 mod random;
 mod scaling;
 mod scene;

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use comfy_table::Table;
+use comfy_table::{Row, Table};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use viscofriction_plot::{Drawing, Figure, PNG_WIDTH, draw, render_png};
@@ -23,9 +23,9 @@ pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
 }
 
 /// A table in Markdown, to be printed.
-pub(crate) fn markdown_table<const N: usize>(
-    header: [&str; N],
-    rows: impl Iterator<Item = [String; N]>,
+pub(crate) fn markdown_table<R: Into<Row>>(
+    header: impl Into<Row>,
+    rows: impl IntoIterator<Item = R>,
 ) -> Table {
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
@@ -36,15 +36,13 @@ pub(crate) fn markdown_table<const N: usize>(
 
 /// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.
 pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
-    let say = || format!("writing {}", path.display());
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).with_context(say)?;
-    }
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    fs::write(&part, contents).with_context(say)?;
-    fs::rename(&part, path).with_context(say)
+    let part = path.with_added_extension("part");
+    let write = || {
+        fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
+        fs::write(&part, contents)?;
+        fs::rename(&part, path)
+    };
+    write().with_context(|| format!("writing {}", path.display()))
 }
 
 /// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`.

@@ -1,24 +1,24 @@
 //! `evidence`: how stable, how accurate and how expensive the methods are, measured anew.
 //!
-//! Every experiment turns cases into tables, pictures and a summary; here they are written.
+//! Every experiment turns cases into tables, pictures and a summary.
 
 mod calibration;
 mod fit;
+mod report;
 mod request;
 mod speed_range;
 mod stability;
 mod stationary;
 mod work_precision;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
 use clap::{Args, Subcommand};
-use serde::Serialize;
-use viscofriction_plot::Figure;
 
-use crate::output::{WrongInput, print_line, to_csv, write_atomically, write_figure};
+use crate::output::{WrongInput, print_line};
+use report::{Report, Table};
 
 /// Which experiment, how much of it, and where the results go.
 #[derive(Debug, Args)]
@@ -51,26 +51,6 @@ enum Experiment {
     SpeedRange,
     /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
     Stationary(stationary::Options),
-}
-
-/// What an experiment found.
-#[derive(Debug)]
-struct Report {
-    /// Name of the page.
-    name: &'static str,
-    tables: Vec<Table>,
-    pictures: Vec<(&'static str, Figure)>,
-    /// Markdown.
-    summary: String,
-    /// Why the command fails, if it does.
-    failure: Option<String>,
-}
-
-/// A file of comma-separated values.
-#[derive(Debug)]
-struct Table {
-    name: &'static str,
-    contents: String,
 }
 
 /// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
@@ -118,32 +98,5 @@ impl Experiment {
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
         }
-    }
-}
-
-impl Table {
-    fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
-        let contents = to_csv(rows)?;
-        Ok(Self { name, contents })
-    }
-}
-
-impl Report {
-    fn page(&self, out: &Path) -> PathBuf {
-        out.join(self.name).with_extension("md")
-    }
-
-    fn write(&self, out: &Path) -> Result<()> {
-        let mut page = format!("{}\n", self.summary);
-        for Table { name, contents } in &self.tables {
-            let file = format!("{name}.csv");
-            page += &format!("\n[{file}]({file})\n");
-            write_atomically(&out.join(file), contents.as_bytes())?;
-        }
-        for (name, figure) in &self.pictures {
-            page += &format!("\n![{name}]({name}.svg)\n");
-            write_figure(out, name, figure)?;
-        }
-        write_atomically(&self.page(out), page.as_bytes())
     }
 }

@@ -1,12 +1,11 @@
 //! The scaling factors beside the paper's: the plain simulation, the biases of its sources, and the converged value.
 
 use anyhow::Result;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::progress;
 use crate::scaling::{ScalingFactor, scaling_factor};
 use crate::scene::Scene;
+use crate::tasks::in_parallel;
 
 pub(super) const FILE: &str = "scaling_factors.csv";
 
@@ -43,15 +42,9 @@ pub(super) struct Row {
 }
 
 pub(super) fn compute() -> Result<Vec<Row>> {
-    let bar = progress::bar("scaling factors", PAPER.len());
-    let rows = PAPER.par_iter().map(|&(exponent, paper)| {
-        let row = row(exponent, paper, scaling_factor(exponent, RELATIVE_ERROR)?);
-        bar.inc(1);
-        row
-    });
-    let rows = rows.collect();
-    bar.finish_and_clear();
-    rows
+    in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
+        row(exponent, paper, scaling_factor(exponent, RELATIVE_ERROR)?)
+    })
 }
 
 /// The plain simulation beside a converged factor.

@@ -2,13 +2,12 @@
 
 use anyhow::Result;
 use indenters::{PowerProfile, SlidingLoad};
-use rayon::prelude::*;
 use rheology::Viscous;
 use serde::{Deserialize, Serialize};
 
 use crate::figures::factors;
-use crate::progress;
 use crate::scene::Scene;
+use crate::tasks::in_parallel;
 
 /// The paper gives the slope of the cone only; force, viscosity and curvature are chosen so that contacts measure from
 /// 0.1 mm to 2 cm.
@@ -76,29 +75,6 @@ pub(super) struct Row {
     pub(super) drift: f64,
 }
 
-impl Row {
-    /// Columns that closed forms and the chain give, with their names.
-    pub(super) fn closed_forms(&self) -> Vec<(&'static str, f64)> {
-        vec![
-            ("velocity", self.velocity_m_per_s),
-            ("theory", self.theory),
-            ("chain", self.chain),
-            ("scaled theory", self.scaled_theory),
-            ("spacing", self.spacing_m),
-            ("elements along the contact", self.elements_along_contact),
-            ("sliding distance", self.sliding_distance_m),
-        ]
-    }
-
-    /// Columns that the half space gives.
-    pub(super) fn simulated(&self) -> Vec<(&'static str, f64)> {
-        vec![
-            ("half space", self.half_space),
-            ("half space, plain", self.half_space_plain),
-        ]
-    }
-}
-
 /// Computes every speed anew; similarity is not used.
 pub(super) fn compute(indenter: Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
     let name = if indenter == Indenter::Cone {
@@ -106,15 +82,10 @@ pub(super) fn compute(indenter: Indenter, factor: &factors::Row) -> Result<Vec<R
     } else {
         "Fig. 8, paraboloid"
     };
-    let bar = progress::bar(name, SPEEDS as usize);
-    let rows = (0..SPEEDS).into_par_iter().map(|k| {
-        let row = row(indenter, k, factor.converged);
-        bar.inc(1);
-        row
-    });
-    let rows = rows.collect();
-    bar.finish_and_clear();
-    rows
+    let speeds: Vec<u32> = (0..SPEEDS).collect();
+    in_parallel(name, &speeds, |&speed| {
+        row(indenter, speed, factor.converged)
+    })
 }
 
 /// The row of one speed, counted from the slowest.

@@ -1,13 +1,11 @@
 //! Outline and pressure of the stationary contact for four power profiles.
 
 use anyhow::Result;
-use bem_halfspace::Footprint;
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
-use rayon::prelude::*;
+use bem_halfspace::steady::SteadySliding;
 use serde::{Deserialize, Serialize};
 
-use crate::progress;
 use crate::scene::Scene;
+use crate::tasks::in_parallel;
 
 pub(super) const FILE: &str = "stationary_contact.csv";
 
@@ -16,7 +14,7 @@ pub(super) const FILE: &str = "stationary_contact.csv";
 pub(super) const PROFILES: [(f64, usize); 4] = [(1.0, 100), (2.0, 100), (4.0, 150), (16.0, 300)];
 /// The lowest point lies at a corner of four elements, so that edges of elements are round numbers of the length.
 const PHASE: [f64; 2] = [0.5, 0.5];
-/// Gaps left in contact, relative to F_N/(4ηv).
+/// Residual in contact, relative to F_N/(4ηv).
 const TOLERANCE: f64 = 1e-9;
 
 /// Where a column of elements along the sliding direction touches, in contact lengths of the one-dimensional model.
@@ -64,27 +62,16 @@ impl Contact {
 
 /// The contacts of all profiles.
 pub(super) fn compute() -> Result<Vec<Contact>> {
-    let bar = progress::bar("stationary contacts", PROFILES.len());
-    let contacts = PROFILES.par_iter().map(|&profile| {
-        let contact = contact(profile);
-        bar.inc(1);
-        contact
-    });
-    let contacts = contacts.collect();
-    bar.finish_and_clear();
-    contacts
+    in_parallel("stationary contacts", &PROFILES, |&profile| {
+        contact(profile)
+    })
 }
 
 fn contact((exponent, elements): (f64, usize)) -> Result<Contact> {
     let scene = Scene::unit(exponent)?;
     let contact_length = scene.theory()?.contact_length();
-    let footprint = Footprint::sliding(&scene.body, &scene.material, &scene.load)?;
-    let options = SteadyOptions {
-        phase: PHASE,
-        tolerance: TOLERANCE,
-        ..SteadyOptions::new([contact_length / elements as f64; 2], footprint)
-    };
-    let solution = steady_on_grid(&scene.body, &scene.material, &scene.load, &options)?;
+    let spacing = contact_length / elements as f64;
+    let solution = scene.on_one_grid([spacing; 2], PHASE, TOLERANCE)?;
     Ok(Contact {
         exponent,
         elements,

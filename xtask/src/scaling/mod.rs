@@ -6,11 +6,10 @@ mod table;
 use anyhow::Result;
 use clap::ValueEnum;
 use comfy_table::Table;
-use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::output::{WrongInput, to_csv};
-use crate::progress;
+use crate::output::{WrongInput, markdown_table, to_csv};
+use crate::tasks::in_parallel;
 pub(crate) use converged::{ScalingFactor, scaling_factor, scaling_factor_within};
 pub(crate) use table::generate as generate_table;
 
@@ -39,15 +38,10 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         exponents
     };
     validate(exponents, relative_error)?;
-    let bar = progress::bar("scaling factors", exponents.len());
-    let solve = |&exponent: &f64| {
-        let row = timed(exponent, relative_error);
-        bar.inc(1);
-        row
-    };
-    let rows: Vec<Result<Row>> = exponents.par_iter().map(solve).collect();
-    let rows: Vec<Row> = rows.into_iter().collect::<Result<_>>()?;
-    bar.finish_and_clear();
+    let rows: Result<Vec<Row>> = in_parallel("scaling factors", exponents, |&exponent| {
+        timed(exponent, relative_error)
+    });
+    let rows = rows?;
     match format {
         Format::Table => println!("{}", table(&rows)),
         Format::Csv => print!("{}", to_csv(&rows)?),
@@ -91,17 +85,14 @@ fn timed(exponent: f64, relative_error: f64) -> Result<Row> {
 }
 
 fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(["p", "s_p", "error", "unknowns", "seconds"]);
-    for row in rows {
-        table.add_row([
+    let lines = rows.iter().map(|row| {
+        [
             row.exponent.to_string(),
             format!("{:.6}", row.scaling_factor),
             format!("{:.1e}", row.error),
             row.unknowns.to_string(),
             format!("{:.3}", row.seconds),
-        ]);
-    }
-    table
+        ]
+    });
+    markdown_table(["p", "s_p", "error", "unknowns", "seconds"], lines)
 }

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::output::{read_csv, to_csv, write_atomically};
-use crate::progress;
 use crate::scaling::{ScalingFactor, scaling_factor_within};
+use crate::tasks;
 
 /// The nodes have 2p − 1 = `LAST_ORDER` · e^(−k `STEP`), from p = 64 down to 0.501: dense where s bends, next to
 /// p = 1/2.
@@ -52,7 +52,7 @@ pub(crate) fn generate(out: &Path) -> Result<()> {
             .any(|node| (node.exponent / exponent - 1.0).abs() < SAME)
     };
     let missing: Vec<f64> = (0..N_NODES).map(exponent).filter(|p| !known(*p)).collect();
-    let bar = progress::bar("scaling table", missing.len());
+    let bar = tasks::bar("scaling table", missing.len());
     // Two at a time, cheap ones first, so that much is saved early.
     let mut order = missing;
     order.sort_by(|left, right| left.ln().abs().total_cmp(&right.ln().abs()));

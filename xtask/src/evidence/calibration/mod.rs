@@ -89,16 +89,7 @@ fn table(judged: &Judged) -> comfy_table::Table {
     for row in &judged.rows {
         methods.entry(&row.method).or_default().push(row);
     }
-    let header = [
-        "method",
-        "results",
-        "bars that hold",
-        "with a sharp reference",
-        "of these within the bar alone",
-        "median of bar/deviation",
-        "worst deviation/bar",
-        "refused",
-    ];
+    let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
     let lines = methods.into_iter().map(|(method, rows)| {
         let refused = judged.refusals.iter();
         let refused = refused.filter(|refusal| refusal.method == method).count();

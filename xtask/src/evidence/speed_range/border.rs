@@ -1,12 +1,12 @@
 //! Lowest and highest speed at which the viscous law is right within ten per cent.
 
 use anyhow::{Context, Result, bail};
-use numerics::bracketed_root;
+use numerics::{Estimate, bracketed_root};
 use serde::Serialize;
 
-use super::sliding::Sliding;
-use super::{Model, Prediction, plateau};
-use crate::output::markdown_table;
+use super::sliding::LINE_ERROR;
+use super::{Model, Point, Prediction, plateau};
+use crate::tasks::in_parallel;
 
 /// Largest |prediction/friction − 1| that is right.
 const ALLOWED: f64 = 0.1;
@@ -19,114 +19,188 @@ pub(super) struct Row {
     pub(super) stiffness_ratio: f64,
     /// vτ/a.
     pub(super) lowest_speed: Option<f64>,
+    lowest_speed_error: Option<f64>,
     pub(super) highest_speed: Option<f64>,
+    highest_speed_error: Option<f64>,
     /// tan δ at ω = v/a, at both speeds.
     loss_tangent_at_lowest: Option<f64>,
+    loss_tangent_at_lowest_error: Option<f64>,
     loss_tangent_at_highest: Option<f64>,
+    loss_tangent_at_highest_error: Option<f64>,
     /// Smallest |prediction/friction − 1| on the map.
     smallest_deviation: f64,
+    smallest_deviation_error: f64,
 }
 
-/// The ranges of all rows of the map.
-pub(super) fn find(map: &[Prediction]) -> Result<Vec<Row>> {
+/// The ranges of all rows of the map; `error` is the relative one that the half space has on them.
+pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
     let key = |at: &Prediction| [at.exponent, at.stiffness_ratio].map(f64::to_bits);
-    let mut rows = Vec::new();
-    for model in Model::BOTH {
-        for speeds in map.chunk_by(|one, other| key(one) == key(other)) {
-            rows.push(row(model, speeds)?);
-        }
-    }
-    rows.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
+    let speeds = map.chunk_by(|one, other| key(one) == key(other));
+    let scans: Vec<Scan> = speeds
+        .flat_map(|speeds| {
+            Model::BOTH.map(|model| Scan {
+                model,
+                speeds,
+                error,
+            })
+        })
+        .collect();
+    let rows: Result<Vec<Row>> = in_parallel("border of the viscous law", &scans, Scan::row);
+    let mut rows = rows?;
+    rows.sort_by(|one, other| {
+        let model = |row: &Row| row.model == Model::HalfSpace;
+        let exponents = one.exponent.total_cmp(&other.exponent);
+        exponents.then(model(one).cmp(&model(other)))
+    });
     Ok(rows)
 }
 
-/// The range of one stiffness ratio.
-fn row(model: Model, speeds: &[Prediction]) -> Result<Row> {
-    let first = &speeds[0];
-    let deviation = |at: &Prediction| {
-        let [friction, predicted] = at.pair(model);
-        (predicted / friction - 1.0).abs()
-    };
-    let right = |at: &Prediction| deviation(at) <= ALLOWED;
-    let crossing = |low: Option<usize>, high: usize| match (low, speeds.get(high)) {
-        (Some(low), Some(high)) => crossing(model, &speeds[low], high),
-        _ => bail!("the viscous law is right up to the edge of the map: {first:?}"),
-    };
-    let lowest = speeds.iter().position(right);
-    let lowest = lowest
-        .map(|at| crossing(at.checked_sub(1), at))
-        .transpose()?;
-    let highest = speeds.iter().rposition(right);
-    let highest = highest.map(|at| crossing(Some(at), at + 1)).transpose()?;
-    let loss_tangent = |speed: f64| first.sliding().at_speed(speed).loss_tangent();
-    Ok(Row {
-        exponent: first.exponent,
-        model,
-        stiffness_ratio: first.stiffness_ratio,
-        lowest_speed: lowest,
-        highest_speed: highest,
-        loss_tangent_at_lowest: lowest.map(loss_tangent).transpose()?,
-        loss_tangent_at_highest: highest.map(loss_tangent).transpose()?,
-        smallest_deviation: speeds.iter().map(deviation).fold(f64::INFINITY, f64::min),
-    })
+/// The speeds of one stiffness ratio.
+struct Scan<'a> {
+    model: Model,
+    speeds: &'a [Prediction],
+    error: f64,
 }
 
-/// The speed at which the deviation is the one allowed, between two neighbours on the map.
-///
-/// The line is solved anew there; the ratio of the half space to it, which changes slowly, is interpolated.
-fn crossing(model: Model, low: &Prediction, high: &Prediction) -> Result<f64> {
-    let plateau = plateau(low.exponent)?;
-    let ratio = |at: &Prediction| match model {
-        Model::Line => plateau,
-        Model::HalfSpace => at.half_space / at.line,
-    };
-    let [before, after] = [low, high].map(ratio);
-    let excess = |logarithm: f64| {
-        let place = (logarithm - low.speed.ln()) / (high.speed / low.speed).ln();
-        let ratio = before + place * (after - before);
-        let quotient = quotient(&low.sliding().at_speed(logarithm.exp()));
-        quotient.map_or(f64::NAN, |quotient| {
-            (quotient * plateau / ratio - 1.0).abs() - ALLOWED
+impl Scan<'_> {
+    fn row(&self) -> Result<Row> {
+        let first = &self.speeds[0];
+        let right = |at: &Prediction| self.deviation(at) <= ALLOWED;
+        let lowest = self.speeds.iter().position(right);
+        let lowest = lowest
+            .map(|at| self.crossing(at.checked_sub(1), at))
+            .transpose()?;
+        let highest = self.speeds.iter().rposition(right);
+        let highest = highest
+            .map(|at| self.crossing(Some(at), at + 1))
+            .transpose()?;
+        let loss_tangent = |speed: Estimate| -> Result<Estimate> {
+            let at = |speed: f64| first.sliding().at_speed(speed).loss_tangent();
+            let value = at(speed.value)?;
+            let error = (at(speed.value + speed.error)? - value).abs();
+            Ok(Estimate { value, error })
+        };
+        let [low, high] = [lowest, highest].map(|speed| speed.map(loss_tangent).transpose());
+        let (low, high) = (low?, high?);
+        let smallest = self
+            .speeds
+            .iter()
+            .map(|at| self.deviation(at))
+            .fold(f64::INFINITY, f64::min);
+        Ok(Row {
+            exponent: first.exponent,
+            model: self.model,
+            stiffness_ratio: first.stiffness_ratio,
+            lowest_speed: lowest.map(|speed| speed.value),
+            lowest_speed_error: lowest.map(|speed| speed.error),
+            highest_speed: highest.map(|speed| speed.value),
+            highest_speed_error: highest.map(|speed| speed.error),
+            loss_tangent_at_lowest: low.map(|tangent| tangent.value),
+            loss_tangent_at_lowest_error: low.map(|tangent| tangent.error),
+            loss_tangent_at_highest: high.map(|tangent| tangent.value),
+            loss_tangent_at_highest_error: high.map(|tangent| tangent.error),
+            smallest_deviation: smallest,
+            smallest_deviation_error: match self.model {
+                Model::Line => LINE_ERROR,
+                Model::HalfSpace => self.error,
+            },
         })
-    };
-    let root = bracketed_root(excess, [low.speed, high.speed].map(f64::ln));
-    Ok(root
-        .context("a border between two speeds of the map")?
-        .exp())
+    }
+
+    fn deviation(&self, at: &Prediction) -> f64 {
+        let [friction, predicted] = at.pair(self.model);
+        (predicted / friction - 1.0).abs()
+    }
+
+    /// The speed at which the deviation is the one allowed, between two neighbours on the map.
+    fn crossing(&self, low: Option<usize>, high: usize) -> Result<Estimate> {
+        let (Some(low), Some(high)) = (low, self.speeds.get(high)) else {
+            bail!(
+                "the viscous law is right up to the edge of the map: {:?}",
+                self.speeds[0]
+            );
+        };
+        let border = Border {
+            plateau: plateau(high.exponent)?,
+            low: &self.speeds[low],
+            high,
+        };
+        match self.model {
+            Model::Line => border.between([border.plateau; 2], LINE_ERROR),
+            Model::HalfSpace => border.of_half_space(self.error / 3.0),
+        }
+    }
 }
 
-/// Prediction over friction of the line.
-fn quotient(at: &Sliding) -> Result<f64> {
-    let (line, normal_force) = at.line()?;
-    Ok(at.viscous_law(normal_force)? / line.value)
+/// Two neighbours on the map; at one of them the law is right, at the other it is not.
+struct Border<'a> {
+    plateau: f64,
+    low: &'a Prediction,
+    high: &'a Prediction,
 }
 
-/// The ranges in Markdown.
-pub(super) fn table(rows: &[Row]) -> comfy_table::Table {
-    let header = [
-        "p",
-        "model",
-        "γ",
-        "lowest vτ/a",
-        "highest vτ/a",
-        "tan δ there",
-        "and there",
-        "best within",
-    ];
-    let speed = |speed: Option<f64>| speed.map_or_else(String::new, |speed| format!("{speed:.2e}"));
-    let tangent =
-        |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:.1}"));
-    let lines = rows.iter().map(|row| {
-        [
-            row.exponent.to_string(),
-            row.model.name().to_owned(),
-            format!("{:.1e}", row.stiffness_ratio),
-            speed(row.lowest_speed),
-            speed(row.highest_speed),
-            tangent(row.loss_tangent_at_lowest),
-            tangent(row.loss_tangent_at_highest),
-            format!("{:.1} %", 100.0 * row.smallest_deviation),
-        ]
-    });
-    markdown_table(header, lines)
+impl Border<'_> {
+    /// The ratio of half space and line changes slowly: it is interpolated first, and then solved anew at the border that
+    /// this gives, twice.
+    fn of_half_space(&self, relative_error: f64) -> Result<Estimate> {
+        let mut ratios = [self.low, self.high].map(|at| at.half_space / at.line);
+        let mut border = self.between(ratios, 0.0)?;
+        for _ in 0..2 {
+            let point = Point::of(self.low.sliding().at_speed(border.value), relative_error)?;
+            let correction = point.ratio / self.interpolated(ratios, border.value.ln());
+            ratios = ratios.map(|ratio| ratio * correction);
+            let next = self.between(ratios, point.ratio_error / point.ratio)?;
+            border = Estimate {
+                value: next.value,
+                error: next.error + (next.value - border.value).abs(),
+            };
+        }
+        Ok(border)
+    }
+
+    /// The ratio of friction to that of the line at the logarithm of a speed.
+    fn interpolated(&self, [low, high]: [f64; 2], logarithm: f64) -> f64 {
+        let place = (logarithm - self.low.speed.ln()) / (self.high.speed / self.low.speed).ln();
+        low + place * (high - low)
+    }
+
+    /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times ratios
+    /// with a relative error.
+    fn between(&self, ratios: [f64; 2], relative_error: f64) -> Result<Estimate> {
+        let excess = |logarithm: f64| {
+            let at = self.low.sliding().at_speed(logarithm.exp());
+            let quotient = at
+                .line()
+                .and_then(|(line, force)| Ok(at.viscous_law(force)? / line.value));
+            let ratio = self.interpolated(ratios, logarithm);
+            quotient.map_or(f64::NAN, |quotient| {
+                (quotient * self.plateau / ratio - 1.0).abs() - ALLOWED
+            })
+        };
+        let ends = [self.low.speed.ln(), self.high.speed.ln()];
+        // A ratio that is solved anew may move the border beyond a neighbour.
+        let margin = MARGIN * (ends[1] - ends[0]);
+        let root = bracketed_root(excess, [ends[0] - margin, ends[1] + margin]);
+        let root = root.context("a border between two speeds of the map")?;
+        let slope = (excess(root + margin) - excess(root - margin)) / (2.0 * margin);
+        Ok(Estimate {
+            value: root.exp(),
+            error: root.exp() * (1.0 + ALLOWED) * relative_error / slope.abs(),
+        })
+    }
 }
+
+/// Part of the distance of two speeds.
+const MARGIN: f64 = 0.1;
+
+/// Columns that are printed.
+pub(super) const COLUMNS: &[&str] = &[
+    "exponent",
+    "model",
+    "stiffness_ratio",
+    "lowest_speed",
+    "highest_speed",
+    "loss_tangent_at_lowest",
+    "loss_tangent_at_highest",
+    "smallest_deviation",
+];

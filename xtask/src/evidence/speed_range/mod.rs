@@ -115,20 +115,21 @@ pub(super) fn report(quick: bool) -> Result<Report> {
         Prediction::of(&Point::of(*sliding, extent.map_error)?)
     });
     let (curves, map) = (curves?, map?);
-    let borders = border::find(&map)?;
+    let borders = border::find(&map, extent.map_error)?;
+    let border = Table::new("validity_border", &borders)?;
     Ok(Report {
         name: "speed_range",
+        summary: border.markdown(border::COLUMNS)?,
         tables: vec![
             Table::new("friction_over_speed", &curves)?,
             Table::new("validity", &map)?,
-            Table::new("validity_border", &borders)?,
+            border,
         ],
         pictures: vec![
             ("friction_over_speed", pictures::friction(&curves, &extent)),
             ("ratio_over_speed", pictures::ratio(&curves, &extent)?),
             ("validity", pictures::validity(&map, &borders, &extent)?),
         ],
-        summary: border::table(&borders).to_string(),
         failure: None,
     })
 }

@@ -24,7 +24,7 @@ use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
 use crate::scene::as_far_as_reached;
 
 /// Relative error asked of the line.
-const LINE_ERROR: f64 = 1e-6;
+pub(super) const LINE_ERROR: f64 = 1e-6;
 /// Lengths b in which the contact length of the viscous law is looked for; it is about 1 where the law holds.
 const LENGTHS: [f64; 2] = [1e-8, 1e12];
 

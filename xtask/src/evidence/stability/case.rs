@@ -136,6 +136,13 @@ macro_rules! families {
     };
 }
 
+/// A list of cases, each as `value of the parameter => finding;`.
+macro_rules! cases {
+    ($($value:expr => $finding:expr;)*) => {
+        vec![$($crate::evidence::stability::case::Case::new($value, move || $finding)),*]
+    };
+}
+
 /// Numbers beside the right ones, within one relative tolerance: fields of two structs, or `name: got, expected`.
 macro_rules! compare {
     ($got:expr, $expected:expr, within $tolerance:expr; $($field:ident),+) => {{
@@ -159,7 +166,7 @@ macro_rules! refused {
         ))
     };
 }
-pub(super) use {compare, families, refused};
+pub(super) use {cases, compare, families, refused};
 
 /// 10^first, 10^(first + step), …, 10^last.
 pub(super) fn decades(first: i32, last: i32, step: usize) -> impl Iterator<Item = f64> + Clone {

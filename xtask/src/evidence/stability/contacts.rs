@@ -8,7 +8,7 @@ use bem_halfspace::{
     solve_contact,
 };
 
-use super::case::{Case, Family, Finding, compare, decades, families, refused};
+use super::case::{Case, Family, Finding, cases, compare, decades, families, refused};
 use super::direct_sum::conditions;
 
 const PATCHES: [f64; 8] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 2025.0, 4096.0];
@@ -131,29 +131,27 @@ fn high_above(height: f64) -> Result<Finding> {
 
 fn unusual_heights() -> Vec<Case> {
     let corner = |height: f64| {
-        Case::new(format!("{height}"), move || {
-            let solved = with_corner(height, Control::NormalForce(1.0))?;
-            refused!(solved => BemError::InvalidHeight { row: 0, column: 0, .. })
-        })
+        let solved = with_corner(height, Control::NormalForce(1.0))?;
+        refused!(solved => BemError::InvalidHeight { row: 0, column: 0, .. })
     };
-    let control = |name: &'static str, control: Control| {
-        Case::new(name, move || {
-            let solved = with_corner(1.0, control)?;
-            refused!(solved => BemError::InvalidParameter { parameter: "normal_force" | "indentation_depth", .. })
-        })
+    let control = |control: Control| {
+        let solved = with_corner(1.0, control)?;
+        refused!(solved => BemError::InvalidParameter { parameter: "normal_force" | "indentation_depth", .. })
     };
-    vec![
-        corner(f64::NAN),
-        corner(f64::NEG_INFINITY),
-        control("tension", Control::NormalForce(-1.0)),
-        control("depth ∞", Control::IndentationDepth(f64::INFINITY)),
-        Case::new("a hole", a_hole),
-        Case::new("no body", || {
-            let grid = Grid::new([9, 9], [1.0, 1.0])?;
-            let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
-            refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
-        }),
-    ]
+    cases! {
+        "NaN" => corner(f64::NAN);
+        "-inf" => corner(f64::NEG_INFINITY);
+        "tension" => control(Control::NormalForce(-1.0));
+        "depth ∞" => control(Control::IndentationDepth(f64::INFINITY));
+        "a hole" => a_hole();
+        "no body" => no_body();
+    }
+}
+
+fn no_body() -> Result<Finding> {
+    let grid = Grid::new([9, 9], [1.0, 1.0])?;
+    let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
+    refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
 }
 
 /// A small contact with one corner of another height.

@@ -13,7 +13,6 @@ use serde::Serialize;
 
 use super::Table;
 use crate::meter::{measure as metered, median};
-use crate::output::markdown_table;
 use crate::scene::{Reached, as_far_as_reached};
 use crate::tasks::in_turn;
 
@@ -202,11 +201,11 @@ pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
     let cases = if quick { Case::quick() } else { Case::all() };
     let rows: Result<Vec<Vec<Row>>> = in_turn("error bars", &cases?, Case::rows);
     let rows = rows?.concat();
-    Ok((Table::new("error_bars", &rows)?, summary(&rows)))
+    Ok((Table::new("error_bars", &rows)?, summary(&rows)?))
 }
 
 /// How many bars hold, how wide they are, and the cases that fail or come closest to it.
-fn summary(rows: &[Row]) -> String {
+fn summary(rows: &[Row]) -> Result<String> {
     let held = rows.iter().filter(|row| row.holds).count();
     let fraction = held as f64 / rows.len() as f64;
     let width = 1.0 / median(rows.iter().map(|row| row.deviation_over_bar).collect());
@@ -214,34 +213,22 @@ fn summary(rows: &[Row]) -> String {
     let mut worst: Vec<&Row> = rows.iter().collect();
     worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
     worst.truncate(WORST.max(rows.len() - held));
-    let header = [
+    let columns = [
         "case",
-        "Δy/Δx",
-        "asked",
-        "μ",
-        "bar",
+        "aspect",
+        "relative_error_asked",
+        "friction",
+        "error_bar",
         "deviation",
-        "ratio",
+        "deviation_over_bar",
         "holds",
     ];
-    let lines = worst.into_iter().map(|row| {
-        [
-            row.case.clone(),
-            row.aspect.to_string(),
-            format!("{:e}", row.relative_error_asked),
-            format!("{:.6}", row.friction),
-            format!("{:.1e}", row.error_bar),
-            format!("{:.1e}", row.deviation),
-            format!("{:.2}", row.deviation_over_bar),
-            if row.holds { "yes" } else { "NO" }.to_owned(),
-        ]
-    });
-    format!(
-        "{held} of {} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{}",
+    let table = Table::new("worst", &worst)?.markdown(&columns)?;
+    Ok(format!(
+        "{held} of {} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{table}",
         rows.len(),
         100.0 * fraction,
         verdict(fraction >= NEEDED_FRACTION),
-        verdict(width <= WIDEST_MEDIAN),
-        markdown_table(header, lines)
-    )
+        verdict(width <= WIDEST_MEDIAN)
+    ))
 }

@@ -7,7 +7,6 @@ use serde::Serialize;
 use super::Table;
 use crate::evidence::fit::exponent;
 use crate::meter::{measure as metered, peak_memory};
-use crate::output::markdown_table;
 use crate::scene::Scene;
 use crate::tasks::in_turn;
 
@@ -71,32 +70,23 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
         })
     });
     let rows = rows?;
-    Ok((Table::new("growth", &rows)?, summary(&rows)))
+    let table = Table::new("growth", &rows)?;
+    let summary = format!("{}\n{}", table.markdown(COLUMNS)?, growth(&rows));
+    Ok((table, summary))
 }
 
-/// The table, and the exponent of growth.
-fn summary(rows: &[Row]) -> String {
-    let header = [
-        "elements",
-        "unknowns",
-        "sets",
-        "s",
-        "processor s",
-        "MiB",
-        "deviation of μ",
-    ];
-    let lines = rows.iter().map(|row| {
-        let memory = row.peak_memory_mib;
-        [
-            format!("{:.0}", row.elements_in_contact),
-            row.unknowns.to_string(),
-            row.contact_sets.to_string(),
-            format!("{:.3}", row.seconds),
-            format!("{:.3}", row.processor_seconds),
-            memory.map_or_else(String::new, |memory| format!("{memory:.0}")),
-            format!("{:.1e}", row.relative_deviation),
-        ]
-    });
+/// Columns that are printed.
+const COLUMNS: &[&str] = &[
+    "elements_in_contact",
+    "unknowns",
+    "contact_sets",
+    "seconds",
+    "processor_seconds",
+    "peak_memory_mib",
+    "relative_deviation",
+];
+
+fn growth(rows: &[Row]) -> String {
     let points = rows
         .iter()
         .map(|row| [row.elements_in_contact, row.processor_seconds]);
@@ -105,8 +95,7 @@ fn summary(rows: &[Row]) -> String {
         points.retain(|point| point[0] > FITTED_FROM);
     }
     format!(
-        "{}\nexponent of growth of the processor time over the last {} grids: {:.2}",
-        markdown_table(header, lines),
+        "exponent of growth of the processor time over the last {} grids: {:.2}",
         points.len(),
         exponent(&points).value
     )

@@ -10,7 +10,6 @@ use serde::Serialize;
 
 use super::Table;
 use crate::meter::{Cost, measure as metered, measure_median};
-use crate::output::markdown_table;
 use crate::scene::Scene;
 use crate::tasks::in_turn;
 
@@ -87,7 +86,9 @@ pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
     let rows: Result<Vec<Row>> = in_turn("speed", runs, row);
     let mut rows = rows?;
     compare(&mut rows);
-    Ok((Table::new("speed", &rows)?, summary(&rows)))
+    let table = Table::new("speed", &rows)?;
+    let summary = format!("{}\n{}", table.markdown(COLUMNS)?, ratios(&rows));
+    Ok((table, summary))
 }
 
 fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
@@ -223,40 +224,19 @@ fn spacing(scene: &Scene, relative_error: f64) -> Result<Spacing> {
         .context("no grid of the refinement is exact enough")
 }
 
-/// The table, and how much faster the stationary solver is.
-fn summary(rows: &[Row]) -> String {
-    let number = |value: Option<f64>, digits: usize| {
-        value.map_or_else(String::new, |value| format!("{value:.digits$}"))
-    };
-    let header = [
-        "solver",
-        "p",
-        "asked",
-        "estimated",
-        "deviation",
-        "unknowns",
-        "Δx per length",
-        "distance",
-        "s",
-        "processor s",
-    ];
-    let lines = rows.iter().map(|row| {
-        let deviation = row.deviation;
-        [
-            row.solver.to_owned(),
-            row.exponent.to_string(),
-            format!("{:e}", row.relative_error_asked),
-            format!("{:.1e}", row.estimated_error),
-            deviation.map_or_else(String::new, |value| format!("{value:.1e}")),
-            row.unknowns.to_string(),
-            number(row.elements_along_contact, 1),
-            number(row.sliding_distance, 0),
-            format!("{:.3}", row.seconds),
-            format!("{:.3}", row.processor_seconds),
-        ]
-    });
-    format!("{}\n{}", markdown_table(header, lines), ratios(rows))
-}
+/// Columns that are printed.
+const COLUMNS: &[&str] = &[
+    "solver",
+    "exponent",
+    "relative_error_asked",
+    "estimated_error",
+    "deviation",
+    "unknowns",
+    "elements_along_contact",
+    "sliding_distance",
+    "seconds",
+    "processor_seconds",
+];
 
 /// Processor times of the stationary solver over that of the march, which is last.
 fn ratios(rows: &[Row]) -> String {

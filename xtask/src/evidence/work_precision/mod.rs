@@ -145,36 +145,20 @@ impl Fit {
 
 /// Order, exponent of cost, and the time to an error: one row per series, one column per error.
 fn table(measured: &[Outcome<Row>]) -> comfy_table::Table {
-    let [one, two, three, four, five] = PRINTED.map(|(_, name)| name);
-    let header = [
-        "scene",
-        "model",
-        "method",
-        "over",
-        "order",
-        "cost exponent",
-        one,
-        two,
-        three,
-        four,
-        five,
-    ];
+    let header = ["scene", "model", "method", "over", "order", "cost exponent"];
+    let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
     let rows = measured.iter().filter_map(|series| {
         let fit = Fit::of(&series.done)?;
-        let [one, two, three, four, five] = PRINTED.map(|(error, _)| time_to(&series.done, error));
-        Some([
+        let cells = [
             fit.scene.to_owned(),
             fit.model.to_owned(),
             fit.method.clone(),
             fit.resolution_kind.to_owned(),
             exponent(fit.order, fit.order_error),
             exponent(fit.cost_exponent, fit.cost_exponent_error),
-            one,
-            two,
-            three,
-            four,
-            five,
-        ])
+        ];
+        let times = PRINTED.map(|(error, _)| time_to(&series.done, error));
+        Some(cells.into_iter().chain(times).collect::<Vec<_>>())
     });
     markdown_table(header, rows)
 }

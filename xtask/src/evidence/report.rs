@@ -1,0 +1,122 @@
+//! What an experiment found, and how it is written.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use serde::Serialize;
+use viscofriction_plot::Figure;
+
+use crate::output::{markdown_table, to_csv, write_atomically, write_figure};
+
+/// What an experiment found.
+#[derive(Debug)]
+pub(super) struct Report {
+    /// Name of the page.
+    pub(super) name: &'static str,
+    pub(super) tables: Vec<Table>,
+    pub(super) pictures: Vec<(&'static str, Figure)>,
+    /// Markdown.
+    pub(super) summary: String,
+    /// Why the command fails, if it does.
+    pub(super) failure: Option<String>,
+}
+
+/// A file of comma-separated values.
+#[derive(Debug)]
+pub(super) struct Table {
+    name: &'static str,
+    contents: String,
+}
+
+impl Report {
+    /// The page: summary, tables and pictures.
+    pub(super) fn page(&self, out: &Path) -> PathBuf {
+        out.join(self.name).with_extension("md")
+    }
+
+    pub(super) fn write(&self, out: &Path) -> Result<()> {
+        let mut page = format!("{}\n", self.summary);
+        for Table { name, contents } in &self.tables {
+            let file = format!("{name}.csv");
+            page += &format!("\n[{file}]({file})\n");
+            write_atomically(&out.join(file), contents.as_bytes())?;
+        }
+        for (name, figure) in &self.pictures {
+            page += &format!("\n![{name}]({name}.svg)\n");
+            write_figure(out, name, figure)?;
+        }
+        write_atomically(&self.page(out), page.as_bytes())
+    }
+}
+
+impl Table {
+    pub(super) fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
+        let contents = to_csv(rows)?;
+        Ok(Self { name, contents })
+    }
+
+    /// Some columns in Markdown, numbers only as far as their `…_error` says that they are known.
+    pub(super) fn markdown(&self, columns: &[&str]) -> Result<String> {
+        let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
+        let names = reader.headers()?.clone();
+        let place = |column: &str| names.iter().position(|name| name == column);
+        let mut lines = Vec::new();
+        for record in reader.records() {
+            let record = record?;
+            let number = |place: usize| record[place].parse::<f64>().ok();
+            let mut line = Vec::new();
+            for &column in columns {
+                let cell = place(column).with_context(|| format!("no column {column}"))?;
+                let error = place(&format!("{column}_error")).and_then(number);
+                line.push(match number(cell) {
+                    Some(value) => known_digits(value, error),
+                    None => record[cell].to_owned(),
+                });
+            }
+            lines.push(line);
+        }
+        let header: Vec<String> = columns.iter().map(|name| name.replace('_', " ")).collect();
+        Ok(markdown_table(&header, lines).to_string())
+    }
+}
+
+/// Four digits, or fewer if the error is larger than a half of the last one.
+fn known_digits(value: f64, error: Option<f64>) -> String {
+    if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
+        return value.to_string();
+    }
+    let first = value.abs().log10().floor();
+    let last = error.map_or(f64::NEG_INFINITY, |error| (2.0 * error).log10().ceil());
+    let decimals = |count: f64| {
+        (0..20)
+            .take_while(|&digit| f64::from(digit) < count)
+            .count()
+    };
+    if (-3.0..6.0).contains(&first) {
+        let last = last.max(first - 3.0);
+        return format!("{value:.*}", decimals(-last));
+    }
+    format!("{value:.*e}", decimals((first - last).min(2.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_known_digits_are_printed() {
+        for (value, error, expected) in [
+            (0.271_8, Some(4e-3), "0.27"),
+            (0.271_8, Some(0.6), "0"),
+            (1.882e-5, Some(4e-8), "1.88e-5"),
+            (1.882e-5, Some(4e-7), "1.9e-5"),
+            (1.882e-5, None, "1.88e-5"),
+            (97_736.0, None, "97736"),
+            (12.345_67, None, "12.35"),
+            (0.0, Some(0.0), "0"),
+        ] {
+            let got = known_digits(value, error);
+            assert_eq!(got, expected, "{value} ± {error:?}");
+        }
+    }
+}
