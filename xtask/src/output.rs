@@ -36,7 +36,8 @@ pub(crate) fn markdown_table<R: Into<Row>>(
 
 /// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.
 pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
-    let part = path.with_added_extension("part");
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
     let write = || {
         fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
         fs::write(&part, contents)?;

@@ -8,7 +8,6 @@ use serde::Serialize;
 use crate::figures::friction_over_speed::{self, Indenter, SPEEDS};
 use crate::figures::{factors, loss_tangent, scaling_function, stationary};
 use crate::output::{read_csv, to_csv};
-use crate::scaling::scaling_factor;
 
 /// Closed forms differ by rounding only.
 const CLOSED_FORM: Tolerance = Tolerance::Relative(1e-12);

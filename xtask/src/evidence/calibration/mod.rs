@@ -97,7 +97,7 @@ fn table(judged: &Judged) -> comfy_table::Table {
     });
     let all: Vec<&Row> = judged.rows.iter().collect();
     markdown_table(
-        header,
+        header.split('|'),
         lines.chain([line("all", &all, judged.refusals.len())]),
     )
 }
