@@ -19,47 +19,52 @@ pub(super) struct Picture {
 }
 
 pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
-    let picture = |name, caption: &str, figure: &Figure| {
-        Ok::<_, anyhow::Error>(Picture {
-            name,
-            caption: caption.to_owned(),
-            drawing: draw(figure)?,
-        })
-    };
-    let [cone, paraboloid] = &data.approach;
-    Ok(vec![
-        picture(
+    let contacts = &data.contacts;
+    let function = &data.scaling_function;
+    let captions = [FIG1, FIG7, FIG8, APPROACH, PRESSURE].map(str::to_owned);
+    let [fig1, fig7, fig8, approach, pressure] = captions;
+    let pictures = [
+        (
             "fig1_loss_tangent",
-            FIG1,
-            &Figure::single(loss_tangent_chart(&data.loss_tangent)),
-        )?,
-        picture(
+            fig1,
+            Figure::single(loss_tangent_chart(&data.loss_tangent)),
+        ),
+        (
             "fig7_cone",
-            FIG7,
-            &Figure::single(friction_chart(&data.cone, 0.2)),
-        )?,
-        picture(
+            fig7,
+            Figure::single(friction_chart(&data.cone, 0.2)),
+        ),
+        (
             "fig8_paraboloid",
-            FIG8,
-            &Figure::single(friction_chart(&data.paraboloid, 0.35)),
-        )?,
-        picture(
+            fig8,
+            Figure::single(friction_chart(&data.paraboloid, 0.35)),
+        ),
+        (
             "approach",
-            APPROACH,
-            &Figure::single(approach_chart([cone, paraboloid])),
-        )?,
-        picture(
+            approach,
+            Figure::single(approach_chart(&data.approach)),
+        ),
+        (
             "scaling_function",
-            &scaling_function::caption(&data.scaling_function),
-            &scaling_function::figure(&data.scaling_function),
-        )?,
-        picture("pressure", PRESSURE, &pressure_maps([cone, paraboloid]))?,
-        picture(
+            scaling_function::caption(function),
+            scaling_function::figure(function),
+        ),
+        ("pressure", pressure, pressure_maps(&data.approach)),
+        (
             "stationary_contact",
-            &contact_maps::caption(&data.contacts),
-            &contact_maps::figure(&data.contacts),
-        )?,
-    ])
+            contact_maps::caption(contacts),
+            contact_maps::figure(contacts),
+        ),
+    ];
+    let drawn = pictures.into_iter().map(|(name, caption, figure)| {
+        let drawing = draw(&figure)?;
+        Ok(Picture {
+            name,
+            caption,
+            drawing,
+        })
+    });
+    drawn.collect()
 }
 
 const FIG1: &str = "Loss tangent of the three-element solid for three stiffness ratios γ, and storage and loss modulus \
@@ -71,69 +76,50 @@ const FIG8: &str = "Coefficient of friction of a paraboloid over the sliding spe
 const APPROACH: &str = "The transition zone: friction from first touch on, relative to the stationary friction of the \
                         one-dimensional model. The chain arrives exponentially; the half space like the reciprocal of \
                         the distance, towards the scaling factors (dotted).";
-const PRESSURE: &str = "Pressure at the end of that way, seen from above; the indenter moves to the right and its lowest \
+const PRESSURE: &str = "Pressure at the end of that distance, seen from above; the indenter moves to the right and its lowest \
                         point is at the origin. Only the front half is in contact. Along the front edge the pressure \
                         is singular, so that its largest value depends on the elements.";
 
-fn curve(
-    label: &str,
-    points: Vec<[f64; 2]>,
-    colour: Colour,
-    line: Option<Line>,
-    marker: Option<Marker>,
-) -> Series {
-    Series {
-        label: Some(label.to_owned()),
-        points,
-        errors: None,
-        line,
-        marker,
-        colour,
-    }
-}
-
 fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
-    let series =
-        |label: &str, look: (Colour, Line, Option<Shape>), value: fn(&loss_tangent::Row) -> f64| {
-            let points = rows
-                .iter()
-                .map(|row| [row.dimensionless_frequency, value(row)])
-                .collect();
-            let (colour, line, shape) = look;
-            let marker = shape.map(|shape| Marker {
-                every: 20,
-                ..Marker::open(shape)
-            });
-            curve(label, points, colour, Some(line), marker)
-        };
+    let line = |value: fn(&loss_tangent::Row) -> f64, line, colour| {
+        let points = rows
+            .iter()
+            .map(|row| [row.dimensionless_frequency, value(row)]);
+        Series::line(points.collect(), line, colour)
+    };
+    let sparse = |shape: Shape| {
+        Some(Marker {
+            every: 20,
+            ..Marker::open(shape)
+        })
+    };
     let [dash_dot, dashed, solid] = [Dash::DashDot, Dash::Dashed, Dash::Solid].map(Line::thick);
     let thin = Line::thin(Dash::Solid);
+    let [soft, middle, stiff, storage, loss] = [
+        line(|row| row.loss_tangent_gamma_0_001, dash_dot, Colour::Blue),
+        line(|row| row.loss_tangent_gamma_0_01, dashed, Colour::Green),
+        line(|row| row.loss_tangent_gamma_0_1, solid, Colour::Red),
+        line(|row| row.scaled_storage_modulus, thin, Colour::Magenta),
+        line(|row| row.scaled_loss_modulus, thin, Colour::Black),
+    ];
+    let storage = Series {
+        marker: sparse(Shape::Diamond),
+        ..storage
+    };
+    let loss = Series {
+        marker: sparse(Shape::Circle),
+        ..loss
+    };
     Chart {
         title: None,
         x: Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]),
         y: Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]),
         series: vec![
-            series(
-                "tan δ, γ = 1/1000",
-                (Colour::Blue, dash_dot, None),
-                |row| row.loss_tangent_gamma_0_001,
-            ),
-            series("tan δ, γ = 1/100", (Colour::Green, dashed, None), |row| {
-                row.loss_tangent_gamma_0_01
-            }),
-            series("tan δ, γ = 1/10", (Colour::Red, solid, None), |row| {
-                row.loss_tangent_gamma_0_1
-            }),
-            series(
-                "10 G′/G₂, γ = 1/100",
-                (Colour::Magenta, thin, Some(Shape::Diamond)),
-                |row| row.scaled_storage_modulus,
-            ),
-            series(
-                "10 G″/G₂, γ = 1/100",
-                (Colour::Black, thin, Some(Shape::Circle)),
-                |row| row.scaled_loss_modulus,
-            ),
+            soft.labelled("tan δ, γ = 1/1000"),
+            middle.labelled("tan δ, γ = 1/100"),
+            stiff.labelled("tan δ, γ = 1/10"),
+            storage.labelled("10 G′/G₂, γ = 1/100"),
+            loss.labelled("10 G″/G₂, γ = 1/100"),
         ],
         legend: LegendPlace::Free,
     }
@@ -141,87 +127,57 @@ fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
 
 fn friction_chart(rows: &[Row], highest: f64) -> Chart {
     let points = |value: fn(&Row) -> f64| {
-        rows.iter()
-            .map(|row| [row.velocity_m_per_s, value(row)])
-            .collect::<Vec<_>>()
+        let points = rows.iter().map(|row| [row.velocity_m_per_s, value(row)]);
+        points.collect::<Vec<_>>()
     };
+    let errors = rows.iter().map(|row| row.half_space_distance_error);
     let crosses = Marker::filled(Shape::Plus);
     let half_space = Series {
-        label: Some("half space (BEM)".into()),
-        errors: Some(
-            rows.iter()
-                .map(|row| row.half_space_distance_error)
-                .collect(),
-        ),
+        errors: Some(errors.collect()),
         ..Series::markers(points(|row| row.half_space), crosses, Colour::Red)
     };
-    let line = Some(Line::thick(Dash::Solid));
+    let [squares, circles] = [Shape::Square, Shape::Circle].map(Marker::open);
+    let theory = Series::line(
+        points(|row| row.theory),
+        Line::thick(Dash::Solid),
+        Colour::Blue,
+    );
+    let chain = Series::markers(points(|row| row.chain), squares, Colour::Blue);
+    let scaled = Series::markers(points(|row| row.scaled_theory), circles, Colour::Black);
     Chart {
         title: None,
         x: Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]),
         y: Axis::linear("coefficient of friction μ", [0.0, highest]),
         series: vec![
-            curve(
-                "theory (MDR)",
-                points(|row| row.theory),
-                Colour::Blue,
-                line,
-                None,
-            ),
-            curve(
-                "chain of dashpots (MDR)",
-                points(|row| row.chain),
-                Colour::Blue,
-                None,
-                Some(Marker::open(Shape::Square)),
-            ),
-            curve(
-                "theory, scaled",
-                points(|row| row.scaled_theory),
-                Colour::Black,
-                None,
-                Some(Marker::open(Shape::Circle)),
-            ),
+            theory.labelled("theory (MDR)"),
+            chain.labelled("chain of dashpots (MDR)"),
+            scaled.labelled("theory, scaled"),
             // Last, because it would vanish behind the open circles.
-            half_space,
+            half_space.labelled("half space (BEM)"),
         ],
         legend: LegendPlace::Free,
     }
 }
 
-fn approach_chart(approaches: [&Approach; 2]) -> Chart {
+const INDENTERS: [(&str, Dash); 2] = [("cone", Dash::Solid), ("paraboloid", Dash::Dashed)];
+
+fn approach_chart(approaches: &[Approach; 2]) -> Chart {
     let mut series = Vec::new();
-    for (approach, name, dash) in [
-        (approaches[0], "cone", Dash::Solid),
-        (approaches[1], "paraboloid", Dash::Dashed),
-    ] {
-        let points = |value: fn(&approach::Row) -> f64| {
-            approach
-                .rows
-                .iter()
-                .map(|row| [row.sliding_distance_over_contact_length, value(row)])
-                .collect::<Vec<_>>()
+    for (approach, (name, dash)) in approaches.iter().zip(INDENTERS) {
+        let curve = |value: fn(&approach::Row) -> f64, colour| {
+            let points = approach.rows.iter();
+            let points = points.map(|row| [row.sliding_distance_over_contact_length, value(row)]);
+            Series::line(points.collect(), Line::thick(dash), colour)
         };
-        let line = Some(Line::thick(dash));
-        series.push(curve(
-            &format!("{name}, chain"),
-            points(|row| row.chain),
-            Colour::Blue,
-            line,
-            None,
+        series.push(curve(|row| row.chain, Colour::Blue).labelled(format!("{name}, chain")));
+        series
+            .push(curve(|row| row.half_space, Colour::Red).labelled(format!("{name}, half space")));
+        let limit = [0.0, approach::LENGTHS].map(|length| [length, approach.scaling_factor]);
+        series.push(Series::line(
+            limit.to_vec(),
+            Line::thin(Dash::Dotted),
+            Colour::Black,
         ));
-        series.push(curve(
-            &format!("{name}, half space"),
-            points(|row| row.half_space),
-            Colour::Red,
-            line,
-            None,
-        ));
-        let limit = vec![
-            [0.0, approach.scaling_factor],
-            [approach::LENGTHS, approach.scaling_factor],
-        ];
-        series.push(Series::line(limit, Line::thin(Dash::Dotted), Colour::Black));
     }
     Chart {
         title: None,
@@ -235,13 +191,12 @@ fn approach_chart(approaches: [&Approach; 2]) -> Chart {
     }
 }
 
-fn pressure_maps(approaches: [&Approach; 2]) -> Figure {
-    let maps = approaches
-        .iter()
-        .zip(["cone", "paraboloid"])
-        .map(|(approach, name)| pressure_map(approach, name).into());
+fn pressure_maps(approaches: &[Approach; 2]) -> Figure {
+    let maps = approaches.iter().zip(INDENTERS);
     Figure {
-        panels: maps.collect(),
+        panels: maps
+            .map(|(approach, (name, _))| pressure_map(approach, name).into())
+            .collect(),
         columns: 2,
     }
 }

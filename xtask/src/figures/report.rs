@@ -28,7 +28,10 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
         ("plain elements", cone.plain_elements.to_string()),
         ("plain lengths", cone.plain_lengths.to_string()),
         ("drift of the cone", format!("{:.1e}", cone.plain_drift)),
-        ("drift of the paraboloid", format!("{:.1e}", paraboloid.plain_drift)),
+        (
+            "drift of the paraboloid",
+            format!("{:.1e}", paraboloid.plain_drift),
+        ),
         ("relative error", format!("{:e}", factors::RELATIVE_ERROR)),
         ("data of factors", folded(&data.factors)?),
         ("data of loss tangent", folded(&data.loss_tangent)?),
@@ -43,12 +46,20 @@ pub(super) fn html(data: &Data, pictures: &[Picture]) -> Result<String> {
     ] {
         page = page.replace(&format!("{{{{{name}}}}}"), &value);
     }
-    for Picture { name, caption, drawing } in pictures {
+    for Picture {
+        name,
+        caption,
+        drawing,
+    } in pictures
+    {
         let svg = &drawing.svg;
         let figure = format!("<figure>{svg}<figcaption>{caption}</figcaption></figure>");
         page = page.replace(&format!("{{{{{name}}}}}"), &figure);
     }
-    ensure!(!page.contains("{{"), "a part of report.html is not filled in");
+    ensure!(
+        !page.contains("{{"),
+        "a part of report.html is not filled in"
+    );
     Ok(page)
 }
 
@@ -93,7 +104,8 @@ fn folded<R: Serialize>(rows: &[R]) -> Result<String> {
         let tag = if line == 0 { "th" } else { "td" };
         let cells = record.split(',').map(|cell| {
             let number = cell.parse::<f64>();
-            let short = number.map_or_else(|_| cell.replace('_', " "), |number| format!("{number:.6e}"));
+            let short =
+                number.map_or_else(|_| cell.replace('_', " "), |number| format!("{number:.6e}"));
             format!("<{tag}>{short}</{tag}>")
         });
         table += &format!("<tr>{}</tr>", cells.collect::<String>());

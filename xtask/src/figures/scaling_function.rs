@@ -1,4 +1,4 @@
-//! The function s(p) that the paper leaves open, from the table of `friction-analytic`.
+//! The function s(p) that the paper does not give, from the table of `friction-analytic`.
 
 use anyhow::{Result, ensure};
 use friction_analytic::scaling_factor;
@@ -70,39 +70,27 @@ pub(super) fn check_against_the_half_space() -> Result<usize> {
 pub(super) fn figure(rows: &[Row]) -> Figure {
     let points =
         |value: fn(&Row) -> f64| rows.iter().map(|row| [row.exponent, value(row)]).collect();
-    let line = Line::thick(Dash::Solid);
-    let named = |label: &str, series: Series| Series {
-        label: Some(label.to_owned()),
-        ..series
-    };
-    let crosses = Marker::filled(Shape::Plus);
-    let function = Chart {
+    let blue = |points| Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+    let paper = PAPER.map(|(p, s)| [p, s]).to_vec();
+    let paper = Series::markers(paper, Marker::filled(Shape::Plus), Colour::Red);
+    let chart = |y, series| Chart {
         title: None,
         x: Axis::log10("exponent p", [0.4, 100.0]),
-        y: Axis::linear("scaling factor s(p)", [0.0, 0.8]),
-        series: vec![
-            named(
-                "boundary elements, converged",
-                Series::line(points(|row| row.scaling_factor), line, Colour::Blue),
-            ),
-            named(
-                "paper, p = 1 and 2",
-                Series::markers(PAPER.map(|(p, s)| [p, s]).to_vec(), crosses, Colour::Red),
-            ),
+        y,
+        series,
+        legend: LegendPlace::Free,
+    };
+    let function = chart(
+        Axis::linear("scaling factor s(p)", [0.0, 0.8]),
+        vec![
+            blue(points(|row| row.scaling_factor)).labelled("boundary elements, converged"),
+            paper.labelled("paper, p = 1 and 2"),
         ],
-        legend: LegendPlace::Free,
-    };
-    let errors = Chart {
-        title: None,
-        x: Axis::log10("exponent p", [0.4, 100.0]),
-        y: Axis::log10("relative error bar", [1e-6, 1e-3]),
-        series: vec![Series::line(
-            points(|row| row.error / row.scaling_factor),
-            line,
-            Colour::Blue,
-        )],
-        legend: LegendPlace::Free,
-    };
+    );
+    let errors = chart(
+        Axis::log10("relative error bar", [1e-6, 1e-3]),
+        vec![blue(points(|row| row.error / row.scaling_factor))],
+    );
     Figure {
         panels: vec![Panel::from(function), Panel::from(errors)],
         columns: 1,

@@ -169,16 +169,13 @@ fn figure(rows: &[Row]) -> Figure {
     let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
         let points = points.iter().filter(|(of, _)| *of == method);
         let points: Vec<[f64; 2]> = points.map(|(_, point)| *point).collect();
-        (!points.is_empty()).then(|| Series {
-            label: Some(method.name().to_owned()),
-            ..Series::markers(points, Marker::open(shape), colour)
-        })
+        let is_drawn = !points.is_empty();
+        let series = Series::markers(points, Marker::open(shape), colour);
+        is_drawn.then(|| series.labelled(method.name()))
     });
     let ends = x.range.map(|end| [end; 2]).to_vec();
-    let diagonal = Series {
-        label: Some("deviation = bar".into()),
-        ..Series::line(ends, Line::thin(Dash::Solid), Colour::Black)
-    };
+    let diagonal = Series::line(ends, Line::thin(Dash::Solid), Colour::Black);
+    let diagonal = diagonal.labelled("deviation = bar");
     Figure::single(Chart {
         title: Some(format!("{} error bars", points.len())),
         series: methods.chain([diagonal]).collect(),

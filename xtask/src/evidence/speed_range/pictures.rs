@@ -53,9 +53,8 @@ impl Curve<'_> {
     }
 
     /// Circles with error bars.
-    fn circles(&self, label: String, value: fn(&Point) -> f64, error: fn(&Point) -> f64) -> Series {
+    fn circles(&self, value: fn(&Point) -> f64, error: fn(&Point) -> f64) -> Series {
         Series {
-            label: Some(label),
             errors: Some(self.points.iter().map(|point| error(point)).collect()),
             ..Series::markers(self.values(value), Marker::open(Shape::Circle), self.colour)
         }
@@ -90,17 +89,15 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
             Axis::log10("friction μ / mean slope", [lowest, 10.0]),
         );
         for curve in curves(points, exponent, extent) {
-            let line = Line::thick(Dash::Solid);
-            chart.series.push(Series {
-                label: Some(format!("{}, line", curve.label)),
-                ..Series::line(curve.values(|point| point.line), line, curve.colour)
-            });
-            let label = format!("{}, half space", curve.label);
-            chart.series.push(curve.circles(
-                label,
-                |point| point.half_space,
-                |point| point.half_space_error,
-            ));
+            let values = curve.values(|point| point.line);
+            let line = Series::line(values, Line::thick(Dash::Solid), curve.colour);
+            let circles = curve.circles(|point| point.half_space, |point| point.half_space_error);
+            chart
+                .series
+                .push(line.labelled(format!("{}, line", curve.label)));
+            chart
+                .series
+                .push(circles.labelled(format!("{}, half space", curve.label)));
         }
         chart.into()
     };
@@ -118,28 +115,19 @@ pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
             extent,
             Axis::linear("friction of half space / line", RATIOS),
         );
-        for (value, label) in [
-            (0.5, None),
-            (plateau(exponent)?, Some("1/2, viscous s, 1".to_owned())),
-            (1.0, None),
-        ] {
-            let points = range(extent.curve_speeds)
-                .map(|speed| [speed, value])
-                .to_vec();
-            chart.series.push(Series {
-                label,
-                ..Series::line(points, Line::thin(Dash::Dashed), Colour::Black)
-            });
-        }
+        let level = |value: f64| {
+            let points = range(extent.curve_speeds).map(|speed| [speed, value]);
+            Series::line(points.to_vec(), Line::thin(Dash::Dashed), Colour::Black)
+        };
+        let viscous = level(plateau(exponent)?).labelled("1/2, viscous s, 1");
+        chart.series.extend([level(0.5), viscous, level(1.0)]);
         for curve in curves(points, exponent, extent) {
-            chart.series.push(Series {
+            let circles = curve.circles(|point| point.ratio, |point| point.ratio_error);
+            let series = Series {
                 line: Some(Line::thin(Dash::Solid)),
-                ..curve.circles(
-                    curve.label.clone(),
-                    |point| point.ratio,
-                    |point| point.ratio_error,
-                )
-            });
+                ..circles
+            };
+            chart.series.push(series.labelled(curve.label));
         }
         Ok(chart.into())
     };

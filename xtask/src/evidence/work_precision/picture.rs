@@ -92,12 +92,7 @@ fn visible_floor(row: &Row) -> Option<f64> {
 fn floor(rows: &[&Row], x: &Axis) -> Option<Series> {
     let first = rows.first()?;
     let error = visible_floor(first)?;
-    Some(Series {
-        label: Some(format!("reference, {}", first.model)),
-        ..Series::line(
-            x.range.map(|time| [time, error]).to_vec(),
-            Line::thin(Dash::Dotted),
-            Colour::Black,
-        )
-    })
+    let points = x.range.map(|time| [time, error]).to_vec();
+    let line = Series::line(points, Line::thin(Dash::Dotted), Colour::Black);
+    Some(line.labelled(format!("reference, {}", first.model)))
 }
