@@ -1,17 +1,16 @@
 //! Time and memory of this process.
 
-use std::hint::black_box;
 use std::time::Instant;
 
 use cpu_time::ProcessTime;
 
-/// Most runs of one median.
-const REPEATS: usize = 5;
-/// Processor time that the repeats of one run for a median may take together \[s].
+/// Most runs of one median, and most of what is too short for a single look at the clock.
+const REPEATS: f64 = 5.0;
+const SHORT_REPEATS: f64 = 101.0;
+/// Processor time of a short run \[s].
+const SHORT: f64 = 2e-3;
+/// Processor time that the repeats of one run may take together \[s].
 const REPEATED: f64 = 3.0;
-/// Shortest time that is read off the clock \[s], and most runs that share it.
-const CLOCKED: f64 = 2e-3;
-const LARGEST_BATCH: f64 = 1e4;
 
 /// Time that a computation took, \[s].
 #[derive(Debug, Clone, Copy)]
@@ -32,24 +31,23 @@ pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
     (value, cost)
 }
 
-/// The median cost of up to five runs of `work`, each repeated until it is long enough for the clock; long ones are
-/// measured less often. Processor time decides, so that other work on the machine does not.
+/// The median cost of several runs of `work`, of more the shorter they are. Processor time decides, so that other work
+/// on the machine does not.
 ///
 /// # Errors
 /// That of the first run; a failure is not repeated.
 pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T, Cost), E> {
     let (value, first) = measure(&work);
     let value = value?;
-    let mut costs = Vec::new();
-    let batch =
-        (CLOCKED / first.processor_seconds.max(f64::MIN_POSITIVE)).clamp(1.0, LARGEST_BATCH);
-    if batch <= 1.0 {
-        costs.push(first);
-    }
-    while costs.is_empty()
-        || costs.len() < REPEATS && (costs.len() + 1) as f64 * first.processor_seconds <= REPEATED
-    {
-        costs.push(mean_cost(&work, batch.ceil()));
+    let seconds = first.processor_seconds.max(f64::MIN_POSITIVE);
+    let most = if seconds < SHORT {
+        SHORT_REPEATS
+    } else {
+        REPEATS
+    };
+    let mut costs = vec![first];
+    while costs.len() as f64 + 1.0 <= most.min(REPEATED / seconds) {
+        costs.push(measure(&work).1);
     }
     let middle = |part: fn(&Cost) -> f64| median(costs.iter().map(part).collect());
     let cost = Cost {
@@ -59,28 +57,11 @@ pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T
     Ok((value, cost))
 }
 
-fn mean_cost<T>(work: impl Fn() -> T, batch: f64) -> Cost {
-    let mut remaining = batch;
-    let (clock, processor) = (Instant::now(), ProcessTime::now());
-    while remaining > 0.0 {
-        black_box(work());
-        remaining -= 1.0;
-    }
-    Cost {
-        seconds: clock.elapsed().as_secs_f64() / batch,
-        processor_seconds: processor.elapsed().as_secs_f64() / batch,
-    }
-}
-
 /// The middle value, or the mean of the two in the middle, of at least one.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    if values.len() % 2 == 1 {
-        values[middle]
-    } else {
-        0.5 * (values[middle - 1] + values[middle])
-    }
+    let [low, high] = [(values.len() - 1) / 2, values.len() / 2];
+    0.5 * (values[low] + values[high])
 }
 
 /// Most memory that the process has had resident so far, \[MiB]; known on Linux only.
@@ -115,30 +96,24 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_is_not_repeated() {
-        let runs = Cell::new(0);
-        let outcome = measure_median(|| {
-            runs.set(runs.get() + 1);
-            Err::<(), _>("refused")
-        });
-        assert_eq!(outcome.err(), Some("refused"), "the failure");
-        assert_eq!(runs.get(), 1, "runs of what fails");
-    }
-
-    #[test]
-    fn what_is_too_short_for_the_clock_is_repeated() {
-        let runs = Cell::new(0_u32);
-        let outcome: Result<_, ()> = measure_median(|| {
-            runs.set(runs.get() + 1);
-            Ok(runs.get())
-        });
-        let (value, cost) = outcome.expect("a cost");
-        assert_eq!(value, 1, "the value of the first run");
-        assert!(
-            runs.get() > 100,
-            "only {} runs of nothing, {cost:?}",
-            runs.get()
-        );
-        assert!(cost.seconds > 0.0 && cost.seconds < CLOCKED, "{cost:?}");
+    fn short_runs_are_repeated_and_failures_are_not() {
+        for (succeeds, expected) in [(true, 101), (false, 1)] {
+            let runs = Cell::new(0);
+            let result = measure_median(|| {
+                runs.set(runs.get() + 1);
+                if succeeds {
+                    Ok(runs.get())
+                } else {
+                    Err("refused")
+                }
+            });
+            assert_eq!(runs.get(), expected, "runs of {result:?}");
+            let value = result.map(|(value, _)| value);
+            assert_eq!(
+                value,
+                if succeeds { Ok(1) } else { Err("refused") },
+                "the first run"
+            );
+        }
     }
 }

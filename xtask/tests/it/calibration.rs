@@ -1,34 +1,13 @@
 //! Error bars on random scenes of a fixed seed.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
-use crate::support::{argument, folder, text, xtask};
-
-type Row = HashMap<String, String>;
-
-fn number(row: &Row, column: &str) -> f64 {
-    let cell = &row[column];
-    let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
-    value.unwrap_or_else(|| panic!("{column} of {row:?}"))
-}
+use crate::support::{Evidence, number, text, xtask};
 
 /// The part of 90 % is asked of each method with ten answers or more, and of all together.
 #[test]
 fn nine_of_ten_error_bars_hold_on_random_scenes() {
-    let folder = folder("calibration");
-    let output = xtask(&[
-        "evidence",
-        "calibration",
-        "--quick",
-        "--out",
-        argument(&folder),
-    ]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let mut reader = csv::Reader::from_path(folder.join("calibration.csv")).expect("a table");
-    let rows: Vec<Row> = reader
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .expect("rows of the table");
+    let rows = Evidence::quick("calibration", &["calibration"]).rows("calibration");
     let mut methods: BTreeMap<&str, [usize; 2]> = BTreeMap::new();
     for row in &rows {
         let [deviation, bar, reference] =
@@ -52,29 +31,16 @@ fn nine_of_ten_error_bars_hold_on_random_scenes() {
 
 #[test]
 fn scenes_follow_from_the_seed_and_unknown_numbers_of_them_are_wrong_input() {
-    let run = |seed: &str, scenes: &str, name: &str| {
-        let folder = folder(name);
-        let output = xtask(&[
-            "evidence",
-            "calibration",
-            "--quick",
-            "--scenes",
-            scenes,
-            "--seed",
-            seed,
-            "--out",
-            argument(&folder),
-        ]);
-        (output, folder.join("calibration.csv"))
+    let table = |seed: &str, name: &str| {
+        let arguments = ["calibration", "--scenes", "4", "--seed", seed];
+        let folder = Evidence::quick(name, &arguments).folder;
+        std::fs::read_to_string(folder.join("calibration.csv")).expect("a table")
     };
-    let tables = [("7", "few"), ("7", "few-again"), ("8", "few-others")].map(|(seed, name)| {
-        let (output, table) = run(seed, "4", name);
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        std::fs::read_to_string(table).expect("a table")
-    });
+    let tables = [("7", "few"), ("7", "few-again"), ("8", "few-others")];
+    let tables = tables.map(|(seed, name)| table(seed, name));
     assert_eq!(tables[0], tables[1], "the same seed");
     assert_ne!(tables[0], tables[2], "another seed");
-    let (refused, _) = run("7", "0", "none");
+    let refused = xtask(&["evidence", "calibration", "--scenes", "0"]);
     let message = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{message}");
     assert!(message.contains("from 1 to 100000"), "{message}");

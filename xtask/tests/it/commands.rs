@@ -1,17 +1,6 @@
 //! What a user types, and what comes back.
 
-use std::process::{Command, Output};
-
-fn xtask(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(arguments)
-        .output()
-        .expect("the command runs")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
+use crate::support::{text, xtask};
 
 #[test]
 fn scaling_factors_as_json_have_the_fields_of_the_contract() {

@@ -2,8 +2,8 @@
 
 mod calibration;
 mod commands;
-mod measure_stationary;
 mod speed_range;
 mod stability;
+mod stationary;
 mod support;
 mod work_precision;

@@ -1,52 +1,22 @@
 //! What the three-element solid does over the range of speeds, on the quick cases.
 
-use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use friction_analytic::{ElasticContact, high_speed_friction, low_speed_friction, scaling_factor};
 use indenters::{PowerProfile, stretch};
 use rheology::{StandardSolid, StandardSolidParameters};
 
-use crate::support::{argument, folder, text, xtask};
+use crate::support::{Evidence, Row, number};
 
-type Row = HashMap<String, String>;
-
-/// The folder of one quick run, and what it printed.
-fn computed() -> &'static (PathBuf, String) {
-    static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
-    RUN.get_or_init(|| {
-        let folder = folder("speed-range");
-        let output = xtask(&[
-            "evidence",
-            "speed-range",
-            "--quick",
-            "--out",
-            argument(&folder),
-        ]);
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{message}");
-        (folder, text(&output.stdout))
-    })
-}
-
-fn table(name: &str) -> Vec<Row> {
-    let path: &Path = &computed().0.join(name);
-    let mut reader = csv::Reader::from_path(path).expect("a table");
-    let rows = reader.deserialize().collect::<Result<_, _>>();
-    rows.expect("rows of the table")
-}
-
-fn number(row: &Row, column: &str) -> f64 {
-    let cell = &row[column];
-    cell.parse()
-        .unwrap_or_else(|error| panic!("{column} = {cell:?}: {error}"))
+/// One quick run for all tests.
+fn evidence() -> &'static Evidence {
+    static RUN: OnceLock<Evidence> = OnceLock::new();
+    RUN.get_or_init(|| Evidence::quick("speed-range", &["speed-range"]))
 }
 
 /// The rows of one profile, by rising speed.
 fn curve(exponent: f64) -> Vec<Row> {
-    let rows = table("friction_over_speed.csv").into_iter();
+    let rows = evidence().rows("friction_over_speed").into_iter();
     let rows: Vec<Row> = rows
         .filter(|row| number(row, "exponent").total_cmp(&exponent).is_eq())
         .collect();
@@ -155,8 +125,8 @@ fn friction_has_one_maximum_over_the_speed() {
 /// The law predicts too much friction on the line, at every speed, and is right within ten per cent between the borders.
 #[test]
 fn the_viscous_law_holds_between_its_borders() {
-    let map = table("validity.csv");
-    let borders = table("validity_border.csv");
+    let map = evidence().rows("validity");
+    let borders = evidence().rows("validity_border");
     assert_eq!([map.len(), borders.len()], [36, 12], "sizes of the tables");
     for row in &map {
         let [friction, predicted] = ["line", "predicted_line"].map(|column| number(row, column));
@@ -173,12 +143,7 @@ fn the_viscous_law_holds_between_its_borders() {
                 .contains(&number(row, "speed"));
         assert_eq!(right, between, "{row:?} and {border:?}");
     }
-    for file in ["friction_over_speed", "ratio_over_speed", "validity"] {
-        for ending in ["svg", "png"] {
-            let size = fs::metadata(computed().0.join(file).with_extension(ending));
-            assert!(size.is_ok_and(|size| size.len() > 1000), "{file}.{ending}");
-        }
-    }
-    let printed = &computed().1;
+    evidence().assert_pictures(&["friction_over_speed", "ratio_over_speed", "validity"]);
+    let printed = &evidence().printed;
     assert!(printed.contains("lowest speed"), "{printed}");
 }

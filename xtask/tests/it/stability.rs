@@ -1,26 +1,11 @@
 //! The matrix of stiff and extreme cases, on the quick ones.
 
-use std::collections::HashMap;
-
-use crate::support::{argument, folder, text, xtask};
+use crate::support::{Evidence, argument, folder, number, text, xtask};
 
 #[test]
 fn no_stiff_or_extreme_case_is_wrong() {
-    let folder = folder("stability");
-    let output = xtask(&[
-        "evidence",
-        "stability",
-        "--quick",
-        "--out",
-        argument(&folder),
-    ]);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    let mut reader = csv::Reader::from_path(folder.join("stability.csv")).expect("a table");
-    let rows: Vec<HashMap<String, String>> = reader
-        .deserialize()
-        .collect::<Result<_, _>>()
-        .expect("rows of the table");
+    let evidence = Evidence::quick("stability", &["stability"]);
+    let rows = evidence.rows("stability");
     let count = |verdict: &str| rows.iter().filter(|row| row["verdict"] == verdict).count();
     let counts = ["accurate", "refused", "wrong"].map(count);
     assert!(
@@ -28,20 +13,10 @@ fn no_stiff_or_extreme_case_is_wrong() {
         "accurate, refused, wrong: {counts:?}"
     );
     for row in rows.iter().filter(|row| row["verdict"] == "accurate") {
-        let [deviation, tolerance] = ["deviation", "tolerance"].map(|column| {
-            let cell = &row[column];
-            cell.parse::<f64>()
-                .unwrap_or_else(|error| panic!("{column} = {cell:?}: {error}"))
-        });
+        let [deviation, tolerance] = ["deviation", "tolerance"].map(|column| number(row, column));
         assert!(deviation <= tolerance, "{row:?}");
     }
-    for ending in ["svg", "png"] {
-        let size = std::fs::metadata(folder.join("stability").with_extension(ending));
-        assert!(
-            size.is_ok_and(|size| size.len() > 1000),
-            "stability.{ending}"
-        );
-    }
+    evidence.assert_pictures(&["stability"]);
 }
 
 #[test]

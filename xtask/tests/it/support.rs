@@ -1,5 +1,6 @@
 //! What the tests of commands share.
 
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -27,4 +28,59 @@ pub(crate) fn text(bytes: &[u8]) -> String {
 /// A path as an argument.
 pub(crate) fn argument(path: &Path) -> &str {
     path.to_str().expect("a path in Unicode")
+}
+
+/// A row of a table, by the names of its columns.
+pub(crate) type Row = HashMap<String, String>;
+
+/// The rows of a CSV file.
+pub(crate) fn rows(path: &Path) -> Vec<Row> {
+    let mut reader = csv::Reader::from_path(path).expect("a table");
+    let rows = reader.deserialize().collect::<Result<_, _>>();
+    rows.expect("rows of the table")
+}
+
+/// A number that must be there and finite.
+pub(crate) fn number(row: &Row, column: &str) -> f64 {
+    let value = row[column].parse::<f64>().ok();
+    let value = value.filter(|value| value.is_finite());
+    value.unwrap_or_else(|| panic!("{column} of {row:?}"))
+}
+
+/// What a quick run of an experiment left behind.
+pub(crate) struct Evidence {
+    pub(crate) folder: PathBuf,
+    /// What it printed.
+    pub(crate) printed: String,
+}
+
+impl Evidence {
+    /// Runs an experiment with its options into an empty folder of this name.
+    pub(crate) fn quick(name: &str, arguments: &[&str]) -> Self {
+        let folder = folder(name);
+        let common = ["--quick", "--out", argument(&folder)];
+        let output = xtask(&[&["evidence"], arguments, &common[..]].concat());
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
+        Self {
+            printed: text(&output.stdout),
+            folder,
+        }
+    }
+
+    /// The rows of one of its tables.
+    pub(crate) fn rows(&self, table: &str) -> Vec<Row> {
+        rows(&self.folder.join(table).with_extension("csv"))
+    }
+
+    /// Demands pictures that are more than a frame.
+    pub(crate) fn assert_pictures(&self, names: &[&str]) {
+        for name in names {
+            for ending in ["svg", "png"] {
+                let picture = self.folder.join(name).with_extension(ending);
+                let size = fs::metadata(picture);
+                assert!(size.is_ok_and(|size| size.len() > 1000), "{name}.{ending}");
+            }
+        }
+    }
 }

@@ -1,47 +1,13 @@
 //! What the quick measurement of error against run time writes and says.
 
-use std::collections::HashMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::support::{argument, folder, text, xtask};
+use crate::support::{Evidence, Row, number};
 
-type Row = HashMap<String, String>;
-
-/// The folder of one quick run, and what it printed.
-fn measured() -> &'static (PathBuf, String) {
-    static RUN: OnceLock<(PathBuf, String)> = OnceLock::new();
-    RUN.get_or_init(|| {
-        let folder = folder("work-precision");
-        let output = xtask(&[
-            "evidence",
-            "work-precision",
-            "--quick",
-            "--out",
-            argument(&folder),
-        ]);
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{message}");
-        (folder, text(&output.stdout))
-    })
-}
-
-fn table(name: &str) -> Vec<Row> {
-    let path: &Path = &measured().0.join(name);
-    let mut reader = csv::Reader::from_path(path).expect("a table");
-    let rows = reader.deserialize().collect::<Result<_, _>>();
-    rows.expect("rows of the table")
-}
-
-/// A number that must be there and finite.
-fn number(row: &Row, column: &str) -> f64 {
-    let cell = &row[column];
-    let value: f64 = cell
-        .parse()
-        .unwrap_or_else(|error| panic!("{column} = {cell:?}: {error}"));
-    assert!(value.is_finite(), "{column} of {row:?}");
-    value
+/// One quick run for all tests.
+fn evidence() -> &'static Evidence {
+    static RUN: OnceLock<Evidence> = OnceLock::new();
+    RUN.get_or_init(|| Evidence::quick("work-precision", &["work-precision"]))
 }
 
 fn key(row: &Row) -> [&str; 3] {
@@ -66,7 +32,7 @@ const SERIES: [[&str; 3]; 12] = [
 
 #[test]
 fn every_method_answers_its_scenes_with_an_error_and_a_time() {
-    let rows = table("work_precision.csv");
+    let rows = evidence().rows("work_precision");
     let series = rows.chunk_by(|one, other| key(one) == key(other));
     let found: Vec<[&str; 3]> = series.map(|rows| key(&rows[0])).collect();
     assert_eq!(found, SERIES, "series of the quick measurement");
@@ -78,16 +44,16 @@ fn every_method_answers_its_scenes_with_an_error_and_a_time() {
         assert!(number(row, "error") < 0.05, "a coarse answer: {row:?}");
     }
     assert!(
-        !measured().1.contains("refused"),
+        !evidence().printed.contains("refused"),
         "none of the quick runs is refused: {}",
-        measured().1
+        evidence().printed
     );
 }
 
 /// Over elements and tolerances errors fall by a half at least; a relative error that is asked for is kept.
 #[test]
 fn errors_fall_with_the_resolution_or_are_those_asked_for() {
-    let rows = table("work_precision.csv");
+    let rows = evidence().rows("work_precision");
     for runs in rows.chunk_by(|one, other| key(one) == key(other)) {
         let [first, last] = [&runs[0], &runs[runs.len() - 1]];
         let allowed = match first["resolution_kind"].as_str() {
@@ -107,7 +73,7 @@ fn errors_fall_with_the_resolution_or_are_those_asked_for() {
 /// outline of the contact makes orders scatter.
 #[test]
 fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
-    let fits = table("work_precision_orders.csv");
+    let fits = evidence().rows("work_precision_orders");
     let orders: Vec<(&Row, f64)> = fits
         .iter()
         .filter(|fit| !fit["order"].is_empty())
@@ -130,13 +96,8 @@ fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
 
 #[test]
 fn pictures_are_drawn_and_the_table_is_printed() {
-    let (folder, printed) = measured();
-    for name in ["work_precision_sliding", "work_precision_at_rest"] {
-        for ending in ["svg", "png"] {
-            let size = fs::metadata(folder.join(name).with_extension(ending));
-            assert!(size.is_ok_and(|size| size.len() > 1000), "{name}.{ending}");
-        }
-    }
+    let Evidence { printed, .. } = evidence();
+    evidence().assert_pictures(&["work_precision_sliding", "work_precision_at_rest"]);
     for [scene, _, method] in SERIES {
         let line = printed
             .lines()

@@ -1,43 +1,12 @@
 //! What the measurements of the stationary solver write and say, on the quick cases.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// A table as its columns are named, one map per row.
-type Rows = Vec<std::collections::HashMap<String, String>>;
-
-/// Runs the quick measurements into an empty folder; returns the folder and what was printed.
-fn measured(name: &str, tables: &[&str]) -> (PathBuf, String) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::remove_dir_all(&folder).ok();
-    let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(["evidence", "stationary", "--quick", "--out"])
-        .arg(&folder)
-        .args(tables.iter().flat_map(|table| ["--table", table]))
-        .output()
-        .expect("the command runs");
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{message}");
-    (folder, String::from_utf8_lossy(&output.stdout).into_owned())
-}
-
-fn read(path: &Path) -> Rows {
-    let mut reader = csv::Reader::from_path(path).expect("a table");
-    let rows = reader.deserialize().collect::<Result<Rows, _>>();
-    rows.expect("rows of the table")
-}
-
-fn number(row: &std::collections::HashMap<String, String>, column: &str) -> f64 {
-    row[column]
-        .parse()
-        .unwrap_or_else(|error| panic!("{column} = {:?}: {error}", row[column]))
-}
+use crate::support::{Evidence, number};
 
 #[test]
 fn error_bars_are_compared_with_finer_solutions() {
-    let (folder, printed) = measured("error-bars", &["error-bars"]);
-    let rows = read(&folder.join("error_bars.csv"));
+    let evidence = Evidence::quick("error-bars", &["stationary", "--table", "error-bars"]);
+    let rows = evidence.rows("error_bars");
+    let printed = &evidence.printed;
     assert_eq!(rows.len(), 12, "four bodies, three shapes of elements");
     for row in &rows {
         let [friction, bar, reference, error, deviation] = [
@@ -64,15 +33,17 @@ fn error_bars_are_compared_with_finer_solutions() {
     let said = format!("{held} of 12 error bars hold");
     assert!(printed.contains(&said), "expected '{said}' in {printed}");
     assert!(
-        !folder.join("growth.csv").exists(),
+        !evidence.folder.join("growth.csv").exists(),
         "only the table asked for is made"
     );
 }
 
 #[test]
 fn growth_and_speed_are_measured_with_their_errors() {
-    let (folder, printed) = measured("growth-and-speed", &["growth", "speed"]);
-    let growth = read(&folder.join("growth.csv"));
+    let tables = ["stationary", "--table", "growth", "--table", "speed"];
+    let evidence = Evidence::quick("growth-and-speed", &tables);
+    let growth = evidence.rows("growth");
+    let printed = &evidence.printed;
     let elements: Vec<f64> = growth
         .iter()
         .map(|row| number(row, "elements_in_contact"))
@@ -89,7 +60,7 @@ fn growth_and_speed_are_measured_with_their_errors() {
         let half = number(row, "elements_in_contact") / number(row, "unknowns");
         assert!((half - 2.0).abs() < 0.1, "mirror symmetry: {row:?}");
     }
-    let speed = read(&folder.join("speed.csv"));
+    let speed = evidence.rows("speed");
     let march = speed.last().expect("the march in time");
     assert_eq!(march["solver"], "march in time", "{march:?}");
     assert!(
