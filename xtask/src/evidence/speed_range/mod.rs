@@ -112,7 +112,7 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     });
     let problems = self::problems(extent.map_ratios.values(), extent.map_speeds);
     let map: Result<Vec<Prediction>> = in_parallel("viscous law", &problems, |sliding| {
-        Prediction::of(&Point::of(*sliding, extent.map_error)?)
+        Prediction::of(*sliding, extent.map_error)
     });
     let (curves, map) = (curves?, map?);
     let borders = border::find(&map, extent.map_error)?;
@@ -168,19 +168,11 @@ impl Point {
             ratio_error: (half_space.error + ratio * line.error) / line.value,
         })
     }
-
-    const fn sliding(&self) -> Sliding {
-        Sliding {
-            exponent: self.exponent,
-            stiffness_ratio: self.stiffness_ratio,
-            speed: self.speed,
-        }
-    }
 }
 
 impl Prediction {
-    fn of(point: &Point) -> Result<Self> {
-        let sliding = point.sliding();
+    fn of(sliding: Sliding, relative_error: f64) -> Result<Self> {
+        let point = Point::of(sliding, relative_error)?;
         let predicted_line = sliding.viscous_law(point.normal_force)?;
         Ok(Self {
             exponent: point.exponent,

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use serde::Serialize;
 
 use super::case::{Case, Comparison, Family, Finding};
@@ -45,42 +45,40 @@ impl Row {
     }
 
     fn judge(self, finding: Result<Finding>) -> Self {
-        match finding {
-            Err(error) => Self {
-                got: format!("{error:#}"),
-                ..self
+        let refused = |expected: &str, got, right| Self {
+            expected: expected.to_owned(),
+            got,
+            verdict: if right {
+                Verdict::Refused
+            } else {
+                Verdict::Wrong
             },
+            ..self.clone()
+        };
+        match finding {
+            Err(error) => refused("a solution", format!("{error:#}"), false),
             Ok(Finding::Refusal {
                 expected,
                 got,
                 right,
-            }) => Self {
-                expected: expected.to_owned(),
-                got,
-                verdict: if right {
-                    Verdict::Refused
-                } else {
-                    Verdict::Wrong
-                },
-                ..self
-            },
+            }) => refused(expected, got, right),
             Ok(Finding::Values(comparisons)) => {
-                let worst = comparisons.into_iter().max_by(|one, other| {
-                    let [one, other] = [one, other].map(Comparison::part_of_tolerance);
-                    one.total_cmp(&other)
-                });
-                self.compare(worst)
+                let part = Comparison::part_of_tolerance;
+                let worst = comparisons
+                    .iter()
+                    .max_by(|one, other| part(one).total_cmp(&part(other)));
+                match worst {
+                    Some(worst) => self.compare(worst),
+                    None => refused("a number", "nothing was compared".to_owned(), false),
+                }
             }
         }
     }
 
-    fn compare(self, comparison: Option<Comparison>) -> Self {
-        let Some(comparison) = comparison else {
-            let got = "nothing was compared".to_owned();
-            return Self { got, ..self };
-        };
+    fn compare(self, comparison: &Comparison) -> Self {
         let deviation = comparison.deviation();
         Self {
+            quantity: comparison.quantity.clone(),
             expected: format!("{:e}", comparison.expected),
             got: format!("{:e}", comparison.got),
             // NaN and infinity are no numbers of a table.
@@ -91,7 +89,6 @@ impl Row {
             } else {
                 Verdict::Wrong
             },
-            quantity: comparison.quantity,
             ..self
         }
     }
@@ -138,25 +135,20 @@ pub(super) fn judge(families: &[Family]) -> Vec<Row> {
 fn row(family: &Family, case: &Case) -> Row {
     let start = Instant::now();
     let finding = catch_unwind(AssertUnwindSafe(|| (case.run)()));
+    let finding = finding.unwrap_or_else(|panic| bail!("panic: {}", message(panic.as_ref())));
     let row = Row {
         family: family.name,
         parameter: family.parameter,
         value: case.value.clone(),
         quantity: String::new(),
-        expected: "a solution".to_owned(),
+        expected: String::new(),
         got: String::new(),
         deviation: None,
         tolerance: None,
         verdict: Verdict::Wrong,
         seconds: start.elapsed().as_secs_f64(),
     };
-    match finding {
-        Ok(finding) => row.judge(finding),
-        Err(panic) => Row {
-            got: format!("panic: {}", message(panic.as_ref())),
-            ..row
-        },
-    }
+    row.judge(finding)
 }
 
 fn message(panic: &(dyn Any + Send)) -> &str {
