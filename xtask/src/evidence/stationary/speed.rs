@@ -51,7 +51,7 @@ const RESIDUAL_PART: f64 = 1e-3;
 const ANY_DRIFT: f64 = 1.0;
 
 /// One run; friction belongs to F_N/(4ηv) = 1 and the coefficient 1 of the profile.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 struct Row {
     solver: &'static str,
     exponent: f64,
@@ -70,16 +70,6 @@ struct Row {
     processor_seconds: f64,
 }
 
-/// What a solver found.
-struct Solved {
-    friction: f64,
-    estimated_error: f64,
-    unknowns: usize,
-    spacing: Option<f64>,
-    distance: Option<f64>,
-    cost: Cost,
-}
-
 /// Runs of the stationary solver, then it on a single grid and the march in time for the paraboloid.
 pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
     let runs = if quick { &QUICK_RUNS[..] } else { &RUNS };
@@ -93,8 +83,7 @@ pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
 
 fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
     let scene = Scene::unit(exponent)?;
-    let length = scene.theory()?.contact_length();
-    let solved = match solver {
+    let (row, cost) = match solver {
         Solver::Stationary => stationary(&scene, relative_error)?,
         Solver::OneGrid => single_grid(&scene, relative_error)?,
         Solver::March => march(&scene, relative_error)?,
@@ -103,14 +92,9 @@ fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
         solver: solver.name(),
         exponent,
         relative_error_asked: relative_error,
-        friction: solved.friction,
-        estimated_error: solved.estimated_error,
-        deviation: None,
-        unknowns: solved.unknowns,
-        elements_along_contact: solved.spacing.map(|spacing| length / spacing),
-        sliding_distance: solved.distance,
-        seconds: solved.cost.seconds,
-        processor_seconds: solved.cost.processor_seconds,
+        seconds: cost.seconds,
+        processor_seconds: cost.processor_seconds,
+        ..row
     })
 }
 
@@ -142,49 +126,50 @@ fn compare(rows: &mut [Row]) {
     }
 }
 
-fn stationary(scene: &Scene, relative_error: f64) -> Result<Solved> {
+fn stationary(scene: &Scene, relative_error: f64) -> Result<(Row, Cost)> {
     let (estimate, cost) = measure_median(|| scene.friction(relative_error, 0.5))?;
     let last = estimate.refinements.last().context("no refinement")?;
-    Ok(Solved {
-        friction: estimate.friction_coefficient.value,
-        estimated_error: estimate.friction_coefficient.error / estimate.friction_coefficient.value,
+    let friction = estimate.friction_coefficient;
+    let row = Row {
+        friction: friction.value,
+        estimated_error: friction.error / friction.value,
         unknowns: last.unknowns,
-        spacing: None,
-        distance: None,
-        cost,
-    })
+        ..Row::default()
+    };
+    Ok((row, cost))
 }
 
 /// The stationary equations on one grid that is fine enough, chosen as that of the march is, and as that without a bar.
-fn single_grid(scene: &Scene, relative_error: f64) -> Result<Solved> {
+fn single_grid(scene: &Scene, relative_error: f64) -> Result<(Row, Cost)> {
     let spacing = spacing(scene, relative_error)?;
     let tolerance = RESIDUAL_PART * relative_error;
     let solve = || scene.on_one_grid([spacing.length; 2], [0.0; 2], tolerance);
     let (solution, cost) = measure_median(solve)?;
-    Ok(Solved {
+    let row = Row {
         friction: solution.friction_coefficient,
         estimated_error: spacing.error,
         unknowns: solution.unknowns,
-        spacing: Some(spacing.length),
-        distance: None,
-        cost,
-    })
+        elements_along_contact: Some(scene.theory()?.contact_length() / spacing.length),
+        ..Row::default()
+    };
+    Ok((row, cost))
 }
 
-fn march(scene: &Scene, relative_error: f64) -> Result<Solved> {
+fn march(scene: &Scene, relative_error: f64) -> Result<(Row, Cost)> {
     let distance = distance(scene, DISTANCE_PART * relative_error)?;
     let spacing = spacing(scene, (1.0 - DISTANCE_PART) * relative_error)?;
     let (transient, cost) = metered(|| scene.half_space(spacing.length, distance));
     let transient = transient?;
     let far = transient.stationary(ANY_DRIFT)?;
-    Ok(Solved {
+    let row = Row {
         friction: far.friction_coefficient,
         estimated_error: spacing.error + far.distance_error / far.friction_coefficient,
         unknowns: transient.n_elements,
-        spacing: Some(spacing.length),
-        distance: Some(distance),
-        cost,
-    })
+        elements_along_contact: Some(scene.theory()?.contact_length() / spacing.length),
+        sliding_distance: Some(distance),
+        ..Row::default()
+    };
+    Ok((row, cost))
 }
 
 /// The shortest distance, doubled each time, whose extrapolation is exact enough.
