@@ -5,7 +5,7 @@ use numerics::{Estimate, bracketed_root};
 use serde::Serialize;
 
 use super::sliding::LINE_ERROR;
-use super::{Model, Point, Prediction, plateau};
+use super::{Model, Prediction, plateau};
 use crate::tasks::in_parallel;
 
 /// Largest |prediction/friction − 1| that is right.
@@ -65,7 +65,7 @@ struct Scan<'a> {
 impl Scan<'_> {
     fn row(&self) -> Result<Row> {
         let first = &self.speeds[0];
-        let right = |at: &Prediction| self.deviation(at) <= ALLOWED;
+        let right = |at: &Prediction| at.deviation(self.model) <= ALLOWED;
         let lowest = self.speeds.iter().position(right);
         let lowest = lowest
             .map(|at| self.crossing(at.checked_sub(1), at))
@@ -85,7 +85,7 @@ impl Scan<'_> {
         let smallest = self
             .speeds
             .iter()
-            .map(|at| self.deviation(at))
+            .map(|at| at.deviation(self.model))
             .fold(f64::INFINITY, f64::min);
         Ok(Row {
             exponent: first.exponent,
@@ -107,11 +107,6 @@ impl Scan<'_> {
         })
     }
 
-    fn deviation(&self, at: &Prediction) -> f64 {
-        let [friction, predicted] = at.pair(self.model);
-        (predicted / friction - 1.0).abs()
-    }
-
     /// The speed at which the deviation is the one allowed, between two neighbours on the map.
     fn crossing(&self, low: Option<usize>, high: usize) -> Result<Estimate> {
         let (Some(low), Some(high)) = (low, self.speeds.get(high)) else {
@@ -121,35 +116,39 @@ impl Scan<'_> {
             );
         };
         let border = Border {
-            plateau: plateau(high.exponent)?,
-            low: &self.speeds[low],
-            high,
+            model: self.model,
+            low: self.speeds[low].clone(),
+            high: high.clone(),
         };
         match self.model {
-            Model::Line => border.between([border.plateau; 2], LINE_ERROR),
+            Model::Line => border.between(LINE_ERROR),
             Model::HalfSpace => border.of_half_space(self.error / 3.0),
         }
     }
 }
 
-/// Two neighbours on the map; at one of them the law is right, at the other it is not.
-struct Border<'a> {
-    plateau: f64,
-    low: &'a Prediction,
-    high: &'a Prediction,
+/// Two speeds; at one of them the law is right, at the other it is not.
+struct Border {
+    model: Model,
+    low: Prediction,
+    high: Prediction,
 }
 
-impl Border<'_> {
+impl Border {
     /// The ratio of half space and line changes slowly: it is interpolated first, and then solved anew at the border that
     /// this gives, twice.
-    fn of_half_space(&self, relative_error: f64) -> Result<Estimate> {
-        let mut ratios = [self.low, self.high].map(|at| at.half_space / at.line);
-        let mut border = self.between(ratios, 0.0)?;
+    fn of_half_space(mut self, relative_error: f64) -> Result<Estimate> {
+        let mut border = self.between(0.0)?;
         for _ in 0..2 {
-            let point = Point::of(self.low.sliding().at_speed(border.value), relative_error)?;
-            let correction = point.ratio / self.interpolated(ratios, border.value.ln());
-            ratios = ratios.map(|ratio| ratio * correction);
-            let next = self.between(ratios, point.ratio_error / point.ratio)?;
+            let at = Prediction::of(self.low.sliding().at_speed(border.value), relative_error)?;
+            let error = at.half_space_error / at.half_space;
+            let right = |at: &Prediction| at.deviation(self.model) <= ALLOWED;
+            if right(&at) == right(&self.low) {
+                self.low = at;
+            } else {
+                self.high = at;
+            }
+            let next = self.between(error)?;
             border = Estimate {
                 value: next.value,
                 error: next.error + (next.value - border.value).abs(),
@@ -158,31 +157,32 @@ impl Border<'_> {
         Ok(border)
     }
 
-    /// The ratio of friction to that of the line at the logarithm of a speed.
-    fn interpolated(&self, [low, high]: [f64; 2], logarithm: f64) -> f64 {
-        let place = (logarithm - self.low.speed.ln()) / (self.high.speed / self.low.speed).ln();
-        low + place * (high - low)
-    }
-
     /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times ratios
     /// with a relative error.
-    fn between(&self, ratios: [f64; 2], relative_error: f64) -> Result<Estimate> {
-        let excess = |logarithm: f64| {
+    fn between(&self, relative_error: f64) -> Result<Estimate> {
+        let plateau = plateau(self.low.exponent)?;
+        let [low, high] = [&self.low, &self.high].map(|at| match self.model {
+            Model::Line => plateau,
+            Model::HalfSpace => at.half_space / at.line,
+        });
+        let ratio = |logarithm: f64| {
+            let place = (logarithm - self.low.speed.ln()) / (self.high.speed / self.low.speed).ln();
+            low + place * (high - low)
+        };
+        let excess = |logarithm: f64, ratio: f64| {
             let at = self.low.sliding().at_speed(logarithm.exp());
             let quotient = at
                 .line()
                 .and_then(|(line, force)| Ok(at.viscous_law(force)? / line.value));
-            let ratio = self.interpolated(ratios, logarithm);
             quotient.map_or(f64::NAN, |quotient| {
-                (quotient * self.plateau / ratio - 1.0).abs() - ALLOWED
+                (quotient * plateau / ratio - 1.0).abs() - ALLOWED
             })
         };
         let ends = [self.low.speed.ln(), self.high.speed.ln()];
-        // A ratio that is solved anew may move the border beyond a neighbour.
-        let margin = MARGIN * (ends[1] - ends[0]);
-        let root = bracketed_root(excess, [ends[0] - margin, ends[1] + margin]);
+        let root = bracketed_root(|logarithm| excess(logarithm, ratio(logarithm)), ends);
         let root = root.context("a border between two speeds of the map")?;
-        let slope = (excess(root + margin) - excess(root - margin)) / (2.0 * margin);
+        let [before, after] = [root - STEP, root + STEP].map(|at| excess(at, ratio(root)));
+        let slope = 0.5 * (after - before) / STEP;
         Ok(Estimate {
             value: root.exp(),
             error: root.exp() * (1.0 + ALLOWED) * relative_error / slope.abs(),
@@ -190,8 +190,8 @@ impl Border<'_> {
     }
 }
 
-/// Part of the distance of two speeds.
-const MARGIN: f64 = 0.1;
+/// Step of the difference that gives the slope over the logarithm of the speed.
+const STEP: f64 = 0.02;
 
 /// Columns that are printed.
 pub(super) const COLUMNS: &[&str] = &[

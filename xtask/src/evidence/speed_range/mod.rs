@@ -195,6 +195,12 @@ impl Prediction {
         }
     }
 
+    /// |prediction/friction − 1|.
+    fn deviation(&self, model: Model) -> f64 {
+        let [friction, predicted] = self.pair(model);
+        (predicted / friction - 1.0).abs()
+    }
+
     /// Friction and its prediction.
     const fn pair(&self, model: Model) -> [f64; 2] {
         match model {
