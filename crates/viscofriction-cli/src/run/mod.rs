@@ -143,10 +143,11 @@ fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
             };
             print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
             print_line(&table::table(answer))?;
-            match table::parts(&answer.error_parts) {
-                Some(parts) => print_line(&format!("error bar: {parts}")),
-                None => Ok(()),
+            if let Some(parts) = table::parts(&answer.error_parts) {
+                print_line(&format!("error bar: {parts}"))?;
             }
+            let mut warnings = answer.warnings.iter();
+            warnings.try_for_each(|warning| print_line(&format!("warning: {warning}")))
         }
     }
 }

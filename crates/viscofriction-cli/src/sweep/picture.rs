@@ -12,7 +12,8 @@ use super::file::RowTable;
 use crate::output::{OutputFile, picture, say};
 use crate::run::around;
 
-/// What is drawn: the first of which a row has an error, as its column and as the label of its axis.
+/// What may be drawn, as its column and as the label of its axis: friction where something slides, the depth where a force
+/// is given, and else the force.
 const QUANTITIES: [(&str, &str); 3] = [
     ("friction_coefficient", "friction coefficient"),
     ("indentation_depth", "indentation depth [m]"),
@@ -91,20 +92,26 @@ fn figure(table: &RowTable) -> Result<Figure> {
         let cells = table.rows.iter().map(|row| row.fields[place].parse().ok());
         cells.collect()
     };
-    let errors = |name: &str| place(&format!("{name}_error")).map(&column);
-    let is_known =
-        |name: &str| errors(name).is_some_and(|errors| errors.iter().any(Option::is_some));
-    let drawn = QUANTITIES.iter().find(|(name, _)| is_known(name));
-    let (name, label) = drawn.context("no point has a result with an error")?;
-    let values = place(name).map(&column).unwrap_or_default();
+    let values = |name: &str| place(name).map(&column).unwrap_or_default();
+    let is_known = |name: &str| values(name).iter().any(Option::is_some);
     let keys: Vec<(&str, Vec<Option<f64>>)> = (before + 1..behind)
         .map(|place| (&*table.header[place], column(place)))
         .collect();
-    match &keys[..] {
-        [(key, over)] => {
-            let errors = errors(name).unwrap_or_default();
-            Ok(chart((key, over), (label, &values), &errors))
+    let is_drawn = |name: &str| match name {
+        "indentation_depth" => {
+            let forces = sorted(values("normal_force").into_iter().flatten());
+            forces.len() < 2 || keys.iter().any(|(key, _)| *key == "load.normal_force")
         }
+        _ => true,
+    };
+    let drawn = QUANTITIES
+        .iter()
+        .find(|(name, _)| is_known(name) && is_drawn(name));
+    let (name, label) = drawn.context("no point has a result")?;
+    let errors = values(&format!("{name}_error"));
+    let values = values(name);
+    match &keys[..] {
+        [(key, over)] => Ok(chart((key, over), (label, &values), &errors)),
         [one, other] => map([one, other], (label, &values)),
         _ => bail!("more than two keys vary"),
     }

@@ -301,11 +301,25 @@ fn powers_of_ten_and_lists_are_met_exactly() {
     assert_eq!(values("load.velocity=0.3, 0.1,2"), ["0.3", "0.1", "2.0"]);
 }
 
+fn hertz_at_a_depth() -> PathBuf {
+    let path = folder("held-depth").join("scene.toml");
+    let scene = fs::read_to_string(example("hertz.toml")).expect("the scene");
+    let at_depth = scene.replace("normal_force = 1.0", "indentation_depth = 1e-5");
+    fs::write(&path, at_depth).expect("a scene");
+    path
+}
+
 #[test]
 fn a_sweep_is_drawn_over_what_varies() {
     let scene = example("hertz.toml");
     let sliding = example("cone-half-space.toml");
+    let held = hertz_at_a_depth();
     for (scene, vary, labels) in [
+        (
+            &held,
+            vec!["load.indentation_depth=1e-5,2e-5"],
+            ["normal force [N]", "load.indentation_depth", "N"],
+        ),
         (
             &sliding,
             vec!["load.velocity=1e-3:1:4:log"],
