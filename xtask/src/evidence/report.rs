@@ -80,13 +80,13 @@ impl Table {
     }
 }
 
-/// Four digits, or fewer if the error is larger than a half of the last one.
+/// Four digits, or fewer if the error is larger than a unit of the last one.
 fn known_digits(value: f64, error: Option<f64>) -> String {
     if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
         return value.to_string();
     }
     let first = value.abs().log10().floor();
-    let last = error.map_or(f64::NEG_INFINITY, |error| (2.0 * error).log10().ceil());
+    let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
     let decimals = |count: f64| {
         (0..20)
             .take_while(|&digit| f64::from(digit) < count)
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn only_known_digits_are_printed() {
         for (value, error, expected) in [
-            (0.271_8, Some(4e-3), "0.27"),
+            (0.271_8, Some(8e-3), "0.27"),
             (0.271_8, Some(0.6), "0"),
             (1.882e-5, Some(4e-8), "1.88e-5"),
             (1.882e-5, Some(4e-7), "1.9e-5"),

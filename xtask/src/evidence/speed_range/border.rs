@@ -121,7 +121,7 @@ impl Scan<'_> {
             high: high.clone(),
         };
         match self.model {
-            Model::Line => border.between(LINE_ERROR),
+            Model::Line => Ok(border.between()?.with_error(LINE_ERROR)),
             Model::HalfSpace => border.of_half_space(self.error / 3.0),
         }
     }
@@ -134,11 +134,29 @@ struct Border {
     high: Prediction,
 }
 
+/// Where the deviation is the one allowed.
+struct Crossing {
+    speed: f64,
+    /// Change of the deviation over the logarithm of the speed.
+    slope: f64,
+}
+
+impl Crossing {
+    /// The speed, if friction has a relative error.
+    fn with_error(&self, relative_error: f64) -> Estimate {
+        Estimate {
+            value: self.speed,
+            error: self.speed * (1.0 + ALLOWED) * relative_error / self.slope.abs(),
+        }
+    }
+}
+
 impl Border {
     /// The ratio of half space and line changes slowly: it is interpolated first, and then solved anew at the border that
     /// this gives, twice.
     fn of_half_space(mut self, relative_error: f64) -> Result<Estimate> {
-        let mut border = self.between(0.0)?;
+        let Crossing { speed, slope } = self.between()?;
+        let mut border = Estimate::exact(speed);
         for _ in 0..2 {
             let at = Prediction::of(self.low.sliding().at_speed(border.value), relative_error)?;
             let error = at.half_space_error / at.half_space;
@@ -148,7 +166,9 @@ impl Border {
             } else {
                 self.high = at;
             }
-            let next = self.between(error)?;
+            // The slope is that between speeds that are far from each other.
+            let speed = self.between()?.speed;
+            let next = Crossing { speed, slope }.with_error(error);
             border = Estimate {
                 value: next.value,
                 error: next.error + (next.value - border.value).abs(),
@@ -157,19 +177,17 @@ impl Border {
         Ok(border)
     }
 
-    /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times ratios
-    /// with a relative error.
-    fn between(&self, relative_error: f64) -> Result<Estimate> {
+    /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times the ratio
+    /// of the two models, interpolated.
+    fn between(&self) -> Result<Crossing> {
         let plateau = plateau(self.low.exponent)?;
         let [low, high] = [&self.low, &self.high].map(|at| match self.model {
             Model::Line => plateau,
             Model::HalfSpace => at.half_space / at.line,
         });
-        let ratio = |logarithm: f64| {
+        let excess = |logarithm: f64| {
             let place = (logarithm - self.low.speed.ln()) / (self.high.speed / self.low.speed).ln();
-            low + place * (high - low)
-        };
-        let excess = |logarithm: f64, ratio: f64| {
+            let ratio = low + place * (high - low);
             let at = self.low.sliding().at_speed(logarithm.exp());
             let quotient = at
                 .line()
@@ -179,18 +197,16 @@ impl Border {
             })
         };
         let ends = [self.low.speed.ln(), self.high.speed.ln()];
-        let root = bracketed_root(|logarithm| excess(logarithm, ratio(logarithm)), ends);
+        let root = bracketed_root(excess, ends);
         let root = root.context("a border between two speeds of the map")?;
-        let [before, after] = [root - STEP, root + STEP].map(|at| excess(at, ratio(root)));
-        let slope = 0.5 * (after - before) / STEP;
-        Ok(Estimate {
-            value: root.exp(),
-            error: root.exp() * (1.0 + ALLOWED) * relative_error / slope.abs(),
+        Ok(Crossing {
+            speed: root.exp(),
+            slope: 0.5 * (excess(root + STEP) - excess(root - STEP)) / STEP,
         })
     }
 }
 
-/// Step of the difference that gives the slope over the logarithm of the speed.
+/// Step of the difference that gives the slope.
 const STEP: f64 = 0.02;
 
 /// Columns that are printed.

@@ -13,7 +13,7 @@ use rheology::{
     ExponentialStep, Material, RelaxationBranch, RelaxationSpectrum, RheologyError, Viscous,
 };
 
-use super::case::{Case, Family, Finding, compare, families, refused};
+use super::case::{Case, Family, Finding, cases, compare, families, refused};
 use super::rheology::solid;
 
 /// Numbers that no size, speed, force or modulus can be.
@@ -28,33 +28,43 @@ pub(super) fn families() -> Vec<Family> {
         "refused: step in time", "number", NOT_POSITIVE => time_step;
         "refused: relaxation time", "number", NOT_POSITIVE => relaxation_time;
     };
-    let no_state = vec![
-        Case::new("sphere", sphere),
-        Case::new("line too low", line_too_low),
-        Case::new("flat punch", flat_punch),
-        Case::new("too short a distance", too_short_a_distance),
-    ];
-    let mut coarse = vec![
-        Case::new("few iterations", few_iterations),
-        Case::new("tolerance 0", no_tolerance),
-        Case::new("error 1e-9", error_not_reached),
-        Case::new(
-            "line, spacing 10",
-            || refused!(pressed_line(10.0)? => MdrError::TooCoarse { .. }),
-        ),
-        Case::new(
-            "line, spacing 1e-12",
-            || refused!(pressed_line(1e-12)? => MdrError::TooManyElements { .. }),
-        ),
-    ];
-    coarse.extend([1.0, 10.0, 1e6, 1e12].into_iter().flat_map(too_coarse));
-    coarse.extend([0.3, 0.5].into_iter().flat_map(too_small));
-    coarse.extend([1e-6, 1e-12].into_iter().flat_map(too_fine));
+    let no_state = cases! {
+        "sphere" => sphere();
+        "line too low" => line_too_low();
+        "flat punch" => flat_punch();
+        "too short a distance" => too_short_a_distance();
+    };
     families.extend([
         Family::of("refused: no stationary state", "scene", no_state),
-        Family::of("refused: too coarse, too small", "scene", coarse),
+        Family::of("refused: too coarse, too small", "scene", grids()),
     ]);
     families
+}
+
+fn grids() -> Vec<Case> {
+    cases! {
+        "few iterations" => few_iterations();
+        "tolerance 0" => no_tolerance();
+        "error 1e-9" => error_not_reached();
+        "line, spacing 10" => refused!(pressed_line(10.0)? => MdrError::TooCoarse { .. });
+        "line, spacing 1e-12" => refused!(pressed_line(1e-12)? => MdrError::TooManyElements { .. });
+        "stationary, spacing 1e0" => refused!(stationary(1.0, 10.0)? => BemError::GridTooCoarse { .. });
+        "march, spacing 1e0" => refused!(march(1.0, 10.0, 5.0)? => BemError::GridTooCoarse { .. });
+        "stationary, spacing 1e1" => refused!(stationary(10.0, 100.0)? => BemError::GridTooCoarse { .. });
+        "march, spacing 1e1" => refused!(march(10.0, 100.0, 50.0)? => BemError::GridTooCoarse { .. });
+        "stationary, spacing 1e6" => refused!(stationary(1e6, 1e7)? => BemError::GridTooCoarse { .. });
+        "march, spacing 1e6" => refused!(march(1e6, 1e7, 5e6)? => BemError::GridTooCoarse { .. });
+        "stationary, spacing 1e12" => refused!(stationary(1e12, 1e13)? => BemError::GridTooCoarse { .. });
+        "march, spacing 1e12" => refused!(march(1e12, 1e13, 5e12)? => BemError::GridTooCoarse { .. });
+        "stationary, box 0.3" => refused!(stationary(0.05, 0.3)? => BemError::ContactReachesBoundary { .. });
+        "march, box 0.3" => refused!(march(0.05, 0.3, 3.0)? => BemError::ContactReachesBoundary { .. });
+        "stationary, box 0.5" => refused!(stationary(0.05, 0.5)? => BemError::ContactReachesBoundary { .. });
+        "march, box 0.5" => refused!(march(0.05, 0.5, 3.0)? => BemError::ContactReachesBoundary { .. });
+        "stationary, spacing 1e-6" => refused!(stationary(1e-6, 2.0)? => BemError::GridTooLarge { .. });
+        "march, spacing 1e-6" => refused!(march(1e-6, 2.0, 5e-6)? => BemError::GridTooLarge { .. });
+        "stationary, spacing 1e-12" => refused!(stationary(1e-12, 2.0)? => BemError::GridTooLarge { .. });
+        "march, spacing 1e-12" => refused!(march(1e-12, 2.0, 5e-12)? => BemError::GridTooLarge { .. });
+    }
 }
 
 fn viscosity(value: f64) -> Result<Finding> {
@@ -119,59 +129,47 @@ fn too_short_a_distance() -> Result<Finding> {
 }
 
 /// A cone of slope 0.1 on a dashpot, whose contact on the line is 1 m long.
-struct Scene {
-    cone: PowerProfile,
-    material: Viscous,
-    load: SlidingLoad,
+fn scene() -> Result<(PowerProfile, Viscous, SlidingLoad)> {
+    let load = SlidingLoad::new(0.4 * FRAC_PI_2, 1.0)?;
+    Ok((PowerProfile::cone(0.1)?, Viscous::new(1.0)?, load))
 }
 
-impl Scene {
-    fn new() -> Result<Self> {
-        Ok(Self {
-            cone: PowerProfile::cone(0.1)?,
-            material: Viscous::new(1.0)?,
-            load: SlidingLoad::new(0.4 * FRAC_PI_2, 1.0)?,
-        })
-    }
-
-    fn march(&self, options: &GridOptions, distance: f64) -> Result<(), BemError> {
-        let load = self.load.after(distance)?;
-        slide_on_grid(&self.cone, &self.material, &load, options).map(drop)
-    }
-
-    fn stationary(&self, spacing: f64, half_width: f64) -> Result<(), BemError> {
-        let options = SteadyOptions {
-            tolerance: 1e-6,
-            ..SteadyOptions::new([spacing; 2], Footprint::square(half_width))
-        };
-        steady_on_grid(&self.cone, &self.material, &self.load, &options).map(drop)
-    }
+fn stationary(spacing: f64, half_width: f64) -> Result<Result<(), BemError>> {
+    let (cone, material, load) = scene()?;
+    let options = SteadyOptions {
+        tolerance: 1e-6,
+        ..SteadyOptions::new([spacing; 2], Footprint::square(half_width))
+    };
+    Ok(steady_on_grid(&cone, &material, &load, &options).map(drop))
 }
 
-fn march_options(spacing: f64, half_width: f64) -> GridOptions {
-    GridOptions::new([spacing; 2], Footprint::square(half_width))
+fn march(spacing: f64, half_width: f64, distance: f64) -> Result<Result<(), BemError>> {
+    marched(
+        &GridOptions::new([spacing; 2], Footprint::square(half_width)),
+        distance,
+    )
+}
+
+fn marched(options: &GridOptions, distance: f64) -> Result<Result<(), BemError>> {
+    let (cone, material, load) = scene()?;
+    Ok(slide_on_grid(&cone, &material, &load.after(distance)?, options).map(drop))
 }
 
 fn few_iterations() -> Result<Finding> {
-    let mut options = march_options(0.05, 2.0);
+    let mut options = GridOptions::new([0.05; 2], Footprint::square(2.0));
     options.contact.max_iterations = 1;
-    let state = Scene::new()?.march(&options, 0.25);
-    refused!(state => BemError::ContactNotConverged { .. })
+    refused!(marched(&options, 0.25)? => BemError::ContactNotConverged { .. })
 }
 
 fn no_tolerance() -> Result<Finding> {
-    let mut options = march_options(0.05, 2.0);
+    let mut options = GridOptions::new([0.05; 2], Footprint::square(2.0));
     options.contact.tolerance = 0.0;
-    let state = Scene::new()?.march(&options, 0.25);
+    let state = marched(&options, 0.25)?;
     refused!(state => BemError::InvalidParameter { parameter: "contact tolerance", .. })
 }
 
 fn error_not_reached() -> Result<Finding> {
-    let Scene {
-        cone,
-        material,
-        load,
-    } = Scene::new()?;
+    let (cone, material, load) = scene()?;
     let options = RefinementOptions {
         relative_error: 1e-9,
         aspect: 0.5,
@@ -182,46 +180,7 @@ fn error_not_reached() -> Result<Finding> {
 }
 
 fn pressed_line(spacing: f64) -> Result<Result<(), MdrError>> {
-    let Scene { cone, material, .. } = Scene::new()?;
+    let (cone, material, _) = scene()?;
     let options = IndentOptions { spacing };
     Ok(indent(&EquivalentLine(&cone), &material, 1.0, &[1.0], &options).map(drop))
-}
-
-fn too_coarse(spacing: f64) -> [Case; 2] {
-    [
-        Case::new(format!("stationary, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.stationary(spacing, 10.0 * spacing);
-            refused!(state => BemError::GridTooCoarse { .. })
-        }),
-        Case::new(format!("march, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.march(&march_options(spacing, 10.0 * spacing), 5.0 * spacing);
-            refused!(state => BemError::GridTooCoarse { .. })
-        }),
-    ]
-}
-
-fn too_small(half_width: f64) -> [Case; 2] {
-    [
-        Case::new(format!("stationary, box {half_width}"), move || {
-            let state = Scene::new()?.stationary(0.05, half_width);
-            refused!(state => BemError::ContactReachesBoundary { .. })
-        }),
-        Case::new(format!("march, box {half_width}"), move || {
-            let state = Scene::new()?.march(&march_options(0.05, half_width), 3.0);
-            refused!(state => BemError::ContactReachesBoundary { .. })
-        }),
-    ]
-}
-
-fn too_fine(spacing: f64) -> [Case; 2] {
-    [
-        Case::new(format!("stationary, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.stationary(spacing, 2.0);
-            refused!(state => BemError::GridTooLarge { .. })
-        }),
-        Case::new(format!("march, spacing {spacing:e}"), move || {
-            let state = Scene::new()?.march(&march_options(spacing, 2.0), 5.0 * spacing);
-            refused!(state => BemError::GridTooLarge { .. })
-        }),
-    ]
 }
