@@ -63,6 +63,8 @@ pub(super) struct Passage {
     pub(super) dissipation: f64,
     /// How much that changes at most per change of the displacement.
     pub(super) dissipation_change: f64,
+    /// Error of the work by rounding.
+    pub(super) dissipation_rounding: f64,
     /// Stresses of the branches at the end.
     pub(super) stresses: Vec<f64>,
 }
@@ -149,6 +151,12 @@ impl Foundation {
         self.spring * length + self.dashpot + relaxing
     }
 
+    /// How much a jump δ at a place where the displacement changes by `rate` per metre can change the work, relative to δ.
+    pub(super) fn resistance(&self, rate: f64) -> f64 {
+        let moduli: f64 = self.branches.iter().map(|branch| branch.modulus).sum();
+        self.dashpot * rate.abs() + moduli
+    }
+
     /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.
     pub(super) fn stored_energy(&self, displacement: f64, stresses: &[f64]) -> f64 {
         let branches = self.branches.iter().zip(stresses);
@@ -170,6 +178,7 @@ impl Foundation {
             load: self.spring * segment.length * segment.displacements[0] + self.dashpot * rise,
             dissipation: dashpot * square_rate,
             dissipation_change: SENSITIVITY * dashpot * square_rate.sqrt(),
+            dissipation_rounding: dashpot * segment.rounding * segment.rounding,
             stresses: Vec::with_capacity(self.branches.len()),
         };
         for (k, rate) in rates.iter().enumerate() {

@@ -95,6 +95,14 @@ impl Profile {
     }
 }
 
+impl Profile {
+    /// From its front to its rear, \[m].
+    pub(super) fn length(&self) -> f64 {
+        let ends = self.pieces.first().zip(self.pieces.last());
+        ends.map_or(0.0, |(front, rear)| front.ends[0] - rear.ends[1])
+    }
+}
+
 impl Piece {
     /// The compression it imposes when the lowest point is one depth deep.
     pub(super) fn segment(&self, lowest: f64) -> Segment {
@@ -105,6 +113,7 @@ impl Piece {
             degree: self.degree,
             ends: self.ends,
             length: self.ends[0] - self.ends[1],
+            rounding: 0.0,
         }
     }
 

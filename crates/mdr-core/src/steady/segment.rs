@@ -1,6 +1,9 @@
 //! A part of the line as a polynomial, from where it comes to where it goes.
 
-use super::legendre::{Interpolation, Polynomial, end_value, value};
+use super::legendre::{Interpolation, Polynomial, derivative, end_value, value};
+
+/// Rounding of the displacements of a part, which is interpolated once more, in depths.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Compression that a piece of the line imposes, as a polynomial in −1 ≤ t ≤ 1 from the front to the rear.
 #[derive(Debug, Clone)]
@@ -12,6 +15,8 @@ pub(super) struct Segment {
     /// Positions of the front and the rear end, \[m].
     pub(super) ends: [f64; 2],
     pub(super) length: f64,
+    /// Rounding of the displacements, in depths; none for a whole piece, whose heights are relative to the lowest point.
+    pub(super) rounding: f64,
 }
 
 impl Segment {
@@ -22,6 +27,11 @@ impl Segment {
 
     pub(super) fn displacement(&self, t: f64) -> f64 {
         value(&self.displacements[..=self.degree], t)
+    }
+
+    /// Change of the displacement with the distance ξ, in depths per metre.
+    pub(super) fn rate(&self, t: f64) -> f64 {
+        2.0 / self.length * value(&derivative(&self.displacements), t)
     }
 
     /// Displacement at the rear end, in depths.
@@ -44,6 +54,7 @@ impl Segment {
             degree: self.degree,
             ends: [self.position(from), self.position(to)],
             length: half * self.length,
+            rounding: ROUNDING,
         }
     }
 }

@@ -17,6 +17,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 const LEFT_BY_ROUNDING: f64 = 1e-6;
 /// Layers thinner than this part of a segment are not looked into.
 const THINNEST: f64 = 1e-9;
+/// A contact that ends after less than this part of a segment ends at its start, and one that begins so close to its end
+/// begins there: the dissipation of a dashpot in so short a part is the square of rounding over its length.
+const SHORTEST: f64 = 1e-13;
 /// Most contact intervals of one line.
 const MAX_CONTACTS: usize = 1 << 12;
 
@@ -119,14 +122,17 @@ impl March<'_> {
                 indentation_depth: self.depth,
             });
         }
+        let t = if 1.0 - t > SHORTEST { t } else { 1.0 };
         let distance = 0.5 * (1.0 + t) * segment.length;
+        let free = self.foundation.free_displacement(&recovery, distance);
+        self.miss(segment.displacement(t) - free, segment, t);
         let stresses = if self.sums.contacts.is_empty() {
             self.foundation.unstrained()
         } else {
             self.foundation.free_stresses(&recovery, distance)
         };
         let position = segment.position(t);
-        let displacement = self.strain(self.foundation.free_displacement(&recovery, distance));
+        let displacement = self.strain(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
         self.sums.contacts.push([position; 2]);
         self.surface = Surface::Loaded {
@@ -163,9 +169,16 @@ impl March<'_> {
         }
     }
 
+    /// Counts a touch that comes too late by a compression, because positions are rounded, as an error.
+    fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
+        let compression = compression.abs();
+        self.sums.load_error += compression * self.foundation.stiffness(self.profile.length());
+        self.sums.work_error += compression * self.foundation.resistance(segment.rate(t));
+    }
+
     fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {
         let mut stresses = stresses.to_vec();
-        if t > -1.0 {
+        if 1.0 + t > SHORTEST {
             let loaded = segment.part(&self.profile.interpolation, [-1.0, t]);
             let passage = self.foundation.pass(&loaded, &stresses);
             self.add(&passage, &loaded, tail);
@@ -180,7 +193,7 @@ impl March<'_> {
         self.sums.load += passage.load;
         self.sums.work += passage.dissipation;
         self.sums.load_error += tail * self.foundation.stiffness(segment.length);
-        self.sums.work_error += tail * passage.dissipation_change;
+        self.sums.work_error += tail * passage.dissipation_change + passage.dissipation_rounding;
         if let Some(contact) = self.sums.contacts.last_mut() {
             contact[0] = segment.ends[1];
         }
