@@ -6,7 +6,7 @@ use benches::report_error;
 use criterion::Criterion;
 use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
-use mdr_core::{SlideOptions, slide};
+use mdr_core::{SlideOptions, slide_on_grid};
 use rheology::Viscous;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -21,9 +21,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn chain(criterion: &mut Criterion, elements: usize) -> Result<(), Box<dyn Error>> {
     let body = PowerProfile::paraboloid(1.0)?;
     let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
-    let options = SlideOptions::with_elements(elements, &body, &material, &load)?;
-    let run = || slide(&EquivalentLine(&body), &material, &load, &options);
-    let friction = run()?.stationary.friction_coefficient;
+    let options = SlideOptions::with_elements(elements, &EquivalentLine(&body), &material, &load)?;
+    let run = || slide_on_grid(&EquivalentLine(&body), &material, &load, &options);
+    let friction = run()?.last.friction_coefficient;
     let exact = power_sliding(&body, &material, &load)?.friction_coefficient;
     let name = format!("chain/{elements} elements");
     report_error(&name, "friction coefficient", [friction, exact]);

@@ -44,7 +44,7 @@ impl Scene {
             max_sliding_distance: 100.0 * length,
         };
         let line = EquivalentLine(&self.body);
-        Ok(mdr_core::slide(
+        Ok(mdr_core::slide_on_grid(
             &line,
             &self.material,
             &self.load,
@@ -145,11 +145,12 @@ mod tests {
             let steps = IndentStep::constant(Control::NormalForce(force), &times);
             let half_space =
                 indent_history_on_grid(&body, &material, &steps, &options).expect("an indentation");
-            let spacing = mdr_core::IndentOptions {
-                spacing: radius / 500.0,
-            };
-            let chain =
-                mdr_core::indent(&EquivalentLine(&body), &material, force, &times, &spacing);
+            let steps = times.map(|time| mdr_core::IndentStep {
+                time,
+                control: Control::NormalForce(force),
+            });
+            let line = EquivalentLine(&body);
+            let chain = mdr_core::indent_history(&line, &material, &steps, radius / 500.0);
             let chain = chain.expect("an indentation");
             for (step, exact) in exact.iter().enumerate() {
                 let depths = [
@@ -183,7 +184,7 @@ mod tests {
                 let chain = scene
                     .chain(spacing)
                     .expect("a chain")
-                    .stationary
+                    .last
                     .friction_coefficient;
                 assert!(
                     (chain / theory.friction_coefficient - 1.0).abs() < 2e-2,

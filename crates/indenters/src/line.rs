@@ -20,6 +20,11 @@ pub trait RigidLine {
         Vec::new()
     }
 
+    /// Exponent p of the line h̃ ∼ |x|^p around its lowest point; 1 where nothing is known.
+    fn apex_exponent(&self) -> f64 {
+        1.0
+    }
+
     /// Positions, increasing, from end to end of the finite domain, between which the line only rises or only falls.
     ///
     /// Found by looking for one change of sign of the slope in each of `samples` equal intervals. A line that knows its
@@ -34,6 +39,7 @@ forward!(RigidLine, {
     fn slope(&self, x: f64) -> f64;
     fn domain(&self) -> [f64; 2];
     fn kinks(&self) -> Vec<f64>;
+    fn apex_exponent(&self) -> f64;
     fn monotone_breaks(&self, samples: usize) -> Vec<f64>;
 });
 
@@ -61,6 +67,10 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
 
     fn domain(&self) -> [f64; 2] {
         [-self.0.max_radius(), self.0.max_radius()]
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        self.0.profile_exponent()
     }
 
     fn kinks(&self) -> Vec<f64> {

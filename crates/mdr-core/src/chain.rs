@@ -30,7 +30,8 @@ impl Chain {
     pub(crate) fn new(
         material: &(impl Material + ?Sized),
         n_elements: usize,
-        [spacing, time_step]: [f64; 2],
+        spacing: f64,
+        time_step: f64,
     ) -> Result<Self, MdrError> {
         let creep = material.creep();
         let step = ExponentialStep::creep(&creep, time_step)?;
@@ -56,6 +57,16 @@ impl Chain {
         self.creep.instantaneous_compliance() / self.step.response()
     }
 
+    /// Whether nothing depends on time.
+    pub(crate) fn is_elastic(&self) -> bool {
+        self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
+    }
+
+    /// Forces on the elements after [`Chain::load`], \[N].
+    pub(crate) fn forces(&self) -> impl Iterator<Item = f64> {
+        self.values.iter().map(|value| 4.0 * self.spacing * value)
+    }
+
     /// Goes on with steps of another length \[s].
     pub(crate) fn set_time_step(&mut self, time_step: f64) -> Result<(), MdrError> {
         self.step = ExponentialStep::creep(&self.creep, time_step)?;
@@ -73,7 +84,7 @@ impl Chain {
         }
     }
 
-    /// Lets all elements go for the length of a step.
+    /// Unloads all elements for the length of a step.
     pub(crate) fn relax(&mut self) {
         self.step.history(&self.state, &mut self.values);
         for value in &mut self.values {
@@ -81,7 +92,7 @@ impl Chain {
         }
     }
 
-    /// The line with these `heights` \[m] over the chain; to be asked after [`Chain::relax`].
+    /// The line with these `heights` \[m] over the chain; after [`Chain::relax`].
     pub(crate) fn instant<'a>(&'a self, heights: &'a [f64]) -> Instant<'a> {
         Instant::unchecked(heights, &self.values, self.element)
     }

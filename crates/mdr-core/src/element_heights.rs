@@ -188,6 +188,10 @@ impl<L: RigidLine + ?Sized> Ray<'_, L> {
                 break;
             };
             let height = checked_height(self.line, position)?;
+            // A vertical edge, as the equator of a sphere.
+            if height == f64::INFINITY {
+                break;
+            }
             if height <= self.ceiling {
                 last_below = element;
             }

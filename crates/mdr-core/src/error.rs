@@ -1,12 +1,13 @@
-//! Why a chain is refused, or does not answer.
+//! Why a problem is refused, or has no solution.
 
 use indenters::IndenterError;
+use numerics::NotReached;
 use rheology::RheologyError;
 use thiserror::Error;
 
 use crate::SlideRow;
 
-/// Why a chain is refused, or does not answer.
+/// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MdrError {
     /// A parameter is not a number, or outside the range it may take.
@@ -70,25 +71,30 @@ pub enum MdrError {
         /// Height above the lowest point of the line, \[m].
         height: f64,
     },
-    /// The leading edge is not as high as a stationary state needs (Remark 4).
+    /// The contact would reach the edge of the body, or the front end of the line, before it carries the force (Remark 4).
     #[error(
-        "no stationary state carries {normal_force}: the leading edge rises only {available} above the lowest point, \
-         and carries at most {carried_force} there"
+        "the contact would reach the edge at position {position} (of a sphere: its equator) under {carried_force} N, which \
+         is less than the normal force {normal_force} N: lower the force, or check the unit of the modulus or viscosity"
     )]
-    NoStationaryState {
+    ForceBeyondEdge {
+        /// Where the line ends, \[m].
+        position: f64,
+        /// Height of the line there, above its lowest point, \[m].
+        available: f64,
+        /// An upper bound of the force that is carried up to there, \[N].
+        carried_force: f64,
         /// Normal force asked for, \[N].
         normal_force: f64,
-        /// An upper bound of the force that the whole leading edge carries, \[N].
-        carried_force: f64,
-        /// Height of the leading edge above its lowest point, \[m].
-        available: f64,
     },
-    /// The line ends in front below the depth asked for.
+    /// The contact would reach the edge of the body, or the front end of the line, before the depth.
     #[error(
-        "the line ends in front only {available} above its lowest point, but should be {indentation_depth} deep"
+        "the contact would reach the edge at position {position} (of a sphere: its equator), where the line is {available} m \
+         above its lowest point, at a depth less than {indentation_depth} m"
     )]
-    LineTooLow {
-        /// Height of the front end above the lowest point, \[m].
+    DepthBeyondEdge {
+        /// Where the line ends, \[m].
+        position: f64,
+        /// Height of the line there, above its lowest point, \[m].
         available: f64,
         /// Depth asked for, \[m].
         indentation_depth: f64,
@@ -128,24 +134,33 @@ pub enum MdrError {
         /// Where the line is too steep, \[m].
         position: f64,
     },
-    /// The friction coefficient of a stationary state is known less well than asked for.
+    /// The friction coefficient of a stationary state, or the force or depth of a static one, is known less well than asked
+    /// for.
     #[error(
-        "the friction coefficient is {friction_coefficient} with an estimated error of {error}, \
-         and the relative error asked for is {relative_error}"
+        "the value is {value} with an estimated error of {error:e}, and the relative error asked for is {relative_error:e}"
     )]
     NotConverged {
-        /// Friction coefficient reached.
-        friction_coefficient: f64,
+        /// Value reached.
+        value: f64,
         /// Its estimated absolute error.
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
     },
-    /// The contact has reached an end of the line, beyond which the line is not given.
+    /// A quantity is known less well than asked for on the finest resolution allowed.
+    #[error(transparent)]
+    NotReached(#[from] NotReached),
+    /// A material that flows has no contact at rest.
     #[error(
-        "the contact reached the last element, at position {position}, at depth {indentation_depth} and time {time}"
+        "under a constant load a material that flows never comes to rest: press it for a time (`indent`)"
     )]
-    ContactReachesBoundary {
+    NoEquilibrium,
+    /// The contact has reached the last element, beyond which the line is not given.
+    #[error(
+        "the contact reached the edge at position {position} (of a sphere: its equator) at depth {indentation_depth} m and \
+         time {time} s: lower the force, or check the unit of the modulus or viscosity"
+    )]
+    ContactReachesEdge {
         /// Position of the last element on the line, \[m].
         position: f64,
         /// Indentation depth at that instant, \[m].
@@ -189,7 +204,7 @@ pub enum MdrError {
         /// Time since first touch, \[s].
         time: f64,
     },
-    /// The body refuses the question for its contact radius.
+    /// The load is not one that the method takes.
     #[error(transparent)]
     Indenter(#[from] IndenterError),
     /// The material refuses a step in time.

@@ -104,7 +104,7 @@ pub(super) fn row(indenter: Indenter, speed: u32, factor: f64) -> Result<Row> {
     Ok(Row {
         velocity_m_per_s: velocity,
         theory: theory.friction_coefficient,
-        chain: chain.stationary.friction_coefficient,
+        chain: chain.last.friction_coefficient,
         half_space: stationary.friction_coefficient,
         half_space_distance_error: stationary.distance_error,
         half_space_plain: transient.last().friction_coefficient_end_of_step,

@@ -109,8 +109,12 @@ fn within_reach(
     depth: f64,
     target: f64,
 ) -> Result<(f64, f64), MdrError> {
-    let available = match load(depth) {
-        Err(MdrError::LineTooLow { available, .. }) => available,
+    let (position, available) = match load(depth) {
+        Err(MdrError::DepthBeyondEdge {
+            position,
+            available,
+            ..
+        }) => (position, available),
         other => return Ok((depth, other?)),
     };
     // A line whose lowest point is its front end has no leading edge.
@@ -120,10 +124,11 @@ fn within_reach(
         0.0
     };
     if carried < target {
-        return Err(MdrError::NoStationaryState {
-            normal_force: 4.0 * target,
-            carried_force: 4.0 * carried,
+        return Err(MdrError::ForceBeyondEdge {
+            position,
             available,
+            carried_force: 4.0 * carried,
+            normal_force: 4.0 * target,
         });
     }
     Ok((available, carried))

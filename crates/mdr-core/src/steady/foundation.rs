@@ -151,10 +151,29 @@ impl Foundation {
         self.spring * length + self.dashpot + relaxing
     }
 
-    /// How much a jump δ at a place where the displacement changes by `rate` per metre can change the work, relative to δ.
-    pub(super) fn resistance(&self, rate: f64) -> f64 {
-        let moduli: f64 = self.branches.iter().map(|branch| branch.modulus).sum();
-        self.dashpot * rate.abs() + moduli
+    /// Compresses the branches at once.
+    pub(super) fn strike(&self, stresses: &mut [f64], compression: f64) {
+        for (stress, branch) in stresses.iter_mut().zip(&self.branches) {
+            *stress += branch.modulus * compression;
+        }
+    }
+
+    /// How much a jump δ at a place where the displacement changes by `rate` per metre can change ∫ w dξ and the work of the
+    /// lone dashpot, relative to δ.
+    pub(super) fn damping(&self, rate: f64) -> [f64; 2] {
+        [self.dashpot, self.dashpot * rate.abs()]
+    }
+
+    /// The same under a contact of this length \[m] where the branches do not see the jump either: what relaxes at once
+    /// works over its own distance, and what hardly relaxes gives back what it takes.
+    pub(super) fn resistance(&self, rate: f64, length: f64) -> [f64; 2] {
+        let part = |b: &Branch| {
+            (b.length * rate.abs())
+                .min(4.0 * length / b.length)
+                .min(1.0)
+        };
+        let moduli: f64 = self.branches.iter().map(|b| b.modulus * part(b)).sum();
+        [self.stiffness(length), self.damping(rate)[1] + moduli]
     }
 
     /// Elastic energy of the springs, (G_∞ u² + Σ e_i²/G_i)/2.

@@ -13,6 +13,10 @@ const OUTLOOK: f64 = 1024.0;
 /// Factor by which the search on an endless line goes outwards.
 const STRIDE: f64 = 8.0;
 
+/// A body that ends with a vertical edge, as a sphere at its equator, is followed up to this part of its length from there:
+/// closer to it pieces of the line have nodes at the rounding of positions.
+const EDGE: f64 = 1024.0 * f64::EPSILON;
+
 /// Positions between which all heights below the ceiling lie.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Range {
@@ -48,13 +52,37 @@ impl Range {
     pub(super) fn check_front(&self, lowest: f64, depth: f64) -> Result<(), MdrError> {
         let available = self.front_height - lowest;
         if self.ends_in_front && available < depth {
-            return Err(MdrError::LineTooLow {
+            return Err(MdrError::DepthBeyondEdge {
+                position: self.ends[1],
                 available,
                 indentation_depth: depth,
             });
         }
         Ok(())
     }
+}
+
+/// Where a body ends with a vertical edge in front.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    pub(super) position: f64,
+    /// Above the lowest point, next to the edge, \[m].
+    pub(super) height: f64,
+}
+
+/// The vertical edge at the front end of a line, if it has one.
+pub(super) fn vertical_edge(line: &(impl RigidLine + ?Sized)) -> Result<Option<Edge>, MdrError> {
+    let [_, front] = line.domain();
+    if front.is_infinite() || checked_height(line, front)?.is_finite() {
+        return Ok(None);
+    }
+    let anchor = lowest_candidate(line)?;
+    let inside = front - EDGE * (front - anchor);
+    let height = checked_height(line, inside)? - checked_height(line, anchor)?;
+    Ok(Some(Edge {
+        position: front,
+        height,
+    }))
 }
 
 /// The outermost position between `anchor` and `end` at which the line lies below the ceiling.

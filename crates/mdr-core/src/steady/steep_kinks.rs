@@ -5,11 +5,11 @@
 
 use indenters::RigidLine;
 
-/// First distance from a kink at which the slope is looked at, relative to the position of the kink.
+/// First distance from a kink at which the slope is taken, relative to the position of the kink.
 const REACH: f64 = 1.0 / (1 << 20) as f64;
-/// By which the distances of the second and third look are smaller each.
+/// By which the distances of the second and third slope are smaller each.
 const CLOSER: f64 = 0.25;
-/// What differences of an inverse root grow by from look to look, less what smaller powers leave.
+/// What differences of an inverse root grow by from distance to distance, less what smaller powers leave.
 const GROWTH: f64 = 1.99;
 /// Differences of slopes below this part of them are rounding.
 const ROUNDING: f64 = 1e-9;
@@ -20,6 +20,11 @@ pub(super) struct SteepKink {
     pub(super) position: f64,
     /// The part of the line that is steep, \[m].
     side: [f64; 2],
+}
+
+/// Whether a line has kinks at which it is steeper than any number.
+pub(crate) fn has_steep_kinks(line: &(impl RigidLine + ?Sized)) -> bool {
+    !SteepKink::of(line).is_empty()
 }
 
 impl SteepKink {
@@ -50,9 +55,9 @@ impl SteepKink {
 
 /// Whether the slope rises beyond all limits towards the kink, at least like the inverse root of the distance.
 fn is_steep(line: &(impl RigidLine + ?Sized), position: f64, side: f64) -> bool {
-    let looks = [1.0, CLOSER, CLOSER * CLOSER];
+    let parts = [1.0, CLOSER, CLOSER * CLOSER];
     let [far, near, nearest] =
-        looks.map(|part| line.slope(position + side * part * REACH * position.abs()));
+        parts.map(|part| line.slope(position + side * part * REACH * position.abs()));
     let (first, second) = (near - far, nearest - near);
     first > ROUNDING * near.abs() && second >= GROWTH * first && second.is_finite()
 }

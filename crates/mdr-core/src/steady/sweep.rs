@@ -17,6 +17,8 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 const LEFT_BY_ROUNDING: f64 = 1e-6;
 /// Layers thinner than this part of a segment are not looked into.
 const THINNEST: f64 = 1e-9;
+/// A touch that is late by more than this part of the depth is a jump.
+const LARGEST_MISS: f64 = 1e-12;
 /// A contact that ends after less than this part of a segment ends at its start, and one that begins so close to its end
 /// begins there: the dissipation of a dashpot in so short a part is the square of rounding over its length.
 const SHORTEST: f64 = 1e-13;
@@ -125,8 +127,7 @@ impl March<'_> {
         let t = if 1.0 - t > SHORTEST { t } else { 1.0 };
         let distance = 0.5 * (1.0 + t) * segment.length;
         let free = self.foundation.free_displacement(&recovery, distance);
-        self.miss(segment.displacement(t) - free, segment, t);
-        let stresses = if self.sums.contacts.is_empty() {
+        let mut stresses = if self.sums.contacts.is_empty() {
             self.foundation.unstrained()
         } else {
             self.foundation.free_stresses(&recovery, distance)
@@ -134,6 +135,11 @@ impl March<'_> {
         let position = segment.position(t);
         let displacement = self.strain(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);
+        let compression = segment.displacement(t) - free;
+        if compression > LARGEST_MISS {
+            self.foundation.strike(&mut stresses, compression);
+        }
+        self.miss(compression, segment, t);
         self.sums.contacts.push([position; 2]);
         self.surface = Surface::Loaded {
             stresses,
@@ -169,11 +175,17 @@ impl March<'_> {
         }
     }
 
-    /// Counts a touch that comes too late by a compression, because positions are rounded, as an error.
+    /// Counts a touch that comes too late by a compression, because positions are rounded, as an error; a dashpot does not
+    /// jump at all.
     fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
-        let compression = compression.abs();
-        self.sums.load_error += compression * self.foundation.stiffness(self.profile.length());
-        self.sums.work_error += compression * self.foundation.resistance(segment.rate(t));
+        let length = self.profile.length();
+        let [carried, resisted] = if compression > LARGEST_MISS {
+            self.foundation.damping(segment.rate(t))
+        } else {
+            self.foundation.resistance(segment.rate(t), length)
+        };
+        self.sums.load_error += compression.abs() * carried;
+        self.sums.work_error += compression.abs() * resisted;
     }
 
     fn leave(&mut self, stresses: &[f64], segment: &Segment, t: f64, tail: f64) {

@@ -2,17 +2,14 @@
 //! and neither units nor the side of a pressed line matter.
 
 use indenters::{
-    Axisymmetric, EquivalentLine, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
+    Axisymmetric, Control, EquivalentLine, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
 };
-use mdr_core::{
-    IndentControl, IndentOptions, IndentRow, IndentStep, SlidingDepth, SteadyOptions,
-    SteadySliding, indent, indent_history, steady, steady_at_depth,
-};
+use mdr_core::{IndentRow, IndentStep, SteadySliding, indent_history, steady};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rheology::Prony;
 
-use crate::support::{assert_close, load, prony};
+use crate::support::{ASKED, assert_close, at_depth, indent, load, prony};
 
 /// One unit of length \[m], stress \[Pa] and time \[s].
 type Units = [f64; 3];
@@ -109,18 +106,9 @@ impl Scene {
     /// Slides `depth` deep.
     fn at_depth(&self, depth: f64, [length, stress, time]: Units) -> SteadySliding {
         let body = self.body(length);
-        let motion = SlidingDepth {
-            indentation_depth: depth * length,
-            velocity: self.velocity * length / time,
-        };
+        let motion = at_depth(depth * length, self.velocity * length / time);
         let material = self.material(stress, time);
-        steady_at_depth(
-            &EquivalentLine(&*body),
-            &material,
-            &motion,
-            &SteadyOptions::default(),
-        )
-        .expect("a stationary state")
+        steady(&EquivalentLine(&*body), &material, &motion, ASKED).expect("a stationary state")
     }
 }
 
@@ -177,13 +165,13 @@ proptest! {
         let state = scene.at_depth(scene.depth, units);
         let body = scene.body(1.0);
         let material = scene.material(1.0, 1.0);
-        let load = load(state.normal_force, scene.velocity);
-        let back = steady(&EquivalentLine(&*body), &material, &load, &SteadyOptions::default());
+        let load = load(state.normal_force.value, scene.velocity);
+        let back = steady(&EquivalentLine(&*body), &material, &load, ASKED);
         let back = back.expect("a stationary state");
-        close(back.indentation_depth, scene.depth, STEADY, &scene);
-        close(back.normal_force, state.normal_force, STEADY, &scene);
-        close(back.friction_coefficient, state.friction_coefficient, STEADY, &scene);
-        prop_assert!(state.friction_coefficient >= 0.0, "{state:?}");
+        close(back.indentation_depth.value, scene.depth, STEADY, &scene);
+        close(back.normal_force.value, state.normal_force.value, STEADY, &scene);
+        close(back.friction_coefficient.value, state.friction_coefficient.value, STEADY, &scene);
+        prop_assert!(state.friction_coefficient.value >= 0.0, "{state:?}");
         for [rear, front] in &state.contacts {
             prop_assert!(rear < front, "{state:?}");
         }
@@ -191,7 +179,7 @@ proptest! {
 
     #[test]
     fn a_deeper_line_carries_more(scene in scene(), more in 1.001..2.0_f64) {
-        let forces = [1.0, more].map(|factor| scene.at_depth(factor * scene.depth, [1.0; 3]).normal_force);
+        let forces = [1.0, more].map(|factor| scene.at_depth(factor * scene.depth, [1.0; 3]).normal_force.value);
         prop_assert!(forces[1] > forces[0], "{forces:?} at depths of a ratio of {more}");
     }
 
@@ -200,8 +188,8 @@ proptest! {
         let [length, stress, _] = units;
         let expected = scene.at_depth(scene.depth, [1.0; 3]);
         let actual = scene.at_depth(scene.depth, units);
-        close(actual.friction_coefficient, expected.friction_coefficient, STEADY, &scene);
-        close(actual.normal_force / (stress * length * length), expected.normal_force, STEADY, &scene);
+        close(actual.friction_coefficient.value, expected.friction_coefficient.value, STEADY, &scene);
+        close(actual.normal_force.value / (stress * length * length), expected.normal_force.value, STEADY, &scene);
     }
 
     /// Force by force and depth by depth are one history; more force is more depth, and a mirrored line is as deep.
@@ -222,13 +210,13 @@ proptest! {
             })
             .collect();
         let force = pressing_force(&scene, times[times.len() - 1]);
-        let options = IndentOptions { spacing: 0.01 * scene.depth.min(scene.depth.sqrt()) };
+        let spacing = 0.01 * scene.depth.min(scene.depth.sqrt());
         let press = |line: &Lopsided, force: f64| {
-            indent(line, &material, force, &times, &options).expect("an indentation")
+            indent(line, &material, force, &times, spacing).expect("an indentation")
         };
         let rows = press(&line, force);
         let history: Vec<IndentStep> = rows.iter().map(held).collect();
-        let by_depth = indent_history(&line, &material, &history, &options).expect("an indentation");
+        let by_depth = indent_history(&line, &material, &history, spacing).expect("an indentation");
         let mirrored = press(&Lopsided { slope, mirrored: true }, force);
         let deeper = press(&line, more * force);
         for (index, row) in rows.iter().enumerate() {
@@ -247,7 +235,7 @@ proptest! {
 fn held(row: &IndentRow) -> IndentStep {
     IndentStep {
         time: row.time,
-        control: IndentControl::IndentationDepth(row.indentation_depth),
+        control: Control::IndentationDepth(row.indentation_depth),
     }
 }
 

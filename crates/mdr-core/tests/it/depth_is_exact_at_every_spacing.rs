@@ -16,7 +16,7 @@ fn power_profiles_reach_the_depth_of_the_theorem() {
         for n in [3.0, 7.7, 16.0, 100.0] {
             let body = power(exponent);
             let spacing = body.line_position(DEPTH) / n;
-            let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).stationary;
+            let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).last;
             let error = row.indentation_depth / DEPTH - 1.0;
             assert!(
                 error.abs() < DRIFT,
@@ -52,7 +52,7 @@ fn casebook_discrete_line_is_in_balance() {
         heights: case.input_list("h"),
         spacing: case.input("dx"),
     };
-    let row = slide_to(&line, depth, line.spacing, DRIFT).stationary;
+    let row = slide_to(&line, depth, line.spacing, DRIFT).last;
     case.check("sum_increments", row.indentation_depth);
     let increments = case.expected_list("increments").expect("increments");
     let expected = increments
@@ -102,7 +102,7 @@ proptest! {
             );
             before = row.indentation_depth;
         }
-        let row = transient.stationary;
+        let row = transient.last;
         prop_assert!((row.indentation_depth / depth - 1.0).abs() < 1e-11, "{row:?}, {depth}");
         let (_, friction) = discrete_friction(&line, depth);
         prop_assert!(

@@ -6,7 +6,7 @@ use indenters::{
     Axisymmetric, EquivalentLine, FlatCone, FlatPunch, Hyperboloid, RoundTippedCone, Sphere,
     TruncatedParaboloid,
 };
-use mdr_core::{MdrError, SlideOptions, SlideRow, slide};
+use mdr_core::{MdrError, SlideOptions, SlideRow, slide_on_grid};
 
 use crate::support::{VISCOSITY, load_for_depth, material};
 
@@ -35,12 +35,12 @@ fn stationary(case: &Case, elements: usize) -> SlideRow {
     let (material, load) = (material(VISCOSITY), load_for_depth(case.input("D")));
     let options = SlideOptions {
         drift_tolerance: 1e-6,
-        ..SlideOptions::with_elements(elements, body.as_ref(), &material, &load)
+        ..SlideOptions::with_elements(elements, &EquivalentLine(body.as_ref()), &material, &load)
             .expect("a contact radius")
     };
-    slide(&EquivalentLine(body.as_ref()), &material, &load, &options)
+    slide_on_grid(&EquivalentLine(body.as_ref()), &material, &load, &options)
         .expect("a stationary state")
-        .stationary
+        .last
 }
 
 /// The mean slope is below the integral by about 1/(4 n²), with n = 200 elements 6e-6.
@@ -77,14 +77,14 @@ fn bodies_lower_than_the_stationary_depth_have_no_stationary_state() {
     };
     let punch = FlatPunch::new(1.0).expect("a punch");
     let load = load_for_depth(0.1);
-    let result = slide(
+    let result = slide_on_grid(
         &EquivalentLine(&punch),
         &material(VISCOSITY),
         &load,
         &options,
     );
     assert!(
-        matches!(result, Err(MdrError::NoStationaryState { available, .. }) if available.abs() < 1e-15),
+        matches!(result, Err(MdrError::ForceBeyondEdge { available, .. }) if available.abs() < 1e-15),
         "{result:?}"
     );
 }

@@ -2,7 +2,7 @@
 //! to first order with the slope at the end of the step.
 
 use indenters::{EquivalentLine, PowerProfile};
-use mdr_core::{SlideOptions, SlideRow, slide};
+use mdr_core::{SlideOptions, SlideRow, slide_on_grid};
 
 use crate::support::{DEPTH, load, material, observed_orders, power, power_friction, slide_to};
 
@@ -18,7 +18,7 @@ fn refined(exponent: f64, coarsest: f64) -> Vec<(f64, SlideRow)> {
         .map(|refinement: f64| {
             let n = coarsest * refinement;
             let transient = slide_to(&EquivalentLine(&body), DEPTH, length / n, DRIFT);
-            (n, transient.stationary)
+            (n, transient.last)
         })
         .to_vec()
 }
@@ -127,7 +127,7 @@ fn cone_is_exact_at_any_spacing() {
     for n in [3.0, 4.5, 10.0, 33.3, 512.0] {
         let body = power(1.0);
         let spacing = body.line_position(DEPTH) / n;
-        let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).stationary;
+        let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).last;
         let exact = power_friction(&body, DEPTH);
         let [mean, end] = [
             row.friction_coefficient,
@@ -154,11 +154,12 @@ fn casebook_frictions_come_out() {
         let body = PowerProfile::new(case.input("c"), case.input("p")).expect("a power profile");
         let material = material(case.input("eta"));
         let load = load(case.input("F"), case.input("v"));
-        let options = SlideOptions::with_elements(256, &body, &material, &load).expect("a contact");
-        let transient =
-            slide(&EquivalentLine(&body), &material, &load, &options).expect("a stationary state");
-        case.check_within("mu", transient.stationary.friction_coefficient, 2e-5);
-        case.check_within("d", transient.stationary.indentation_depth, 1e-9);
+        let options = SlideOptions::with_elements(256, &EquivalentLine(&body), &material, &load)
+            .expect("a contact");
+        let transient = slide_on_grid(&EquivalentLine(&body), &material, &load, &options)
+            .expect("a stationary state");
+        case.check_within("mu", transient.last.friction_coefficient, 2e-5);
+        case.check_within("d", transient.last.indentation_depth, 1e-9);
     }
 }
 
@@ -167,7 +168,7 @@ fn casebook_frictions_come_out() {
 fn ten_elements_and_the_slope_at_the_end_are_several_per_cent_low() {
     let body = power(2.0);
     let spacing = body.line_position(DEPTH) / 10.0;
-    let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).stationary;
+    let row = slide_to(&EquivalentLine(&body), DEPTH, spacing, DRIFT).last;
     let sum = |term: fn(f64) -> f64| (0..10).map(|j| term(f64::from(j))).sum::<f64>();
     let expected = sum(|j| (2.0 * j + 1.0) * 2.0 * j) / sum(|j| (2.0 * j + 1.0).powi(2));
     let end = row

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use friction_analytic::{WavyLine, wavy_sliding};
 use indenters::AnalyticLine;
-use mdr_core::{SlidingDepth, SteadyOptions, steady_at_depth};
+use mdr_core::steady;
 
-use crate::support::{assert_close, model};
+use crate::support::{assert_close, at_depth, model};
 
 /// Friction force \[N] of `n_waves` of amplitude 1 and length 1 behind a runner.
 fn friction(n_waves: f64, mean_depth: f64, velocity: f64) -> f64 {
@@ -25,17 +25,11 @@ fn friction(n_waves: f64, mean_depth: f64, velocity: f64) -> f64 {
         }
     };
     let line = AnalyticLine::new(height, slope, [-n_waves, 1.0]).expect("a line");
-    let motion = SlidingDepth {
-        // The lowest point lies one amplitude below the mean.
-        indentation_depth: mean_depth + 1.0,
-        velocity,
-    };
-    let options = SteadyOptions {
-        relative_error: 1e-11,
-    };
-    let state = steady_at_depth(&line, &model("W4"), &motion, &options).expect("a state");
+    // The lowest point lies one amplitude below the mean.
+    let load = at_depth(mean_depth + 1.0, velocity);
+    let state = steady(&line, &model("W4"), &load, 1e-11).expect("a state");
     assert_eq!(state.contacts.len(), 1, "full contact: {state:?}");
-    state.friction_coefficient * state.normal_force
+    state.friction_coefficient.value * state.normal_force.value
 }
 
 /// Forty waves later nothing is left of the front, except from a branch that relaxes over ten waves, e⁻⁴⁰ of it too.

@@ -2,12 +2,12 @@
 //! the exact solution of the half space.
 
 use casebook::Case;
-use indenters::EquivalentLine;
-use mdr_core::{IndentControl, IndentOptions, IndentRow, IndentStep, indent, indent_history};
+use indenters::{Control, EquivalentLine};
+use mdr_core::{IndentRow, IndentStep, indent_history};
 
 use rheology::Prony;
 
-use crate::support::{Shape, assert_close, model, prony};
+use crate::support::{Shape, assert_close, indent, model, prony};
 
 /// Elements along the radius, and steps: the sum over elements is known to their number squared, the load held over
 /// steps to the number of these.
@@ -45,7 +45,7 @@ fn triangle(case: &Case, turn: f64, end: f64) -> Vec<IndentStep> {
         let depth = case.input("V") * (turn - (time - turn).abs());
         IndentStep {
             time,
-            control: IndentControl::IndentationDepth(depth),
+            control: Control::IndentationDepth(depth),
         }
     };
     (1..=STEPS).map(step).collect()
@@ -54,15 +54,13 @@ fn triangle(case: &Case, turn: f64, end: f64) -> Vec<IndentStep> {
 fn press(shape: Shape, case: &Case, [turn, end]: [f64; 2]) -> Vec<IndentRow> {
     let body = shape.body(line_coefficient(shape, case));
     let radius = indenters::contact_radius(&body, case.input("V") * turn).expect("a radius");
-    let options = IndentOptions {
-        spacing: radius / ELEMENTS,
-    };
+    let spacing = radius / ELEMENTS;
     let material = material_of(case);
     indent_history(
         &EquivalentLine(&body),
         &material,
         &triangle(case, turn, end),
-        &options,
+        spacing,
     )
     .expect("a history")
 }
@@ -100,16 +98,14 @@ fn a_step_of_force_has_the_depth_of_lee_and_radok() {
         for (shape, name) in SHAPES {
             let body = shape.body(line_coefficient(shape, &case));
             let radius = case.expected(&format!("a_{name}")).expect("a radius");
-            let options = IndentOptions {
-                spacing: radius / ELEMENTS,
-            };
+            let spacing = radius / ELEMENTS;
             let material = material_of(&case);
             let rows = indent(
                 &EquivalentLine(&body),
                 &material,
                 case.input("F"),
                 &times,
-                &options,
+                spacing,
             )
             .expect("a history");
             // The steps are 1.3 % of the time.
@@ -174,12 +170,10 @@ fn a_held_depth_relaxes_at_every_time_scale() {
         };
         let body = Shape::Paraboloid.body(case.input("R").recip());
         let radius = (case.input("R") * case.input("d")).sqrt();
-        let options = IndentOptions {
-            spacing: radius / ELEMENTS,
-        };
+        let spacing = radius / ELEMENTS;
         let held = |time| IndentStep {
             time,
-            control: IndentControl::IndentationDepth(case.input("d")),
+            control: Control::IndentationDepth(case.input("d")),
         };
         let time = case.input("t");
         let fraction = |k: usize| k as f64 / STEPS as f64;
@@ -187,7 +181,7 @@ fn a_held_depth_relaxes_at_every_time_scale() {
         let steps: Vec<IndentStep> = times.map(held).collect();
         let material = material_of(&case);
         let rows =
-            indent_history(&EquivalentLine(&body), &material, &steps, &options).expect("a history");
+            indent_history(&EquivalentLine(&body), &material, &steps, spacing).expect("a history");
         // The steps are 1.7 % of the time.
         assert_close([rows[STEPS].normal_force, expected], 0.017, 0.0, &case.id());
     }

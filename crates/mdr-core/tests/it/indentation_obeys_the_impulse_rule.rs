@@ -2,9 +2,8 @@
 //! do not matter, the spacing does.
 
 use indenters::{EquivalentLine, PowerProfile};
-use mdr_core::{IndentOptions, indent};
 
-use crate::support::{VISCOSITY, material, observed_orders};
+use crate::support::{VISCOSITY, indent, material, observed_orders};
 
 const FORCE: f64 = 2.0;
 const TIME: f64 = 3.0;
@@ -22,15 +21,13 @@ fn exact(body: &PowerProfile, time: f64) -> [f64; 2] {
 fn depth_error(exponent: f64, n: f64) -> f64 {
     let body = PowerProfile::new(0.4, exponent).expect("a power profile");
     let [depth, radius] = exact(&body, TIME);
-    let options = IndentOptions {
-        spacing: radius / n,
-    };
+    let spacing = radius / n;
     let rows = indent(
         &EquivalentLine(&body),
         &material(VISCOSITY),
         FORCE,
         &[TIME],
-        &options,
+        spacing,
     )
     .expect("a contact");
     rows[0].indentation_depth / depth - 1.0
@@ -70,9 +67,7 @@ fn casebook_rows_come_out() {
         let exponent = case.input("p");
         let body = PowerProfile::new(case.input("c"), exponent).expect("a power profile");
         let radius = case.expected("a").expect("a radius");
-        let options = IndentOptions {
-            spacing: radius / 1000.0,
-        };
+        let spacing = radius / 1000.0;
         let material = material(case.input("eta"));
         let times = [case.input("t")];
         let rows = indent(
@@ -80,7 +75,7 @@ fn casebook_rows_come_out() {
             &material,
             case.input("F"),
             &times,
-            &options,
+            spacing,
         )
         .expect("a contact");
         let tolerance = 2.0 * exponent.max(1.0) * 1000.0_f64.powf(-(exponent + 1.0).min(2.0));
@@ -97,12 +92,10 @@ fn casebook_rows_come_out() {
 fn number_of_time_steps_does_not_matter() {
     for exponent in [0.5, 1.0, 2.0, 4.0] {
         let body = PowerProfile::new(0.4, exponent).expect("a power profile");
-        let options = IndentOptions {
-            spacing: exact(&body, TIME)[1] / 50.3,
-        };
+        let spacing = exact(&body, TIME)[1] / 50.3;
         let last_depth = |times: &[f64]| {
             let line = EquivalentLine(&body);
-            let rows = indent(&line, &material(VISCOSITY), FORCE, times, &options);
+            let rows = indent(&line, &material(VISCOSITY), FORCE, times, spacing);
             rows.expect("a contact")[times.len() - 1].indentation_depth
         };
         let at_once = last_depth(&[TIME]);
@@ -126,25 +119,23 @@ fn number_of_time_steps_does_not_matter() {
 fn history_follows_the_power_law() {
     let body = PowerProfile::paraboloid(0.4).expect("a paraboloid");
     let [_, radius] = exact(&body, TIME);
-    let options = IndentOptions {
-        spacing: radius / 400.0,
-    };
+    let spacing = radius / 400.0;
     let times: Vec<f64> = (1..=60).map(|k| TIME * f64::from(k) / 60.0).collect();
     let rows = indent(
         &EquivalentLine(&body),
         &material(VISCOSITY),
         FORCE,
         &times,
-        &options,
+        spacing,
     )
     .expect("a contact");
     for row in rows {
         let [depth, radius] = exact(&body, row.time);
-        let n = radius / options.spacing;
+        let n = radius / spacing;
         let [rear, front] = row.contact.expect("a contact");
         assert!(
             (row.indentation_depth / depth - 1.0).abs() < n.powi(-2)
-                && (front - radius).abs() <= 1.01 * options.spacing
+                && (front - radius).abs() <= 1.01 * spacing
                 && (rear + front).abs() <= 1e-12 * radius,
             "{row:?} instead of depth {depth}, radius {radius}"
         );

@@ -5,6 +5,7 @@ mod bad_input_is_refused;
 mod contact_balances_the_force;
 mod cusps_and_kinks;
 mod depth_is_exact_at_every_spacing;
+mod edges_and_bars;
 mod every_body_of_revolution_slides;
 mod friction_converges_to_the_theorem;
 mod full_contact_obeys_the_complex_modulus;

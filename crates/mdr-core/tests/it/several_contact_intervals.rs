@@ -1,7 +1,7 @@
 //! A leading edge of several intervals carries load on each of them, and nowhere between (casebook FRI-03).
 
 use casebook::Case;
-use mdr_core::{MdrError, SlideOptions, Transient, slide};
+use mdr_core::{MdrError, SlideOptions, Transient, slide_on_grid};
 
 use crate::support::{Cubic, VISCOSITY, load_for_depth, material, observed_orders};
 
@@ -23,7 +23,7 @@ fn slide_cubic(case: &Case, per_length: f64) -> Result<Transient, MdrError> {
         max_sliding_distance: 200.0,
     };
     let load = load_for_depth(scale * case.input("D_over_eps"));
-    slide(
+    slide_on_grid(
         &Cubic { scale, mirrored },
         &material(VISCOSITY),
         &load,
@@ -40,7 +40,7 @@ fn friction_and_ends_agree_with_the_casebook() {
         let per_length = 200.0;
         let row = slide_cubic(case, per_length)
             .expect("a stationary state")
-            .stationary;
+            .last;
         case.check_within("mu", row.friction_coefficient, per_length.powi(-2));
         let intervals = case.expected_list("intervals").expect("intervals");
         let ends = [intervals[0], intervals[intervals.len() - 1]];
@@ -67,7 +67,7 @@ fn friction_over_a_gap_is_second_order() {
     let errors: Vec<f64> = [8.0, 16.0, 32.0, 64.0, 128.0]
         .iter()
         .map(|n| slide_cubic(&case, *n).expect("a stationary state"))
-        .map(|transient| transient.stationary.friction_coefficient / exact - 1.0)
+        .map(|transient| transient.last.friction_coefficient / exact - 1.0)
         .collect();
     for order in observed_orders(&errors) {
         assert!(
@@ -92,10 +92,11 @@ fn too_low_a_leading_edge_has_no_stationary_state() {
             1.5 * case.input("eps")
         };
         match slide_cubic(case, 50.0) {
-            Err(MdrError::NoStationaryState {
+            Err(MdrError::ForceBeyondEdge {
                 normal_force,
                 carried_force,
                 available,
+                ..
             }) => {
                 n_refused += 1;
                 let close = |a: f64, b: f64| (a - b).abs() < 1e-14;

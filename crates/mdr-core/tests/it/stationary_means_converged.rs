@@ -2,7 +2,7 @@
 //! far it came.
 
 use indenters::{EquivalentLine, RigidLine};
-use mdr_core::{MdrError, SlideOptions, slide};
+use mdr_core::{MdrError, SlideOptions, slide_on_grid};
 
 use crate::support::{
     DEPTH, Nodes, VISCOSITY, load_for_depth, material, power, power_friction, slide_to,
@@ -15,10 +15,10 @@ fn distance_to_the_limit_is_below_the_drift() {
         let body = power(exponent);
         let (length, n) = (body.line_position(DEPTH), 100.0_f64);
         let line = EquivalentLine(&body);
-        let limit = slide_to(&line, DEPTH, length / n, 1e-13).stationary;
+        let limit = slide_to(&line, DEPTH, length / n, 1e-13).last;
         for drift_tolerance in [1e-2, 1e-4, 1e-6, 1e-8] {
             let transient = slide_to(&line, DEPTH, length / n, drift_tolerance);
-            let row = transient.stationary;
+            let row = transient.last;
             let depth = (row.indentation_depth / limit.indentation_depth - 1.0).abs();
             let friction = (row.friction_coefficient / limit.friction_coefficient - 1.0).abs();
             let bound = transient.drift / ((1.0 + 1.0 / n).powf(n) - 1.0);
@@ -45,7 +45,7 @@ fn too_short_a_distance_returns_the_transient_in_the_error() {
         drift_tolerance: 1e-6,
         max_sliding_distance: 2.01 * length,
     };
-    let result = slide(
+    let result = slide_on_grid(
         &EquivalentLine(&body),
         &material(VISCOSITY),
         &load_for_depth(DEPTH),
@@ -82,7 +82,7 @@ fn drift_is_that_from_nothing_before_one_contact_length() {
         drift_tolerance: 0.5,
         max_sliding_distance: 0.5 * spacing,
     };
-    let result = slide(
+    let result = slide_on_grid(
         &EquivalentLine(&body),
         &material(VISCOSITY),
         &load_for_depth(DEPTH),
@@ -106,7 +106,7 @@ fn too_few_elements_are_refused() {
         drift_tolerance: 1e-6,
         max_sliding_distance: 100.0 * spacing,
     };
-    let result = slide(
+    let result = slide_on_grid(
         &EquivalentLine(&body),
         &material(VISCOSITY),
         &load_for_depth(DEPTH),
@@ -140,8 +140,8 @@ fn contact_reaches_the_last_element() {
         drift_tolerance: 1e-9,
         max_sliding_distance: 100.0,
     };
-    let result = slide(&Ramp, &material(VISCOSITY), &load_for_depth(0.99), &options);
-    let Err(MdrError::ContactReachesBoundary {
+    let result = slide_on_grid(&Ramp, &material(VISCOSITY), &load_for_depth(0.99), &options);
+    let Err(MdrError::ContactReachesEdge {
         position,
         indentation_depth,
         time,
@@ -165,7 +165,7 @@ fn a_second_foot_beyond_a_hump_is_seen() {
         heights,
         spacing: 1.0,
     };
-    let row = slide_to(&line, 0.3, 1.0, 1e-12).stationary;
+    let row = slide_to(&line, 0.3, 1.0, 1e-12).last;
     assert!(
         (row.contact[1] - 44.0).abs() < 1e-12 && (row.indentation_depth - 0.3).abs() < 1e-12,
         "front {:?}, depth {}",
@@ -190,7 +190,7 @@ fn the_lowest_point_of_a_smooth_line_is_found() {
         }
     }
     // D = 0.1, x_d = 0.1, n = 20: the mean slope gives (4/3) (D/x_d) (1 - 1/(4 n^2)) when an element is at the apex.
-    let row = slide_to(&Parabola, DEPTH, 0.005, 1e-11).stationary;
+    let row = slide_to(&Parabola, DEPTH, 0.005, 1e-11).last;
     let expected = 4.0 / 3.0 * (1.0 - 1.0 / 1600.0);
     // The lowest point of a smooth line is known to the square root of rounding, half of the digits.
     assert!(
@@ -215,7 +215,7 @@ fn a_far_foot_on_an_infinite_domain_is_seen() {
             [f64::NEG_INFINITY, f64::INFINITY]
         }
     }
-    let row = slide_to(&TwoFeet, 0.3, 0.05, 1e-11).stationary;
+    let row = slide_to(&TwoFeet, 0.3, 0.05, 1e-11).last;
     assert!(
         row.contact[0].abs() < 1e-12 && (row.contact[1] - 30.45).abs() <= 0.051,
         "contact {:?} instead of [0, 30.5]",

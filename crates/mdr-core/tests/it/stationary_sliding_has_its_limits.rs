@@ -8,11 +8,12 @@ use friction_analytic::{
 use indenters::{
     Axisymmetric, EquivalentLine, FlatCone, Hyperboloid, PowerProfile, RigidLine, Sphere,
 };
-use mdr_core::{MdrError, SlidingDepth, SteadyOptions, SteadySliding, steady, steady_at_depth};
+use mdr_core::{MdrError, SteadySliding, steady};
 use rheology::{Elastic, KelvinVoigt, Material, StandardSolid, StandardSolidParameters};
 
 use crate::support::{
-    Cubic, VISCOSITY, assert_close, load, load_for_depth, material, power, prony, twenty_branches,
+    ASKED, Cubic, VISCOSITY, assert_close, at_depth, load, load_for_depth, material, power, prony,
+    twenty_branches,
 };
 
 fn slid(
@@ -21,7 +22,7 @@ fn slid(
     [force, velocity]: [f64; 2],
 ) -> SteadySliding {
     let load = load(force, velocity);
-    steady(line, material, &load, &SteadyOptions::default()).expect("a stationary state")
+    steady(line, material, &load, ASKED).expect("a stationary state")
 }
 
 /// Theorems 3 and 6 hold to rounding and to the error of either side.
@@ -40,11 +41,10 @@ fn a_dashpot_obeys_the_theorems() {
             let (dashpot, load) = (material(VISCOSITY), load_for_depth(depth));
             let exact = axisymmetric_sliding(body.as_ref(), &dashpot, &load).expect("a theorem");
             let line = EquivalentLine(body.as_ref());
-            let state = steady(&line, &dashpot, &load, &SteadyOptions::default())
-                .expect("a stationary state");
-            assert_close([state.indentation_depth, depth], 1e-13, 0.0, &state);
-            let error = state.friction_coefficient_error + 1e-12 * exact.friction_coefficient;
-            let difference = state.friction_coefficient - exact.friction_coefficient;
+            let state = steady(&line, &dashpot, &load, ASKED).expect("a stationary state");
+            assert_close([state.indentation_depth.value, depth], 1e-13, 0.0, &state);
+            let error = state.friction_coefficient.error + 1e-12 * exact.friction_coefficient;
+            let difference = state.friction_coefficient.value - exact.friction_coefficient;
             assert!(
                 difference.abs() <= error,
                 "at {depth}: {state:?} instead of {exact:?}"
@@ -63,14 +63,8 @@ fn a_dashpot_is_touched_along_the_leading_edge() {
         }
         let (line, load) = cubic(&case);
         let exact = line_sliding(&line, &material(VISCOSITY), &load).expect("a theorem");
-        let state = steady(
-            &line,
-            &material(VISCOSITY),
-            &load,
-            &SteadyOptions::default(),
-        )
-        .expect("a stationary state");
-        case.check_within("mu", state.friction_coefficient, 1e-9);
+        let state = steady(&line, &material(VISCOSITY), &load, ASKED).expect("a stationary state");
+        case.check_within("mu", state.friction_coefficient.value, 1e-9);
         let ends: Vec<f64> = state.contacts.iter().flatten().copied().collect();
         let expected: Vec<f64> = exact.contact_line.iter().flatten().copied().collect();
         assert_eq!(
@@ -103,14 +97,9 @@ fn a_line_that_is_too_low_has_no_stationary_state() {
             continue;
         }
         let (line, load) = cubic(&case);
-        let result = steady(
-            &line,
-            &material(VISCOSITY),
-            &load,
-            &SteadyOptions::default(),
-        );
+        let result = steady(&line, &material(VISCOSITY), &load, ASKED);
         match result {
-            Err(MdrError::NoStationaryState {
+            Err(MdrError::ForceBeyondEdge {
                 normal_force,
                 carried_force,
                 ..
@@ -133,10 +122,10 @@ fn a_spring_has_no_friction() {
             let body = power(exponent);
             let state = slid(&EquivalentLine(&body), &spring, [1e-3, velocity]);
             let front = state.contacts[0][1];
-            let half = exponent / (exponent + 1.0) * state.indentation_depth * front;
+            let half = exponent / (exponent + 1.0) * state.indentation_depth.value * front;
             assert_close([8.0 * 3.0 * half, 1e-3], 1e-8, 0.0, &state);
             assert!(
-                state.friction_coefficient.to_bits() == 0,
+                state.friction_coefficient.value.to_bits() == 0,
                 "p = {exponent}: {state:?}"
             );
         }
@@ -162,14 +151,10 @@ fn slow_and_fast_solids_have_the_friction_of_the_elastic_limits() {
         let contact_radius = case.input("a");
         for (name, velocity) in [("mu_slow_mdr", "v_slow"), ("mu_fast", "v_fast")] {
             let velocity = case.input(velocity);
-            let motion = SlidingDepth {
-                indentation_depth: body.line_height(contact_radius),
-                velocity,
-            };
+            let motion = at_depth(body.line_height(contact_radius), velocity);
             let line = EquivalentLine(&body);
-            let state = steady_at_depth(&line, &solid, &motion, &SteadyOptions::default())
-                .expect("a stationary state");
-            case.check_within(name, state.friction_coefficient, 1e-6);
+            let state = steady(&line, &solid, &motion, ASKED).expect("a stationary state");
+            case.check_within(name, state.friction_coefficient.value, 1e-6);
             let contact = ElasticContact {
                 contact_radius,
                 velocity,
@@ -181,7 +166,7 @@ fn slow_and_fast_solids_have_the_friction_of_the_elastic_limits() {
             };
             let limit = limit.expect("a limit");
             assert_close(
-                [state.normal_force, limit.normal_force],
+                [state.normal_force.value, limit.normal_force],
                 1e-6,
                 0.0,
                 &case.id(),
@@ -199,14 +184,13 @@ fn twenty_branches_keep_the_error_over_all_speeds() {
         for decade in -12..=12 {
             let load = load(10.0, 10.0_f64.powi(decade));
             let [state, finer] = [1e-6, 1e-11].map(|relative_error| {
-                steady(&line, &material, &load, &SteadyOptions { relative_error })
-                    .expect("a stationary state")
+                steady(&line, &material, &load, relative_error).expect("a stationary state")
             });
-            let difference = state.friction_coefficient - finer.friction_coefficient;
+            let difference = state.friction_coefficient.value - finer.friction_coefficient.value;
             assert!(
-                difference.abs() <= state.friction_coefficient_error
-                    && state.friction_coefficient_error <= 1e-6 * finer.friction_coefficient
-                    && finer.friction_coefficient > 0.0,
+                difference.abs() <= state.friction_coefficient.error
+                    && state.friction_coefficient.error <= 1e-6 * finer.friction_coefficient.value
+                    && finer.friction_coefficient.value > 0.0,
                 "{body:?} at 1e{decade}: {state:?}, finer {finer:?}"
             );
         }
@@ -229,7 +213,7 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
         let line = EquivalentLine(body.as_ref());
         for dashpot in &dashpots {
             let load = load(1.0, 0.1);
-            let result = steady(&line, dashpot.as_ref(), &load, &SteadyOptions::default());
+            let result = steady(&line, dashpot.as_ref(), &load, ASKED);
             assert!(
                 matches!(result, Err(MdrError::FrictionDiverges { position }) if position.abs() < 0.011),
                 "{dashpot:?}: {result:?}"
@@ -237,7 +221,7 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
         }
         let branch = prony([0.0, 0.0], &[(1.0, 1.0)]);
         let state = slid(&line, &branch, [1.0, 0.1]);
-        assert!(state.friction_coefficient > 0.0, "{state:?}");
+        assert!(state.friction_coefficient.value > 0.0, "{state:?}");
     }
 }
 
@@ -252,12 +236,12 @@ fn a_poisson_ratio_is_a_smaller_modulus() {
     let incompressible = slid(&line, &solid, [1.6, 0.3]);
     for (actual, expected) in [
         (
-            compressed.indentation_depth,
-            incompressible.indentation_depth,
+            compressed.indentation_depth.value,
+            incompressible.indentation_depth.value,
         ),
         (
-            compressed.friction_coefficient,
-            incompressible.friction_coefficient,
+            compressed.friction_coefficient.value,
+            incompressible.friction_coefficient.value,
         ),
     ] {
         assert_close([actual, expected], 1e-12, 0.0, &compressed);

@@ -3,10 +3,10 @@
 
 use casebook::Case;
 use indenters::{EquivalentLine, RigidLine};
-use mdr_core::{SlidingDepth, SteadyOptions, SteadySliding, steady, steady_at_depth};
+use mdr_core::{SteadySliding, steady};
 use rheology::{StandardSolid, StandardSolidParameters};
 
-use crate::support::{assert_close, body_of, foundation_of, load};
+use crate::support::{ASKED, assert_close, at_depth, body_of, foundation_of, load};
 
 const GROUPS: [&str; 6] = ["MDR-03", "MDR-04", "MDR-05", "MDR-06", "MDR-07", "MDR-08"];
 
@@ -17,7 +17,7 @@ fn states(group: &str) -> impl Iterator<Item = Case> {
 }
 
 /// At the force where one is given, else at the depth of the leading edge.
-fn solve(case: &Case, options: &SteadyOptions) -> SteadySliding {
+fn solve(case: &Case, relative_error: f64) -> SteadySliding {
     let (body, material) = (body_of(case), foundation_of(case));
     let line = EquivalentLine(body.as_ref());
     let velocity = case.input("v");
@@ -26,23 +26,20 @@ fn solve(case: &Case, options: &SteadyOptions) -> SteadySliding {
             &line,
             material.as_ref(),
             &load(case.input("F"), velocity),
-            options,
+            relative_error,
         )
         .expect("a stationary state");
     }
-    let motion = SlidingDepth {
-        indentation_depth: line.height(case.input("x_r")),
-        velocity,
-    };
-    steady_at_depth(&line, material.as_ref(), &motion, options).expect("a stationary state")
+    let motion = at_depth(line.height(case.input("x_r")), velocity);
+    steady(&line, material.as_ref(), &motion, relative_error).expect("a stationary state")
 }
 
 /// The ends count relative to the contact: one of them may lie at the apex.
 fn check(case: &Case, state: &SteadySliding) {
     for (name, actual) in [
-        ("d", state.indentation_depth),
-        ("F", state.normal_force),
-        ("mu", state.friction_coefficient),
+        ("d", state.indentation_depth.value),
+        ("F", state.normal_force.value),
+        ("mu", state.friction_coefficient.value),
     ] {
         if case.expected(name).is_some() {
             case.check(name, actual);
@@ -69,7 +66,7 @@ fn every_foundation_comes_out() {
     for group in GROUPS {
         let mut n_rows = 0;
         for case in states(group) {
-            check(&case, &solve(&case, &SteadyOptions::default()));
+            check(&case, &solve(&case, ASKED));
             n_rows += 1;
         }
         assert!(n_rows >= 10, "{group}: only {n_rows} rows");
@@ -81,16 +78,16 @@ fn every_foundation_comes_out() {
 fn the_error_covers_what_the_casebook_knows_better() {
     for relative_error in [1e-2, 1e-4, 1e-6] {
         for case in GROUPS.iter().flat_map(|group| states(group)) {
-            let state = solve(&case, &SteadyOptions { relative_error });
+            let state = solve(&case, relative_error);
             let expected = case.expected("mu").expect("a friction coefficient");
-            let error = (state.friction_coefficient - expected).abs();
+            let error = (state.friction_coefficient.value - expected).abs();
             let known = 1e-11 * expected + 1e-13;
             assert!(
-                error <= state.friction_coefficient_error + known
-                    && state.friction_coefficient_error <= relative_error * expected,
+                error <= state.friction_coefficient.error + known
+                    && state.friction_coefficient.error <= relative_error * expected,
                 "{}: error {error:e}, estimate {:e} of {expected:e} at {relative_error:e}",
                 case.id(),
-                state.friction_coefficient_error
+                state.friction_coefficient.error
             );
         }
     }
@@ -106,17 +103,8 @@ fn a_vanishing_spring_leaves_the_fluid() {
         let state = |material| {
             let k = case.input("k");
             let body = crate::support::Shape::Paraboloid.body(k);
-            let motion = SlidingDepth {
-                indentation_depth: k * case.input("x_r").powi(2),
-                velocity: case.input("v"),
-            };
-            steady_at_depth(
-                &EquivalentLine(&body),
-                &material,
-                &motion,
-                &SteadyOptions::default(),
-            )
-            .expect("a stationary state")
+            let motion = at_depth(k * case.input("x_r").powi(2), case.input("v"));
+            steady(&EquivalentLine(&body), &material, &motion, ASKED).expect("a stationary state")
         };
         let solid = StandardSolid::new(StandardSolidParameters {
             equilibrium_modulus: case.input("G1"),
@@ -124,7 +112,7 @@ fn a_vanishing_spring_leaves_the_fluid() {
             viscosity: case.input("G2") * case.input("tau"),
         });
         let solid = state(solid.expect("a solid"));
-        case.check("F", solid.normal_force);
-        case.check("mu", solid.friction_coefficient);
+        case.check("F", solid.normal_force.value);
+        case.check("mu", solid.friction_coefficient.value);
     }
 }

@@ -6,15 +6,40 @@ use std::fmt::Debug;
 use casebook::Case;
 use friction_analytic::{power_sliding, transient_sliding};
 use indenters::{
-    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RigidLine, RoundTippedCone,
-    SlidingLoad, Sphere, Superposition, TruncatedParaboloid, stretch,
+    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RigidLine,
+    RoundTippedCone, SlidingLoad, Sphere, Superposition, TruncatedParaboloid, stretch,
 };
-use mdr_core::{SlideOptions, Transient, slide};
+use mdr_core::{
+    IndentRow, IndentStep, MdrError, SlideOptions, Transient, indent_history, slide_on_grid,
+};
 use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
 pub(crate) const VISCOSITY: f64 = 50.0;
 pub(crate) const DEPTH: f64 = 0.1;
+
+/// Relative error asked of stationary states.
+pub(crate) const ASKED: f64 = 1e-8;
+
+pub(crate) fn at_depth(indentation_depth: f64, velocity: f64) -> SlidingLoad {
+    SlidingLoad::at_depth(indentation_depth, velocity).expect("a positive depth and speed")
+}
+
+/// Presses with a constant force up to some times.
+pub(crate) fn indent(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    force: f64,
+    times: &[f64],
+    spacing: f64,
+) -> Result<Vec<IndentRow>, MdrError> {
+    let step = |time: &f64| IndentStep {
+        time: *time,
+        control: Control::NormalForce(force),
+    };
+    let steps: Vec<IndentStep> = times.iter().map(step).collect();
+    indent_history(line, material, &steps, spacing)
+}
 
 pub(crate) fn material(viscosity: f64) -> Viscous {
     Viscous::new(viscosity).expect("a positive viscosity")
@@ -52,7 +77,7 @@ pub(crate) fn slide_to(
         drift_tolerance,
         max_sliding_distance: 1e5 * spacing,
     };
-    slide(
+    slide_on_grid(
         line,
         &material(VISCOSITY),
         &load_for_depth(stationary_depth),

@@ -2,7 +2,7 @@
 //! to 40 %.
 
 use indenters::EquivalentLine;
-use mdr_core::{SlideOptions, SlideRow, Transient, slide};
+use mdr_core::{SlideOptions, SlideRow, Transient, slide_on_grid};
 
 use crate::support::{DEPTH, Shape, load, material, slide_to};
 
@@ -22,7 +22,7 @@ fn largest_depth_error(shape: Shape, n: f64) -> f64 {
 /// at the middle of the step, to which the mean slope belongs.
 fn friction_error(shape: Shape, n: f64) -> f64 {
     let (transient, length) = march(shape, n);
-    let limit = transient.stationary.friction_coefficient;
+    let limit = transient.last.friction_coefficient;
     let squares: Vec<f64> = transient
         .rows
         .iter()
@@ -91,9 +91,10 @@ fn casebook_rows_come_out() {
             material(case.input("eta")),
             load(case.input("F"), case.input("v")),
         );
-        let options = SlideOptions::with_elements(N, &body, &material, &load).expect("a contact");
-        let transient =
-            slide(&EquivalentLine(&body), &material, &load, &options).expect("a stationary state");
+        let options = SlideOptions::with_elements(N, &EquivalentLine(&body), &material, &load)
+            .expect("a contact");
+        let transient = slide_on_grid(&EquivalentLine(&body), &material, &load, &options)
+            .expect("a stationary state");
         let at_time = |row: &&SlideRow| row.time >= case.input("t") * (1.0 - 1e-9);
         let row = transient
             .rows

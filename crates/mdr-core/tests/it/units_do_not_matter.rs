@@ -1,9 +1,9 @@
 //! Numbers depend on the question, not on its units, and are the same every time.
 
 use indenters::{EquivalentLine, PowerProfile};
-use mdr_core::{IndentOptions, SlideOptions, SteadyOptions, Transient, indent, slide, steady};
+use mdr_core::{SlideOptions, Transient, slide_on_grid, steady};
 
-use crate::support::{load, material, prony};
+use crate::support::{ASKED, indent, load, material, prony};
 
 /// One unit of length, force and time, in units of SI.
 type Units = [f64; 3];
@@ -21,9 +21,10 @@ fn march(exponent: f64, [length, force, time]: Units) -> Transient {
     let load = load(2.0 * force, 0.1 * length / time);
     let options = SlideOptions {
         drift_tolerance: 1e-13,
-        ..SlideOptions::with_elements(24, &body, &material, &load).expect("a contact")
+        ..SlideOptions::with_elements(24, &EquivalentLine(&body), &material, &load)
+            .expect("a contact")
     };
-    slide(&EquivalentLine(&body), &material, &load, &options).expect("a stationary state")
+    slide_on_grid(&EquivalentLine(&body), &material, &load, &options).expect("a stationary state")
 }
 
 fn assert_same(transient: &Transient, reference: &Transient, units: Units) {
@@ -55,7 +56,7 @@ fn assert_same(transient: &Transient, reference: &Transient, units: Units) {
             );
         }
     }
-    let (last, expected) = (transient.stationary, reference.stationary);
+    let (last, expected) = (transient.last, reference.last);
     let change = last.friction_coefficient / expected.friction_coefficient - 1.0;
     assert!(
         change.abs() < 1e-12,
@@ -93,11 +94,12 @@ fn casebook_units_give_one_friction_coefficient() {
             let load = load(case.input("F"), case.input("v"));
             let options = SlideOptions {
                 drift_tolerance: 1e-12,
-                ..SlideOptions::with_elements(64, &body, &material, &load).expect("a contact")
+                ..SlideOptions::with_elements(64, &EquivalentLine(&body), &material, &load)
+                    .expect("a contact")
             };
-            let row = slide(&EquivalentLine(&body), &material, &load, &options)
+            let row = slide_on_grid(&EquivalentLine(&body), &material, &load, &options)
                 .expect("a stationary state")
-                .stationary;
+                .last;
             case.check("d", row.indentation_depth);
             case.check_within(
                 "mu",
@@ -127,12 +129,10 @@ fn indentation_is_the_same_over_twenty_four_decades() {
     let depth = |[length, force, time]: Units| {
         let body = PowerProfile::paraboloid(0.4 / length).expect("a paraboloid");
         let material = material(50.0 * force * time / (length * length));
-        let options = IndentOptions {
-            spacing: 0.01 * length,
-        };
+        let spacing = 0.01 * length;
         let times = [1.0 * time, 3.0 * time];
         let line = EquivalentLine(&body);
-        let rows = indent(&line, &material, 2.0 * force, &times, &options).expect("a contact");
+        let rows = indent(&line, &material, 2.0 * force, &times, spacing).expect("a contact");
         rows[1].indentation_depth / length
     };
     let expected = depth([1.0; 3]);
@@ -155,10 +155,10 @@ fn the_stationary_state_is_the_same_over_twenty_four_decades() {
         let body = PowerProfile::new(0.4 * length.powf(-0.5), 1.5).expect("a power profile");
         let line = EquivalentLine(&body);
         let load = load(2.0 * force, 0.7 * length / time);
-        let state = steady(&line, &material, &load, &SteadyOptions::default()).expect("a state");
+        let state = steady(&line, &material, &load, ASKED).expect("a state");
         [
-            state.friction_coefficient,
-            state.indentation_depth / length,
+            state.friction_coefficient.value,
+            state.indentation_depth.value / length,
             state.contacts[0][0] / length,
         ]
     };

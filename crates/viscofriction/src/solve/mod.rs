@@ -8,7 +8,6 @@ mod error;
 mod half_space;
 mod line_contact;
 mod mdr;
-mod memory;
 mod offer;
 mod omission;
 mod pressing;
@@ -100,8 +99,8 @@ fn pressed(
 ) -> Result<Answer> {
     let material = &*problem.material;
     match (method, load.control()) {
-        (Method::MdrTransient, Control::NormalForce(force)) => {
-            pressing::chain(body, material, (force, load.duration()), accuracy)
+        (Method::MdrTransient, Control::NormalForce(_)) => {
+            mdr::pressed(body, material, load, accuracy)
         }
         _ => analytic::pressed(body, material, load),
     }
@@ -115,13 +114,8 @@ fn slid(
 ) -> Result<Answer> {
     let material = &*problem.material;
     match method {
-        Method::MdrSteady => {
-            let motion = (load.control(), load.velocity());
-            mdr::stationary(body, material, motion, relative_error(accuracy)?)
-        }
-        Method::MdrTransient => {
-            mdr::transient(body, material, (load, load.sliding_distance()), accuracy)
-        }
+        Method::MdrSteady => mdr::stationary(body, material, load, relative_error(accuracy)?),
+        Method::MdrTransient => mdr::transient(body, material, load, accuracy),
         _ => analytic::slid(body, material, load, problem.model),
     }
 }
@@ -132,13 +126,4 @@ fn relative_error(accuracy: Accuracy) -> Result<f64> {
         Accuracy::RelativeError(error) => Ok(error),
         Accuracy::Elements(elements) => bail!("the method has no {elements} elements"),
     }
-}
-
-/// Orders of friction: smooth bodies are better than the first, which their outline on the elements makes safe to assume;
-/// below the smallest one nothing converges.
-const ORDERS: [f64; 2] = [0.1, 1.0];
-
-/// The order 2p − 1 of the friction under an apex h ∼ r^p, or the first where that is slower.
-fn order_of_apex(exponent: f64) -> f64 {
-    (2.0 * exponent - 1.0).clamp(ORDERS[0], ORDERS[1])
 }

@@ -17,7 +17,7 @@ use anyhow::{Context, Result};
 use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
-use mdr_core::{SlidingDepth, SteadyOptions, steady_at_depth};
+use mdr_core::steady;
 use numerics::{Estimate, bracketed_root};
 use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
 
@@ -65,21 +65,11 @@ impl Sliding {
 
     /// Friction of the line whose contact reaches to a, and the force that this takes.
     pub(super) fn line(&self) -> Result<(Estimate, f64)> {
-        let motion = SlidingDepth {
-            indentation_depth: 1.0,
-            velocity: self.speed,
-        };
-        let options = SteadyOptions {
-            relative_error: LINE_ERROR,
-        };
+        let load = SlidingLoad::at_depth(1.0, self.speed)?;
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
-        let state = steady_at_depth(&EquivalentLine(&body), &solid, &motion, &options)
+        let state = steady(&EquivalentLine(&body), &solid, &load, LINE_ERROR)
             .with_context(|| format!("the line of {self:?}"))?;
-        let friction = Estimate {
-            value: state.friction_coefficient,
-            error: state.friction_coefficient_error,
-        };
-        Ok((friction, state.normal_force))
+        Ok((state.friction_coefficient, state.normal_force.value))
     }
 
     /// Friction of the half space under a force; what was reached has an honest bar, if a wider one.

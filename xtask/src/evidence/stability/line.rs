@@ -7,10 +7,9 @@ use friction_analytic::{
     SlidingContact, ViscoelasticSliding, kelvin_voigt_sliding, maxwell_sliding,
     power_indentation_after_impulse, power_sliding,
 };
-use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
+use indenters::{Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
 use mdr_core::{
-    IndentOptions, MdrError, SlideOptions, SlidingDepth, SteadyOptions, indent, slide, steady,
-    steady_at_depth,
+    IndentOptions, MdrError, SlideOptions, SteadySliding, indent_on_grid, slide_on_grid, steady,
 };
 use rheology::{KelvinVoigt, Material, Maxwell, Viscous};
 
@@ -58,17 +57,25 @@ fn power_profile(exponent: f64) -> Result<Finding> {
     let profile = PowerProfile::new(0.4, exponent)?;
     let (material, load) = (Viscous::new(50.0)?, SlidingLoad::new(2.0, 0.1)?);
     let expected = power_sliding(&profile, &material, &load)?;
-    let options = SteadyOptions::default();
-    let got = steady(&EquivalentLine(&profile), &material, &load, &options)?;
-    compare!(got, expected, within ASKED; friction_coefficient, indentation_depth)
+    let got = steady(&EquivalentLine(&profile), &material, &load, ASKED)?;
+    compared(
+        &got,
+        expected.friction_coefficient,
+        expected.indentation_depth,
+    )
+}
+
+fn compared(got: &SteadySliding, friction: f64, depth: f64) -> Result<Finding> {
+    compare!(within ASKED;
+        "friction coefficient" => got.friction_coefficient.value, friction;
+        "depth" => got.indentation_depth.value, depth)
 }
 
 /// The friction integral diverges up to p = 1/2, and close above it converges too slowly to be summed.
 fn too_sharp(exponent: f64) -> Result<Finding> {
     let profile = PowerProfile::new(0.4, exponent)?;
     let (material, load) = (Viscous::new(50.0)?, SlidingLoad::new(2.0, 0.1)?);
-    let options = SteadyOptions::default();
-    let state = steady(&EquivalentLine(&profile), &material, &load, &options);
+    let state = steady(&EquivalentLine(&profile), &material, &load, ASKED);
     refused!(state => MdrError::FrictionDiverges { .. })
 }
 
@@ -100,22 +107,23 @@ fn closed_form(
     expected: &ViscoelasticSliding,
 ) -> Result<Finding> {
     let load = SlidingLoad::new(expected.normal_force, velocity)?;
-    let options = SteadyOptions::default();
-    let got = steady(&EquivalentLine(profile), material, &load, &options)?;
-    compare!(got, expected, within ASKED; friction_coefficient, indentation_depth)
+    let got = steady(&EquivalentLine(profile), material, &load, ASKED)?;
+    compared(
+        &got,
+        expected.friction_coefficient,
+        expected.indentation_depth,
+    )
 }
 
 /// The cone whose line has the slope 1, held at the depth 1 m.
 fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Finding> {
     let profile = PowerProfile::cone(FRAC_2_PI)?;
     let expected = cone_on_solid(&material.relaxation(), velocity)?;
-    let motion = SlidingDepth {
-        indentation_depth: 1.0,
-        velocity,
-    };
-    let options = SteadyOptions::default();
-    let got = steady_at_depth(&EquivalentLine(&profile), material, &motion, &options)?;
-    compare!(got, expected, within ASKED; friction_coefficient, normal_force)
+    let load = SlidingLoad::at_depth(1.0, velocity)?;
+    let got = steady(&EquivalentLine(&profile), material, &load, ASKED)?;
+    compare!(within ASKED;
+        "friction coefficient" => got.friction_coefficient.value, expected.friction_coefficient;
+        "normal force" => got.normal_force.value, expected.normal_force)
 }
 
 /// Elements under the contact at the end of pressing.
@@ -125,16 +133,18 @@ const PRESSED: f64 = 2000.0;
 /// impulse F J(t).
 fn pressed(material: &dyn Material, step: f64) -> Result<Finding> {
     let profile = PowerProfile::cone(0.1)?;
-    let times = [step, 2.0 * step, 3.0 * step];
-    let last = material.creep_compliance(times[2])?;
+    let duration = 3.0 * step;
+    let last = material.creep_compliance(duration)?;
     // A force under which the last contact has the radius of about one.
     let force = 1.0 / last;
     let dashpot = Viscous::new(1.0)?;
     let expected = power_indentation_after_impulse(&profile, &dashpot, force * last)?;
     let options = IndentOptions {
         spacing: 2.0 * expected.contact_radius / PRESSED,
+        n_steps: 3,
     };
-    let rows = indent(&EquivalentLine(&profile), material, force, &times, &options)?;
+    let load = PressingLoad::new(Control::NormalForce(force), duration)?;
+    let rows = indent_on_grid(&EquivalentLine(&profile), material, &load, &options)?;
     // The sum over elements errs by a part of the last element at each end, of second order.
     compare!(rows[2], expected, within 4.0 / (PRESSED * PRESSED); indentation_depth)
 }
@@ -149,8 +159,9 @@ fn march(velocity: f64) -> Result<Finding> {
     let material = Maxwell::new(1.0, 1.0)?;
     let expected = maxwell_sliding(&profile, &material, contact(velocity))?;
     let load = SlidingLoad::new(expected.normal_force, velocity)?;
-    let options = SlideOptions::with_elements(MARCHED, &profile, &material, &load)?;
-    let got = slide(&EquivalentLine(&profile), &material, &load, &options)?.stationary;
+    let line = EquivalentLine(&profile);
+    let options = SlideOptions::with_elements(MARCHED, &line, &material, &load)?;
+    let got = slide_on_grid(&line, &material, &load, &options)?.last;
     let tolerance = 4.0 / MARCHED as f64;
     compare!(got, expected, within tolerance; friction_coefficient, indentation_depth)
 }
@@ -165,10 +176,10 @@ fn coarse_march(elements: f64) -> Result<Finding> {
         drift_tolerance: 1e-9,
         max_sliding_distance: 100.0 * expected.contact_length(),
     };
-    let got = slide(&EquivalentLine(&profile), &material, &load, &options);
+    let got = slide_on_grid(&EquivalentLine(&profile), &material, &load, &options);
     if elements < 3.0 {
         return refused!(got => MdrError::TooCoarse { .. });
     }
     // The distance from the stationary state is less than the drift.
-    compare!(got?.stationary, expected, within 1e-9; friction_coefficient, indentation_depth)
+    compare!(got?.last, expected, within 1e-9; friction_coefficient, indentation_depth)
 }

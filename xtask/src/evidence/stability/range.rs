@@ -5,7 +5,7 @@ use bem_halfspace::BemError;
 use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use friction_analytic::{FrictionError, half_space_power_friction, power_sliding};
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
-use mdr_core::{MdrError, SlideOptions, SteadyOptions, slide, steady};
+use mdr_core::{MdrError, SlideOptions, slide_on_grid, steady};
 use rheology::Viscous;
 
 use super::case::{Case, Family, Finding, compare, decades, refused};
@@ -125,29 +125,31 @@ fn theorem(scene: Scene, expected: Expected) -> Result<Finding> {
 
 fn line(scene: Scene, expected: Expected) -> Result<Finding> {
     let (profile, material, load) = scene.problem()?;
-    let options = SteadyOptions::default();
-    let got = steady(&EquivalentLine(&profile), &material, &load, &options);
+    let got = steady(&EquivalentLine(&profile), &material, &load, ASKED_OF_LINE);
     if expected == Expected::Refusal {
         return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
     }
     let got = got?;
     scene.compared(
-        got.indentation_depth,
-        got.friction_coefficient,
-        options.relative_error,
+        got.indentation_depth.value,
+        got.friction_coefficient.value,
+        ASKED_OF_LINE,
     )
 }
 
 const ELEMENTS: usize = 100;
+/// Relative error asked of the stationary state of the line.
+const ASKED_OF_LINE: f64 = 1e-8;
 
 fn march(scene: Scene, expected: Expected) -> Result<Finding> {
     let (profile, material, load) = scene.problem()?;
-    let got = SlideOptions::with_elements(ELEMENTS, &profile, &material, &load)
-        .and_then(|options| slide(&EquivalentLine(&profile), &material, &load, &options));
+    let line = EquivalentLine(&profile);
+    let got = SlideOptions::with_elements(ELEMENTS, &line, &material, &load)
+        .and_then(|options| slide_on_grid(&line, &material, &load, &options));
     if expected == Expected::Refusal {
         return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
     }
-    let got = got?.stationary;
+    let got = got?.last;
     // Second order in the spacing: the mean slope over a step beside the slope.
     let tolerance = 1.0 / (ELEMENTS * ELEMENTS) as f64;
     scene.compared(got.indentation_depth, got.friction_coefficient, tolerance)

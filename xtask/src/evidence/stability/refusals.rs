@@ -6,9 +6,10 @@ use anyhow::Result;
 use bem_halfspace::steady::{RefinementOptions, SteadyOptions, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions, slide_on_grid, steady_on_grid};
 use indenters::{
-    EquivalentLine, FlatPunch, IndenterError, PowerProfile, SampledLine, SlidingLoad, Sphere,
+    Control, EquivalentLine, FlatPunch, IndenterError, PowerProfile, PressingLoad, SampledLine,
+    SlidingLoad, Sphere,
 };
-use mdr_core::{IndentOptions, MdrError, SlideOptions, indent, slide};
+use mdr_core::{IndentOptions, MdrError, SlideOptions};
 use rheology::{
     ExponentialStep, Material, RelaxationBranch, RelaxationSpectrum, RheologyError, Viscous,
 };
@@ -99,17 +100,15 @@ fn relaxation_time(relaxation_time: f64) -> Result<Finding> {
 fn sphere() -> Result<Finding> {
     let load = SlidingLoad::new(8.0, 1.0)?;
     let sphere = Sphere::new(1.0)?;
-    let options = mdr_core::SteadyOptions::default();
-    let state = mdr_core::steady(&EquivalentLine(&sphere), &solid(1.0)?, &load, &options)?;
-    compare!(within 1e-8; "normal force" => state.normal_force, 8.0)
+    let state = mdr_core::steady(&EquivalentLine(&sphere), &solid(1.0)?, &load, 1e-8)?;
+    compare!(within 1e-8; "normal force" => state.normal_force.value, 8.0)
 }
 
 fn line_too_low() -> Result<Finding> {
     let line = SampledLine::new(vec![-1.0, 0.0, 1.0], vec![0.5, 0.0, 0.5])?;
     let load = SlidingLoad::new(4.0, 1.0)?;
-    let options = mdr_core::SteadyOptions::default();
-    let state = mdr_core::steady(&line, &Viscous::new(1.0)?, &load, &options);
-    refused!(state => MdrError::NoStationaryState { .. })
+    let state = mdr_core::steady(&line, &Viscous::new(1.0)?, &load, 1e-8);
+    refused!(state => MdrError::ForceBeyondEdge { .. })
 }
 
 fn flat_punch() -> Result<Finding> {
@@ -122,9 +121,10 @@ fn flat_punch() -> Result<Finding> {
 fn too_short_a_distance() -> Result<Finding> {
     let (cone, material) = (PowerProfile::cone(0.1)?, Viscous::new(1.0)?);
     let load = SlidingLoad::new(1.0, 1.0)?;
-    let mut options = SlideOptions::with_elements(30, &cone, &material, &load)?;
+    let line = EquivalentLine(&cone);
+    let mut options = SlideOptions::with_elements(30, &line, &material, &load)?;
     options.max_sliding_distance *= 0.01;
-    let state = slide(&EquivalentLine(&cone), &material, &load, &options);
+    let state = mdr_core::slide_on_grid(&line, &material, &load, &options);
     refused!(state => MdrError::NotStationary { .. })
 }
 
@@ -181,6 +181,10 @@ fn error_not_reached() -> Result<Finding> {
 
 fn pressed_line(spacing: f64) -> Result<Result<(), MdrError>> {
     let (cone, material, _) = scene()?;
-    let options = IndentOptions { spacing };
-    Ok(indent(&EquivalentLine(&cone), &material, 1.0, &[1.0], &options).map(drop))
+    let options = IndentOptions {
+        spacing,
+        n_steps: 1,
+    };
+    let load = PressingLoad::new(Control::NormalForce(1.0), 1.0)?;
+    Ok(mdr_core::indent_on_grid(&EquivalentLine(&cone), &material, &load, &options).map(drop))
 }

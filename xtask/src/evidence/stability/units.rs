@@ -6,7 +6,7 @@ use bem_halfspace::steady::SteadyOptions as StationaryOptions;
 use bem_halfspace::{Footprint, GridOptions, slide_on_grid, steady_on_grid};
 use friction_analytic::{ElasticContact, axisymmetric_sliding, low_speed_friction};
 use indenters::{Control, EquivalentLine, RoundTippedCone, SlidingLoad};
-use mdr_core::{IndentOptions, SlideOptions, SteadyOptions, indent, slide, steady};
+use mdr_core::{SlideOptions, steady};
 use rheology::{StandardSolid, StandardSolidParameters, Viscous};
 
 use super::case::{Case, Comparison, Family, Finding, power_of_ten};
@@ -132,19 +132,16 @@ fn theorems(units: Units) -> Result<Numbers> {
 }
 
 fn line_stationary(units: Units) -> Result<Numbers> {
-    let options = SteadyOptions {
-        relative_error: 1e-10,
-    };
     let cone = units.cone()?;
     let state = steady(
         &EquivalentLine(&cone),
         &units.solid()?,
         &units.load()?,
-        &options,
+        1e-10,
     )?;
     Ok(vec![
-        ("friction coefficient", state.friction_coefficient),
-        ("depth", state.indentation_depth / units.length),
+        ("friction coefficient", state.friction_coefficient.value),
+        ("depth", state.indentation_depth.value / units.length),
         ("front", state.contacts[0][1] / units.length),
     ])
 }
@@ -156,13 +153,13 @@ fn line_march(units: Units) -> Result<Numbers> {
         max_sliding_distance: 100.0 * units.length,
     };
     let cone = units.cone()?;
-    let state = slide(
+    let state = mdr_core::slide_on_grid(
         &EquivalentLine(&cone),
         &units.solid()?,
         &units.load()?,
         &options,
     )?
-    .stationary;
+    .last;
     Ok(vec![
         ("friction coefficient", state.friction_coefficient),
         ("depth", state.indentation_depth / units.length),
@@ -171,16 +168,17 @@ fn line_march(units: Units) -> Result<Numbers> {
 }
 
 fn line_pressed(units: Units) -> Result<Numbers> {
-    let options = IndentOptions {
-        spacing: 0.01 * units.length,
-    };
     let cone = units.cone()?;
-    let rows = indent(
+    let force = units.force();
+    let steps = units.times().map(|time| mdr_core::IndentStep {
+        time,
+        control: Control::NormalForce(force),
+    });
+    let rows = mdr_core::indent_history(
         &EquivalentLine(&cone),
         &units.solid()?,
-        units.force(),
-        &units.times(),
-        &options,
+        &steps,
+        0.01 * units.length,
     )?;
     let depths = rows.iter().map(|row| row.indentation_depth / units.length);
     Ok(depths.map(|depth| ("depth", depth)).collect())

@@ -1,4 +1,4 @@
-//! Normal indentation without sliding: constant force, or any history of force or depth.
+//! Normal indentation without sliding on a chain of stated resolution: a constant control, or any history.
 //!
 //! ```text
 //! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)        one step of compliance α
@@ -9,7 +9,7 @@
 //! matters. On an elastic material nothing depends on the steps. On any other the error is of first order in their
 //! lengths, because the load of an element is held over a step.
 
-use indenters::RigidLine;
+use indenters::{Control, PressingLoad, RigidLine};
 use rheology::{ExponentialStep, Material};
 
 use crate::MdrError;
@@ -24,16 +24,8 @@ use crate::slide::MIN_CONTACT;
 pub struct IndentOptions {
     /// Spacing Δx of the elements, \[m].
     pub spacing: f64,
-}
-
-/// What is given at the end of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum IndentControl {
-    /// Normal force F_N ≥ 0, \[N].
-    NormalForce(f64),
-    /// Indentation depth d of the lowest point, \[m].
-    IndentationDepth(f64),
+    /// Number of equal steps in time.
+    pub n_steps: usize,
 }
 
 /// One step of a history; its control holds from the step before, so that a change of force is a jump.
@@ -42,8 +34,8 @@ pub enum IndentControl {
 pub struct IndentStep {
     /// Time at the end of the step, since first touch, \[s].
     pub time: f64,
-    /// What is given there.
-    pub control: IndentControl,
+    /// Force ≥ 0, or depth of the lowest point, there.
+    pub control: Control,
 }
 
 /// The state at one time.
@@ -64,35 +56,32 @@ pub struct IndentRow {
     pub contact_length: f64,
 }
 
-/// Presses a line into an undeformed chain with a constant `normal_force` > 0 \[N], and records the `times` \[s], one
-/// step each.
+/// Presses a line into an undeformed chain with a constant control, in equal steps, and returns the state after each.
 ///
 /// The lowest point of the line must lie inside its domain.
 ///
 /// # Errors
-/// [`MdrError::InvalidParameter`] when the force is not positive; otherwise like [`indent_history`].
-pub fn indent(
+/// [`MdrError::Empty`] without steps; otherwise like [`indent_history`].
+pub fn indent_on_grid(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
-    normal_force: f64,
-    times: &[f64],
+    load: &PressingLoad,
     options: &IndentOptions,
 ) -> Result<Vec<IndentRow>, MdrError> {
-    positive("normal_force", normal_force)?;
-    let step = |time: &f64| IndentStep {
-        time: *time,
-        control: IndentControl::NormalForce(normal_force),
+    let step = |step: usize| IndentStep {
+        time: load.duration() * (step as f64 / options.n_steps as f64),
+        control: load.control(),
     };
-    let steps: Vec<IndentStep> = times.iter().map(step).collect();
-    indent_history(line, material, &steps, options)
+    let steps: Vec<IndentStep> = (1..=options.n_steps).map(step).collect();
+    indent_history(line, material, &steps, options.spacing)
 }
 
-/// Presses a line into an undeformed chain and lets it go again, step by step.
+/// Presses a line into an undeformed chain of elements of the `spacing` \[m] and lets it go again, step by step.
 ///
 /// The lowest point of the line must lie inside its domain. A depth of no contact has no force.
 ///
 /// # Errors
-/// [`MdrError::ContactReachesBoundary`] when the contact reaches an end of the domain; [`MdrError::TooCoarse`] when
+/// [`MdrError::ContactReachesEdge`] when the contact reaches an end of the domain; [`MdrError::TooCoarse`] when
 /// no step has three elements in contact; [`MdrError::TooManyElements`] when the chain would be too long;
 /// [`MdrError::InvalidParameter`] when the times do not increase from above zero, or for another parameter;
 /// [`MdrError::InvalidHeight`], [`MdrError::Empty`], [`MdrError::NonFinite`], [`MdrError::Material`].
@@ -100,13 +89,13 @@ pub fn indent_history(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
     steps: &[IndentStep],
-    options: &IndentOptions,
+    spacing: f64,
 ) -> Result<Vec<IndentRow>, MdrError> {
-    let spacing = positive("spacing", options.spacing)?;
+    positive("spacing", spacing)?;
     check(steps)?;
     let line = elements(line, material, steps, spacing)?;
     let mut press = Press {
-        chain: Chain::new(material, line.heights.len(), [spacing, steps[0].time])?,
+        chain: Chain::new(material, line.heights.len(), spacing, steps[0].time)?,
         line,
         spacing,
         time: 0.0,
@@ -133,8 +122,8 @@ fn check(steps: &[IndentStep]) -> Result<(), MdrError> {
         positive("time_step", step.time - before)?;
         before = step.time;
         match step.control {
-            IndentControl::NormalForce(force) => not_negative("normal_force", force)?,
-            IndentControl::IndentationDepth(depth) => finite("indentation depth", depth, before)?,
+            Control::NormalForce(force) => not_negative("normal_force", force)?,
+            Control::IndentationDepth(depth) => finite("indentation depth", depth, before)?,
         };
     }
     Ok(())
@@ -150,8 +139,8 @@ fn elements(
     let (mut force, mut depth) = (0.0_f64, 0.0_f64);
     for step in steps {
         match step.control {
-            IndentControl::NormalForce(value) => force = force.max(value),
-            IndentControl::IndentationDepth(value) => depth = depth.max(value),
+            Control::NormalForce(value) => force = force.max(value),
+            Control::IndentationDepth(value) => depth = depth.max(value),
         }
     }
     if force == 0.0 {
@@ -184,8 +173,8 @@ impl Press {
         self.chain.relax();
         let instant = self.chain.instant(&self.line.heights);
         let contact = match step.control {
-            IndentControl::NormalForce(force) => instant.solve(force, self.depth),
-            IndentControl::IndentationDepth(depth) => instant.contact_at_depth(depth)?,
+            Control::NormalForce(force) => instant.solve(force, self.depth),
+            Control::IndentationDepth(depth) => instant.contact_at_depth(depth)?,
         };
         self.depth = finite("indentation depth", contact.indentation_depth, self.time)?;
         let mut loaded = Vec::with_capacity(contact.n_contact);
@@ -209,7 +198,7 @@ impl Press {
         let last = self.line.heights.len() - 1;
         match loaded.iter().find(|end| **end == 0 || **end == last) {
             None => Ok(()),
-            Some(end) => Err(MdrError::ContactReachesBoundary {
+            Some(end) => Err(MdrError::ContactReachesEdge {
                 position: self.line.position(*end),
                 indentation_depth: self.depth,
                 time: self.time,

@@ -1,4 +1,4 @@
-//! Sliding from first touch into the stationary state.
+//! Sliding from first touch on a chain of stated resolution.
 //!
 //! In every step the line moves on by one element and sinks until the elements carry the normal force. The elements
 //! stay where they are in the material, so that the shift is exact; they enter at the front undeformed (on a line
@@ -12,14 +12,14 @@
 //! On a dashpot the sum telescopes along the leading edge, so that the depth never exceeds (12). A chain that turns out
 //! too short for the depth of another material is begun anew, twice as high.
 
-use indenters::{Axisymmetric, EquivalentLine, RigidLine, SlidingLoad};
+use indenters::{RigidLine, SlidingLoad};
 use rheology::{ExponentialStep, Material};
 
+use super::march::{Advance, March, Stepped, Unresolved};
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
 use crate::error::{finite, fraction, positive};
-use crate::march::{Advance, March, Stepped};
-use crate::steady::contact_span;
+use crate::steady::Problem;
 
 /// The fewest elements that the last contact must have.
 pub(crate) const MIN_CONTACT: usize = 3;
@@ -42,19 +42,19 @@ pub struct SlideOptions {
 }
 
 impl SlideOptions {
-    /// Options with a number of `elements` along the stationary contact of a body of revolution, a drift tolerance of
-    /// 1e-9, and 100 contact lengths of sliding; about 20 are needed.
+    /// Options with a number of `elements` along the stationary contact, a drift tolerance of 1e-9, and 100 contact lengths
+    /// of sliding, of which about 20 are needed; where the load has a sliding distance, the spacing is a whole part of it.
     ///
     /// # Errors
     /// [`MdrError::InvalidParameter`] for a lone dashpot under an apex h ∼ r^p with p ≤ 1/2, whose friction diverges;
     /// [`MdrError::TooCoarse`] for fewer than three elements; otherwise like [`steady`](crate::steady()).
     pub fn with_elements(
         elements: usize,
-        body: &(impl Axisymmetric + ?Sized),
+        line: &(impl RigidLine + ?Sized),
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
-        let value = body.profile_exponent();
+        let value = line.apex_exponent();
         if value <= 0.5 && material.relaxation().viscosity() > 0.0 {
             // On any chain the friction is finite, but it grows without limit on refinement.
             let allowed = "above 1/2, where the friction integral (16) converges";
@@ -64,14 +64,18 @@ impl SlideOptions {
                 allowed,
             });
         }
-        let length = contact_span(&EquivalentLine(body), material, load)?;
-        let spacing = length / elements.max(1) as f64;
+        let problem = Problem::new(line, material, load.velocity())?;
+        let length = problem.contact_span(load.control())?;
+        let mut spacing = length / elements.max(1) as f64;
         if elements < MIN_CONTACT {
             return Err(MdrError::TooCoarse {
                 n_contact: elements,
                 needed: MIN_CONTACT,
                 spacing,
             });
+        }
+        if let Some(distance) = load.sliding_distance() {
+            spacing = distance / (distance / spacing).ceil().max(1.0);
         }
         Ok(Self {
             spacing,
@@ -118,30 +122,35 @@ pub struct SlideRow {
     pub contact_length: f64,
 }
 
-/// A body's way from first touch into its stationary state.
+/// Sliding from first touch on.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct Transient {
     /// One row per step.
     pub rows: Vec<SlideRow>,
-    /// The state in which the march stopped, because `drift` had fallen to the tolerance.
-    pub stationary: SlideRow,
+    /// The state at the end of the march.
+    pub last: SlideRow,
     /// Larger of the relative changes of depth and friction coefficient over the last contact length.
     pub drift: f64,
+    /// What a front that rises within one element and is relaxed within one step may do.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) unresolved: Unresolved,
 }
 
-/// Slides a line over an undeformed chain until the state is stationary.
+/// Slides a line over an undeformed chain until the state is stationary, or over the sliding distance of the load, to half a
+/// step; a state that has become stationary before stays as it is.
 ///
 /// # Errors
-/// - [`MdrError::NoStationaryState`] when the material flows and the leading edge is too low for it (Remark 4).
+/// - [`MdrError::ForceBeyondEdge`] when the material flows and the leading edge is too low for it (Remark 4).
 /// - [`MdrError::NotStationary`], with the transient, when `max_sliding_distance` was too short.
-/// - [`MdrError::ContactReachesBoundary`] when the contact reaches the last element in front. The rear end of the line
+/// - [`MdrError::ContactReachesEdge`] when the contact reaches the last element in front. The rear end of the line
 ///   may carry load: elements that pass it are free.
 /// - [`MdrError::TooCoarse`] when fewer than three elements are in the stationary contact,
 ///   [`MdrError::TooManyElements`] when the chain would be too long.
+/// - [`MdrError::Indenter`] when the load prescribes the depth.
 /// - [`MdrError::InvalidParameter`], [`MdrError::InvalidHeight`], [`MdrError::NonFinite`], [`MdrError::Material`].
-pub fn slide(
+pub fn slide_on_grid(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
@@ -152,7 +161,7 @@ pub fn slide(
     loop {
         let ceiling = elements.ceiling;
         let march = March::from_first_touch(line, elements, material, load, options.spacing)?;
-        match slide_until_stationary(march, options)? {
+        match march_on(march, load, options)? {
             Some(transient) => return Ok(transient),
             None => elements = ElementHeights::below(line, options.spacing, 2.0 * ceiling)?,
         }
@@ -160,32 +169,55 @@ pub fn slide(
 }
 
 /// The transient, or nothing when the chain was not high enough.
-fn slide_until_stationary(
+fn march_on(
     mut march: March,
+    load: &SlidingLoad,
     options: &SlideOptions,
 ) -> Result<Option<Transient>, MdrError> {
     let mut steps: Vec<Stepped> = Vec::new();
     let mut drift = 1.0;
-    while march.next_sliding_distance() <= options.max_sliding_distance {
+    // Half a step more than the distance, so that rounding does not lose the last one.
+    let given = load.sliding_distance();
+    let farthest = given.map_or(options.max_sliding_distance, |distance| {
+        distance + 0.5 * options.spacing
+    });
+    while march.next_sliding_distance() <= farthest {
         let Advance::Stepped(step) = march.advance()? else {
             return Ok(None);
         };
         steps.push(step);
         drift = relative_change(&steps);
         if drift <= options.drift_tolerance {
-            return stop(rows(&steps), step.row, drift, options.spacing).map(Some);
+            check_contact(&step.row, options.spacing)?;
+            break;
         }
     }
-    Err(MdrError::NotStationary {
-        drift,
-        drift_tolerance: options.drift_tolerance,
-        sliding_distance: steps.last().map_or(0.0, |step| step.row.sliding_distance),
-        rows: rows(&steps),
-    })
+    let rows: Vec<SlideRow> = steps.iter().map(|step| step.row).collect();
+    match rows.last() {
+        Some(last) if given.is_some() || drift <= options.drift_tolerance => Ok(Some(Transient {
+            last: *last,
+            unresolved: march.unresolved(),
+            drift,
+            rows,
+        })),
+        last => Err(MdrError::NotStationary {
+            drift,
+            drift_tolerance: options.drift_tolerance,
+            sliding_distance: last.map_or(0.0, |row| row.sliding_distance),
+            rows,
+        }),
+    }
 }
 
-fn rows(steps: &[Stepped]) -> Vec<SlideRow> {
-    steps.iter().map(|step| step.row).collect()
+fn check_contact(row: &SlideRow, spacing: f64) -> Result<(), MdrError> {
+    if row.n_contact >= MIN_CONTACT {
+        return Ok(());
+    }
+    Err(MdrError::TooCoarse {
+        n_contact: row.n_contact,
+        needed: MIN_CONTACT,
+        spacing,
+    })
 }
 
 /// Elements up to the depth that a flowing material has at least, or that the first step can displace.
@@ -228,14 +260,15 @@ fn check_leading_edge(
         return Ok(());
     }
     let normal_force = load.require_normal_force()?;
-    Err(MdrError::NoStationaryState {
-        normal_force,
-        carried_force: normal_force * (available / least_depth),
+    Err(MdrError::ForceBeyondEdge {
+        position: front,
         available,
+        carried_force: normal_force * (available / least_depth),
+        normal_force,
     })
 }
 
-/// Change of depth and friction over the last contact; 1, as from nothing, when the way was not as long.
+/// Change of depth and friction over the last contact; 1, as from nothing, when the distance was not as long.
 fn relative_change(steps: &[Stepped]) -> f64 {
     let n_steps = steps.len();
     let span = steps[n_steps - 1].span;
@@ -260,23 +293,3 @@ fn relative_change(steps: &[Stepped]) -> f64 {
 
 /// Rounding of a sum of forces times rises, relative to the sum of their moduli.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-fn stop(
-    rows: Vec<SlideRow>,
-    stationary: SlideRow,
-    drift: f64,
-    spacing: f64,
-) -> Result<Transient, MdrError> {
-    if stationary.n_contact < MIN_CONTACT {
-        return Err(MdrError::TooCoarse {
-            n_contact: stationary.n_contact,
-            needed: MIN_CONTACT,
-            spacing,
-        });
-    }
-    Ok(Transient {
-        rows,
-        stationary,
-        drift,
-    })
-}

@@ -11,13 +11,17 @@
 //! during it. That is a creep compliance again. A chain of this material is ahead twice, and differs from the chain of the
 //! material itself by what the step does, to first order in the step.
 
-use super::error::Result;
 use rheology::{
     Compressible, CreepSpectrum, ExponentialStep, KelvinChain, Material, RetardationElement,
 };
 
+use crate::MdrError;
+
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.
-pub(crate) fn ahead(material: &dyn Material, time_step: f64) -> Result<Option<Compressible>> {
+pub(super) fn ahead(
+    material: &(impl Material + ?Sized),
+    time_step: f64,
+) -> Result<Option<Compressible>, MdrError> {
     let creep = material.creep();
     let at_once = creep.instantaneous_compliance();
     let forgets = creep.elements().is_empty() && creep.fluidity() == 0.0;

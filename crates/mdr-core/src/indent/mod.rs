@@ -1,0 +1,155 @@
+//! Normal indentation without sliding, by marching in time: to the error asked for, or on one stated resolution.
+
+mod on_grid;
+
+use indenters::{Control, PressingLoad, RigidLine};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, no_other_error, refine};
+use rheology::{Elastic, Material};
+
+use crate::MdrError;
+use crate::element_heights::lowest_candidate;
+use crate::steady::Problem;
+pub use on_grid::{IndentOptions, IndentRow, IndentStep, indent_history, indent_on_grid};
+
+/// Elements along the contact, and steps, after which an indentation is given up.
+const MOST_ELEMENTS: usize = 16_384;
+/// Depth and force converge faster than that, cusps or not.
+const ORDER: f64 = 1.0;
+
+/// A contact after some time under a constant control; an error of 0 says that a quantity is given.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Indentation {
+    /// Indentation depth d of the lowest point, \[m].
+    pub indentation_depth: Estimate,
+    /// Normal force F_N, \[N].
+    pub normal_force: Estimate,
+    /// What the error of the depth, or of the force where the depth is given, consists of.
+    pub error_parts: ErrorParts,
+    /// Rear and front end of the contact, \[m].
+    pub ends: [Estimate; 2],
+    /// The history on the finest chain.
+    pub finest: Vec<IndentRow>,
+    /// Its resolution.
+    pub options: IndentOptions,
+}
+
+/// Presses a line into an undeformed chain for a time, with as many elements, and as many steps, as the relative error of
+/// the depth needs, or of the force where the depth is given; or with a number of them, and whatever error that has.
+///
+/// The lowest point of the line must lie inside its domain.
+///
+/// # Errors
+/// [`MdrError::NotReached`] with what the finest chain gives; otherwise like [`indent_on_grid`] and
+/// [`press`](crate::press()).
+pub fn indent(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &PressingLoad,
+    accuracy: impl Into<Accuracy>,
+) -> Result<Indentation, MdrError> {
+    let length = contact_length(line, material, load)?;
+    let options = |elements: usize| IndentOptions {
+        spacing: length / elements as f64,
+        n_steps: elements,
+    };
+    let solve = |elements: usize| {
+        let rows = indent_on_grid(line, material, load, &options(elements))?;
+        State::new(line, rows)
+    };
+    let goal = Goal {
+        accuracy: accuracy.into(),
+        largest: MOST_ELEMENTS,
+        order: ORDER,
+    };
+    let refined = refine(&goal, solve, State::quantities, no_other_error)?;
+    let Refined {
+        value: state,
+        error,
+        parts,
+        elements,
+    } = refined;
+    let [depth, force, rear, front] = state.quantities();
+    let estimate = |value: Quantity, error: f64| Estimate {
+        value: value.value,
+        error,
+    };
+    let (indentation_depth, normal_force, error_parts) = match load.control() {
+        Control::NormalForce(force) => {
+            (estimate(depth, error[0]), Estimate::exact(force), parts[0])
+        }
+        Control::IndentationDepth(depth) => {
+            (Estimate::exact(depth), estimate(force, error[1]), parts[1])
+        }
+    };
+    Ok(Indentation {
+        indentation_depth,
+        normal_force,
+        error_parts,
+        ends: [estimate(rear, error[2]), estimate(front, error[3])],
+        finest: state.rows,
+        options: options(elements),
+    })
+}
+
+/// Length of the contact at the end, \[m], for the size of the elements only: while it grows a material is pressed like a
+/// spring of the compliance J(t) (Lee & Radok 1960).
+fn contact_length(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &PressingLoad,
+) -> Result<f64, MdrError> {
+    let compliance = material.half_space_factor() * material.creep_compliance(load.duration())?;
+    let spring = Elastic::new(compliance.recip())?;
+    Problem::new(line, &spring, 1.0)?.contact_span(load.control())
+}
+
+/// The end of a history on one resolution.
+struct State {
+    rows: Vec<IndentRow>,
+    last: IndentRow,
+    ends: [f64; 2],
+    /// Height of the line at the front above its lowest point, \[m].
+    front_height: f64,
+}
+
+impl State {
+    fn new(line: &(impl RigidLine + ?Sized), rows: Vec<IndentRow>) -> Result<Self, MdrError> {
+        let last = *rows.last().ok_or(MdrError::Empty { list: "steps" })?;
+        let ends = last.contact.ok_or(MdrError::Empty { list: "contact" })?;
+        Ok(Self {
+            front_height: line.height(ends[1]) - line.height(lowest_candidate(line)?),
+            rows,
+            last,
+            ends,
+        })
+    }
+
+    /// Depth, force, rear and front. What is given is the same on all resolutions.
+    fn quantities(&self) -> [Quantity; 4] {
+        let IndentRow {
+            indentation_depth: depth,
+            normal_force: force,
+            n_contact,
+            contact_length,
+            ..
+        } = self.last;
+        // The outermost elements are loaded as wholes, whatever part of them touches: at the edge of a flat end they carry
+        // as much as any, at every resolution.
+        let outline = (depth - self.front_height).clamp(0.0, depth) / n_contact as f64;
+        let spacing = contact_length / n_contact as f64;
+        let quantity = |value: f64, least: f64, drives: bool| Quantity {
+            least,
+            drives,
+            ..Quantity::from(value)
+        };
+        let [rear, front] = self.ends;
+        [
+            quantity(depth, outline, true),
+            quantity(force, force * (outline / depth), true),
+            quantity(rear, spacing, false),
+            quantity(front, spacing, false),
+        ]
+    }
+}

@@ -1,0 +1,249 @@
+//! Sliding from first touch, by marching in time: to the error asked for, or on one stated resolution.
+
+mod march;
+mod memory;
+mod on_grid;
+
+use indenters::{RigidLine, SlidingLoad};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, refine};
+use rheology::Material;
+
+use crate::MdrError;
+use crate::element_heights::lowest_candidate;
+use crate::steady::{Problem, has_steep_kinks};
+use memory::ahead;
+pub(crate) use on_grid::MIN_CONTACT;
+pub use on_grid::{SlideOptions, SlideRow, Transient, slide_on_grid};
+
+/// Elements along the contact after which a march is given up.
+const MOST_ELEMENTS: usize = 4096;
+/// Rounding of forces times slopes, relative to the mean slope.
+const ROUNDING: f64 = 1e-12;
+/// Changes that fall more slowly from contact length to contact length are rounding.
+const SLOWEST_RATIO: f64 = 0.99;
+/// The friction of smooth bodies is better than of the first order, which their outline on the elements makes safe to
+/// assume; below the smallest order nothing converges.
+const ORDERS: [f64; 2] = [0.1, 1.0];
+/// Behind a steep kink the line rises like the root of the distance, and the depth is of the order 1/2: by how much its error
+/// is larger than by the first order, (2 − 1)/(√2 − 1).
+const KINKED: f64 = 2.42;
+/// An end of the contact lies within a step of the outermost element, and is loaded within one more.
+const STEPS_OF_ENDS: f64 = 2.0;
+
+/// The end of a march from first touch; an error of 0 says that a quantity is given, or exact.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct Sliding {
+    /// Friction coefficient μ = F_h/F_N after the sliding distance of the load, or of the stationary state.
+    pub friction_coefficient: Estimate,
+    /// What the error of the friction coefficient consists of.
+    pub error_parts: ErrorParts,
+    /// Indentation depth d of the lowest point, \[m].
+    pub indentation_depth: Estimate,
+    /// Normal force F_N, \[N].
+    pub normal_force: Estimate,
+    /// Rear and front end of the contact, \[m].
+    pub ends: [Estimate; 2],
+    /// The march on the finest chain.
+    pub finest: Transient,
+    /// Its resolution.
+    pub options: SlideOptions,
+}
+
+/// Slides a line over an undeformed chain of elements, over the sliding distance of the load or until the state is
+/// stationary, with as many elements as the relative error of the friction coefficient needs; or with a number of elements
+/// along the contact, and whatever error that has.
+///
+/// # Errors
+/// [`MdrError::NotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
+/// dashpot; otherwise like [`slide_on_grid`].
+pub fn slide(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    accuracy: impl Into<Accuracy>,
+) -> Result<Sliding, MdrError> {
+    Problem::new(line, material, load.velocity())?.check_kinks(load.control())?;
+    let motion = Motion::new(line, material, load)?;
+    let goal = Goal {
+        accuracy: accuracy.into(),
+        largest: MOST_ELEMENTS,
+        order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
+    };
+    let solve = |elements: usize| motion.march(elements);
+    let others = |_: usize, march: &March| motion.other_errors(march);
+    let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
+    let Refined {
+        value: march,
+        mut error,
+        parts: [error_parts, of_depth, ..],
+        ..
+    } = refined;
+    if has_steep_kinks(line) {
+        let elements = of_depth.discretisation.into_iter().sum::<f64>();
+        error[1] += (KINKED - 1.0) * elements;
+    }
+    let values = motion.values(&march.transient);
+    let [friction_coefficient, indentation_depth, rear, front] =
+        std::array::from_fn(|k| Estimate {
+            value: values[k],
+            error: error[k],
+        });
+    Ok(Sliding {
+        friction_coefficient,
+        error_parts,
+        indentation_depth,
+        normal_force: Estimate::exact(load.require_normal_force()?),
+        ends: [rear, front],
+        finest: march.transient,
+        options: march.options,
+    })
+}
+
+/// What slides, on what, and how.
+struct Motion<'a, L: ?Sized, M: ?Sized> {
+    line: &'a L,
+    /// Height of its lowest point, \[m].
+    lowest: f64,
+    material: &'a M,
+    load: &'a SlidingLoad,
+}
+
+/// A march on one resolution.
+struct March {
+    options: SlideOptions,
+    transient: Transient,
+}
+
+impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
+    fn new(line: &'a L, material: &'a M, load: &'a SlidingLoad) -> Result<Self, MdrError> {
+        Ok(Self {
+            line,
+            lowest: line.height(lowest_candidate(line)?),
+            material,
+            load,
+        })
+    }
+
+    fn march(&self, elements: usize) -> Result<March, MdrError> {
+        let options = SlideOptions::with_elements(elements, self.line, self.material, self.load)?;
+        Ok(March {
+            transient: slide_on_grid(self.line, self.material, self.load, &options)?,
+            options,
+        })
+    }
+
+    /// Friction, depth, rear and front.
+    ///
+    /// The friction of a step belongs to its middle; on the way to the stationary state the end is half a step further.
+    fn values(&self, transient: &Transient) -> [f64; 4] {
+        let last = &transient.last;
+        let friction = match transient.rows[..] {
+            [.., before, last] if self.load.sliding_distance().is_some() => {
+                1.5 * last.friction_coefficient - 0.5 * before.friction_coefficient
+            }
+            _ => last.friction_coefficient,
+        };
+        let [rear, front] = last.contact;
+        [friction, last.indentation_depth, rear, front]
+    }
+
+    fn quantities(&self, march: &March) -> [Quantity; 4] {
+        let last = &march.transient.last;
+        let [friction, depth, rear, front] = self.values(&march.transient).map(Quantity::from);
+        let slope = last.indentation_depth / last.contact_length;
+        let known = |quantity| Quantity {
+            drives: false,
+            ..quantity
+        };
+        let end = |end| Quantity {
+            least: STEPS_OF_ENDS * march.options.spacing,
+            ..known(end)
+        };
+        // The outermost elements are loaded as wholes: at the edge of a flat end they carry as much as any.
+        let mut outline = 0.0;
+        if has_steep_kinks(self.line) {
+            let above = last.indentation_depth - (self.line.height(front.value) - self.lowest);
+            outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
+        }
+        [
+            Quantity {
+                rounding: if self.is_elastic() {
+                    0.0
+                } else {
+                    ROUNDING * slope
+                },
+                ..friction
+            },
+            Quantity {
+                least: outline,
+                ..known(depth)
+            },
+            end(rear),
+            end(front),
+        ]
+    }
+
+    fn is_elastic(&self) -> bool {
+        self.material.relaxation().branches().is_empty()
+            && self.material.relaxation().viscosity() == 0.0
+    }
+
+    /// What all resolutions have in common: the step in time, the distance that is left, and a front that no element
+    /// resolves.
+    fn other_errors(&self, march: &March) -> Result<[ErrorParts; 4], MdrError> {
+        let steps = self.errors_of_step(march)?;
+        let rest = self.remainders(&march.transient.rows);
+        let mut parts: [ErrorParts; 4] = std::array::from_fn(|quantity| ErrorParts {
+            time_stepping: steps.map(|errors| errors[quantity]),
+            truncation: rest.and_then(|errors| errors[quantity]),
+            ..ErrorParts::NONE
+        });
+        if has_steep_kinks(self.line) && !self.is_elastic() {
+            let unresolved = march.transient.unresolved;
+            parts[0].discretisation = Some(unresolved.friction_coefficient);
+            parts[1].discretisation = Some(unresolved.indentation_depth);
+        }
+        Ok(parts)
+    }
+
+    /// What the step does to the memory of the material, if it has one.
+    fn errors_of_step(&self, march: &March) -> Result<Option<[f64; 4]>, MdrError> {
+        let time_step = march.options.spacing / self.load.velocity();
+        let Some(ahead) = ahead(self.material, time_step)? else {
+            return Ok(None);
+        };
+        let transient = slide_on_grid(self.line, &ahead, self.load, &march.options)?;
+        let [values, ahead] = [&march.transient, &transient].map(|march| self.values(march));
+        Ok(Some(std::array::from_fn(|k| (ahead[k] - values[k]).abs())))
+    }
+
+    /// What is left of an exponential approach, by its change over the last contact length and over the one before; over a
+    /// given distance nothing is left out.
+    ///
+    /// A march may end after little more than one contact length; then the change before it is that since the first step.
+    fn remainders(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {
+        let (last, None) = (rows.last()?, self.load.sliding_distance()) else {
+            return None;
+        };
+        let remainder = |value: fn(&SlideRow) -> f64| {
+            let back = |lengths: usize| {
+                value(&rows[(rows.len() - 1).saturating_sub(lengths * last.n_contact)])
+            };
+            let [now, before, earlier] = [0, 1, 2].map(back);
+            let [change, change_before] = [now - before, before - earlier].map(f64::abs);
+            let ratio = (change / change_before).min(SLOWEST_RATIO);
+            Some(change * ratio / (1.0 - ratio)).filter(|rest| rest.is_finite())
+        };
+        Some([
+            remainder(|row| row.friction_coefficient),
+            remainder(|row| row.indentation_depth),
+            remainder(|row| row.contact[0]),
+            remainder(|row| row.contact[1]),
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests;

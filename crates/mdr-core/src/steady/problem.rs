@@ -1,0 +1,231 @@
+//! A line on a foundation at one speed, and the depth at which it carries a force.
+
+use indenters::{Control, RigidLine};
+use numerics::Estimate;
+use rheology::Material;
+
+use super::SteadySliding;
+use super::depth::{depth_of_load, polished_depth};
+use super::foundation::Foundation;
+use super::profile::{Profile, Resolution};
+use super::range::{Edge, Range, vertical_edge};
+use super::steep_kinks::SteepKink;
+use super::sweep::{Sweep, sweep};
+use crate::MdrError;
+use crate::error::{finite, positive};
+
+/// Relative error of friction and force by rounding; larger than any seen.
+const ROUNDING: f64 = 256.0 * f64::EPSILON;
+/// The terms that the polynomials leave out are estimated from the last ones. Around the sharp tips of hyperboloids they
+/// were up to 5.5 times as large (test `bars_hold_for_other_pieces_of_the_same_line`).
+const SAFETY: f64 = 6.0;
+/// How much smaller than the error of the friction what the polynomials leave out is at first, and how far it may fall.
+const FIRST_TOLERANCE: f64 = 0.1;
+const ROUGH_TOLERANCE: f64 = 1e-3;
+const LAST_TOLERANCE: f64 = 1e-14;
+/// Tolerance of the lengths that only decide on the size of elements.
+const LENGTH_TOLERANCE: f64 = 1e-9;
+/// Where polynomials leave out so many times less, a contact ends elsewhere by most of its error.
+const FINER: f64 = 1e-4;
+/// Part of the contact by which its ends may be off by rounding: the square root of that of heights, where a line is level.
+const ROUNDING_OF_ENDS: f64 = 2.4e-7;
+
+/// A line that moves over a foundation.
+pub(crate) struct Problem<'a, L: ?Sized> {
+    line: &'a L,
+    foundation: Foundation,
+}
+
+impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
+    pub(crate) fn new(
+        line: &'a L,
+        material: &(impl Material + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, MdrError> {
+        let foundation = Foundation::new(material, positive("velocity", velocity)?)?;
+        Ok(Self { line, foundation })
+    }
+
+    /// Solves with more and more polynomials until the quantity that is `sought` is known well enough.
+    pub(crate) fn refine(
+        &self,
+        control: Control,
+        relative_error: f64,
+        sought: fn(&SteadySliding) -> Estimate,
+    ) -> Result<SteadySliding, MdrError> {
+        let mut tolerance = FIRST_TOLERANCE * relative_error;
+        loop {
+            let state = self.state(control, tolerance)?;
+            let Estimate { value, error } = sought(&state);
+            let wanted = relative_error * value.abs();
+            if error <= wanted {
+                return self.with_ends(state, tolerance);
+            }
+            if tolerance <= LAST_TOLERANCE {
+                return Err(MdrError::NotConverged {
+                    value,
+                    error,
+                    relative_error,
+                });
+            }
+            tolerance = LAST_TOLERANCE.max(tolerance * (0.1 * wanted / error));
+        }
+    }
+
+    /// Refuses a contact with a kink at which friction has no limit; few polynomials tell.
+    pub(crate) fn check_kinks(&self, control: Control) -> Result<(), MdrError> {
+        if !self.foundation.has_dashpot() {
+            return Ok(());
+        }
+        let kinks = SteepKink::of(self.line);
+        if kinks.is_empty() {
+            return Ok(());
+        }
+        let depth = self.depth(control, ROUGH_TOLERANCE)?;
+        let contacts = self.solve(depth, ROUGH_TOLERANCE)?.sums.contacts;
+        match kinks.iter().find(|kink| kink.is_in(&contacts)) {
+            None => Ok(()),
+            Some(kink) => Err(MdrError::FrictionDiverges {
+                position: kink.position,
+            }),
+        }
+    }
+
+    /// Distance between the rear and the front of the contact, \[m], also where friction diverges.
+    pub(crate) fn contact_span(&self, control: Control) -> Result<f64, MdrError> {
+        let depth = self.depth(control, LENGTH_TOLERANCE)?;
+        let [rear, front] = self.solve(depth, LENGTH_TOLERANCE)?.ends();
+        positive("contact length", front - rear)
+    }
+
+    /// The depth that is prescribed, or that carries the force.
+    fn depth(&self, control: Control, tolerance: f64) -> Result<f64, MdrError> {
+        let depth = match control {
+            Control::IndentationDepth(depth) => positive("indentation_depth", depth)?,
+            Control::NormalForce(force) => self.depth_of_force(force, tolerance)?,
+        };
+        match vertical_edge(self.line)? {
+            Some(edge) if edge.height < depth => Err(self.beyond(edge, control)?),
+            _ => Ok(depth),
+        }
+    }
+
+    fn depth_of_force(&self, force: f64, tolerance: f64) -> Result<f64, MdrError> {
+        let target = 0.25 * positive("normal_force", force)?;
+        // Most of the search needs few polynomials.
+        let rough = tolerance.max(ROUGH_TOLERANCE);
+        let start = depth_of_load(|depth| self.quarter_force(depth, rough), target)?;
+        polished_depth(|depth| self.quarter_force(depth, tolerance), target, start)
+    }
+
+    /// A quarter of the normal force at a depth, \[N].
+    fn quarter_force(&self, depth: f64, tolerance: f64) -> Result<f64, MdrError> {
+        Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.sums.load))
+    }
+
+    fn beyond(&self, edge: Edge, control: Control) -> Result<MdrError, MdrError> {
+        let Edge { position, height } = edge;
+        Ok(match control {
+            Control::NormalForce(normal_force) => MdrError::ForceBeyondEdge {
+                position,
+                available: height,
+                carried_force: 4.0 * self.quarter_force(height, ROUGH_TOLERANCE)?,
+                normal_force,
+            },
+            Control::IndentationDepth(indentation_depth) => MdrError::DepthBeyondEdge {
+                position,
+                available: height,
+                indentation_depth,
+            },
+        })
+    }
+
+    fn solve(&self, depth: f64, tolerance: f64) -> Result<Solution, MdrError> {
+        let range = Range::below(self.line, depth)?;
+        let resolution = Resolution {
+            depth,
+            shortest_length: self.foundation.shortest_length(),
+            tolerance,
+        };
+        let profile = Profile::new(self.line, &range, resolution)?;
+        range.check_front(depth * profile.lowest, depth)?;
+        Ok(Solution {
+            sums: sweep(&self.foundation, &profile, depth)?,
+            n_pieces: profile.pieces.len(),
+        })
+    }
+
+    /// The state in SI; the errors of its ends are not known yet.
+    fn state(&self, control: Control, tolerance: f64) -> Result<SteadySliding, MdrError> {
+        let depth = self.depth(control, tolerance)?;
+        let solution = self.solve(depth, tolerance)?;
+        let ends = solution.ends();
+        let Sweep {
+            load,
+            work,
+            load_error,
+            work_error,
+            mut contacts,
+            too_steep,
+        } = solution.sums;
+        if let Some(position) = too_steep {
+            return Err(MdrError::FrictionDiverges { position });
+        }
+        contacts.reverse();
+        let force = 4.0 * self.foundation.unit * (depth * load);
+        let force = finite("normal force", force, 0.0)?;
+        let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
+        let [load_error, work_error] = [load_error, work_error].map(|error| SAFETY * error);
+        // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
+        let friction_error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
+        // The force grows with the depth at least in proportion.
+        let relative_error = load_error / load + ROUNDING;
+        let [depth_error, force_error] = match control {
+            Control::NormalForce(_) => [relative_error * depth, 0.0],
+            Control::IndentationDepth(_) => [0.0, relative_error * force],
+        };
+        let estimate = |value, error| Estimate { value, error };
+        Ok(SteadySliding {
+            friction_coefficient: estimate(
+                friction,
+                friction_error.abs() + ROUNDING * friction.abs(),
+            ),
+            indentation_depth: estimate(depth, depth_error),
+            normal_force: estimate(force, force_error),
+            ends: ends.map(|end| estimate(end, 0.0)),
+            contacts,
+            n_pieces: solution.n_pieces,
+        })
+    }
+
+    /// The errors of both ends, from how far they move with more polynomials and another depth.
+    fn with_ends(
+        &self,
+        mut state: SteadySliding,
+        tolerance: f64,
+    ) -> Result<SteadySliding, MdrError> {
+        let depth = state.indentation_depth;
+        let finer = LAST_TOLERANCE.max(FINER * tolerance);
+        let ends = self.solve(depth.value - depth.error, finer)?.ends();
+        let rounding = ROUNDING_OF_ENDS * (ends[1] - ends[0]);
+        for (end, finer) in state.ends.iter_mut().zip(ends) {
+            end.error = 2.0 * (end.value - finer).abs() + rounding;
+        }
+        Ok(state)
+    }
+}
+
+struct Solution {
+    sums: Sweep,
+    n_pieces: usize,
+}
+
+impl Solution {
+    /// Rear and front of the whole contact, \[m].
+    fn ends(&self) -> [f64; 2] {
+        let contacts = &self.sums.contacts;
+        let front = contacts.first().map_or(0.0, |[_, front]| *front);
+        let rear = contacts.last().map_or(front, |[rear, _]| *rear);
+        [rear, front]
+    }
+}
