@@ -157,7 +157,7 @@ pub(crate) fn resolve<T>(
 }
 
 impl From<NotReached> for BemError {
-    /// The quantities that drive a refinement, by their place in [`Quantities`].
+    /// The quantities that drive a refinement, by their place in quantities.
     fn from(reached: NotReached) -> Self {
         let NotReached {
             quantity,

@@ -1,7 +1,7 @@
 //! Friction of rigid bodies that slide over rubber and other viscoelastic materials.
 //!
-//! A [`Scene`](scene::Scene) says which body is pressed into which material, how it moves, and how well the answer is asked
-//! for; as a text it is a scene file of the program `viscofriction`. [`solve`] takes the cheapest method of the model that
+//! A [`Scene`] says which body is pressed into which material, how it moves, and how well the answer is asked
+//! for; as a text it is a scene file of the program `viscofriction`. [`solve`](fn@solve) takes the cheapest method of the model that
 //! answers it, and returns an [`Answer`] with its errors. The model is the half space unless the scene asks for the
 //! one-dimensional model (`model = "line"`). [`sweep`] solves a scene for many values of its keys.
 //!
