@@ -1,18 +1,19 @@
 //! Random surfaces, materials and loads over many decades: forces balance, pressure and gap exclude each other, more force
-//! is more depth, and neither units nor the mirror image nor the number of threads matter.
+//! is more depth, and neither units nor the mirror image matter.
 
-use bem_halfspace::slide::{PressureField, slide_on_grid};
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
-use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    GridOptions, influence, solve_contact,
-};
-use indenters::{PowerProfile, SlidingLoad};
+use std::f64::consts::PI;
+
+use bem_halfspace::slide::Transient;
+use bem_halfspace::{ContactOptions, Control, Convolution, Grid, influence};
+use indenters::Surface;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use rheology::{Compressible, Prony};
+use rheology::Compressible;
 
-use crate::support::{Skewed, prony};
+use crate::support::{
+    Formula, Pressing, Scene, after, assert_close, assert_near, carried, difference, power, prony,
+    slid, squares, under_force,
+};
 
 /// One unit of length \[m], stress \[Pa] and time \[s].
 type Units = [f64; 3];
@@ -47,11 +48,8 @@ struct Rough {
 fn rough() -> impl Strategy<Value = Rough> {
     let surface = (6..24_usize, 6..24_usize).prop_flat_map(|(rows, columns)| {
         let roughness = prop::collection::vec(0.0..1.0_f64, rows * columns);
-        (
-            Just([rows, columns]),
-            roughness,
-            [0.0..1.0_f64, 0.0..1.0_f64],
-        )
+        let summit = [0.0..1.0_f64, 0.0..1.0_f64];
+        (Just([rows, columns]), roughness, summit)
     });
     let load = (0.5..2.0_f64, decades(3.0), 0.0..2.0_f64, any::<bool>());
     (surface, load).prop_map(
@@ -83,63 +81,36 @@ const SOLVED: ContactOptions = ContactOptions {
 const SAME: f64 = 1e-8;
 
 impl Rough {
-    fn convolution(&self, length: f64) -> Convolution {
+    fn body(&self, [length, stress, _]: Units) -> Pressing {
         let grid = Grid::new(self.shape, [length, self.aspect * length]).expect("a grid");
-        if self.periodic {
+        let convolution = if self.periodic {
             Convolution::periodic(&grid)
         } else {
             Convolution::new(&grid)
-        }
-    }
-
-    fn press(&self, force: f64) -> (Contact, ContactState) {
-        self.press_in(force, [1.0; 3], &mut None)
-    }
-
-    /// Presses in other units, from the pressure of another solution if there is one.
-    fn press_in(
-        &self,
-        force: f64,
-        [length, stress, _]: Units,
-        guess: &mut Option<ContactState>,
-    ) -> (Contact, ContactState) {
-        let convolution = self.convolution(length);
-        let heights: Vec<f64> = self.heights.iter().map(|height| height * length).collect();
-        let mut state = guess
-            .take()
-            .unwrap_or_else(|| ContactState::new(&convolution));
-        let problem = ContactProblem {
-            convolution: &convolution,
-            separation: &heights,
-            compliance: 1.0 / stress,
-            control: Control::NormalForce(force * stress * length * length),
         };
-        let contact = solve_contact(&problem, &mut state, &SOLVED).expect("a contact");
-        (contact, state)
+        Pressing {
+            convolution,
+            heights: self.heights.iter().map(|height| height * length).collect(),
+            compliance: 1.0 / stress,
+            options: SOLVED,
+        }
     }
 
-    /// The same from behind.
-    fn mirrored(&self) -> Self {
-        let rows = self.heights.chunks(self.shape[1]).rev();
-        Self {
-            heights: rows.flatten().copied().collect(),
-            ..self.clone()
-        }
+    /// Rows from last to first.
+    fn reversed(&self, field: &[f64]) -> Vec<f64> {
+        field
+            .chunks(self.shape[1])
+            .rev()
+            .flatten()
+            .copied()
+            .collect()
     }
 }
 
 fn largest(values: &[f64]) -> f64 {
     values
         .iter()
-        .fold(0.0, |largest, value| largest.max(value.abs()))
-}
-
-fn assert_close(actual: f64, expected: f64, tolerance: f64, what: &str) {
-    let error = (actual / expected - 1.0).abs();
-    assert!(
-        error <= tolerance,
-        "{what}: {actual:e} instead of {expected:e}, off by {error:e}"
-    );
+        .fold(0.0, |top: f64, value| top.max(value.abs()))
 }
 
 proptest! {
@@ -147,11 +118,11 @@ proptest! {
 
     #[test]
     fn pressure_balances_the_force_and_excludes_a_gap(scene in rough()) {
-        let (contact, state) = scene.press(scene.force);
+        let (contact, state) = scene.body([1.0; 3]).solve(Control::NormalForce(scene.force));
         let sum = state.pressure().iter().sum::<f64>() * scene.aspect;
-        assert_close(sum, scene.force, 1e-12, "sum of the pressure");
+        assert_close("sum of the pressure", sum, scene.force, 1e-12);
         // What a pressure causes at its own element; a periodic half space moves as much, less the mean.
-        let own = influence([0.0, 0.0], [1.0, scene.aspect]) / (4.0 * std::f64::consts::PI);
+        let own = influence([0.0, 0.0], [1.0, scene.aspect]) / (4.0 * PI);
         let own = own * largest(state.pressure());
         let allowed = SOLVED.tolerance * largest(state.displacement()).max(own);
         let depth = contact.indentation_depth;
@@ -172,36 +143,34 @@ proptest! {
 
     #[test]
     fn more_force_is_more_depth_from_any_first_guess(scene in rough(), more in 1.01..100.0_f64) {
-        let (contact, _) = scene.press(scene.force);
-        let (deeper, state) = scene.press(more * scene.force);
+        let body = scene.body([1.0; 3]);
+        let (contact, _) = body.solve(Control::NormalForce(scene.force));
+        let (deeper, mut state) = body.solve(Control::NormalForce(more * scene.force));
         let depths = [contact, deeper].map(|contact| contact.indentation_depth);
         prop_assert!(depths[1] > depths[0], "{depths:?} under {more} times the force");
-        let (again, _) = scene.press_in(scene.force, [1.0; 3], &mut Some(state));
+        let again = body.solve_from(&mut state, Control::NormalForce(scene.force));
         let scale = largest(&scene.heights).max(depths[0].abs());
-        let error = (again.indentation_depth - depths[0]).abs();
-        prop_assert!(error <= SAME * scale, "{again:?} from above instead of {contact:?}");
+        let depth = again.expect("a contact").indentation_depth;
+        assert_near("from above", depth, depths[0], SAME * scale);
     }
 
     #[test]
     fn contacts_have_neither_units_nor_a_preferred_side(scene in rough(), units in units()) {
-        let (contact, state) = scene.press(scene.force);
-        let (other, scaled) = scene.press_in(scene.force, units, &mut None);
-        let (from_behind, mirrored) = scene.mirrored().press(scene.force);
+        let [length, stress, _] = units;
+        let (contact, state) = scene.body([1.0; 3]).solve(Control::NormalForce(scene.force));
+        let force = scene.force * stress * length * length;
+        let (other, scaled) = scene.body(units).solve(Control::NormalForce(force));
+        let heights = scene.reversed(&scene.heights);
+        let behind = Rough { heights, ..scene.clone() }.body([1.0; 3]);
+        let (from_behind, mirrored) = behind.solve(Control::NormalForce(scene.force));
         let scale = largest(&scene.heights).max(contact.indentation_depth.abs());
-        for depth in [other.indentation_depth / units[0], from_behind.indentation_depth] {
-            let error = (depth - contact.indentation_depth).abs();
-            prop_assert!(error <= SAME * scale, "depth {depth} instead of {contact:?}");
+        for depth in [other.indentation_depth / length, from_behind.indentation_depth] {
+            assert_near("depth", depth, contact.indentation_depth, SAME * scale);
         }
-        let allowed = SAME * largest(state.pressure());
-        let columns = scene.shape[1];
-        let behind: Vec<f64> = mirrored.pressure().chunks(columns).rev().flatten().copied().collect();
-        for (index, pressure) in state.pressure().iter().enumerate() {
-            for same in [scaled.pressure()[index] / units[1], behind[index]] {
-                prop_assert!(
-                    (same - pressure).abs() <= allowed,
-                    "{same} instead of {pressure} in element {index}"
-                );
-            }
+        let in_units: Vec<f64> = scaled.pressure().iter().map(|p| p / stress).collect();
+        for same in [in_units, scene.reversed(mirrored.pressure())] {
+            let error = difference(&same, state.pressure());
+            prop_assert!(error <= SAME, "pressures differ by {error:e}");
         }
     }
 }
@@ -221,10 +190,8 @@ struct Sliding {
 fn sliding() -> impl Strategy<Value = Sliding> {
     let body = (0.9..3.0_f64, decades(2.0));
     let branches = prop::collection::vec((decades(1.0), decades(1.0)), 0..3);
-    let moduli = (
-        prop_oneof![Just(0.0), decades(1.0)],
-        prop_oneof![Just(0.0), decades(1.0)],
-    );
+    let modulus = || prop_oneof![Just(0.0), decades(1.0)];
+    let moduli = (modulus(), modulus());
     (body, moduli, branches, -0.5..=0.5_f64, decades(1.0))
         .prop_map(
             |(body, moduli, branches, poisson_ratio, velocity)| Sliding {
@@ -242,25 +209,15 @@ fn sliding() -> impl Strategy<Value = Sliding> {
         })
 }
 
-/// A scene in SI.
-struct Physical {
-    body: PowerProfile,
-    material: Compressible,
-    load: SlidingLoad,
-}
-
 impl Sliding {
     fn material(&self, stress: f64, time: f64) -> Compressible {
-        let branches: Vec<(f64, f64)> = self
-            .branches
-            .iter()
-            .map(|(modulus, tau)| (modulus * stress, tau * time))
-            .collect();
+        let branches = self.branches.iter();
+        let branches = branches.map(|(modulus, tau)| (modulus * stress, tau * time));
         let moduli = [
             self.equilibrium_modulus * stress,
             self.viscosity * stress * time,
         ];
-        let in_shear: Prony = prony(moduli, &branches);
+        let in_shear = prony(moduli, &branches.collect::<Vec<_>>());
         Compressible::new(&in_shear, self.poisson_ratio).expect("a Poisson ratio")
     }
 
@@ -274,60 +231,30 @@ impl Sliding {
         self.equilibrium_modulus + self.viscosity * self.velocity + branches
     }
 
-    fn in_units(&self, [length, stress, time]: Units) -> Physical {
-        let force = self.slope * self.modulus();
+    fn in_units(&self, [length, stress, time]: Units) -> Scene<Compressible> {
+        let force = self.slope * self.modulus() * stress * length * length;
         let coefficient = self.slope * length.powf(1.0 - self.exponent);
-        let load = SlidingLoad::new(
-            force * stress * length * length,
-            self.velocity * length / time,
-        );
-        Physical {
-            body: PowerProfile::new(coefficient, self.exponent).expect("a body"),
-            material: self.material(stress, time),
-            load: load.expect("a load"),
-        }
+        Scene::new(
+            power(coefficient, self.exponent),
+            self.material(stress, time),
+            under_force(force, self.velocity * length / time),
+        )
     }
 }
 
-impl Physical {
-    fn footprint(&self) -> Footprint {
-        Footprint::sliding(&self.body, &self.material, &self.load).expect("a footprint")
-    }
-
-    fn steady(&self) -> SteadySliding {
-        let footprint = self.footprint();
-        let spacing = footprint.x[1] / 8.0;
-        let options = SteadyOptions {
-            tolerance: 1e-10,
-            ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
-        };
-        steady_on_grid(&self.body, &self.material, &self.load, &options)
-            .expect("a stationary state")
-    }
-
-    /// A few steps from first touch on, of a body or its mirror image.
-    fn transient(&self, handedness: f64) -> (f64, PressureField) {
-        let half_width = self.footprint().x[1];
-        let mut options =
-            GridOptions::new([half_width / 8.0; 2], Footprint::square(2.0 * half_width));
-        options.contact.tolerance = 1e-11;
-        let load = self.load.after(0.5 * half_width).expect("a distance");
-        let body = Skewed {
-            body: self.body,
-            handedness,
-        };
-        let transient = slide_on_grid(&body, &self.material, &load, &options).expect("a transient");
-        (transient.last().friction_coefficient, transient.pressure)
-    }
-}
-
-/// The force that a field carries; refuses tension.
-fn carried(field: &PressureField) -> f64 {
-    assert!(
-        field.pressure.iter().all(|pressure| *pressure >= 0.0),
-        "tension in {field:?}"
-    );
-    field.pressure.iter().sum::<f64>() * field.grid.element_area()
+/// A few steps from first touch on, of a body without symmetry or its mirror image in y (handedness −1).
+fn transient(scene: &Scene<Compressible>, handedness: f64) -> Transient {
+    let skewed = |[x, y]: [f64; 2]| [x + 0.4 * handedness * y, 1.3 * handedness * y];
+    let gradient = |position| {
+        let [along, across] = scene.body.gradient(skewed(position));
+        [along, handedness * (0.4 * along + 1.3 * across)]
+    };
+    let body = Formula::new(|position| scene.body.height(skewed(position)), gradient);
+    let half_width = scene.footprint().x[1];
+    let mut options = squares(half_width / 8.0, 2.0 * half_width);
+    options.contact.tolerance = 1e-11;
+    let load = after(scene.load, 0.5 * half_width);
+    slid(&body, &scene.material, &load, &options)
 }
 
 proptest! {
@@ -336,8 +263,10 @@ proptest! {
     #[test]
     fn stationary_sliding_is_in_balance_and_symmetric(scene in sliding(), units in units()) {
         let physical = scene.in_units(units);
-        let state = physical.steady();
-        assert_close(carried(&state.pressure), physical.load.normal_force().expect("a force"), 1e-11, "force");
+        let elements = 8.0 / 3.0_f64.sqrt();
+        let state = physical.steady_on_one_grid(elements);
+        let force = physical.load.normal_force().expect("a force");
+        assert_close("force", carried(&state.pressure), force, 1e-11);
         // Without a rear part the two are one sum.
         let bound = state.mean_slope * (1.0 + 1e-12);
         prop_assert!(
@@ -346,15 +275,13 @@ proptest! {
         );
         let columns = state.pressure.grid.shape()[1];
         for row in state.pressure.pressure.chunks(columns) {
-            let [left, right] = [0, 1].map(|half| {
-                let step = |k: usize| if half == 0 { k } else { columns - 1 - k };
-                (0..columns / 2).map(|k| row[step(k)]).collect::<Vec<f64>>()
-            });
-            prop_assert_eq!(left, right, "half of a symmetric scene stands for both");
+            let mirrored = row.iter().rev();
+            prop_assert!(row.iter().eq(mirrored), "half of a symmetric scene stands for both");
         }
-        let reference = scene.in_units([1.0; 3]).steady();
-        assert_close(state.friction_coefficient, reference.friction_coefficient, 1e-7, "friction");
-        assert_close(state.contact_x[1] / units[0], reference.contact_x[1], 1e-9, "front");
+        let reference = scene.in_units([1.0; 3]).steady_on_one_grid(elements);
+        let [friction, expected] = [&state, &reference].map(|state| state.friction_coefficient);
+        assert_close("friction", friction, expected, 1e-7);
+        assert_close("front", state.contact_x[1] / units[0], reference.contact_x[1], 1e-9);
     }
 
     #[test]
@@ -362,49 +289,16 @@ proptest! {
         scene in sliding(), units in units(),
     ) {
         let physical = scene.in_units(units);
-        let [(right, field), (left, mirrored)] = [1.0, -1.0].map(|side| physical.transient(side));
-        assert_close(carried(&field), physical.load.normal_force().expect("a force"), 1e-11, "force");
-        assert_close(carried(&mirrored), physical.load.normal_force().expect("a force"), 1e-11, "force");
-        assert_close(left, right, 1e-7, "friction of the mirror image");
-        let (reference, _) = scene.in_units([1.0; 3]).transient(1.0);
-        assert_close(right, reference, 1e-7, "friction in other units");
-    }
-}
-
-#[cfg(feature = "rayon")]
-proptest! {
-    #![proptest_config(cases(3))]
-
-    /// Grids of more than the 2^13 elements for which a second thread is taken.
-    #[test]
-    fn any_number_of_threads_finds_the_same_bits(
-        columns in 90..110_usize, summit in 0.3..0.7_f64, force in decades(1.0), threads in 2..5_usize,
-    ) {
-        let rows = 8200_usize.div_ceil(columns);
-        let grid = Grid::new([rows, columns], [1.0, 1.0]).expect("a grid");
-        let heights: Vec<f64> = (0..rows * columns)
-            .map(|index| {
-                let [x, y] = [(index / columns) as f64, (index % columns) as f64];
-                let [dx, dy] = [x - summit * rows as f64, y - summit * columns as f64];
-                0.01 * (dx * dx + dy * dy) + (1.3 * x).sin() * (0.7 * y).cos()
-            })
-            .collect();
-        let solve = || {
-            let convolution = Convolution::new(&grid);
-            let mut state = ContactState::new(&convolution);
-            let problem = ContactProblem {
-                convolution: &convolution,
-                separation: &heights,
-                compliance: 1.0,
-                control: Control::NormalForce(1e3 * force),
-            };
-            let contact = solve_contact(&problem, &mut state, &ContactOptions::default());
-            (contact.expect("a contact"), state.pressure().to_vec())
-        };
-        let on = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("a pool").install(solve)
-        };
-        prop_assert_eq!(on(1), on(threads), "one and {} threads", threads);
+        let force = physical.load.normal_force().expect("a force");
+        let [right, left] = [1.0, -1.0].map(|side| transient(&physical, side));
+        let reference = transient(&scene.in_units([1.0; 3]), 1.0);
+        for march in [&right, &left] {
+            assert_close("force", carried(&march.pressure), force, 1e-11);
+        }
+        let [right, left, reference] = [right, left, reference].map(|march| march.last().clone());
+        let friction = right.friction_coefficient;
+        assert_close("mirror image", left.friction_coefficient, friction, 1e-7);
+        assert_close("other units", friction, reference.friction_coefficient, 1e-7);
+        assert_near("side", left.contact_y[1], -right.contact_y[0], 1e-12 * units[0]);
     }
 }

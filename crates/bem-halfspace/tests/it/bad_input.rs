@@ -1,213 +1,288 @@
 //! Bad input gives a typed error that names the parameter and its value.
 
 use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::slide::{
+    March, Motion, StationaryOptions, Transient, slide, slide_on_grid, slide_to_stationary,
+};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady, steady_line, steady_on_grid};
 use bem_halfspace::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    GridOptions, slide_on_grid, solve_contact,
+    GridOptions, indent, press, solve_contact,
 };
-use indenters::{FlatPunch, Surface};
+use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
+use numerics::Accuracy;
 
-use crate::support::Scene;
+use crate::support::{
+    Formula, Scene, after, assert_refused, at_depth, paraboloid, power, prony, squares,
+    three_elements, under_force, viscous,
+};
 
 const BAD: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
+/// The parameter that is named, and how it is given a bad value.
+type Change<Options> = (&'static str, fn(&mut Options, f64));
 
-/// Refuses to slide over so many contact lengths.
-fn refused(options: &GridOptions, lengths: f64) -> BemError {
+const FORCE: Control = Control::NormalForce(1.0);
+
+/// Checks the parameter and the value that an error names.
+#[track_caller]
+fn assert_bad<T>(bad: f64, result: Result<T, BemError>, name: &str) {
+    let text = result.as_ref().err().map(ToString::to_string);
+    let text = text.unwrap_or_default();
+    assert!(text.ends_with(&format!(" is {bad}")), "{bad}: {text}");
+    assert_refused(bad, result, name);
+}
+
+/// Slides the unit paraboloid over so many contact lengths, on eight elements along the contact but for a change.
+fn slid(lengths: f64, change: impl FnOnce(&mut GridOptions)) -> Result<Transient, BemError> {
     let scene = Scene::unit(2.0);
-    match slide_on_grid(
-        &scene.body,
-        &scene.material,
-        &scene.load_over(lengths),
-        options,
-    ) {
-        Err(error) => error,
-        Ok(_) => panic!("accepted {options:?}"),
-    }
+    let mut options = scene.options(8.0);
+    change(&mut options);
+    let load = scene.load_over(lengths);
+    slide_on_grid(&scene.body, &scene.material, &load, &options)
+}
+
+/// The stationary state of a body under the load of the unit paraboloid, on its grid but for a change.
+fn steady_with(
+    body: &impl Surface,
+    change: impl FnOnce(&mut SteadyOptions),
+) -> Result<SteadySliding, BemError> {
+    let scene = Scene::unit(2.0);
+    let mut options = scene.steady_options(6.0);
+    change(&mut options);
+    steady_on_grid(body, &scene.material, &scene.load, &options)
+}
+
+/// On square elements in a square footprint.
+fn steady_in(
+    body: &impl Surface,
+    spacing: f64,
+    half_width: f64,
+) -> Result<SteadySliding, BemError> {
+    steady_with(body, |options| {
+        options.spacing = [spacing; 2];
+        options.footprint = Footprint::square(half_width);
+    })
 }
 
 #[test]
-fn slide_refuses_options_out_of_range() {
-    let good = Scene::unit(2.0).options(4.0);
-    for value in BAD {
-        for options in [
-            GridOptions {
-                spacing: [value, good.spacing[1]],
-                ..good
-            },
-            GridOptions {
-                spacing: [good.spacing[0], value],
-                ..good
-            },
-            GridOptions {
-                footprint: Footprint {
-                    x: [-1.0, value],
-                    ..good.footprint
-                },
-                ..good
-            },
-            GridOptions {
-                footprint: Footprint {
-                    y: [-value, 1.0],
-                    ..good.footprint
-                },
-                ..good
-            },
-            GridOptions {
-                contact: ContactOptions {
-                    tolerance: value,
-                    ..good.contact
-                },
-                ..good
-            },
-        ] {
-            let error = refused(&options, 1.0);
-            assert!(
-                matches!(error, BemError::InvalidParameter { .. }),
-                "{options:?} gave {error}"
-            );
+fn options_out_of_range_are_refused() {
+    let of_grids: [Change<GridOptions>; 5] = [
+        ("spacing along x", |grid, bad| grid.spacing[0] = bad),
+        ("spacing along y", |grid, bad| grid.spacing[1] = bad),
+        ("footprint along x", |grid, bad| grid.footprint.x[1] = bad),
+        ("footprint along y", |grid, bad| grid.footprint.y[0] = -bad),
+        ("contact tolerance", |grid, bad| {
+            grid.contact.tolerance = bad
+        }),
+    ];
+    let of_states: [Change<SteadyOptions>; 5] = [
+        ("spacing along x", |grid, bad| grid.spacing[0] = bad),
+        ("spacing along y", |grid, bad| grid.spacing[1] = bad),
+        ("footprint along x", |grid, bad| grid.footprint.x[1] = bad),
+        ("footprint along y", |grid, bad| grid.footprint.y[0] = -bad),
+        ("tolerance", |grid, bad| grid.tolerance = bad),
+    ];
+    let body = paraboloid(0.3);
+    for bad in BAD {
+        for (name, change) in of_grids {
+            assert_bad(bad, slid(1.0, |grid| change(grid, bad)), name);
         }
+        for (name, change) in of_states {
+            assert_bad(bad, steady_with(&body, |grid| change(grid, bad)), name);
+        }
+        let solved = Scene::unit(2.0).try_steady(bad);
+        assert_bad(bad, solved, "relative_error");
+    }
+    for bad in [0.51, -0.6, f64::NAN] {
+        let solved = steady_with(&body, |options| options.phase[1] = bad);
+        assert_bad(bad, solved, "phase");
     }
 }
 
 #[test]
-fn a_grid_beyond_memory_is_refused_before_it_is_made() {
-    let good = Scene::unit(2.0).options(4.0);
-    for spacing in [1e-7, 1e-200, f64::MIN_POSITIVE] {
-        let error = refused(
-            &GridOptions {
-                spacing: [spacing, spacing],
-                ..good
-            },
-            1.0,
-        );
-        assert!(
-            matches!(error, BemError::GridTooLarge { .. }),
-            "spacing {spacing} gave {error}"
-        );
-    }
-}
-
-#[test]
-fn a_contact_that_leaves_the_footprint_is_an_error() {
-    let good = Scene::unit(2.0).options(8.0);
+fn a_contact_that_does_not_fit_is_refused() {
     let length = Scene::unit(2.0).contact_length();
-    let error = refused(
-        &GridOptions {
-            footprint: Footprint::square(0.7 * length),
-            ..good
-        },
-        4.0,
+    let body = paraboloid(0.3);
+    for spacing in [1e-7, 1e-200, f64::MIN_POSITIVE] {
+        let fine = slid(1.0, |options| options.spacing = [spacing; 2]);
+        assert_refused(spacing, fine, "GridTooLarge");
+        let fine = steady_with(&body, |options| options.spacing = [spacing; 2]);
+        assert_refused(spacing, fine, "GridTooLarge");
+    }
+    let coarse = slid(8.0, |options| options.spacing = [length; 2]);
+    assert_refused("slide", coarse, "GridTooCoarse");
+    let coarse = steady_with(&body, |options| options.spacing = [length; 2]);
+    assert_refused("steady", coarse, "GridTooCoarse");
+    let beyond = slid(4.0, |grid| grid.footprint = Footprint::square(0.7 * length));
+    assert_refused("slide", beyond, "ContactReachesBoundary");
+    let beyond = steady_in(&body, length / 6.0, 0.8 * length);
+    assert_refused("steady", beyond, "ContactReachesBoundary");
+    let (load, options) = (
+        under_force(1.0, 1.0),
+        SteadyOptions::new([0.02; 2], Footprint::square(0.3)),
     );
-    assert!(
-        matches!(error, BemError::ContactReachesBoundary { .. }),
-        "{error}"
-    );
+    let solid = three_elements(0.1, 1.0, 1.0);
+    let beyond = steady_on_grid(&paraboloid(1.0), &solid, &load, &options);
+    assert_refused("a solid", beyond, "ContactReachesBoundary");
 }
 
 #[test]
-fn a_grid_too_coarse_for_the_contact_is_an_error() {
-    let error = refused(&Scene::unit(2.0).options(1.0), 8.0);
-    assert!(
-        matches!(error, BemError::GridTooCoarse { needed: 3, .. }),
-        "{error}"
-    );
-}
-
-#[test]
-fn an_exhausted_iteration_says_what_it_reached() {
-    let good = Scene::unit(2.0).options(8.0);
-    let contact = ContactOptions {
-        max_iterations: 1,
-        ..good.contact
+fn what_is_not_reached_says_what_was() {
+    let name = "ContactNotConverged";
+    let slid_once = slid(1.0, |options| options.contact.max_iterations = 1);
+    if let Err(BemError::ContactNotConverged {
+        residual,
+        tolerance,
+        ..
+    }) = slid_once
+    {
+        assert!(residual > tolerance, "residual {residual} of {tolerance}");
+    }
+    assert_refused("slide", slid_once, name);
+    let once = steady_with(&paraboloid(0.3), |options| options.max_iterations = 1);
+    assert_refused("steady", once, name);
+    let drifting = Scene::unit(2.0).slide(6.0, 2.0).stationary(1e-3);
+    assert_refused("2 contact lengths", drifting, "NotStationary");
+    let wanted = StationaryOptions {
+        tolerance: 1e-3,
+        over_distance: 3.0,
     };
-    match refused(&GridOptions { contact, ..good }, 1.0) {
-        BemError::ContactNotConverged {
-            iterations: 1,
-            residual,
-            tolerance,
-        } => {
-            assert!(
-                residual > tolerance && residual.is_finite(),
-                "residual {residual}"
-            );
-        }
-        other => panic!("{other}"),
-    }
-}
-
-/// A surface with one bad height.
-struct Broken(f64);
-
-impl Surface for Broken {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        if x > 0.1 { self.0 } else { x * x + y * y }
-    }
-
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [2.0 * x, 2.0 * y]
-    }
+    let load = after(under_force(1.5, 0.3), 4.0);
+    let grid = squares(0.2, 2.4);
+    let short = slide_to_stationary(&paraboloid(0.5), &viscous(1.2), &load, &grid, &wanted);
+    assert_refused("4 m", short, "NotStationary");
 }
 
 #[test]
-fn a_surface_without_numbers_is_refused() {
+fn bodies_without_numbers_or_without_friction_are_refused() {
     let scene = Scene::unit(2.0);
-    let options = scene.options(8.0);
-    let steps = IndentStep::constant(Control::NormalForce(1.0), &[1.0]);
-    for value in [f64::NAN, f64::NEG_INFINITY] {
-        let body = Broken(value);
-        let slid =
-            slide_on_grid(&body, &scene.material, &scene.load_over(1.0), &options).map(|_| ());
-        assert!(
-            matches!(slid, Err(BemError::InvalidHeight { .. })),
-            "{value}: {slid:?}"
-        );
-        let pressed = indent_history_on_grid(&body, &scene.material, &steps, &options).map(|_| ());
-        assert!(
-            matches!(pressed, Err(BemError::InvalidHeight { .. })),
-            "{value}: {pressed:?}"
-        );
+    let (load, options) = (scene.load_over(1.0), scene.options(8.0));
+    let steps = IndentStep::constant(FORCE, &[1.0]);
+    for bad in [f64::NAN, f64::NEG_INFINITY] {
+        let height = |[x, y]: [f64; 2]| if x > 0.1 { bad } else { x * x + y * y };
+        let broken = Formula::new(height, |[x, y]| [2.0 * x, 2.0 * y]);
+        let name = "InvalidHeight";
+        let moved = slide_on_grid(&broken, &scene.material, &load, &options);
+        assert_refused(bad, moved, name);
+        let pressed = indent_history_on_grid(&broken, &scene.material, &steps, &options);
+        assert_refused(bad, pressed, name);
+        assert_refused(bad, steady_with(&broken, |_| ()), name);
     }
-}
-
-#[test]
-fn a_vertical_wall_in_contact_is_an_error() {
-    let scene = Scene::unit(2.0);
-    let options = scene.options(8.0);
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
-    let slid = slide_on_grid(&punch, &scene.material, &scene.load_over(1.0), &options).map(|_| ());
-    assert!(
-        matches!(slid, Err(BemError::VerticalWall { .. })),
-        "{slid:?}"
-    );
+    let moved = slide_on_grid(&punch, &scene.material, &load, &options);
+    assert_refused("punch", moved, "VerticalWall");
+    let punch = FlatPunch::new(0.3).expect("a punch");
+    let name = "number of elements of the footprint that may touch";
+    assert_refused("punch", steady_in(&punch, 0.02, 0.6), name);
+    let beyond_its_equator = steady_in(&Sphere::new(0.05).expect("a body"), 0.01, 0.2);
+    assert_refused("sphere", beyond_its_equator, "VerticalWall");
+    let steep = steady_in(&power(1.0, 1000.0), 0.1, 1.5);
+    assert_refused("r^1000", steep, "SlopeNotResolved");
+    let steep = Scene::unit(1000.0).try_steady(1e-3);
+    assert_refused("r^1000 on any grid", steep, "GridTooLarge");
+    for exponent in [0.2, 0.5] {
+        let cusp = steady(&power(1.0, exponent), &scene.material, &scene.load, 1e-3);
+        assert_refused(exponent, cusp, "apex exponent");
+    }
+}
+
+/// Two runners on either side of the lowest point, of which the footprint holds one.
+#[test]
+fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
+    let runner = |[x, y]: [f64; 2]| x * x + (y.abs() - 3.0).powi(2);
+    let height = |[x, y]: [f64; 2]| {
+        if (y.abs() - 3.0).abs() < 1.0 {
+            runner([x, y])
+        } else {
+            f64::INFINITY
+        }
+    };
+    let sledge = Formula {
+        mirrors: [true; 2],
+        ..Formula::new(height, |[x, y]| {
+            [2.0 * x, 2.0 * (y.abs() - 3.0) * y.signum()]
+        })
+    };
+    for y in [[-1.0, 5.0], [-5.0, 1.0]] {
+        let solved = steady_with(&sledge, |options| {
+            options.spacing = [0.2; 2];
+            options.footprint = Footprint { x: [-5.0, 5.0], y };
+        });
+        let name = "number of elements of the footprint that may touch";
+        assert_refused(y, solved, name);
+    }
 }
 
 #[test]
-fn indentation_refuses_forces_and_times_out_of_range() {
+fn presses_out_of_range_are_refused() {
     let scene = Scene::unit(2.0);
     let options = scene.options(8.0);
-    let refused = |force: f64, times: &[f64]| {
+    let pressed = |force: f64, times: &[f64]| {
         let steps = IndentStep::constant(Control::NormalForce(force), times);
-        let result = indent_history_on_grid(&scene.body, &scene.material, &steps, &options);
-        assert!(
-            matches!(result, Err(BemError::InvalidParameter { .. })),
-            "{force}, {times:?}: {result:?}"
-        );
+        indent_history_on_grid(&scene.body, &scene.material, &steps, &options)
     };
-    for value in BAD {
-        refused(1.0, &[value]);
+    for bad in BAD {
+        assert_bad(bad, pressed(1.0, &[bad]), "time step");
     }
-    for value in [-1.0, f64::NAN, f64::INFINITY] {
-        refused(value, &[1.0]);
+    for times in [[1e-3, 1e-3], [2e-3, 1e-3]] {
+        assert_refused(times, pressed(1.0, &times), "time step");
     }
-    refused(1.0, &[]);
-    refused(1.0, &[1e-3, 1e-3]);
-    refused(1.0, &[2e-3, 1e-3]);
+    assert_refused("never", pressed(1.0, &[]), "number of steps");
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_bad(bad, pressed(bad, &[1.0]), "normal_force");
+    }
+    let overflow = pressed(1.0, &[1e300]);
+    assert!(overflow.is_err(), "{overflow:?}");
 }
 
 #[test]
-fn fields_of_the_wrong_length_and_bad_controls_are_refused() {
-    let grid = Grid::new([3, 2], [1.0, 1.0]).expect("a valid grid");
-    let convolution = Convolution::new(&grid);
+fn what_never_comes_to_rest_is_refused() {
+    let (grid, held) = (Accuracy::Elements(16), Control::IndentationDepth(0.01));
+    let pressed = press(&paraboloid(0.5), &viscous(1.0), held, grid);
+    assert_refused("a dashpot", pressed, "NoEquilibrium");
+    let relaxed = PressingLoad::new(held, 1e6).expect("a load");
+    let fluid = prony([0.0, 0.0], &[(4.0, 0.5)]);
+    let name = "relaxation modulus of a depth held so long";
+    let relaxed = indent(&paraboloid(0.5), &fluid, &relaxed, grid);
+    assert_refused("a fluid", relaxed, name);
+    // At a constant depth the body sinks for ever, and so it does under a line load.
+    let scene = Scene::new(paraboloid(0.3), viscous(2.0), at_depth(0.1, 1.0));
+    let name = "SlidingDistanceMissing";
+    assert_refused("a state", scene.try_steady(1e-3), name);
+    let march = slide(&scene.body, &scene.material, &scene.load, 1e-2);
+    assert_refused("a march", march, name);
+    let (cylinder, load) = (Cylinder::new(1.0), under_force(1.0, 1.0));
+    let cylinder = cylinder.expect("a body");
+    for fluid in [prony([0.0, 2.0], &[]), prony([0.0, 0.0], &[(1.0, 2.0)])] {
+        let line = steady_line(&cylinder, &fluid, &load, 1e-2);
+        assert_refused(&fluid, line, "fluidity");
+    }
+}
+
+/// Speeds at which a length over a speed, or the compliance over it, leaves the numbers.
+#[test]
+fn speeds_beyond_all_numbers_are_refused_or_answered() {
+    for velocity in [1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300] {
+        let (solid, load) = (three_elements(0.1, 1.0, 1.0), under_force(1.0, velocity));
+        match Scene::new(paraboloid(1.0), solid, load).try_steady(1e-2) {
+            Ok(estimate) => {
+                let friction = estimate.friction_coefficient;
+                assert!(
+                    friction.value.abs() < 1e-8 && friction.error.is_finite(),
+                    "v = {velocity:e}: {friction:?}"
+                );
+            }
+            Err(error) => assert!(
+                matches!(error, BemError::InvalidParameter { .. }),
+                "v = {velocity:e}: {error}"
+            ),
+        }
+    }
+}
+
+#[test]
+fn contacts_out_of_range_are_refused() {
+    let convolution = Convolution::new(&Grid::new([3, 2], [1.0, 1.0]).expect("a valid grid"));
     let solve = |separation: &[f64], compliance: f64, control: Control| {
         let mut state = ContactState::new(&convolution);
         let problem = ContactProblem {
@@ -218,7 +293,7 @@ fn fields_of_the_wrong_length_and_bad_controls_are_refused() {
         };
         solve_contact(&problem, &mut state, &ContactOptions::default())
     };
-    let short = solve(&[0.0; 5], 1.0, Control::NormalForce(1.0));
+    let short = solve(&[0.0; 5], 1.0, FORCE);
     assert!(
         matches!(
             short,
@@ -230,64 +305,65 @@ fn fields_of_the_wrong_length_and_bad_controls_are_refused() {
         ),
         "{short:?}"
     );
-    let nowhere = solve(&[f64::INFINITY; 6], 1.0, Control::NormalForce(1.0));
-    assert!(
-        matches!(
-            nowhere,
-            Err(BemError::InvalidParameter {
-                parameter: "separation",
-                ..
-            })
-        ),
-        "{nowhere:?}"
-    );
-    for (compliance, control) in [
-        (0.0, Control::NormalForce(1.0)),
-        (f64::NAN, Control::NormalForce(1.0)),
-        (1.0, Control::NormalForce(-1.0)),
-        (1.0, Control::NormalForce(f64::NAN)),
-        (1.0, Control::IndentationDepth(f64::INFINITY)),
-    ] {
-        let result = solve(&[0.0; 6], compliance, control);
-        assert!(
-            matches!(result, Err(BemError::InvalidParameter { .. })),
-            "{control:?}: {result:?}"
-        );
+    let nowhere = solve(&[f64::INFINITY; 6], 1.0, FORCE);
+    assert_refused("no body", nowhere, "separation");
+    for bad in BAD {
+        assert_bad(bad, solve(&[0.0; 6], bad, FORCE), "compliance");
+        let grid = Grid::new([4, 4], [1.0, bad]);
+        assert_bad(bad, grid, "spacing along y");
     }
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let pressed = solve(&[0.0; 6], 1.0, Control::NormalForce(bad));
+        assert_bad(bad, pressed, "normal_force");
+    }
+    let deep = solve(&[0.0; 6], 1.0, Control::IndentationDepth(f64::INFINITY));
+    assert_refused("infinitely deep", deep, "indentation_depth");
+    let (empty, huge) = (
+        Grid::new([0, 4], [1.0; 2]),
+        Grid::new([1 << 20; 2], [1.0; 2]),
+    );
+    assert_refused("no elements", empty, "number of elements along x");
+    assert_refused("2^40 elements", huge, "GridTooLarge");
 }
 
 #[test]
-fn empty_and_huge_grids_are_refused() {
-    assert!(
-        matches!(
-            Grid::new([0, 4], [1.0, 1.0]),
-            Err(BemError::InvalidParameter { .. })
-        ),
-        "no elements"
-    );
-    assert!(
-        matches!(
-            Grid::new([1 << 20, 1 << 20], [1.0; 2]),
-            Err(BemError::GridTooLarge { .. })
-        ),
-        "2^40 elements"
-    );
-    for value in BAD {
-        assert!(
-            matches!(
-                Grid::new([4, 4], [1.0, value]),
-                Err(BemError::InvalidParameter { .. })
-            ),
-            "{value}"
-        );
+fn motions_out_of_range_are_refused() {
+    let (body, material) = (paraboloid(0.5), three_elements(0.1, 2.0, 0.5));
+    let good = [0.1, 0.2].map(|time| Motion {
+        time,
+        position: time,
+        control: Control::NormalForce(0.5),
+    });
+    let options = squares(0.1, 1.6);
+    let march = |motions: &[Motion]| March::new(&body, &material, motions, &options).map(|_| ());
+    assert_refused("never", march(&[]), "number of steps");
+    for motions in [[good[1], good[0]], [good[0], good[0]]] {
+        assert_refused("no time", march(&motions), "time step");
     }
-}
-
-#[test]
-fn an_overflow_is_an_error_and_not_a_number() {
-    let scene = Scene::unit(2.0);
-    let options = scene.options(8.0);
-    let steps = IndentStep::constant(Control::NormalForce(1.0), &[1e300]);
-    let result = indent_history_on_grid(&scene.body, &scene.material, &steps, &options);
-    assert!(result.is_err(), "{result:?}");
+    let changes: [Change<Motion>; 4] = [
+        ("time step", |to, bad| to.time = bad),
+        ("position", |to, bad| to.position = bad),
+        ("normal_force", |to, bad| {
+            to.control = Control::NormalForce(bad);
+        }),
+        ("indentation_depth", |to, bad| {
+            to.control = Control::IndentationDepth(bad);
+        }),
+    ];
+    for bad in [f64::NAN, f64::INFINITY] {
+        for (name, change) in changes {
+            let mut motion = good[0];
+            change(&mut motion, bad);
+            assert_bad(bad, march(&[motion]), name);
+        }
+    }
+    let mut far = good;
+    far[1].position = 1e12;
+    assert_refused("a path too long", march(&far), "GridTooLarge");
+    let mut tension = good;
+    tension[0].control = Control::NormalForce(-1.0);
+    assert_refused("tension", march(&tension), "normal_force");
+    let nowhere = Formula::new(|_| f64::INFINITY, |_| [0.0; 2]);
+    let march = March::new(&nowhere, &material, &good[..1], &options).map(|_| ());
+    assert_refused("no body", march, "height of the surface");
 }

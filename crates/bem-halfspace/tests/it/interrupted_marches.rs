@@ -1,11 +1,11 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
 use bem_halfspace::slide::{March, MarchState, Motion, MotionRow};
-use bem_halfspace::{BemError, Control, Footprint, GridOptions};
-use indenters::{PowerProfile, Unmirrored};
-use rheology::Elastic;
+use bem_halfspace::{BemError, Control};
+use indenters::{Surface, Unmirrored};
+use rheology::Material;
 
-use crate::support::prony;
+use crate::support::{assert_refused, elastic, power, prony, squares};
 
 /// Pressed, released to a much smaller contact, slid by fractions of an element, lifted, and pressed elsewhere.
 fn motions() -> Vec<Motion> {
@@ -26,39 +26,35 @@ fn motions() -> Vec<Motion> {
     (1..=32).map(motion).collect()
 }
 
-fn resolution() -> GridOptions {
-    GridOptions::new([0.1; 2], Footprint::square(1.6))
+fn march<'a>(body: &'a dyn Surface, material: &'a dyn Material, n_steps: usize) -> March<'a> {
+    let motions = &motions()[..n_steps];
+    March::new(body, material, motions, &squares(0.1, 1.6)).expect("a march")
 }
 
-fn rest(march: &mut March<'_>) -> Vec<MotionRow> {
-    let mut rows = Vec::new();
-    while let Some(row) = march.step().expect("a step") {
-        rows.push(row);
-    }
-    rows
+/// Makes at most so many steps.
+fn step(march: &mut March<'_>, n_steps: usize) -> Vec<MotionRow> {
+    let rows = (0..n_steps).map_while(|_| march.step().expect("a step"));
+    rows.collect()
 }
 
 #[test]
 fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
-    let body = PowerProfile::new(0.5, 1.5).expect("a body");
-    let material = prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
-    let new = || March::new(&body, &material, &motions(), &resolution()).expect("a march");
-    let expected = rest(&mut new());
+    let (body, material) = (
+        power(0.5, 1.5),
+        prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
+    );
+    let expected = step(&mut march(&body, &material, 32), 33);
+    assert_eq!(expected.len(), 32, "steps of the motion");
     for interruption in [0, 1, 4, 9, 12, 19, 25, 32] {
-        let mut first = new();
-        let mut rows: Vec<MotionRow> = (0..interruption)
-            .map(|_| first.step().expect("a step").expect("a row"))
-            .collect();
+        let mut first = march(&body, &material, 32);
+        let mut rows = step(&mut first, interruption);
         let state = through_text(&first.state());
         assert_eq!(state.steps_done(), interruption, "steps in the state");
-        let mut second = new();
+        let mut second = march(&body, &material, 32);
         second.resume(&state).expect("a state of the same scene");
-        assert_eq!(
-            second.pressure(),
-            first.pressure(),
-            "pressure after {interruption} steps"
-        );
-        rows.extend(rest(&mut second));
+        let pressures = [&first, &second].map(|march| march.pressure());
+        assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
+        rows.extend(step(&mut second, 33));
         assert_eq!(rows, expected, "interrupted after {interruption} steps");
     }
 }
@@ -76,17 +72,15 @@ fn through_text(state: &MarchState) -> MarchState {
 
 #[test]
 fn a_state_of_another_scene_is_refused() {
-    let body = PowerProfile::new(0.5, 1.5).expect("a body");
+    let body = power(0.5, 1.5);
+    let whole = Unmirrored(&body);
     let [one, two] = [
         prony([0.2, 0.0], &[(2.0, 0.3)]),
         prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
     ];
-    let mut first = March::new(&body, &one, &motions(), &resolution()).expect("a march");
-    for _ in 0..3 {
-        first.step().expect("a step");
-    }
-    let mut other = March::new(&body, &two, &motions(), &resolution()).expect("a march");
-    let refused = other.resume(&first.state());
+    let mut first = march(&body, &one, 32);
+    step(&mut first, 3);
+    let refused = march(&body, &two, 32).resume(&first.state());
     assert!(
         matches!(
             refused,
@@ -97,64 +91,29 @@ fn a_state_of_another_scene_is_refused() {
         ),
         "{refused:?}"
     );
-    let mut shorter = March::new(&body, &one, &motions()[..2], &resolution()).expect("a march");
-    let refused = shorter.resume(&first.state());
-    assert!(
-        matches!(
-            refused,
-            Err(BemError::InvalidParameter {
-                parameter: "steps done",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
-}
-
-/// The footprint of one has both sides, that of the other one.
-#[test]
-fn states_with_and_without_a_mirror_do_not_fit() {
-    let body = PowerProfile::new(0.5, 1.5).expect("a body");
-    let whole = Unmirrored(&body);
-    let elastic = Elastic::new(2.0).expect("a material");
-    let mut mirrored = March::new(&body, &elastic, &motions(), &resolution()).expect("a march");
-    let mut all = March::new(&whole, &elastic, &motions(), &resolution()).expect("a march");
-    for step in [mirrored.step(), all.step()] {
-        step.expect("a step");
+    let refused = march(&body, &one, 2).resume(&first.state());
+    assert_refused("two steps", refused, "steps done");
+    // The footprint of one has both sides, that of the other one.
+    let elastic = elastic(2.0);
+    let mut mirrored = march(&body, &elastic, 32);
+    let mut all = march(&whole, &elastic, 32);
+    for march in [&mut mirrored, &mut all] {
+        step(march, 1);
     }
     let [front, both] = [mirrored.state(), all.state()];
     for refused in [mirrored.resume(&both), all.resume(&front)] {
-        assert!(
-            matches!(
-                refused,
-                Err(BemError::InvalidParameter {
-                    parameter: "columns of the footprint",
-                    ..
-                })
-            ),
-            "{refused:?}"
-        );
+        assert_refused("a mirror", refused, "columns of the footprint");
     }
 }
 
 #[cfg(feature = "serde")]
 #[test]
 fn a_state_with_an_impossible_box_is_refused() {
-    let body = PowerProfile::new(0.5, 1.5).expect("a body");
-    let elastic = Elastic::new(2.0).expect("a material");
-    let mut march = March::new(&body, &elastic, &motions(), &resolution()).expect("a march");
-    march.step().expect("a step");
+    let (body, elastic) = (power(0.5, 1.5), elastic(2.0));
+    let mut march = march(&body, &elastic, 32);
+    step(&mut march, 1);
     let mut state = serde_json::to_value(march.state()).expect("a value");
     state["contact_box"][0][0] = serde_json::json!(usize::MAX);
     let refused = march.resume(&serde_json::from_value(state).expect("a state"));
-    assert!(
-        matches!(
-            refused,
-            Err(BemError::InvalidParameter {
-                parameter: "start of the contact box",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
+    assert_refused("a box", refused, "start of the contact box");
 }

@@ -5,8 +5,9 @@ use std::f64::consts::{PI, TAU};
 use bem_halfspace::Footprint;
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_on_grid};
 use friction_analytic::{SurfaceWave, wavy_surface_sliding};
-use indenters::{SlidingLoad, Surface};
-use rheology::{Material, StandardSolid, StandardSolidParameters};
+use rheology::Material;
+
+use crate::support::{Formula, assert_near, three_elements, under_force};
 
 /// In units of about half the length of the contact.
 const WAVELENGTH: f64 = 0.5;
@@ -15,49 +16,29 @@ const LENGTH: f64 = 1e6;
 const WAVE_NUMBER: f64 = TAU / WAVELENGTH;
 const SPACING: f64 = WAVELENGTH / 24.0;
 
-/// h = x²/2 + A cos kx between its ends.
-#[derive(Debug)]
-struct WavyCylinder {
-    amplitude: f64,
-}
-
-impl Surface for WavyCylinder {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
+/// Presses h = x²/2 + A cos kx between its ends.
+fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySliding {
+    let height = |[x, y]: [f64; 2]| {
         if y.abs() > 0.5 * LENGTH {
             f64::INFINITY
         } else {
-            0.5 * x * x + self.amplitude * (1.0 + (WAVE_NUMBER * x).cos())
+            0.5 * x * x + amplitude * (1.0 + (WAVE_NUMBER * x).cos())
         }
-    }
-
-    fn gradient(&self, [x, _]: [f64; 2]) -> [f64; 2] {
-        [
-            x - self.amplitude * WAVE_NUMBER * (WAVE_NUMBER * x).sin(),
-            0.0,
-        ]
-    }
-
-    fn mirrors(&self) -> [bool; 2] {
-        [true; 2]
-    }
-}
-
-fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySliding {
-    let footprint = Footprint {
-        x: [-3.0, 5.0],
-        y: [-LENGTH, LENGTH],
     };
+    let slope = |x: f64| x - amplitude * WAVE_NUMBER * (WAVE_NUMBER * x).sin();
+    let wavy_cylinder = Formula {
+        mirrors: [true; 2],
+        ..Formula::new(height, |[x, _]: [f64; 2]| [slope(x), 0.0])
+    };
+    let (x, y) = ([-3.0, 5.0], [-LENGTH, LENGTH]);
     let options = SteadyOptions {
         phase: [0.5, 0.0],
-        ..SteadyOptions::new([SPACING, LENGTH / 3.0], footprint)
+        ..SteadyOptions::new([SPACING, LENGTH / 3.0], Footprint { x, y })
     };
-    let stiffness = 1.0
-        / material
-            .creep()
-            .creep_compliance(1.0 / velocity)
-            .expect("a compliance");
-    let load = SlidingLoad::new(3.0 * stiffness * LENGTH, velocity).expect("a valid load");
-    steady_on_grid(&WavyCylinder { amplitude }, material, &load, &options).expect("a solution")
+    let compliance = material.creep().creep_compliance(1.0 / velocity);
+    let force = 3.0 / compliance.expect("a compliance") * LENGTH;
+    let load = under_force(force, velocity);
+    steady_on_grid(&wavy_cylinder, material, &load, &options).expect("a solution")
 }
 
 /// Amplitude of the pressure that the waves add in the middle of the contact: in phase with their troughs, and with
@@ -86,12 +67,7 @@ fn added_pressure(material: &dyn Material, velocity: f64) -> [f64; 2] {
 /// friction is off by less than 1 %.
 #[test]
 fn waves_in_full_contact_press_and_rub_as_their_complex_modulus_says() {
-    let material = StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: 0.01,
-        maxwell_modulus: 1.0,
-        viscosity: 1.0,
-    })
-    .expect("a material");
+    let material = three_elements(0.01, 1.0, 1.0);
     let wave = SurfaceWave {
         amplitude: AMPLITUDE,
         wave_vector: [WAVE_NUMBER, 0.0],
@@ -102,17 +78,11 @@ fn waves_in_full_contact_press_and_rub_as_their_complex_modulus_says() {
         let amplitude = expected.full_contact_pressure;
         let loss = 2.0 * expected.friction_coefficient / (WAVE_NUMBER * AMPLITUDE);
         let [trough, flank] = added_pressure(&material, velocity).map(|part| part / amplitude);
-        let storage = (1.0 - loss * loss).sqrt();
-        assert!(
-            (trough - storage).abs() < 0.02 && (flank - loss).abs() < 0.02,
-            "v = {velocity}: pressure {trough} and {flank} instead of {storage} and {loss}, relative to {amplitude}"
-        );
+        let what = |name| (name, velocity, amplitude);
+        assert_near(what("storage"), trough, (1.0 - loss * loss).sqrt(), 0.02);
+        assert_near(what("loss"), flank, loss, 0.02);
         if velocity <= 1.0 {
-            assert!(
-                (flank / loss - 1.0).abs() < 0.01,
-                "v = {velocity}: friction is off by the factor {}",
-                flank / loss
-            );
+            assert_near(what("friction"), flank / loss, 1.0, 0.01);
         }
     }
 }

@@ -1,13 +1,20 @@
-//! Grids, contact problems and sliding scenes that several claims share.
+//! Bodies, materials, loads, grids, solved problems and comparisons that several claims share.
+
+use std::f64::consts::FRAC_2_PI;
+use std::fmt::Debug;
 
 use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
-use bem_halfspace::slide::{Transient, slide_on_grid};
+use bem_halfspace::slide::{PressureField, Transient, slide_on_grid};
+use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, SteadySliding, steady, steady_on_grid};
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     Footprint, Grid, GridOptions, solve_contact,
 };
 use indenters::{PowerProfile, SlidingLoad, Surface};
-use rheology::{Compressible, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
+use numerics::{Accuracy, Estimate};
+use rheology::{
+    Compressible, Elastic, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous,
+};
 
 /// Tight enough that the active set and ten digits are those of the exact discrete solution.
 pub(crate) const TIGHT: ContactOptions = ContactOptions {
@@ -78,12 +85,105 @@ impl Pressing {
     }
 }
 
+/// Compares two numbers that may differ by `allowed`.
+#[track_caller]
+pub(crate) fn assert_near(what: impl Debug, actual: f64, expected: f64, allowed: f64) {
+    let error = (actual - expected).abs();
+    assert!(
+        error <= allowed,
+        "{what:?}: {actual:e} instead of {expected:e}, off by {error:e}, allowed {allowed:e}"
+    );
+}
+
+/// Compares two numbers up to a relative error.
+#[track_caller]
+pub(crate) fn assert_close(what: impl Debug, actual: f64, expected: f64, relative_error: f64) {
+    assert_near(what, actual, expected, relative_error * expected.abs());
+}
+
+/// Compares pairs of numbers up to a relative error of each.
+#[track_caller]
+pub(crate) fn assert_all_close<const N: usize>(
+    what: impl Debug,
+    actual: [f64; N],
+    expected: [f64; N],
+    relative_error: f64,
+) {
+    for (actual_one, expected_one) in actual.into_iter().zip(expected) {
+        let place = (&what, actual, expected);
+        assert_close(place, actual_one, expected_one, relative_error);
+    }
+}
+
+/// The expected value lies within the bar, which is at most so wide a part of it.
+#[track_caller]
+pub(crate) fn assert_bar(what: impl Debug, got: Estimate, expected: f64, widest: f64) {
+    assert_near(&what, got.value, expected, got.error);
+    let allowed = widest * expected.abs();
+    assert!(got.error <= allowed, "{what:?}: {got:?}, allowed {allowed}");
+}
+
+/// The bars of two values overlap.
+#[track_caller]
+pub(crate) fn assert_bars_agree(what: impl Debug, one: Estimate, other: Estimate) {
+    assert_near(what, one.value, other.value, one.error + other.error);
+}
+
+/// Compares the ends of two contacts along x and y.
+#[track_caller]
+pub(crate) fn assert_ends(
+    what: impl Debug,
+    actual: [[f64; 2]; 2],
+    expected: [[f64; 2]; 2],
+    allowed: f64,
+) {
+    for (actual, expected) in actual.as_flattened().iter().zip(expected.as_flattened()) {
+        assert_near(&what, *actual, *expected, allowed);
+    }
+}
+
+/// Checks the name of an error, which is that of the parameter where a parameter is refused, and that its numbers say why.
+#[track_caller]
+pub(crate) fn assert_refused<T>(what: impl Debug, result: Result<T, BemError>, name: &str) {
+    let Err(error) = result else {
+        panic!("{what:?} was not refused")
+    };
+    let says_why = match error {
+        BemError::GridTooLarge { elements, limit } => elements > limit,
+        BemError::GridTooCoarse { elements, needed } => elements < needed,
+        BemError::ContactNotConverged { residual, .. } => residual.is_finite(),
+        BemError::NotStationary {
+            drift, tolerance, ..
+        } => drift > tolerance,
+        BemError::TimeNotResolved {
+            error,
+            relative_error,
+            ..
+        } => error > relative_error && error.is_finite(),
+        _ => true,
+    };
+    assert!(says_why, "{what:?}: {error}");
+    let in_full = format!("{error:?}");
+    let found = match error {
+        BemError::InvalidParameter { parameter, .. } => Some(parameter),
+        _ => in_full.split(' ').next(),
+    };
+    assert_eq!(found, Some(name), "{what:?}: {error}");
+}
+
 /// The largest difference of two fields relative to the largest expected value.
 pub(crate) fn difference(actual: &[f64], expected: &[f64]) -> f64 {
     assert_eq!(actual.len(), expected.len(), "fields of one grid");
     let largest = expected.iter().fold(0.0, |top: f64, u| top.max(u.abs()));
     let differences = actual.iter().zip(expected).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, f64::max) / largest
+}
+
+/// The force that a field carries; refuses tension.
+pub(crate) fn carried(field: &PressureField) -> f64 {
+    let pressure = &field.pressure;
+    assert!(pressure.iter().all(|p| *p >= 0.0), "tension in {field:?}");
+    pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
 /// A small whole number among the inputs of a case.
@@ -96,50 +196,157 @@ pub(crate) fn count(case: &casebook::Case, name: &str) -> usize {
     case.input(name) as usize
 }
 
-/// A body without symmetry, and its mirror image in y.
-pub(crate) struct Skewed {
-    pub(crate) body: PowerProfile,
-    /// 1 or −1.
-    pub(crate) handedness: f64,
+pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
+    PowerProfile::new(coefficient, exponent).expect("a body")
 }
 
-impl Surface for Skewed {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        let y = self.handedness * y;
-        self.body.height([x + 0.4 * y, 1.3 * y])
-    }
+pub(crate) fn cone(slope: f64) -> PowerProfile {
+    power(slope, 1.0)
+}
 
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let y = self.handedness * y;
-        let [along, across] = self.body.gradient([x + 0.4 * y, 1.3 * y]);
-        [along, self.handedness * (0.4 * along + 1.3 * across)]
+pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {
+    power(coefficient, 2.0)
+}
+
+/// A surface given by functions of [x, y].
+pub(crate) struct Formula<H, G> {
+    pub(crate) height: H,
+    pub(crate) gradient: G,
+    pub(crate) mirrors: [bool; 2],
+    pub(crate) apex_exponent: f64,
+}
+
+impl<H, G> Formula<H, G>
+where
+    H: Fn([f64; 2]) -> f64 + Send + Sync,
+    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
+{
+    /// A smooth surface of which no mirrors are known.
+    pub(crate) fn new(height: H, gradient: G) -> Self {
+        Self {
+            height,
+            gradient,
+            mirrors: [false; 2],
+            apex_exponent: 2.0,
+        }
     }
 }
 
-/// A power profile h = c r^p on a viscous half space.
+impl<H, G> Surface for Formula<H, G>
+where
+    H: Fn([f64; 2]) -> f64 + Send + Sync,
+    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
+{
+    fn height(&self, position: [f64; 2]) -> f64 {
+        (self.height)(position)
+    }
+
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        (self.gradient)(position)
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        self.mirrors
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        self.apex_exponent
+    }
+}
+
+pub(crate) fn under_force(force: f64, velocity: f64) -> SlidingLoad {
+    SlidingLoad::new(force, velocity).expect("a load")
+}
+
+pub(crate) fn at_depth(depth: f64, velocity: f64) -> SlidingLoad {
+    SlidingLoad::at_depth(depth, velocity).expect("a load")
+}
+
+/// The load after sliding over a distance \[m].
+pub(crate) fn after(load: SlidingLoad, distance: f64) -> SlidingLoad {
+    load.after(distance).expect("a distance")
+}
+
+/// Square elements in a square footprint of this half width.
+pub(crate) fn squares(spacing: f64, half_width: f64) -> GridOptions {
+    GridOptions::new([spacing; 2], Footprint::square(half_width))
+}
+
+/// The same, solved tightly.
+pub(crate) fn tight(options: GridOptions) -> GridOptions {
+    GridOptions {
+        contact: TIGHT,
+        ..options
+    }
+}
+
+/// Slides from first touch on.
+pub(crate) fn slid(
+    body: &dyn Surface,
+    material: &dyn Material,
+    load: &SlidingLoad,
+    options: &GridOptions,
+) -> Transient {
+    slide_on_grid(body, material, load, options).expect("a transient")
+}
+
+/// A power profile h = c r^p on a half space.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Scene {
+pub(crate) struct Scene<M = Viscous> {
     pub(crate) body: PowerProfile,
-    pub(crate) material: Viscous,
+    pub(crate) material: M,
     pub(crate) load: SlidingLoad,
 }
 
-impl Scene {
-    pub(crate) fn new(
-        [coefficient, exponent]: [f64; 2],
-        viscosity: f64,
-        [force, velocity]: [f64; 2],
-    ) -> Self {
+impl<M: Material> Scene<M> {
+    pub(crate) fn new(body: PowerProfile, material: M, load: SlidingLoad) -> Self {
         Self {
-            body: PowerProfile::new(coefficient, exponent).expect("a valid profile"),
-            material: Viscous::new(viscosity).expect("a valid material"),
-            load: SlidingLoad::new(force, velocity).expect("a valid load"),
+            body,
+            material,
+            load,
         }
     }
 
-    /// Every number of order one.
+    pub(crate) fn footprint(&self) -> Footprint {
+        Footprint::sliding(&self.body, &self.material, &self.load).expect("a footprint")
+    }
+
+    /// Elements twice as long as wide, about so many along the contact: a paraboloid is at √3 of its contact as high as
+    /// at the end of the footprint.
+    pub(crate) fn steady_options(&self, elements: f64) -> SteadyOptions {
+        let footprint = self.footprint();
+        let spacing = footprint.x[1] / (3.0_f64.sqrt() * elements);
+        SteadyOptions {
+            tolerance: 1e-10,
+            ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
+        }
+    }
+
+    pub(crate) fn steady_on(&self, options: &SteadyOptions) -> SteadySliding {
+        let solved = steady_on_grid(&self.body, &self.material, &self.load, options);
+        solved.expect("a stationary state")
+    }
+
+    pub(crate) fn steady_on_one_grid(&self, elements: f64) -> SteadySliding {
+        self.steady_on(&self.steady_options(elements))
+    }
+
+    pub(crate) fn try_steady(
+        &self,
+        accuracy: impl Into<Accuracy>,
+    ) -> Result<SteadyEstimate, BemError> {
+        steady(&self.body, &self.material, &self.load, accuracy)
+    }
+
+    pub(crate) fn steady(&self, accuracy: impl Into<Accuracy>) -> SteadyEstimate {
+        self.try_steady(accuracy).expect("a stationary state")
+    }
+}
+
+impl Scene {
+    /// On a dashpot, with every number of order one.
     pub(crate) fn unit(exponent: f64) -> Self {
-        Self::new([0.3, exponent], 2.0, [0.5, 0.7])
+        Self::new(power(0.3, exponent), viscous(2.0), under_force(0.5, 0.7))
     }
 
     /// Stationary contact length of the one-dimensional model, [m].
@@ -152,19 +359,17 @@ impl Scene {
     /// Square elements, `elements` along the contact length.
     pub(crate) fn options(&self, elements: f64) -> GridOptions {
         let spacing = self.contact_length() / elements;
-        let footprint = Footprint::sliding(&self.body, &self.material, &self.load);
-        GridOptions::new([spacing, spacing], footprint.expect("a footprint"))
+        GridOptions::new([spacing; 2], self.footprint())
     }
 
     /// The load after sliding over `lengths` of the contact length.
     pub(crate) fn load_over(&self, lengths: f64) -> SlidingLoad {
-        let load = self.load.after(lengths * self.contact_length());
-        load.expect("a distance")
+        after(self.load, lengths * self.contact_length())
     }
 
     pub(crate) fn slide(&self, elements: f64, lengths: f64) -> Transient {
         let (load, options) = (self.load_over(lengths), self.options(elements));
-        slide_on_grid(&self.body, &self.material, &load, &options).expect("a transient")
+        slid(&self.body, &self.material, &load, &options)
     }
 }
 
@@ -177,6 +382,19 @@ pub(crate) fn pressed(
 ) -> Vec<IndentRow> {
     let steps = IndentStep::constant(Control::NormalForce(force), times);
     indent_history_on_grid(body, material, &steps, options).expect("an indentation")
+}
+
+pub(crate) fn elastic(shear_modulus: f64) -> Elastic {
+    Elastic::new(shear_modulus).expect("a material")
+}
+
+pub(crate) fn viscous(viscosity: f64) -> Viscous {
+    Viscous::new(viscosity).expect("a material")
+}
+
+/// A spring beside a spring and a dashpot in series.
+pub(crate) fn three_elements(spring: f64, branch: f64, relaxation_time: f64) -> Prony {
+    prony([spring, 0.0], &[(branch, relaxation_time)])
 }
 
 /// A material from its relaxation: lone spring \[Pa], lone dashpot \[Pa s], and (modulus, time) of the branches.
@@ -194,21 +412,28 @@ pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64
 /// The materials that the casebook gives by their moduli, or by the name alone.
 pub(crate) fn material_of(case: &casebook::Case) -> Prony {
     if !case.has_input("Ge") {
-        assert_eq!(
-            case.input_text("model"),
-            "P3",
-            "the one model without moduli"
-        );
+        assert_eq!(case.input_text("model"), "P3", "moduli are given");
         return three_branches();
     }
     let [moduli, times] = ["G", "tau"].map(|name| case.input_list(name));
     let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
-    let viscosity = if case.has_input("eta") {
-        case.input("eta")
+    let has_dashpot = case.has_input("eta");
+    let viscosity = has_dashpot.then(|| case.input("eta"));
+    prony([case.input("Ge"), viscosity.unwrap_or(0.0)], &branches)
+}
+
+/// The three-element solids of the casebook, with the modulus G1 beside G2 and its time.
+pub(crate) fn solid_of(case: &casebook::Case) -> Prony {
+    three_elements(case.input("G1"), case.input("G2"), case.input("tau"))
+}
+
+/// A cone or paraboloid of the casebook whose line is |x| or x².
+pub(crate) fn body_of_unit_line(case: &casebook::Case) -> PowerProfile {
+    if case.input_text("shape").starts_with("cone") {
+        cone(FRAC_2_PI)
     } else {
-        0.0
-    };
-    prony([case.input("Ge"), viscosity], &branches)
+        paraboloid(0.5)
+    }
 }
 
 /// Model P3 of the casebook: relaxation times over nine decades.

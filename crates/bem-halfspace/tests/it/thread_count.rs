@@ -1,17 +1,15 @@
 //! Results do not depend on the number of threads, to the last bit.
 
 use bem_halfspace::steady::SteadyOptions;
-use bem_halfspace::{
-    ContactOptions, Control, Convolution, Footprint, Grid, GridOptions, slide_on_grid,
-    steady_on_grid,
-};
-use indenters::{PowerProfile, SlidingLoad};
+use bem_halfspace::{ContactOptions, Control, Convolution, Grid};
 use rayon::ThreadPoolBuilder;
 
-use crate::support::{Pressing, Scene, prony};
+use crate::support::{
+    Pressing, Scene, after, paraboloid, slid, squares, three_elements, under_force,
+};
 
 #[test]
-fn one_two_and_three_threads_agree_to_the_last_bit() {
+fn one_to_four_threads_find_the_same_contact() {
     let grid = Grid::new([200; 2], [1.0; 2]).expect("a valid grid");
     // The second has mirrors.
     let middles = [[90.3, 110.8], [99.5; 2]];
@@ -32,9 +30,10 @@ fn one_two_and_three_threads_agree_to_the_last_bit() {
             let (contact, state) = body.solve(Control::NormalForce(4000.0));
             (contact, state.pressure().to_vec())
         };
-        let [one, two, three] = [1, 2, 3].map(|threads| on_threads(threads, solve));
-        assert_eq!(one, two, "the same contact on one and two threads");
-        assert_eq!(one, three, "the same contact on one and three threads");
+        let one = on_threads(1, solve);
+        for threads in 2..=4 {
+            assert_eq!(one, on_threads(threads, solve), "{threads} threads");
+        }
         let (left, right) = on_threads(2, || rayon::join(solve, solve));
         assert_eq!([&one; 2], [&left, &right], "two contacts at once");
         assert_eq!(one, solve(), "the same contact outside a pool");
@@ -44,27 +43,21 @@ fn one_two_and_three_threads_agree_to_the_last_bit() {
 #[test]
 fn stationary_sliding_is_the_same_on_one_and_three_threads() {
     let scene = Scene::unit(2.0);
-    let spacing = scene.contact_length() / 80.0;
     let options = SteadyOptions {
         phase: [0.1, 0.3],
         tolerance: 1e-8,
-        ..SteadyOptions::new([spacing, 0.5 * spacing], scene.options(80.0).footprint)
+        ..scene.steady_options(80.0)
     };
-    let solve =
-        || steady_on_grid(&scene.body, &scene.material, &scene.load, &options).expect("a solution");
-    let [one, three] = [1, 3].map(|threads| on_threads(threads, solve));
+    let [one, three] = [1, 3].map(|threads| on_threads(threads, || scene.steady_on(&options)));
     assert_eq!(one, three, "the same pressure on one and three threads");
 }
 
 #[test]
 fn a_slide_is_the_same_on_one_and_three_threads() {
-    let body = PowerProfile::paraboloid(0.5).expect("a body");
-    let material = prony([0.1, 0.0], &[(1.0, 1.0)]);
-    let load = SlidingLoad::new(1.5, 0.3).expect("a load");
+    let (body, material) = (paraboloid(0.5), three_elements(0.1, 1.0, 1.0));
     // More than the 2^13 elements for which a second thread is taken.
-    let load = load.after(0.4).expect("a distance");
-    let options = GridOptions::new([0.025; 2], Footprint::square(1.8));
-    let run = || slide_on_grid(&body, &material, &load, &options).expect("a transient");
+    let load = after(under_force(1.5, 0.3), 0.4);
+    let run = || slid(&body, &material, &load, &squares(0.025, 1.8));
     let [one, three] = [1, 3].map(|threads| on_threads(threads, run));
     assert!(one.n_elements > 8192, "{} elements", one.n_elements);
     assert_eq!(one, three, "the same slide on one and three threads");

@@ -1,0 +1,252 @@
+//! Friction depends only on the dimensionless groups, and neither units nor footprints nor mirrors matter.
+
+use bem_halfspace::Footprint;
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
+use casebook::group;
+use indenters::{Cylinder, Unmirrored};
+use rheology::{Compressible, Material};
+
+use crate::support::{
+    Formula, Scene, after, assert_all_close, assert_close, assert_near, assert_refused, at_depth,
+    carried, power, prony, slid, squares, three_elements, under_force, viscous,
+};
+
+/// μ / (c^(1/p) (F/(ηv))^(1−1/p)) for random scenes over many decades (casebook BEM-07).
+#[test]
+fn friction_collapses_under_the_similarity_law() {
+    let cases = group("BEM-07");
+    for exponent in [1.0, 2.0, 3.0] {
+        let rows = cases
+            .iter()
+            .filter(|case| case.has_input("p") && (case.input("p") - exponent).abs() < 0.1);
+        let collapsed = rows.map(|case| {
+            let [c, eta, force, velocity] = ["c", "eta", "F", "v"].map(|name| case.input(name));
+            let load = under_force(force, velocity);
+            let scene = Scene::new(power(c, exponent), viscous(eta), load);
+            let group = force / eta / velocity;
+            let scale = c.powf(1.0 / exponent) * group.powf(1.0 - 1.0 / exponent);
+            scene.slide(6.0, 2.0).last().friction_coefficient / scale
+        });
+        let collapsed: Vec<f64> = collapsed.collect();
+        for value in &collapsed {
+            assert_close((exponent, &collapsed), *value, collapsed[0], 1e-9);
+        }
+    }
+}
+
+/// Units of length \[m], stress \[Pa] and time \[s].
+type Units = [f64; 3];
+
+/// Dimensionless results of a scene in some units.
+type Solver<'a> = dyn Fn(Units) -> Vec<f64> + 'a;
+
+const SI: Units = [1.0; 3];
+const UNITS: [Units; 11] = [
+    [1e-12, 1.0, 1.0],
+    [1e12, 1.0, 1.0],
+    [1.0, 1e-12, 1.0],
+    [1.0, 1e12, 1.0],
+    [1.0, 1.0, 1e-12],
+    [1.0, 1.0, 1e12],
+    [1e-3, 1e12, 1.0],
+    [1e-12, 1e33, 1e3],
+    [1e3, 1e-18, 1e12],
+    [1e9, 1e-6, 1e-12],
+    [1e-6, 1e3, 1e-12],
+];
+
+/// h ∼ r^1.5 with a force and a speed of order one.
+fn scene<M: Material>(material: M, [length, stress, time]: Units) -> Scene<M> {
+    let load = under_force(0.5 * stress * length * length, 0.7 * length / time);
+    Scene::new(power(0.3 * length.powf(-0.5), 1.5), material, load)
+}
+
+/// Every row of a march from first touch on, in the units.
+fn march<M: Material>(scene: &Scene<M>, [length, _, time]: Units) -> Vec<f64> {
+    let load = after(scene.load, 2.0 * length);
+    let options = squares(0.1 * length, length);
+    let rows = slid(&scene.body, &scene.material, &load, &options).rows;
+    let numbers = rows.iter().flat_map(|row| {
+        [
+            row.friction_coefficient,
+            row.indentation_depth / length,
+            row.contact_area / length / length,
+            row.time / time,
+        ]
+    });
+    numbers.collect()
+}
+
+fn stationary<M: Material>(scene: &Scene<M>, [length, ..]: Units) -> Vec<f64> {
+    let state = scene.steady_on_one_grid(7.0);
+    vec![
+        state.friction_coefficient,
+        state.contact_x[1] / length,
+        state.contact_area / length / length,
+        state.depth.reference_depth / length,
+    ]
+}
+
+fn line([length, stress, time]: Units) -> Vec<f64> {
+    let material = three_elements(0.1 * stress, stress, time);
+    let load = under_force(stress * length, length / time);
+    let cylinder = Cylinder::new(length).expect("a cylinder");
+    let solved = steady_line(&cylinder, &material, &load, 1e-2).expect("a friction");
+    vec![solved.friction_coefficient.value]
+}
+
+#[test]
+fn results_are_invariant_under_a_change_of_units() {
+    let dashpot = |units: Units| scene(viscous(2.0 * units[1] * units[2]), units);
+    let solid = |units: Units| {
+        let [_, stress, time] = units;
+        scene(three_elements(0.1 * stress, stress, 0.5 * time), units)
+    };
+    let solvers: [(_, &Solver); 5] = [
+        ("march on a dashpot", &|units| march(&dashpot(units), units)),
+        ("march on a solid", &|units| march(&solid(units), units)),
+        ("dashpot", &|units| stationary(&dashpot(units), units)),
+        ("solid", &|units| stationary(&solid(units), units)),
+        ("plane strain", &line),
+    ];
+    for (name, solve) in solvers {
+        let expected = solve(SI);
+        for units in UNITS {
+            for (actual, expected) in solve(units).into_iter().zip(&expected) {
+                assert_close((name, units), actual, *expected, 1e-9);
+            }
+        }
+    }
+}
+
+/// A Poisson ratio does what a larger force does.
+#[test]
+fn compressible_materials_carry_less() {
+    let material = three_elements(0.1, 1.0, 1.0);
+    let softer = Compressible::new(&material, 0.2).expect("a material");
+    let body = power(0.3, 1.0);
+    let numbers = |state: SteadySliding| {
+        [
+            state.friction_coefficient,
+            state.depth.reference_depth,
+            state.contact_area,
+        ]
+    };
+    let actual = Scene::new(body, softer, under_force(1.0, 0.5)).steady_on_one_grid(10.0);
+    let expected = Scene::new(body, material, under_force(1.6, 0.5)).steady_on_one_grid(10.0);
+    assert_all_close("1.6 = 2 (1 − ν)", numbers(actual), numbers(expected), 1e-9);
+}
+
+#[test]
+fn stationary_pressure_is_positive_symmetric_and_balances_the_force() {
+    let scene = Scene::unit(2.0);
+    for phase in [[0.0, 0.0], [0.25, 0.5], [-0.4, 0.3]] {
+        let solution = scene.steady_on(&SteadyOptions {
+            phase,
+            ..scene.steady_options(8.0)
+        });
+        assert_near(phase, solution.residual, 0.0, 1e-10);
+        assert_close(phase, carried(&solution.pressure), 0.5, 1e-12);
+        let [right, left] = solution.contact_y;
+        if phase[1].abs() < 0.1 || phase[1] > 0.4 {
+            assert_near(phase, left, -right, 1e-12);
+        }
+    }
+}
+
+/// Both are the same discrete problem, solved to 1e-10 of the depth scale.
+#[test]
+fn half_of_a_symmetric_scene_stands_for_the_whole() {
+    let compare = |scene: &Scene<&dyn Material>, options: &SteadyOptions| {
+        let half = scene.steady_on(options);
+        let body = Unmirrored(&scene.body);
+        let whole = steady_on_grid(&body, &scene.material, &scene.load, options);
+        let whole = whole.expect("a solution");
+        // Elements on the axis are their own image.
+        let [n, of_half] = [whole.unknowns, half.unknowns];
+        assert!(
+            2 * n > 3 * of_half && n <= 2 * of_half,
+            "{n} unknowns of the whole, {of_half} of the half"
+        );
+        let numbers = |state: &SteadySliding| {
+            [
+                state.friction_coefficient,
+                state.normal_force,
+                state.contact_area,
+            ]
+        };
+        assert_all_close(options, numbers(&half), numbers(&whole), 1e-9);
+    };
+    let dashpot = viscous(2.0);
+    for (elements, exponent) in [(6.0, 1.0), (6.0, 2.0), (16.0, 2.0)] {
+        let body = power(0.3, exponent);
+        let scene: Scene<&dyn Material> = Scene::new(body, &dashpot, under_force(0.5, 0.7));
+        let options = scene.steady_options(elements);
+        compare(&scene, &options);
+        compare(
+            &scene,
+            &SteadyOptions {
+                phase: [0.0, 0.5],
+                ..options
+            },
+        );
+    }
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let scene: Scene<&dyn Material> = Scene::new(power(0.3, 2.0), &solid, at_depth(0.2, 0.7));
+    compare(&scene, &scene.steady_options(4.0));
+}
+
+/// Tight and lopsided footprints, with and without symmetry on the grid: the same friction, or an error.
+#[test]
+fn no_footprint_breaks_the_symmetry() {
+    let scene = Scene::unit(2.0);
+    let (length, good) = (scene.contact_length(), scene.steady_options(6.0));
+    for phase in [[0.0, 0.0], [0.0, 0.5], [0.5, -0.5]] {
+        let solve = |y: [f64; 2]| {
+            let footprint = Footprint {
+                y: y.map(|end| end * length),
+                ..good.footprint
+            };
+            let options = SteadyOptions {
+                phase,
+                footprint,
+                ..good
+            };
+            steady_on_grid(&scene.body, &scene.material, &scene.load, &options)
+        };
+        let wide = solve([-1.7, 1.7]).expect("a solution");
+        for y in [[-1.5, 4.0], [-4.0, 1.5]] {
+            let friction = solve(y).expect("a solution").friction_coefficient;
+            assert_close((phase, y), friction, wide.friction_coefficient, 1e-10);
+        }
+        for y in [[-0.6, 0.6], [-0.6, 4.0], [-4.0, 0.6], [-0.1, 0.1]] {
+            assert_refused((phase, y), solve(y), "ContactReachesBoundary");
+        }
+    }
+}
+
+/// Two bumps side by side, the second higher: two separate patches share the load.
+#[test]
+fn separate_patches_are_found() {
+    let bumps = |[x, y]: [f64; 2]| [x * x + y * y, x * x + (y - 3.0).powi(2) + 0.05];
+    let height = |position| bumps(position).into_iter().fold(f64::INFINITY, f64::min);
+    let gradient = |[x, y]: [f64; 2]| {
+        let [first, second] = bumps([x, y]);
+        [2.0 * x, 2.0 * if first < second { y } else { y - 3.0 }]
+    };
+    let (x, y) = ([-1.0, 2.0], [-2.0, 5.0]);
+    let options = SteadyOptions {
+        tolerance: 1e-10,
+        ..SteadyOptions::new([0.1, 0.1], Footprint { x, y })
+    };
+    let (body, load) = (Formula::new(height, gradient), under_force(1.5, 1.0));
+    let solution = steady_on_grid(&body, &viscous(1.0), &load, &options).expect("a solution");
+    let field = &solution.pressure;
+    let columns = field.grid.shape()[1];
+    let loaded = |column: usize| {
+        let mut pressures = field.pressure.iter().skip(column).step_by(columns);
+        pressures.any(|pressure| *pressure > 0.0)
+    };
+    let starts = (0..columns).filter(|&k| loaded(k) && (k == 0 || !loaded(k - 1)));
+    assert_eq!(starts.count(), 2, "contact from {:?}", solution.contact_y);
+}
