@@ -3,19 +3,16 @@
 use std::fs;
 use std::path::Path;
 
-use crate::support::{command, example, folder, text};
+use crate::support::{Folder, example};
 
 /// Commands and what is printed, from the console blocks of a page.
-fn console(page: &str) -> Vec<(Vec<String>, String)> {
-    let mut commands: Vec<(Vec<String>, String)> = Vec::new();
+fn console(page: &str) -> Vec<(String, String)> {
+    let mut commands: Vec<(String, String)> = Vec::new();
     for block in page.split("```console\n").skip(1) {
         let block = block.split("```").next().expect("a block ends");
         for line in block.lines() {
             match (line.strip_prefix("$ viscofriction "), commands.last_mut()) {
-                (Some(arguments), _) => {
-                    let arguments = arguments.split(' ').map(str::to_owned).collect();
-                    commands.push((arguments, String::new()));
-                }
+                (Some(arguments), _) => commands.push((arguments.to_owned(), String::new())),
                 (None, Some((_, printed))) => *printed += &format!("{line}\n"),
                 (None, None) => panic!("a block begins with a command: {line}"),
             }
@@ -35,24 +32,19 @@ fn without_seconds(printed: &str) -> String {
 
 #[test]
 fn the_commands_of_the_page_print_what_it_says() {
-    let folder = folder("documented");
-    let scenes = folder.join("examples/scenes");
+    let wrong = [("velocity = 0.01 ", "velocity = -0.01 ")];
+    let folder = Folder::with("documented", "cone-viscous.toml", &wrong);
+    let scenes = folder.path("examples/scenes");
     fs::create_dir_all(&scenes).expect("a folder");
     for name in ["cone-viscous.toml", "cone-half-space.toml"] {
         fs::copy(example(name), scenes.join(name)).expect("a scene");
     }
-    let scene = fs::read_to_string(example("cone-viscous.toml")).expect("a scene");
-    let wrong = scene.replace("velocity = 0.01 ", "velocity = -0.01 ");
-    fs::write(folder.join("scene.toml"), wrong).expect("a scene");
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/scenes.md");
     let commands = console(&fs::read_to_string(page).expect("the page"));
     assert!(commands.len() >= 6, "only {} commands", commands.len());
     for (arguments, expected) in commands {
-        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        let output = command(&arguments).current_dir(&folder).output();
-        let output = output.expect("the command runs");
-        let printed = text(&output.stdout) + &text(&output.stderr);
-        let [printed, expected] = [printed, expected].map(|printed| without_seconds(&printed));
-        assert_eq!(printed, expected, "{arguments:?}");
+        let said = folder.run(&arguments);
+        let printed = without_seconds(&(said.stdout + &said.stderr));
+        assert_eq!(printed, without_seconds(&expected), "{arguments}");
     }
 }

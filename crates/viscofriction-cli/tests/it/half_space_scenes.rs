@@ -1,73 +1,33 @@
-//! The half space at a depth, on any material, and under a height map, against closed forms and from method to method.
+//! The half space at a depth, on any material, and under a height map, and line contacts, against closed forms and from
+//! method to method.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::f64::consts::PI;
 
-use serde_json::Value;
+use viscofriction::Estimate;
 
-use crate::support::{argument, bar, folder, number, run_json};
-
-const PARABOLOID: &str = "[indenter.paraboloid]\ncurvature = 50\n";
-const ELASTIC: &str = "[material.elastic]\nshear_modulus = 1e6\npoisson_ratio = 0.3\n";
-const SOLID: &str = "[material.standard-solid]\nequilibrium_modulus = 1e6\nmaxwell_modulus = 2e6\nviscosity = 2e3\n";
-const VISCOUS: &str = "[material.viscous]\nviscosity = 1e4\n";
-
-/// A scene of its parts, in a folder of this name.
-fn scene(name: &str, [body, material, load, solve]: [&str; 4]) -> PathBuf {
-    let path = folder(name).join("scene.toml");
-    write(&path, [body, material, load, solve]);
-    path
-}
-
-fn write(path: &Path, [body, material, load, solve]: [&str; 4]) {
-    let text = format!("{body}{material}[load]\n{load}[solve]\n{solve}");
-    fs::write(path, text).expect("a scene");
-}
-
-fn answer(name: &str, parts: [&str; 4]) -> Value {
-    run_json(&[argument(&scene(name, parts))])
-}
-
-fn agree(name: &str, [one, one_error]: [f64; 2], [other, other_error]: [f64; 2]) {
-    assert!(
-        (one - other).abs() <= one_error + other_error && one_error + other_error < 0.1 * one.abs(),
-        "{name}: {one} ± {one_error} and {other} ± {other_error}"
-    );
-}
+use crate::support::{Folder, assert_agree, assert_close, estimate, number};
 
 /// F = (4/3) E* √R d^(3/2) with R = 10 mm, G = 1 MPa, ν = 0.3 and d = 0.1 mm (Hertz), pressed and sliding.
 #[test]
 fn elastic_contact_at_a_depth_has_the_force_of_hertz_and_no_friction() {
+    let folder = Folder::new("hertz-depth");
     let effective = 2.0 * 1.0e6 / (1.0 - 0.3);
-    let depth: f64 = 1e-4;
-    let expected = 4.0 / 3.0 * effective * 0.1 * depth.powf(1.5);
-    for (load, solve) in [
-        (
-            "velocity = 0\n",
-            "method = \"bem-transient\"\nduration = 3\nrelative_error = 1e-2\n",
-        ),
-        (
-            "velocity = 0.1\n",
-            "method = \"bem-steady\"\nrelative_error = 1e-3\n",
-        ),
-        (
-            "velocity = 0.1\n",
-            "method = \"bem-steady\"\nelements = 24\n",
-        ),
-        (
-            "velocity = 0.1\n",
-            "method = \"bem-transient\"\nelements = 12\nsliding_distance = 1e-3\n",
-        ),
+    let expected = Estimate::exact(4.0 / 3.0 * effective * 0.1 * 1e-4_f64.powf(1.5));
+    for motion in [
+        r#"velocity = 0; method = "bem-transient", duration = 3, relative_error = 1e-2"#,
+        r#"velocity = 0.1; method = "bem-steady", relative_error = 1e-3"#,
+        r#"velocity = 0.1; method = "bem-steady", elements = 24"#,
+        r#"velocity = 0.1; method = "bem-transient", elements = 12, sliding_distance = 1e-3"#,
     ] {
-        let load = format!("indentation_depth = {depth:?}\n{load}");
-        let result = answer("hertz-depth", [PARABOLOID, ELASTIC, &load, solve]);
-        agree(solve, bar(&result, "normal_force"), [expected, 0.0]);
-        if let Some(friction) = result["friction_coefficient"].as_f64() {
-            let error = number(&result, "friction_coefficient_error");
+        let parts = format!("paraboloid; elastic; indentation_depth = 1e-4, {motion}");
+        let result = folder.answer(&parts);
+        assert_agree(motion, estimate(&result, "normal_force"), expected, 0.1);
+        if !motion.starts_with("velocity = 0;") {
+            let Estimate { value, error } = estimate(&result, "friction_coefficient");
             // The slope at the rim is 0.1.
             assert!(
-                friction.abs() <= error && error < 1e-6,
-                "{solve}: {friction} ± {error}"
+                value.abs() <= error && error < 1e-6,
+                "{motion}: {value} ± {error}"
             );
         }
     }
@@ -76,72 +36,63 @@ fn elastic_contact_at_a_depth_has_the_force_of_hertz_and_no_friction() {
 /// A force that has relaxed: F(t)/F(∞) = G(t)/G(∞), on a solid of which a third of the modulus stays.
 #[test]
 fn a_depth_that_is_held_relaxes_like_the_modulus() {
-    let solve = "method = \"bem-transient\"\nduration = 1e-3\nelements = 16\n";
-    let load = "indentation_depth = 1e-4\nvelocity = 0\n";
-    let elements = answer("relaxing", [PARABOLOID, SOLID, load, solve]);
-    let closed = "method = \"analytic\"\nduration = 1e-3\n";
-    let exact = answer("relaxing", [PARABOLOID, SOLID, load, closed]);
-    agree(
-        "force",
-        bar(&elements, "normal_force"),
-        [number(&exact, "normal_force"), 0.0],
-    );
+    let folder = Folder::new("relaxing");
+    let held = "paraboloid; solid; indentation_depth = 1e-4, velocity = 0; duration = 1e-3";
+    let elements = folder.answer(&format!(
+        "{held}, method = \"bem-transient\", elements = 16"
+    ));
+    let exact = folder.answer(&format!("{held}, method = \"analytic\""));
+    let exact = Estimate::exact(number(&exact, "normal_force"));
+    assert_agree("force", estimate(&elements, "normal_force"), exact, 0.1);
 }
 
 /// The depth of a force is the depth at which that force is found.
 #[test]
 fn force_and_depth_lead_to_each_other() {
-    for (name, material, distance) in [
-        ("solid", SOLID, ""),
-        ("viscous", VISCOUS, "sliding_distance = 1.0\n"),
-    ] {
-        let solve = format!("method = \"bem-steady\"\nrelative_error = 2e-3\n{distance}");
-        let load = "indentation_depth = 1e-4\nvelocity = 0.05\n";
-        let held = answer("held", [PARABOLOID, material, load, &solve]);
-        let [force, force_error] = bar(&held, "normal_force");
-        let load = format!("normal_force = {force:?}\nvelocity = 0.05\n");
-        let pressed = answer("pressed", [PARABOLOID, material, &load, &solve]);
-        let [of_depth, of_force] =
-            [&held, &pressed].map(|result| bar(result, "friction_coefficient"));
+    let folder = Folder::new("force-and-depth");
+    for (material, distance) in [("solid", ""), ("viscous", ", sliding_distance = 1.0")] {
+        let solve = format!("method = \"bem-steady\", relative_error = 2e-3{distance}");
+        let under = |load: &str| {
+            folder.answer(&format!(
+                "paraboloid; {material}; {load}, velocity = 0.05; {solve}"
+            ))
+        };
+        let held = under("indentation_depth = 1e-4");
+        let force = estimate(&held, "normal_force");
+        let pressed = under(&format!("normal_force = {:?}", force.value));
+        let [of_depth, mut of_force] = [&held, &pressed].map(friction);
         // The friction grows slower than the force.
-        let share = of_depth[0] * force_error / force;
-        agree(name, of_depth, [of_force[0], of_force[1] + share]);
+        of_force.error += of_depth.value * force.error / force.value;
+        assert_agree(material, of_depth, of_force, 0.1);
         // The depth under a force is that of one grid, which is off by less than the force by twice the error asked for.
-        let depth = number(&pressed, "indentation_depth");
-        assert!(
-            (depth / 1e-4 - 1.0).abs() < 1e-2,
-            "{name}: {depth} instead of 1e-4"
-        );
+        assert_close(material, number(&pressed, "indentation_depth"), 1e-4, 1e-2);
     }
+}
+
+fn friction(result: &serde_json::Value) -> Estimate {
+    estimate(result, "friction_coefficient")
 }
 
 /// μ and F of the stationary state, from first touch on and at once.
 #[test]
 fn a_march_on_a_solid_arrives_at_its_stationary_state() {
-    for (load, way) in [
-        ("normal_force = 1.0\nvelocity = 0.5\n", ""),
-        (
-            "indentation_depth = 1e-4\nvelocity = 0.5\n",
-            "sliding_distance = 1e-2\n",
-        ),
+    let folder = Folder::new("solid-march");
+    for (load, distance) in [
+        ("normal_force = 1.0", ""),
+        ("indentation_depth = 1e-4", ", sliding_distance = 1e-2"),
     ] {
-        let march = format!("method = \"bem-transient\"\nelements = 16\n{way}");
-        let march = answer("solid-march", [PARABOLOID, SOLID, load, &march]);
-        let direct = "method = \"bem-steady\"\nrelative_error = 1e-2\n";
-        let direct = answer("solid-direct", [PARABOLOID, SOLID, load, direct]);
-        let [march_bar, direct_bar] = [&march, &direct].map(|r| bar(r, "friction_coefficient"));
-        agree(load, march_bar, direct_bar);
-        let [force, expected] = [&march, &direct].map(|result| number(result, "normal_force"));
-        assert!(
-            (force / expected - 1.0).abs() < 3e-2,
-            "{load}: {force} instead of {expected}"
-        );
+        let scene = format!("paraboloid; solid; {load}, velocity = 0.5; method");
+        let march = format!("{scene} = \"bem-transient\", elements = 16{distance}");
+        let direct = format!("{scene} = \"bem-steady\", relative_error = 1e-2");
+        let [march, direct] = [march, direct].map(|parts| folder.answer(&parts));
+        assert_agree(load, friction(&march), friction(&direct), 0.1);
+        let [force, expected] = [march, direct].map(|result| number(&result, "normal_force"));
+        assert_close(load, force, expected, 3e-2);
     }
 }
 
 /// Heights of a paraboloid on a grid of 0.4 mm, up to 11 mm from the tip, which lies off the middle.
-fn map() -> (PathBuf, String) {
-    let folder = folder("map");
+fn map() -> String {
     let row = |row: i32| {
         let height = |column: i32| {
             let [x, y] = [row - 30, column - 28].map(|index| 4e-4 * f64::from(index));
@@ -149,43 +100,92 @@ fn map() -> (PathBuf, String) {
         };
         (0..57).map(height).collect::<Vec<_>>().join(",")
     };
-    let rows: Vec<String> = (0..59).map(row).collect();
-    fs::write(folder.join("map.csv"), rows.join("\n")).expect("a map");
-    let body = "[indenter.height-map]\nfile = \"map.csv\"\nspacing = [4e-4, 4e-4]\n";
-    (folder.join("scene.toml"), body.to_owned())
+    (0..59).map(row).collect::<Vec<_>>().join("\n")
 }
 
 /// Bilinear heights lie at most c p²/2 above the paraboloid c r²: relative to the height at the contact radius a, and with
 /// it friction, force and depth, by less than (p/a)², which is 1e-2 for a = 4 mm.
 #[test]
 fn a_map_of_a_paraboloid_is_the_paraboloid() {
-    let (path, body) = map();
-    let load = "normal_force = 1.0\nvelocity = 0.01\n";
-    let run = |parts: [&str; 4]| {
-        write(&path, parts);
-        run_json(&[argument(&path)])
-    };
-    let by_table = "model = \"half-space\"\n";
-    let exact = run([PARABOLOID, VISCOUS, load, by_table]);
-    let [friction, exact_error] = bar(&exact, "friction_coefficient");
-    let expected = [friction, exact_error + 1e-2 * friction];
+    let folder = Folder::new("map");
+    folder.write("map.csv", map());
+    let sliding = "viscous; normal_force = 1.0, velocity = 0.01";
+    let exact = folder.answer(&format!("paraboloid; {sliding}; model = \"half-space\""));
+    let mut exact = friction(&exact);
+    exact.error += 1e-2 * exact.value;
     for solve in [
-        "relative_error = 1e-2\n",
-        "method = \"bem-steady\"\nelements = 24\n",
-        "method = \"bem-transient\"\nelements = 12\n",
+        "relative_error = 1e-2",
+        "method = \"bem-steady\", elements = 24",
+        "method = \"bem-transient\", elements = 12",
     ] {
-        let result = run([&body, VISCOUS, load, solve]);
-        agree(solve, bar(&result, "friction_coefficient"), expected);
+        let result = folder.answer(&format!("map; {sliding}; {solve}"));
+        assert_agree(solve, friction(&result), exact, 0.1);
     }
-    let soft = "[material.elastic]\nshear_modulus = 5e3\n";
     for (load, field) in [
-        ("normal_force = 1.0\nvelocity = 0\n", "indentation_depth"),
-        ("indentation_depth = 1e-3\nvelocity = 0\n", "normal_force"),
+        ("normal_force = 1.0", "indentation_depth"),
+        ("indentation_depth = 1e-3", "normal_force"),
     ] {
-        let exact = run([PARABOLOID, soft, load, "duration = 1\n"]);
-        let result = run([&body, soft, load, "duration = 1\nrelative_error = 1e-2\n"]);
+        let soft =
+            format!("material.elastic.shear_modulus = 5e3; {load}, velocity = 0; duration = 1");
+        let value = number(&folder.answer(&format!("paraboloid; {soft}")), field);
+        let result = folder.answer(&format!("map; {soft}, relative_error = 1e-2"));
         assert_eq!(result["method"], "bem-transient", "{result}");
-        let expected = number(&exact, field);
-        agree(field, bar(&result, field), [expected, 1e-2 * expected]);
+        let error = 1e-2 * value;
+        assert_agree(
+            field,
+            estimate(&result, field),
+            Estimate { value, error },
+            0.1,
+        );
     }
+}
+
+/// Hunter's closed form for γ = 0.1 and z = l/(vτ) = 2 (casebook, VIS-04): a contact of the half length l = 1 mm under a
+/// cylinder of R = 0.1 m, with G₁ = 0.1 MPa and τ = 1 ms.
+#[test]
+fn a_sliding_cylinder_has_the_friction_of_hunter() {
+    let folder = Folder::new("hunter");
+    let moduli = "equilibrium_modulus = 1e5, maxwell_modulus = 1e6, viscosity = 1e3";
+    let load = 6.61211679922975 * PI * 1e5 * 1e-6 / 0.1;
+    let expected = Estimate::exact(1.16237190576151 * 1e-3 / 0.1);
+    for solve in ["relative_error = 1e-4", "elements = 200"] {
+        let result = folder.answer(&format!(
+            "cylinder; material.standard-solid = {{ {moduli} }}; normal_force = {load:?}, velocity = 0.5; {solve}"
+        ));
+        assert_eq!(result["method"], "bem-steady", "{result}");
+        assert_agree(solve, friction(&result), expected, 2e-2);
+        // One element at either end.
+        assert_close(solve, number(&result, "contact_area"), 2e-3, 0.05);
+        assert!(result["indentation_depth"].is_null(), "{result}");
+    }
+}
+
+/// b = √(4 F' R/(π E*)) and p₀ = 2 F'/(π b) with E* = 2 G/(1 − ν).
+#[test]
+fn a_pressed_cylinder_is_that_of_hertz() {
+    let result = Folder::new("cylinder").json("IN/cylinder-hertz.toml");
+    let [force, radius, effective] = [2000.0, 0.01, 2e6 / 0.7];
+    let half_width = (4.0 * force * radius / (PI * effective)).sqrt();
+    for (field, expected) in [
+        ("contact_area", 2.0 * half_width),
+        ("peak_pressure", 2.0 * force / (PI * half_width)),
+        ("normal_force", force),
+    ] {
+        assert_close(field, number(&result, field), expected, 1e-14);
+    }
+}
+
+#[test]
+fn units_per_length_are_printed_and_the_pressure_is_written() {
+    let folder = Folder::new("line-contact");
+    let said = folder.ends("run IN/cylinder-solid.toml --out out", 0, "");
+    for unit in ["N/m", "m²/m"] {
+        assert!(said.stdout.contains(unit), "no {unit} in {}", said.stdout);
+    }
+    let [x, pressure] = [0, 1].map(|column| folder.column("out/line_pressure.csv", column));
+    let force = pressure
+        .iter()
+        .map(|pressure| pressure * (x[1] - x[0]))
+        .sum();
+    assert_close("force of 2000 N/m", force, 2000.0, 1e-9);
 }

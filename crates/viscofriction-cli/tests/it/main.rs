@@ -8,7 +8,6 @@ mod fit_material;
 mod fuzzed_inputs;
 mod half_space_scenes;
 mod height_maps_of_numpy;
-mod line_contacts;
 mod malformed;
 mod scenes;
 mod support;

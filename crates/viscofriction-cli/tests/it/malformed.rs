@@ -1,10 +1,7 @@
 //! Every malformed file that a command reads ends with status 2 and one line that names the file and the place in it, says
 //! what is needed, and prints nothing else.
 
-use std::fs;
-use std::path::Path;
-
-use crate::support::{argument, complaint, folder, npy, text};
+use crate::support::{Folder, npy, rows, scene};
 
 /// A scene that is right, beside the numbers of its lines.
 const SCENE: [&str; 13] = [
@@ -23,8 +20,8 @@ const SCENE: [&str; 13] = [
     /* 13 */ "relative_error = 1e-3",
 ];
 
-/// Line that is replaced | by what | line that is named | what is said.
-const ONE_LINE: &str = r#"
+/// Lines that are replaced | by what | line that is named | what is said.
+const SCENES: &str = r#"
 2 | coefficient = 1e400 | 2
 2 | coefficient = 2020-01-01 | 2 | indenter.power.coefficient
 2 | coefficient =  | 2
@@ -57,45 +54,43 @@ const ONE_LINE: &str = r#"
 10 | speed = 0.01 | 10 | load.speed: unknown field
 12 | [solver] | 12 | solver: unknown field
 12 | [[solve]] | 12 | solve: a table is needed, and not a value of type array
-"#;
-
-/// What stands in the table `[solve]` from line 13 on | line that is named | what is said.
-const SOLVE: &str = r#"
-relative_error = 0.0 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0
-relative_error = 0.5 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0.5
-relative_error = -1e-3 | 13 | solve.relative_error
-relative_error = 1e-3\nelements = 32 | 14 | solve.elements: either relative_error or elements
-elements = 7 | 13 | solve.elements must be from 8 to 100000, but is 7
-elements = -8 | 13 | solve.elements
-elements = 32.0 | 13 | solve.elements
-threads = 0 | 13 | solve.threads must be from 1 to 1024, but is 0
-duration = 1.0\nsliding_distance = 1.0 | 14 | solve.sliding_distance: either duration or sliding_distance
-duration = -1.0 | 13 | solve.duration must be finite and greater than 0, but is -1
-sliding_distance = 0.0 | 13 | solve.sliding_distance
-method = "magic" | 13 | solve.method.magic: unknown variant `magic`, expected one of `analytic`
-method = 1 | 13 | solve.method
-model = "plane" | 13 | solve.model.plane: unknown variant
-method = "analytic"\nelements = 32 | 13 | solve.method: analytic does not answer this scene: closed forms have no elements
-method = "mdr-steady"\nsliding_distance = 1.0 | 13 | these do: mdr-transient
-method = "bem-steady"\nmodel = "line" | 13 | these do: analytic, mdr-steady, mdr-transient
-"#;
-
-/// Another indenter or material | line that is named | what is said.
-const TABLES: &str = r#"
-[indenter.sphere]\ndiameter = 1 | 2 | indenter.sphere.diameter: unknown field
-[indenter.flat_cone]\nradius = 1.0\nslope = 1 | 1 | indenter.flat_cone: unknown variant
-[indenter.superposition]\nterms = [] | 2 | indenter.superposition.terms
-[indenter.superposition]\nterms = [\n{ coefficient = 1.0, exponent = 1.0 },\n{ coefficient = 0.0, exponent = 2.0 },\n] | 4 | indenter.superposition.terms[1].coefficient must be finite and not 0, but is 0
-[indenter.superposition]\nterms = [{ coefficient = 1.0 }] | 2 | missing field `exponent`
-[indenter.table]\nfile = "is-not-there.csv" | 2 | is-not-there.csv
-[indenter.cylinder]\nradius = 0.01 | 1 | no method answers this scene yet
-[indenter.height-map]\nfile = "h.csv"\nspacing = 0 | 3 | indenter.height-map.spacing
-[indenter.height-map]\nfile = "h.csv"\nspacing = [1, 0] | 3 | indenter.height-map.spacing[1] must be finite and greater than 0, but is 0
-[indenter.height-map]\nfile = "h.csv"\nspacing = [1, 1, 1] | 3 | indenter.height-map.spacing
-[indenter.height-map]\nfile = "is-not-there.csv"\nspacing = [1, 1] | 2 | is-not-there.csv
-[indenter.height-map]\nfile = "h.csv" | 1 | indenter.height-map.spacing: missing field
-[material.prony]\nequilibrium_modulus = 1e6\nbranches = [\n{ modulus = 1e6, relaxation_time = 1 },\n{ modulus = 1e6, relaxation_time = 0 },\n] | 5 | material.prony.branches[1].relaxation_time must be finite and greater than 0, but is 0
-[material.prony]\nequilibrium_modulus = 0\nbranches = [] | 1 | material.prony: a material needs
+13 | relative_error = 0.0 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0
+13 | relative_error = 0.5 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0.5
+13 | relative_error = -1e-3 | 13 | solve.relative_error
+13 | relative_error = 1e-3\nelements = 32 | 14 | solve.elements: either relative_error or elements
+13 | elements = 7 | 13 | solve.elements must be from 8 to 100000, but is 7
+13 | elements = -8 | 13 | solve.elements
+13 | elements = 32.0 | 13 | solve.elements
+13 | threads = 0 | 13 | solve.threads must be from 1 to 1024, but is 0
+13 | duration = 1.0\nsliding_distance = 1.0 | 14 | solve.sliding_distance: either duration or sliding_distance
+13 | duration = -1.0 | 13 | solve.duration must be finite and greater than 0, but is -1
+13 | sliding_distance = 0.0 | 13 | solve.sliding_distance
+13 | method = "magic" | 13 | solve.method.magic: unknown variant `magic`, expected one of `analytic`
+13 | method = 1 | 13 | solve.method
+13 | model = "plane" | 13 | solve.model.plane: unknown variant
+13 | method = "analytic"\nelements = 32 | 13 | solve.method: analytic does not answer this scene: closed forms have no elements
+13 | method = "mdr-steady"\nsliding_distance = 1.0 | 13 | these do: mdr-transient
+13 | method = "bem-steady"\nmodel = "line" | 13 | these do: analytic, mdr-steady, mdr-transient
+1-3 | [indenter.sphere]\ndiameter = 1 | 2 | indenter.sphere.diameter: unknown field
+1-3 | [indenter.flat_cone]\nradius = 1.0\nslope = 1 | 1 | indenter.flat_cone: unknown variant
+1-3 | [indenter.superposition]\nterms = [] | 2 | indenter.superposition.terms
+1-3 | [indenter.superposition]\nterms = [\n{ coefficient = 1.0, exponent = 1.0 },\n{ coefficient = 0.0, exponent = 2.0 },\n] | 4 | indenter.superposition.terms[1].coefficient must be finite and not 0, but is 0
+1-3 | [indenter.superposition]\nterms = [{ coefficient = 1.0 }] | 2 | missing field `exponent`
+1-3 | [indenter.table]\nfile = "is-not-there.csv" | 2 | is-not-there.csv
+1-3 | [indenter.cylinder]\nradius = 0.01 | 1 | no method answers this scene yet
+1-3 | [indenter.height-map]\nfile = "h.csv"\nspacing = 0 | 3 | indenter.height-map.spacing
+1-3 | [indenter.height-map]\nfile = "h.csv"\nspacing = [1, 0] | 3 | indenter.height-map.spacing[1] must be finite and greater than 0, but is 0
+1-3 | [indenter.height-map]\nfile = "h.csv"\nspacing = [1, 1, 1] | 3 | indenter.height-map.spacing
+1-3 | [indenter.height-map]\nfile = "is-not-there.csv"\nspacing = [1, 1] | 2 | is-not-there.csv
+1-3 | [indenter.height-map]\nfile = "h.csv" | 1 | indenter.height-map.spacing: missing field
+5-6 | [material.prony]\nequilibrium_modulus = 1e6\nbranches = [\n{ modulus = 1e6, relaxation_time = 1 },\n{ modulus = 1e6, relaxation_time = 0 },\n] | 9 | material.prony.branches[1].relaxation_time must be finite and greater than 0, but is 0
+5-6 | [material.prony]\nequilibrium_modulus = 0\nbranches = [] | 5 | material.prony: a material needs
+1-3 | [indenter]\ncone = [0.1] | 2 | indenter.cone[0]: a table is needed
+1-3 | [indenter.superposition]\nterms = [[1.0, 2.0]] | 2 | indenter.superposition.terms[0]: a table is needed
+9-13 | indentation_depth = 1.0e-3\nvelocity = 0.01\n[solve]\nelements = 32 | 1 | no method answers this scene yet
+1-13 |  | 1 | indenter: missing field
+7-13 |  | 1 | load: missing field
+1-13 | \0 | 1
 "#;
 
 /// Profile | line that is named | what is said.
@@ -213,199 +208,139 @@ false | : invalid type: boolean
 [0.5] | : invalid type: sequence
 "#;
 
-/// Tables of scenes that are right, by their letters.
-const RIGHT: [(char, &str); 7] = [
-    (
-        'h',
-        "[indenter.height-map]\nfile = \"map.csv\"\nspacing = [1e-3, 1e-3]\n",
-    ),
-    ('y', "[indenter.cylinder]\nradius = 0.1\n"),
-    ('p', "[indenter.paraboloid]\ncurvature = 50\n"),
-    (
-        's',
-        "[material.standard-solid]\nequilibrium_modulus = 1e5\nmaxwell_modulus = 1e6\nviscosity = 1e3\n",
-    ),
-    ('v', "[material.viscous]\nviscosity = 1e4\n"),
-    ('F', "[load]\nnormal_force = 1.0\nvelocity = 0.01\n"),
-    ('D', "[load]\nindentation_depth = 1e-4\nvelocity = 0.01\n"),
-];
-
-/// Tables and `[solve]` of scenes that no method, or not this one, answers | line that is named | what is said.
+/// Body, material, load and solution that no method, or not this one, answers | line that is named | what is said.
 const UNANSWERED: &str = r#"
-hvF method = "mdr-steady" | 10 | a height map is none; boundary elements take it; no other method does either
-hvF model = "line" | 1 | no method answers this scene yet
-pvD method = "bem-steady" | 9 | a depth belongs to a distance; give solve.sliding_distance
-psD method = "bem-transient" | 11 | at a depth it marches over a distance; give solve.sliding_distance
-ysD relative_error = 1e-2 | 1 | a line contact has no depth
-yvF relative_error = 1e-2 | 1 | a half space that flows sinks the faster
-ysF model = "line" | 1 | the one-dimensional model is for bodies of revolution
-ysF method = "bem-transient" | 11 | its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it; these do: bem-steady
-ysF method = "mdr-steady" | 11 | a cylinder is none; no other method does either
+map; viscous; normal_force = 1.0, velocity = 0.01; method = "mdr-steady" | 2 | a height map is none; boundary elements take it; no other method does either
+map; viscous; normal_force = 1.0, velocity = 0.01; model = "line" | 3 | no method answers this scene yet
+paraboloid; viscous; indentation_depth = 1e-4, velocity = 0.01; method = "bem-steady" | 2 | a depth belongs to a distance; give solve.sliding_distance
+paraboloid; solid; indentation_depth = 1e-4, velocity = 0.01; method = "bem-transient" | 2 | at a depth it marches over a distance; give solve.sliding_distance
+cylinder; solid; indentation_depth = 1e-4, velocity = 0.01; relative_error = 1e-2 | 3 | a line contact has no depth
+cylinder; viscous; normal_force = 1.0, velocity = 0.01; relative_error = 1e-2 | 3 | a half space that flows sinks the faster
+cylinder; solid; normal_force = 1.0, velocity = 0.01; model = "line" | 3 | the one-dimensional model is for bodies of revolution
+cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "bem-transient" | 2 | its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it; these do: bem-steady
+cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "mdr-steady" | 2 | a cylinder is none; no other method does either
 "#;
 
 /// Contents of a file, the place in it that is named, and what is said.
 type Case = (Vec<u8>, String, String);
 
-/// The rows of a table, each of three cells, the last of which may be left out.
-fn rows(table: &str) -> impl Iterator<Item = [String; 3]> {
-    table.trim_matches('\n').lines().map(|line| {
-        let mut cells = line.splitn(3, " | ").map(|cell| cell.replace("\\n", "\n"));
-        [(); 3].map(|()| cells.next().unwrap_or_default())
-    })
-}
-
-fn contents(cell: &str) -> Vec<u8> {
-    match cell.strip_suffix("\\xff\n") {
-        Some(start) => [start.as_bytes(), b"\xff\n"].concat(),
-        None => cell.into(),
-    }
-}
-
 /// The cases of a table of contents, places and what is said.
 fn cases(table: &str, place: impl Fn(&str) -> String) -> Vec<Case> {
-    let case = |[text, at, needed]: [String; 3]| (contents(&text), place(&at), needed);
-    rows(table).map(case).collect()
+    let contents = |cell: String| match cell.strip_suffix("\\xff\n") {
+        Some(start) => [start.as_bytes(), b"\xff\n"].concat(),
+        None => cell.into(),
+    };
+    rows(table)
+        .map(|[text, at, needed]| (contents(text), place(&at), needed))
+        .collect()
 }
 
-/// Runs the command on every one of the contents of the file.
-fn assert_refused(file: &Path, arguments: &[&str], cases: Vec<Case>) {
+/// Runs the command on every one of the contents of the file: it ends with status 2, prints nothing, and says one line
+/// that begins with the place.
+fn assert_refused(folder: &Folder, file: &str, line: &str, cases: Vec<Case>) {
     let mut wrong = Vec::new();
     for (contents, place, needed) in cases {
-        fs::write(file, &contents).expect("a file");
-        let complaint = complaint(arguments, &place, &needed);
-        wrong.extend(complaint.map(|complaint| format!("{}\n--- {complaint}", text(&contents))));
+        folder.write(file, &contents);
+        let said = folder.run(line);
+        let message = &said.stderr;
+        let helpful =
+            message.starts_with(&format!("error: {place}: ")) && message.contains(&needed);
+        let brief = message.trim_end().lines().count() == 1 && said.stdout.is_empty();
+        if said.status != Some(2) || !helpful || !brief {
+            let contents = String::from_utf8_lossy(&contents);
+            wrong.push(format!(
+                "{contents}\n--- needs {place:?} and {needed:?}, but {said:?}"
+            ));
+        }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
 
-/// The scene with some lines replaced.
-fn scene(replaced: &[(usize, &str)]) -> String {
-    let mut lines = SCENE;
-    for (line, text) in replaced {
-        lines[line - 1] = text;
-    }
-    lines.join("\n")
-}
-
-fn scenes() -> Vec<(String, String, String)> {
-    let mut scenes = Vec::new();
-    for [line, replacement, rest] in rows(ONE_LINE) {
-        let (named, needed) = rest.split_once(" | ").unwrap_or((&rest, ""));
-        let line = line.parse().expect("a line");
-        scenes.push((
-            scene(&[(line, &replacement)]),
-            named.to_owned(),
-            needed.to_owned(),
-        ));
-    }
-    for [solve, named, needed] in rows(SOLVE) {
-        scenes.push((scene(&[(13, &solve)]), named, needed));
-    }
-    for [table, named, needed] in rows(TABLES) {
-        scenes.push((with_table(&table), named, needed));
-    }
-    for [letters, named, needed] in rows(UNANSWERED) {
-        let (letters, solve) = letters.split_once(' ').expect("letters");
-        let table = |letter| {
-            RIGHT
-                .iter()
-                .find(|table| table.0 == letter)
-                .map(|table| table.1)
-        };
-        let tables: String = letters.chars().filter_map(table).collect();
-        scenes.push((format!("{tables}[solve]\n{solve}\n"), named, needed));
-    }
-    let at_depth = scene(&[(9, "indentation_depth = 1.0e-3"), (13, "elements = 32")]);
-    for (scene, line, needed) in [
-        (at_depth, "1", "no method answers this scene yet"),
-        (
-            with_table("[indenter]\ncone = [0.1]"),
-            "2",
-            "indenter.cone[0]: a table is needed",
-        ),
-        (
-            with_table("[indenter.superposition]\nterms = [[1.0, 2.0]]"),
-            "2",
-            "indenter.superposition.terms[0]: a table is needed",
-        ),
-        (String::new(), "1", "indenter: missing field"),
-        (SCENE[..6].join("\n"), "1", "load: missing field"),
-        ("\u{0}".to_owned(), "1", ""),
-    ] {
-        scenes.push((scene, line.to_owned(), needed.to_owned()));
-    }
-    scenes
-}
-
-/// The scene with another indenter or material, which comes first.
-fn with_table(table: &str) -> String {
-    let other = if table.starts_with("[indenter") {
-        &SCENE[4..6]
-    } else {
-        &SCENE[..3]
-    };
-    [table, &other.join("\n"), &SCENE[7..].join("\n")].join("\n")
+/// The scene with some lines replaced, `from-to` or a single one, counted from 1.
+fn replaced(lines: &str, text: &str) -> String {
+    let (first, last) = lines.split_once('-').unwrap_or((lines, lines));
+    let [first, last] = [first, last].map(|line| line.parse::<usize>().expect("a line"));
+    [&SCENE[..first - 1], &[text], &SCENE[last..]]
+        .concat()
+        .join("\n")
 }
 
 /// Every number that must be positive, replaced by all that is none, misspelt and left out.
-fn numbers() -> Vec<(String, String, String)> {
-    let mut scenes = Vec::new();
-    for [table, keys, _] in rows(NUMBERS) {
+fn numbers() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for [table, keys] in rows(NUMBERS) {
+        let (place, first) = if table.starts_with("indenter") {
+            ("1-3", 1)
+        } else {
+            ("5-6", 5)
+        };
         let keys: Vec<&str> = keys.split(' ').collect();
         for (index, key) in keys.iter().enumerate() {
-            let scene = |line: &str| {
+            let mut add = |line: &str, named: usize, needed: String| {
                 let mut lines: Vec<String> =
                     keys.iter().map(|key| format!("{key} = 0.5")).collect();
                 line.clone_into(&mut lines[index]);
-                with_table(&format!("[{table}]\n{}", lines.join("\n")))
+                let text = format!("[{table}]\n{}", lines.join("\n"));
+                cases.push((
+                    replaced(place, &text).into(),
+                    format!("scene.toml:{named}"),
+                    needed,
+                ));
             };
-            let line = (index + 2).to_string();
-            for [value, why, _] in rows(NO_NUMBERS) {
-                let needed = format!("{table}.{key}{why}");
-                scenes.push((scene(&format!("{key} = {value}")), line.clone(), needed));
+            let line = first + 1 + index;
+            for [value, why] in rows(NO_NUMBERS) {
+                add(
+                    &format!("{key} = {value}"),
+                    line,
+                    format!("{table}.{key}{why}"),
+                );
             }
             let unknown = format!("{table}.{key}s: unknown field `{key}s`");
-            scenes.push((scene(&format!("{key}s = 0.5")), line, unknown));
-            let missing = format!("{table}.{key}: missing field `{key}`");
-            scenes.push((scene(""), "1".to_owned(), missing));
+            add(&format!("{key}s = 0.5"), line, unknown);
+            add("", first, format!("{table}.{key}: missing field `{key}`"));
         }
     }
-    scenes
+    cases
 }
 
 #[test]
 fn a_malformed_scene_is_refused_with_line_and_key() {
-    let path = folder("malformed").join("scene.toml");
-    fs::write(path.with_file_name("map.csv"), "1,1,1\n1,0,1\n1,1,1\n").expect("a map");
-    let scenes = [scenes(), numbers()].concat();
-    assert!(scenes.len() >= 280, "only {} scenes", scenes.len());
-    let case = |(scene, line, needed): (String, String, String)| {
-        (scene.into(), format!("{}:{line}", path.display()), needed)
-    };
-    let arguments = ["run", argument(&path)];
-    assert_refused(&path, &arguments, scenes.into_iter().map(case).collect());
-    fs::write(&path, scene(&[])).expect("a scene");
-    assert!(complaint(&arguments, "", "").is_some_and(|right| right.contains("exit status: 0")));
+    let folder = Folder::new("malformed");
+    folder.write("map.csv", "1,1,1\n1,0,1\n1,1,1\n");
+    let mut cases = numbers();
+    cases.extend(rows(SCENES).map(|[lines, text, named, needed]| {
+        (
+            replaced(&lines, &text.replace("\\0", "\0")).into(),
+            format!("scene.toml:{named}"),
+            needed,
+        )
+    }));
+    cases.extend(rows(UNANSWERED).map(|[parts, named, needed]| {
+        (scene(&parts).into(), format!("scene.toml:{named}"), needed)
+    }));
+    assert!(cases.len() >= 280, "only {} scenes", cases.len());
+    assert_refused(&folder, "scene.toml", "run scene.toml", cases);
+    folder.write("scene.toml", SCENE.join("\n"));
+    folder.ends("run scene.toml", 0, "");
 }
 
-/// A scene with a file beside it, and where it names that.
-fn naming(body: &str, file: &str) -> (std::path::PathBuf, std::path::PathBuf, String) {
-    let folder = folder(&format!("malformed-{file}"));
-    let [scene, path] = ["scene.toml", file].map(|name| folder.join(name));
+/// A folder with a scene that names a file, and the beginning of what is said about that.
+fn naming(body: &str, file: &str) -> (Folder, String) {
+    let folder = Folder::new(&format!("malformed-{file}"));
     let spacing = if body == "height-map" {
-        "spacing = [1, 1]\n"
+        "spacing = [1, 1]"
     } else {
         ""
     };
-    let rest = "[material.viscous]\nviscosity = 1e4\n[load]\nnormal_force = 1\nvelocity = 1\n";
-    let text = format!("[indenter.{body}]\nfile = \"{file}\"\n{spacing}{rest}");
-    fs::write(&scene, text).expect("a scene");
-    let place = format!(
-        "{}:2: indenter.{body}.file: {}",
-        scene.display(),
-        path.display()
+    let rest = SCENE[3..].join("\n");
+    folder.write(
+        "scene.toml",
+        format!("[indenter.{body}]\nfile = \"{file}\"\n{spacing}\n{rest}"),
     );
-    (scene, path, place)
+    (
+        folder,
+        format!("scene.toml:2: indenter.{body}.file: {file}"),
+    )
 }
 
 #[test]
@@ -414,24 +349,24 @@ fn a_malformed_table_of_a_scene_is_refused_with_both_lines() {
         ("table", "profile.csv", PROFILES),
         ("height-map", "map.csv", MAPS),
     ] {
-        let (scene, path, place) = naming(body, file);
+        let (folder, place) = naming(body, file);
         let cases = cases(table, |line| format!("{place}:{line}"));
-        assert_refused(&path, &["run", argument(&scene)], cases);
+        assert_refused(&folder, file, "run scene.toml", cases);
     }
-    let (scene, path, _) = naming("height-map", "edge.csv");
-    fs::write(path, "0,1\n1,1\n").expect("a map");
-    let place = format!("{}:2", scene.display());
-    let complaint = complaint(&["run", argument(&scene)], &place, "on the edge of the map");
-    assert_eq!(complaint, None, "a map that is lowest at its edge");
+    let (folder, _) = naming("height-map", "edge.csv");
+    let edge = (
+        b"0,1\n1,1\n".to_vec(),
+        "scene.toml:2".to_owned(),
+        "on the edge of the map".to_owned(),
+    );
+    assert_refused(&folder, "edge.csv", "run scene.toml", vec![edge]);
 }
 
 #[test]
 fn a_malformed_array_of_heights_is_refused_with_its_file() {
-    let (scene, map, place) = naming("height-map", "map.NPY");
-    let whole = npy(
-        "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }",
-        &[],
-    );
+    let (folder, place) = naming("height-map", "map.NPY");
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }";
+    let whole = npy(header, &[]);
     let heights = [1.0, 1.0, 0.0, 1.0, 1.0, f64::NAN].map(f64::to_le_bytes);
     let no_array = "an array of NumPy in the format 1.0";
     let mut cases: Vec<Case> = [
@@ -443,7 +378,7 @@ fn a_malformed_array_of_heights_is_refused_with_its_file() {
             "the header ends after 128 bytes, but the file has 60",
         ),
         (
-            [whole, heights.concat()].concat(),
+            npy(header, &heights.concat()),
             "[2, 1]: a finite height in m is needed, and not NaN",
         ),
     ]
@@ -453,25 +388,32 @@ fn a_malformed_array_of_heights_is_refused_with_its_file() {
         let numbers = vec![0; length.parse().expect("a length")];
         (npy(&header, &numbers), place.clone(), needed)
     }));
-    assert_refused(&map, &["run", argument(&scene)], cases);
+    assert_refused(&folder, "map.NPY", "run scene.toml", cases);
 }
 
 #[test]
 fn malformed_rows_and_moduli_are_refused_with_their_line_and_leave_nothing() {
-    let folder = folder("malformed-rows");
-    let [rows, moduli, out] = ["rows.csv", "moduli.csv", "out"].map(|name| folder.join(name));
-    let header = "sweep,point,points,load.velocity,failure\n";
-    let with_header =
-        |(row, place, needed): Case| ([header.as_bytes(), &row].concat(), place, needed);
-    let wrong = cases(ROWS, |line| format!("{}:{line}", rows.display()));
-    let arguments = ["sweep", "--out", argument(&out), "--merge", argument(&rows)];
+    let folder = Folder::new("malformed-rows");
+    let mut wrong = cases(ROWS, |line| format!("rows.csv:{line}"));
+    for (rows, ..) in &mut wrong {
+        rows.splice(0..0, *b"sweep,point,points,load.velocity,failure\n");
+    }
     assert_refused(
-        &rows,
-        &arguments,
-        wrong.into_iter().map(with_header).collect(),
+        &folder,
+        "rows.csv",
+        "sweep --out out --merge rows.csv",
+        wrong,
     );
-    let wrong = cases(MODULI, |place| format!("{}, {place}", moduli.display()));
-    let arguments = ["fit-material", argument(&moduli), "--out", argument(&out)];
-    assert_refused(&moduli, &arguments, wrong);
-    assert!(!out.exists(), "something was written from wrong files");
+    let wrong = cases(MODULI, |place| format!("moduli.csv, {place}"));
+    assert_refused(
+        &folder,
+        "moduli.csv",
+        "fit-material moduli.csv --out out",
+        wrong,
+    );
+    assert_eq!(
+        folder.names(""),
+        ["moduli.csv", "rows.csv"],
+        "something is written from wrong files"
+    );
 }

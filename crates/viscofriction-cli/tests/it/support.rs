@@ -1,83 +1,230 @@
-//! What the tests of scenes share.
+//! Folders in which the program runs, scenes, and the numbers of results.
 
+use std::fmt::Display;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use serde_json::Value;
+use viscofriction::Estimate;
 
-/// An empty folder of this name.
-pub(crate) fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::remove_dir_all(&folder).ok();
-    fs::create_dir_all(&folder).expect("the folder can be made");
-    folder
+/// Bodies and materials of scenes by their names.
+const TABLES: &str = r#"
+paraboloid | indenter.paraboloid.curvature = 50.0
+cone | indenter.cone.slope = 0.1
+cylinder | indenter.cylinder.radius = 0.1
+map | indenter.height-map = { file = "map.csv", spacing = [4e-4, 4e-4] }
+viscous | material.viscous.viscosity = 1.0e4
+elastic | material.elastic = { shear_modulus = 1.0e6, poisson_ratio = 0.3 }
+maxwell | material.maxwell = { shear_modulus = 1.0e6, viscosity = 1.0e4 }
+solid | material.standard-solid = { equilibrium_modulus = 1e6, maxwell_modulus = 2e6, viscosity = 2e3 }
+prony | material.prony = { equilibrium_modulus = 1e5, branches = [{ modulus = 1e6, relaxation_time = 0.01 }, { modulus = 1e6, relaxation_time = 1.0 }] }
+"#;
+
+/// The scene of `body; material; load; solution`, of which the first two may be names.
+#[track_caller]
+pub(crate) fn scene(parts: &str) -> String {
+    let parts: Vec<&str> = parts.split("; ").collect();
+    let table = |name: &str| {
+        let known = rows(TABLES).find(|[known, _]| known == name);
+        known.map_or(name.to_owned(), |[_, table]| table)
+    };
+    let [body, material] = [parts[0], parts[1]].map(table);
+    let [load, solve] = [parts[2], parts[3]];
+    format!("load = {{ {load} }}\nsolve = {{ {solve} }}\n{body}\n{material}\n")
 }
 
-/// The command, ready to run.
-pub(crate) fn command(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_viscofriction"));
-    command.args(arguments);
-    command
-}
-
-/// The command, run.
-pub(crate) fn viscofriction(arguments: &[&str]) -> Output {
-    command(arguments).output().expect("the command runs")
-}
-
-/// What is wrong with a refusal that should end with status 2 and one line that begins with `error: ` and the place,
-/// and says what is needed; nothing if it does.
-pub(crate) fn complaint(arguments: &[&str], place: &str, needed: &str) -> Option<String> {
-    let output = viscofriction(arguments);
-    let message = text(&output.stderr);
-    let helpful = message.starts_with(&format!("error: {place}: ")) && message.contains(needed);
-    let brief = message.trim_end().lines().count() == 1 && output.stdout.is_empty();
-    let right = output.status.code() == Some(2) && helpful && brief;
-    (!right).then(|| {
-        let status = output.status;
-        format!("needs status 2, {place:?} and {needed:?}, but {status} says: {message}")
+/// The rows of a table in cells, of which those at the end may be left out.
+pub(crate) fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [String; N]> {
+    table.trim_matches('\n').lines().map(|line| {
+        let mut cells = line.splitn(N, " | ");
+        [(); N].map(|()| cells.next().unwrap_or_default().replace("\\n", "\n"))
     })
 }
 
-pub(crate) fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// A path as an argument.
-pub(crate) fn argument(path: &Path) -> &str {
-    path.to_str().expect("a path in Unicode")
-}
-
-/// A committed scene.
+/// A committed scene, or a file that one names.
 pub(crate) fn example(name: &str) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    root.join("../../examples/scenes").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../examples/scenes")
+        .join(name)
 }
 
 /// A committed table of measured moduli.
 pub(crate) fn measured(name: &str) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    root.join("../rheology/tests/data").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../rheology/tests/data")
+        .join(name)
+}
+
+/// What a run of the program says.
+#[derive(Debug)]
+pub(crate) struct Said {
+    pub(crate) status: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+/// A folder in which the program runs.
+#[derive(Debug)]
+pub(crate) struct Folder(pub(crate) PathBuf);
+
+impl Folder {
+    /// An empty folder of this name.
+    pub(crate) fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::remove_dir_all(&folder).ok();
+        fs::create_dir_all(&folder).expect("the folder can be made");
+        Self(folder)
+    }
+
+    /// A folder with a committed scene, in which some texts are replaced by others, as `scene.toml`.
+    #[track_caller]
+    pub(crate) fn with(name: &str, scene: &str, replaced: &[(&str, &str)]) -> Self {
+        let folder = Self::new(name);
+        let mut text = fs::read_to_string(example(scene)).expect("a committed scene");
+        for (old, new) in replaced {
+            assert!(text.contains(old), "no {old} in {scene}");
+            text = text.replace(old, new);
+        }
+        folder.write("scene.toml", text);
+        folder
+    }
+
+    pub(crate) fn path(&self, file: &str) -> PathBuf {
+        self.0.join(file)
+    }
+
+    pub(crate) fn write(&self, file: &str, contents: impl AsRef<[u8]>) {
+        fs::write(self.path(file), contents).expect("the file can be written");
+    }
+
+    /// The text of a file.
+    #[track_caller]
+    pub(crate) fn text(&self, file: &str) -> String {
+        fs::read_to_string(self.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+    }
+
+    /// The numbers in a column of a table with a line of names.
+    #[track_caller]
+    pub(crate) fn column(&self, file: &str, column: usize) -> Vec<f64> {
+        let text = self.text(file);
+        let cell = |row: &str| row.split(',').nth(column)?.parse().ok();
+        let cells: Option<Vec<f64>> = text.lines().skip(1).map(cell).collect();
+        cells.unwrap_or_else(|| panic!("{file}: column {column} of {text}"))
+    }
+
+    /// The names of what is in a folder in this one, if that is there.
+    pub(crate) fn names(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).into_iter().flatten();
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
+        let mut names: Vec<String> = entries
+            .map(|entry| name(entry).to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// The program in this folder; `IN/` stands for the committed scenes, and `DATA/` for the tables of moduli.
+    pub(crate) fn command(&self, line: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_viscofriction"));
+        command
+            .current_dir(&self.0)
+            .args(line.split_whitespace().map(argument));
+        command
+    }
+
+    /// The program, run.
+    pub(crate) fn run(&self, line: &str) -> Said {
+        said(&mut self.command(line))
+    }
+
+    /// The program, run until it ends with this status and says this beside its output.
+    #[track_caller]
+    pub(crate) fn ends(&self, line: &str, status: i32, needed: &str) -> Said {
+        let said = self.run(line);
+        let right = said.status == Some(status) && said.stderr.contains(needed);
+        assert!(right, "{line}: needs {status} and {needed:?}, but {said:?}");
+        said
+    }
+
+    /// The result of a scene.
+    #[track_caller]
+    pub(crate) fn json(&self, line: &str) -> Value {
+        let said = self.ends(&format!("run --format json {line}"), 0, "");
+        serde_json::from_str(&said.stdout).expect("JSON")
+    }
+
+    /// The result of a [`scene`] of these parts.
+    #[track_caller]
+    pub(crate) fn answer(&self, parts: &str) -> Value {
+        self.write("scene.toml", scene(parts));
+        self.json("scene.toml")
+    }
+
+    /// Begins to run the program, and kills it.
+    pub(crate) fn kill(&self, line: &str, delay: Duration) {
+        let child = self.command(line).stdout(Stdio::null()).spawn();
+        let mut child = child.expect("the command runs");
+        std::thread::sleep(delay);
+        child.kill().ok();
+        child.wait().expect("it ends");
+    }
+}
+
+/// A word of a line with paths in their places.
+pub(crate) fn argument(word: &str) -> String {
+    let paths = [("IN/", example("")), ("DATA/", measured(""))];
+    paths.iter().fold(word.to_owned(), |word, (name, path)| {
+        word.replace(name, path.to_str().expect("a path in Unicode"))
+    })
+}
+
+/// What a command says.
+pub(crate) fn said(command: &mut Command) -> Said {
+    let output = command.output().expect("the command runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Said {
+        status: output.status.code(),
+        stdout: text(&output.stdout),
+        stderr: text(&output.stderr),
+    }
 }
 
 /// A quantity of a result.
+#[track_caller]
 pub(crate) fn number(result: &Value, field: &str) -> f64 {
     let value = result[field].as_f64();
     value.unwrap_or_else(|| panic!("{field} is missing in {result}"))
 }
 
 /// A quantity with its error.
-pub(crate) fn bar(result: &Value, field: &str) -> [f64; 2] {
-    [field.to_owned(), format!("{field}_error")].map(|field| number(result, &field))
+#[track_caller]
+pub(crate) fn estimate(result: &Value, field: &str) -> Estimate {
+    Estimate {
+        value: number(result, field),
+        error: number(result, &format!("{field}_error")),
+    }
 }
 
-/// The result of a scene as JSON.
-pub(crate) fn run_json(arguments: &[&str]) -> Value {
-    let output = viscofriction(&[&["run", "--format", "json"], arguments].concat());
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
-    serde_json::from_slice(&output.stdout).expect("JSON")
+/// Requires that two values differ by their errors at most, which together are less than a part of the second one.
+#[track_caller]
+pub(crate) fn assert_agree(what: impl Display, one: Estimate, other: Estimate, part: f64) {
+    let error = one.error + other.error;
+    assert!(
+        (one.value - other.value).abs() <= error && error < part * other.value.abs(),
+        "{what}: {one:?} and {other:?}"
+    );
+}
+
+/// Requires a value that is off by a part of what is expected at most.
+#[track_caller]
+pub(crate) fn assert_close(what: impl Display, value: f64, expected: f64, part: f64) {
+    let off = (value / expected - 1.0).abs();
+    assert!(
+        off < part,
+        "{what}: {value} instead of {expected}, off by {off:e}"
+    );
 }
 
 /// A file of NumPy in the format 1.0, of a header and numbers.
