@@ -1,0 +1,153 @@
+//! The influence of a rectangle is Love's closed form, and that of a sliding one on a dashpot the integral of ln(ξ + r),
+//! near and far, ahead, beside and behind, for any aspect ratio.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::influence;
+use bem_halfspace::steady::wake_influence;
+use casebook::group;
+use numerics::integrate;
+
+use crate::support::{assert_close, assert_near};
+
+#[test]
+fn influence_is_that_of_the_casebook() {
+    for case in group("BEM-02") {
+        let numbers = |names: [&str; 2]| names.map(|name| case.input(name));
+        if case.has_input("i") {
+            let per_square = influence(numbers(["i", "j"]), [1.0, 1.0]);
+            case.check_within("K", per_square, 1e-13);
+        } else if case.has_input("hx") {
+            let per_rectangle = influence(numbers(["x", "y"]), numbers(["hx", "hy"]));
+            case.check_within("K", per_rectangle, 1e-13);
+        } else {
+            let own = influence([0.0, 0.0], [1.0, 1.0]);
+            case.check("K00", own);
+            case.check("u_self_per_f_over_Gh", own / (4.0 * PI));
+        }
+    }
+}
+
+/// Offset ξ, y, edges a, b, and the integral; mpmath 1.3.0 at 40 digits, the four-corner difference of
+/// `x*y*log(x+r) - x*y + x**2*asinh(y/abs(x))/2 - y*r/2`, checked there against `mpmath.quad` at (2.25, 0.7) and
+/// (-3.5, 0.3).
+const REFERENCE: [([f64; 4], f64); 18] = [
+    ([0.0, 0.0, 1.0, 1.0], -1.693_147_180_559_945_3),
+    ([-0.5, 0.0, 1.0, 0.5], -2.292_775_814_136_655_6),
+    ([0.5, 0.0, 1.0, 0.5], -0.093_518_546_983_234_99),
+    ([-1.5, 0.0, 1.0, 0.5], -2.927_306_706_124_064_3),
+    ([-1.5, 0.5, 1.0, 0.5], -1.293_891_405_897_199_5),
+    ([7.5, 3.0, 1.0, 0.5], 1.372_657_809_196_099_5),
+    ([9.0, 0.0, 1.0, 1.0], 2.890_114_695_300_743),
+    ([-9.5, 0.0, 1.0, 1.0], -6.330_502_612_025_057),
+    ([-30.5, 2.5, 1.0, 0.5], -1.141_636_195_595_865_7),
+    ([100.5, 37.0, 1.0, 2.0], 10.671_179_590_106_17),
+    ([-1000.5, 0.0, 1.0, 1.0], -10.987_696_674_891_11),
+    ([-1000.5, 777.0, 1.0, 1.0], 5.584_544_826_683_467),
+    ([1e6, 3.0, 1.0, 1.0], 14.508_657_738_526_449),
+    ([-1e6, 3.0, 1.0, 1.0], -12.320_770_618_429_648),
+    ([-0.5, 1000.0, 1.0, 1.0], 6.907_255_237_315_467),
+    ([4.0, 0.001, 1.0, 1e-4], 2.076_825_092_205_634e-4),
+    ([0.001, 4.0, 1e-4, 1.0], 1.383_929_210_185_032e-4),
+    ([-5.0, 0.0, 1e-4, 1.0], -5.689_710_919_833_407e-4),
+];
+
+#[test]
+fn the_wake_has_thirteen_digits() {
+    for ([x, y, a, b], expected) in REFERENCE {
+        for y in [y, -y] {
+            let actual = wake_influence([x, y], [a, b]);
+            assert_close([x, y, a, b], actual, expected, 1e-13);
+        }
+    }
+}
+
+/// The branches near, far and behind meet: a rectangle is the sum of its quarters at every distance and aspect ratio.
+#[test]
+fn a_rectangle_is_the_sum_of_its_quarters() {
+    for edges in [
+        [1.0, 1.0],
+        [1.0, 0.5],
+        [1.0, 1e-4],
+        [1e-4, 1.0],
+        [3e-9, 5e-9],
+    ] {
+        let [a, b] = edges;
+        for (x, y) in [
+            (0.0, 0.0),
+            (0.3, 0.1),
+            (-0.4, 0.1),
+            (-0.7, 0.0),
+            (7.9, 0.3),
+            (8.1, 0.0),
+            (-8.1, 0.2),
+            (0.2, 7.99),
+            (5.0, 6.0),
+            (1e5, 3.0),
+            (-1e5, 3.0),
+        ] {
+            for offset in [[x * a, y * a], [x * a, y * b]] {
+                let halved = |kernel: fn([f64; 2], [f64; 2]) -> f64| -> f64 {
+                    let quarters = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
+                    let parts = quarters.map(|[i, j]| {
+                        let centre = [offset[0] + 0.25 * i * a, offset[1] + 0.25 * j * b];
+                        kernel(centre, [0.5 * a, 0.5 * b])
+                    });
+                    parts.iter().sum()
+                };
+                let what = (offset, edges);
+                assert_close(what, influence(offset, edges), halved(influence), 2e-13);
+                // The logarithm passes through zero: the scale is the area.
+                let wake = wake_influence(offset, edges);
+                assert_near(what, wake, halved(wake_influence), 1e-12 * a * b);
+            }
+        }
+    }
+}
+
+/// The integrand itself, by quadrature in parts that end where ξ or y vanish.
+#[test]
+fn quadrature_finds_the_same_wake() {
+    let logarithm = |x: f64, y: f64| {
+        let r = x.hypot(y);
+        if x >= 0.0 {
+            (x + r).ln()
+        } else {
+            2.0 * y.abs().ln() - (r - x).ln()
+        }
+    };
+    let parts = |middle: f64, edge: f64| {
+        let [first, last] = [middle - 0.5 * edge, middle + 0.5 * edge];
+        if first < 0.0 && last > 0.0 {
+            vec![[first, 0.0], [0.0, last]]
+        } else {
+            vec![[first, last]]
+        }
+    };
+    for [a, b] in [[1.0, 1.0], [1.0, 0.5], [0.25, 1.0], [1.0, 1e-2]] {
+        for [x, y] in [
+            [0.0, 0.0],
+            [-0.5, 0.0],
+            [0.5, 0.3],
+            [-1.5, 0.5],
+            [-3.25, 1.0],
+            [2.75, -4.0],
+            [-40.5, 7.0],
+            [1e3, -1e2],
+            [-1e5, 3.0],
+            [-0.5, 1e3],
+        ] {
+            let offset = [x * a, y * b];
+            let line = |y: f64| -> f64 {
+                let lines = parts(offset[0], a).into_iter();
+                let lines = lines.map(|ends| integrate(|x| logarithm(x, y), ends, 1e-13).value);
+                lines.sum()
+            };
+            let sums = parts(offset[1], b).into_iter();
+            let expected: f64 = sums.map(|ends| integrate(line, ends, 1e-13).value).sum();
+            let allowed = 1e-11 * a * b * logarithm(a, b).abs().max(1.0);
+            let actual = wake_influence(offset, [a, b]);
+            assert_near((offset, [a, b]), actual, expected, allowed);
+        }
+    }
+}
