@@ -6,6 +6,9 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod assertions;
+mod bodies;
+
+pub use bodies::{GaussianDip, superposition};
 
 use std::fmt::Write as _;
 

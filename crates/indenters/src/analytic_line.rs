@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::error::finite;
+use crate::table::increasing;
 use crate::{IndenterError, RigidLine};
 
 /// A rigid line whose height and slope are functions of the position.
@@ -25,14 +26,7 @@ impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> AnalyticLine<H, S> {
         for end in domain {
             finite("end of the domain", end)?;
         }
-        if domain[1] <= domain[0] {
-            return Err(IndenterError::NotIncreasing {
-                list: "domain",
-                index: 1,
-                value: domain[1],
-                previous: domain[0],
-            });
-        }
+        increasing("domain", &domain)?;
         for end in domain {
             finite("height of the line", height(end))?;
         }
@@ -46,7 +40,8 @@ impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> AnalyticLine<H, S> {
 
 impl<H: Fn(f64) -> f64, S: Fn(f64) -> f64> RigidLine for AnalyticLine<H, S> {
     fn height(&self, x: f64) -> f64 {
-        if x >= self.domain[0] && x <= self.domain[1] {
+        let [lower, upper] = self.domain;
+        if (lower..=upper).contains(&x) {
             return (self.height)(x);
         }
         f64::INFINITY

@@ -20,20 +20,51 @@ pub struct Kink {
     pub slope_jump: f64,
 }
 
+/// A profile at one radius; the default is that of a flat end.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ProfilePoint {
+    /// Height h above the lowest point, \[m].
+    pub height: f64,
+    /// Slope h'.
+    pub slope: f64,
+    /// Second derivative h'', \[1/m], away from kinks.
+    pub curvature: f64,
+}
+
+impl ProfilePoint {
+    /// Where the body has ended.
+    pub const ENDED: Self = Self {
+        height: f64::INFINITY,
+        slope: f64::INFINITY,
+        curvature: f64::INFINITY,
+    };
+}
+
+/// An equivalent line at one position; the default is that of a flat end.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct LinePoint {
+    /// Height h̃, \[m].
+    pub height: f64,
+    /// Slope h̃'.
+    pub slope: f64,
+}
+
+impl LinePoint {
+    /// Where the body has ended.
+    pub const ENDED: Self = Self {
+        height: f64::INFINITY,
+        slope: f64::INFINITY,
+    };
+}
+
 /// A body of revolution, given by the height h(r) of its surface above its lowest point.
 ///
-/// Implementors give the profile and two derivatives; the equivalent line follows by quadrature. Shapes with a closed
-/// form override [`line_height`](Self::line_height) and [`line_slope`](Self::line_slope). The macro
-/// [`surface_of_revolution!`](crate::surface_of_revolution) makes a body of revolution a [`Surface`](crate::Surface).
+/// Implementors give the profile and its exponent; the equivalent line follows by quadrature, unless there is a closed
+/// form. The macro [`surface_of_revolution!`](crate::surface_of_revolution) makes a body of revolution a
+/// [`Surface`](crate::Surface).
 pub trait Axisymmetric: Send + Sync {
-    /// Height h(r) above the lowest point, \[m], at a `radius` r ≥ 0 \[m]; `+∞` where the body has ended.
-    fn profile_height(&self, radius: f64) -> f64;
-
-    /// Slope h'(r), at a `radius` r with 0 < r < [`max_radius`](Self::max_radius).
-    fn profile_slope(&self, radius: f64) -> f64;
-
-    /// Second derivative h''(r), \[1/m], away from kinks.
-    fn profile_curvature(&self, radius: f64) -> f64;
+    /// Height, slope and curvature at a `radius` r ≥ 0 \[m]; [`ProfilePoint::ENDED`] where the body has ended.
+    fn profile(&self, radius: f64) -> ProfilePoint;
 
     /// Leading exponent p of h ∼ c r^p at the apex; `+∞` for a flat end.
     fn profile_exponent(&self) -> f64;
@@ -48,9 +79,31 @@ pub trait Axisymmetric: Send + Sync {
         Vec::new()
     }
 
+    /// The equivalent line at a position x ≥ 0 \[m] for bodies with a closed form.
+    fn closed_line(&self, _x: f64) -> Option<LinePoint> {
+        None
+    }
+
+    /// Height h(r) above the lowest point, \[m], at a `radius` r ≥ 0 \[m]; `+∞` where the body has ended.
+    fn profile_height(&self, radius: f64) -> f64 {
+        self.profile(radius).height
+    }
+
+    /// Slope h'(r), at a `radius` r with 0 < r < [`max_radius`](Self::max_radius).
+    fn profile_slope(&self, radius: f64) -> f64 {
+        self.profile(radius).slope
+    }
+
+    /// Second derivative h''(r), \[1/m], away from kinks.
+    fn profile_curvature(&self, radius: f64) -> f64 {
+        self.profile(radius).curvature
+    }
+
     /// Height of the equivalent line h̃(x), \[m]; even in x, `+∞` where the body has ended.
     fn line_height(&self, x: f64) -> f64 {
-        abel_height(self, x)
+        let x = x.abs();
+        let closed = self.closed_line(x).map(|line| line.height);
+        closed.unwrap_or_else(|| abel_height(self, x))
     }
 
     /// Slope of the equivalent line h̃'(x); odd in x.
@@ -58,7 +111,8 @@ pub trait Axisymmetric: Send + Sync {
     /// At a kink it is the slope on the side of the apex: on the other side the line is singular, like the inverse root of
     /// the distance. At the apex itself it is the slope towards positive x.
     fn line_slope(&self, x: f64) -> f64 {
-        abel_slope(self, x)
+        let closed = self.closed_line(x.abs()).map(|line| line.slope);
+        x.signum() * closed.unwrap_or_else(|| abel_slope(self, x.abs()))
     }
 
     /// Height h(r), \[m].
@@ -78,13 +132,15 @@ pub trait Axisymmetric: Send + Sync {
     }
 }
 
-forward!(Axisymmetric, {
-    fn profile_height(&self, radius: f64) -> f64;
-    fn profile_slope(&self, radius: f64) -> f64;
-    fn profile_curvature(&self, radius: f64) -> f64;
+forward!(Axisymmetric + Send + Sync, {
+    fn profile(&self, radius: f64) -> ProfilePoint;
     fn profile_exponent(&self) -> f64;
     fn max_radius(&self) -> f64;
     fn kinks(&self) -> Vec<Kink>;
+    fn closed_line(&self, x: f64) -> Option<LinePoint>;
+    fn profile_height(&self, radius: f64) -> f64;
+    fn profile_slope(&self, radius: f64) -> f64;
+    fn profile_curvature(&self, radius: f64) -> f64;
     fn line_height(&self, x: f64) -> f64;
     fn line_slope(&self, x: f64) -> f64;
 });
@@ -102,12 +158,11 @@ fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, Inden
     })
 }
 
-/// The transform by quadrature: with r = x sin φ the root under the integral disappears,
+/// The transform by quadrature at x ≥ 0: with r = x sin φ the root under the integral disappears,
 /// h̃(x) = x ∫₀^{π/2} h'(x sin φ) dφ.
 ///
-/// This is what [`Axisymmetric::line_height`] does unless a shape overrides it.
+/// This is what [`Axisymmetric::line_height`] does where there is no closed form.
 pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
-    let x = x.abs();
     if x > body.max_radius() {
         return f64::INFINITY;
     }
@@ -117,34 +172,32 @@ pub fn abel_height(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     x * quarter_turn(body, x, |radius| body.profile_slope(radius))
 }
 
-/// The derivative of the transform by quadrature: a kink of h' at b adds Δh' b / √(x² − b²) to
+/// The derivative of the transform by quadrature at x ≥ 0: a kink of h' at b adds Δh' b / √(x² − b²) to
 /// ∫₀^{π/2} (h' + r h'')(x sin φ) dφ.
 ///
-/// This is what [`Axisymmetric::line_slope`] does unless a shape overrides it.
+/// This is what [`Axisymmetric::line_slope`] does where there is no closed form.
 pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
-    let radius = x.abs();
-    if radius > body.max_radius() {
-        return x.signum() * f64::INFINITY;
+    if x > body.max_radius() {
+        return f64::INFINITY;
     }
-    if radius == 0.0 {
-        return x.signum() * apex_slope(body);
+    if x == 0.0 {
+        return apex_slope(body);
     }
-    let smooth = quarter_turn(body, radius, |r| slope_of_moment(body, r));
-    let kinks: f64 = body
-        .kinks()
-        .iter()
-        .filter(|kink| kink.radius < radius)
-        .map(|kink| {
-            kink.slope_jump * kink.radius / ((radius - kink.radius) * (radius + kink.radius)).sqrt()
-        })
+    let smooth = quarter_turn(body, x, |r| slope_of_moment(body, r));
+    let kinks = body.kinks().into_iter();
+    let singular: f64 = kinks
+        .filter(|kink| kink.radius < x)
+        .map(|kink| kink.slope_jump * kink.radius / ((x - kink.radius) * (x + kink.radius)).sqrt())
         .sum();
-    x.signum() * (smooth + kinks)
+    smooth + singular
 }
 
 /// (r h')' = h' + r h''.
 fn slope_of_moment(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
-    let slope = body.profile_slope(r);
-    let change = r * body.profile_curvature(r);
+    let ProfilePoint {
+        slope, curvature, ..
+    } = body.profile(r);
+    let change = r * curvature;
     if change.is_finite() {
         return slope + change;
     }

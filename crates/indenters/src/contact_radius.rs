@@ -4,8 +4,9 @@
 //! h̃(a) = d,   h̃ rising on [0, a]
 //! ```
 
-use crate::error::positive;
-use crate::{Axisymmetric, IndenterError};
+use crate::error::{in_range, positive};
+use crate::leading_edge::crossing;
+use crate::{Axisymmetric, EquivalentLine, IndenterError};
 use numerics::bracketed_root;
 
 /// Step of the search, the eighth part of an octave.
@@ -32,24 +33,35 @@ pub fn contact_radius(
     depth: f64,
 ) -> Result<f64, IndenterError> {
     let depth = positive("depth", depth)?;
-    let search = Search::new(body, depth);
+    let search = Search { body, depth };
+    // Where the slope jumps downwards; just outside the line falls.
+    let edges: Vec<f64> = body
+        .kinks()
+        .into_iter()
+        .filter(|kink| kink.slope_jump < 0.0)
+        .map(|kink| kink.radius)
+        .collect();
     let mut inner = search.apex_side()?;
     loop {
-        if search.edges.contains(&inner) {
+        if edges.contains(&inner) {
             return Err(search.turns_down_at(inner));
         }
-        let outer = search.next_station(inner);
+        let next = (inner * STEP).min(body.max_radius());
+        let outer = edges
+            .iter()
+            .copied()
+            .find(|edge| *edge > inner)
+            .map_or(next, |edge| next.min(edge));
         if outer <= inner || outer.is_infinite() {
             return search.end_of_body(inner);
         }
-        if let Some(turn) = search.turning_point([inner, outer])? {
-            if search.line(turn)? >= depth {
-                return search.crossing([inner, turn]);
-            }
-            return Err(search.turns_down_at(turn));
+        let turn = search.turning_point([inner, outer])?;
+        let reached = turn.unwrap_or(outer);
+        if search.line(reached)? >= depth {
+            return crossing(&EquivalentLine(body), [inner, reached], depth);
         }
-        if search.line(outer)? >= depth {
-            return search.crossing([inner, outer]);
+        if turn.is_some() {
+            return Err(search.turns_down_at(reached));
         }
         inner = outer;
     }
@@ -58,41 +70,25 @@ pub fn contact_radius(
 struct Search<'a, P: ?Sized> {
     body: &'a P,
     depth: f64,
-    end: f64,
-    /// Where the slope jumps downwards; just outside the line falls.
-    edges: Vec<f64>,
 }
 
-impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
-    fn new(body: &'a P, depth: f64) -> Self {
-        let falling = |kink: &crate::Kink| kink.slope_jump < 0.0;
-        let kinks = body.kinks().into_iter();
-        Self {
-            body,
-            depth,
-            end: body.max_radius(),
-            edges: kinks.filter(falling).map(|kink| kink.radius).collect(),
-        }
-    }
-
+impl<P: Axisymmetric + ?Sized> Search<'_, P> {
     fn line(&self, x: f64) -> Result<f64, IndenterError> {
         let value = self.body.line_height(x);
-        if !value.is_nan() {
-            return Ok(value);
-        }
-        Err(not_a_number(value))
+        in_range(
+            "height of the equivalent line",
+            value,
+            !value.is_nan(),
+            "a number",
+        )
     }
 
     /// A radius below the contact radius, inside which the line rises like its leading power.
     fn apex_side(&self) -> Result<f64, IndenterError> {
         // Where the descent begins has no influence on what it finds; 1 m stands for "anywhere".
         let first_kink = self.body.kinks().first().map(|kink| kink.radius);
-        let anywhere = first_kink.unwrap_or(1.0);
-        let mut x = if self.end.is_finite() {
-            self.end
-        } else {
-            anywhere
-        };
+        let end = Some(self.body.max_radius()).filter(|end| end.is_finite());
+        let mut x = end.or(first_kink).unwrap_or(1.0);
         let mut candidate = None;
         let mut octaves = 0;
         while octaves < APEX_OCTAVES && x >= f64::MIN_POSITIVE {
@@ -121,12 +117,6 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
         (exponent / self.body.profile_exponent() - 1.0).abs() <= APEX_DEVIATION
     }
 
-    fn next_station(&self, x: f64) -> f64 {
-        let next = (x * STEP).min(self.end);
-        let edge = self.edges.iter().find(|edge| **edge > x);
-        edge.map_or(next, |edge| next.min(*edge))
-    }
-
     /// The highest point inside the interval when the line falls somewhere in it.
     fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
         let Some(falling) = self.falling_point([inner, outer])? else {
@@ -142,8 +132,14 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
         if slope(first) < 0.0 {
             return Ok(Some(inner));
         }
-        let turn = bracketed_root(slope, [first, falling]);
-        turn.map(Some).ok_or_else(|| not_a_number(f64::NAN))
+        let turn = bracketed_root(slope, [first, falling]).unwrap_or(f64::NAN);
+        in_range(
+            "slope of the equivalent line",
+            turn,
+            !turn.is_nan(),
+            "a number",
+        )
+        .map(Some)
     }
 
     fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
@@ -169,11 +165,6 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
         Ok(x * self.body.line_slope(x) < -ROUNDING * self.line(x)?)
     }
 
-    fn crossing(&self, bracket: [f64; 2]) -> Result<f64, IndenterError> {
-        let excess = |x: f64| self.body.line_height(x) - self.depth;
-        bracketed_root(excess, bracket).ok_or_else(|| not_a_number(f64::NAN))
-    }
-
     fn turns_down_at(&self, radius: f64) -> IndenterError {
         IndenterError::NonMonotoneLine {
             limiting_radius: radius,
@@ -185,20 +176,12 @@ impl<'a, P: Axisymmetric + ?Sized> Search<'a, P> {
     fn end_of_body(&self, radius: f64) -> Result<f64, IndenterError> {
         let available = self.line(radius)?;
         let flat = available == 0.0 && self.body.profile_exponent() == f64::INFINITY;
-        if flat && radius >= self.end {
+        if flat && radius >= self.body.max_radius() {
             return Ok(radius);
         }
         Err(IndenterError::NotHighEnough {
             available,
             depth: self.depth,
         })
-    }
-}
-
-fn not_a_number(value: f64) -> IndenterError {
-    IndenterError::InvalidParameter {
-        parameter: "height of the equivalent line",
-        value,
-        allowed: "a number",
     }
 }

@@ -38,33 +38,3 @@ impl Surface for Cylinder {
         2.0
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn heights_and_slopes_are_those_of_the_parabola_at_every_scale() {
-        for scale in [1e-150, 1.0, 1e150] {
-            let cylinder = Cylinder::new(2.0 * scale).expect("a cylinder");
-            let [height, slope] = [
-                cylinder.height([scale, 7.0]) / scale,
-                cylinder.gradient([scale, 7.0])[0],
-            ];
-            assert!(
-                (height - 0.25).abs() < 1e-15 && (slope - 0.5).abs() < 1e-15,
-                "scale {scale:e}: height {height} instead of 0.25, slope {slope} instead of 0.5"
-            );
-        }
-    }
-
-    #[test]
-    fn a_radius_that_is_none_is_refused() {
-        for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(
-                Cylinder::new(radius).is_err(),
-                "accepted the radius {radius}"
-            );
-        }
-    }
-}

@@ -6,7 +6,7 @@
 
 use crate::right_triangle::{arc_cosine, leg};
 use crate::shape::shape;
-use crate::{Axisymmetric, Kink, surface_of_revolution};
+use crate::{Axisymmetric, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// A cone whose tip is cut off; flat up to its `radius`, then rising with its `slope`.
@@ -20,19 +20,15 @@ shape! {
 }
 
 impl Axisymmetric for FlatCone {
-    fn profile_height(&self, radius: f64) -> f64 {
-        self.slope * (radius - self.radius).max(0.0)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         if radius <= self.radius {
-            return 0.0;
+            return ProfilePoint::default();
         }
-        self.slope
-    }
-
-    fn profile_curvature(&self, _radius: f64) -> f64 {
-        0.0
+        ProfilePoint {
+            height: self.slope * (radius - self.radius),
+            slope: self.slope,
+            curvature: 0.0,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -46,21 +42,15 @@ impl Axisymmetric for FlatCone {
         }]
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        let x = x.abs();
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
         if x <= self.radius {
-            return 0.0;
+            return Some(LinePoint::default());
         }
-        self.slope * x * arc_cosine(self.radius, x)
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.abs();
-        if distance <= self.radius {
-            return 0.0;
-        }
-        let singular = self.radius / leg(distance, self.radius);
-        x.signum() * self.slope * (arc_cosine(self.radius, distance) + singular)
+        let angle = arc_cosine(self.radius, x);
+        Some(LinePoint {
+            height: self.slope * x * angle,
+            slope: self.slope * (angle + self.radius / leg(x, self.radius)),
+        })
     }
 }
 

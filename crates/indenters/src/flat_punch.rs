@@ -1,7 +1,7 @@
 //! The cylindrical punch with a flat end.
 
 use crate::shape::shape;
-use crate::{Axisymmetric, surface_of_revolution};
+use crate::{Axisymmetric, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// A flat end with a vertical edge around it; the contact circle is its rim at every depth.
@@ -12,27 +12,12 @@ shape! {
     radius: radius;
 }
 
-impl FlatPunch {
-    fn inside_or_edge(&self, radius: f64) -> f64 {
-        if radius <= self.radius {
-            0.0
-        } else {
-            f64::INFINITY
-        }
-    }
-}
-
 impl Axisymmetric for FlatPunch {
-    fn profile_height(&self, radius: f64) -> f64 {
-        self.inside_or_edge(radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        self.inside_or_edge(radius)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        self.inside_or_edge(radius)
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        if radius > self.radius {
+            return ProfilePoint::ENDED;
+        }
+        ProfilePoint::default()
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -43,12 +28,9 @@ impl Axisymmetric for FlatPunch {
         self.radius
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        self.inside_or_edge(x.abs())
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        x.signum() * self.inside_or_edge(x.abs())
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
+        let ProfilePoint { height, slope, .. } = self.profile(x);
+        Some(LinePoint { height, slope })
     }
 }
 

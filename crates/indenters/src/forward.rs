@@ -1,15 +1,11 @@
-//! References and boxes of bodies, lines and surfaces are such themselves.
+//! Pointers to bodies, lines and surfaces are such themselves.
 
-/// Implements a trait for references and boxes of what implements it.
+/// Implements a trait for references, boxes and other pointers to what implements it.
 macro_rules! forward {
-    ($trait:ident, $methods:tt) => {
-        forward!(@to &T, $trait, $methods);
-        forward!(@to Box<T>, $trait, $methods);
-    };
-    (@to $pointer:ty, $trait:ident, {
+    ($trait:ident $(+ $auto:ident)*, {
         $(fn $method:ident(&self $(, $argument:ident: $type:ty)?) -> $result:ty;)+
     }) => {
-        impl<T: $trait + ?Sized> $trait for $pointer {
+        impl<P: std::ops::Deref<Target: $trait> $(+ $auto)*> $trait for P {
             $(fn $method(&self $(, $argument: $type)?) -> $result {
                 (**self).$method($($argument)?)
             })+

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::error::{finite, positive};
+use crate::table::at_least_two;
 use crate::{IndenterError, Surface};
 
 /// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
@@ -33,19 +34,8 @@ impl HeightMap {
         spacing: [f64; 2],
         mut heights: Vec<f64>,
     ) -> Result<Self, IndenterError> {
-        for (list, length) in ["rows of heights", "columns of heights"]
-            .into_iter()
-            .zip(shape)
-        {
-            if length < 2 {
-                let needed = 2;
-                return Err(IndenterError::TooFew {
-                    list,
-                    needed,
-                    length,
-                });
-            }
-        }
+        at_least_two("rows of heights", shape[0])?;
+        at_least_two("columns of heights", shape[1])?;
         let first_length = shape[0].saturating_mul(shape[1]);
         if heights.len() != first_length {
             return Err(IndenterError::LengthMismatch {

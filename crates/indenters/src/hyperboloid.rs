@@ -5,7 +5,7 @@
 //! ```
 
 use crate::shape::shape;
-use crate::{Axisymmetric, surface_of_revolution};
+use crate::{Axisymmetric, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// One sheet of a hyperboloid of revolution; far from the tip it is a cone of its `slope`.
@@ -19,30 +19,25 @@ shape! {
 }
 
 impl Axisymmetric for Hyperboloid {
-    fn profile_height(&self, radius: f64) -> f64 {
-        self.slope * radius * (radius / (radius.hypot(self.radius) + self.radius))
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        self.slope * (radius / radius.hypot(self.radius))
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         let distance = radius.hypot(self.radius);
-        self.slope * (self.radius / distance).powi(2) / distance
+        ProfilePoint {
+            height: self.slope * radius * (radius / (distance + self.radius)),
+            slope: self.slope * (radius / distance),
+            curvature: self.slope * (self.radius / distance).powi(2) / distance,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
         2.0
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        self.slope * x * (x / self.radius).atan()
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.hypot(self.radius);
-        self.slope * ((x / self.radius).atan() + (x / distance) * (self.radius / distance))
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
+        let (angle, distance) = ((x / self.radius).atan(), x.hypot(self.radius));
+        Some(LinePoint {
+            height: self.slope * x * angle,
+            slope: self.slope * (angle + (x / distance) * (self.radius / distance)),
+        })
     }
 }
 

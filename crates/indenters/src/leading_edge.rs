@@ -11,19 +11,8 @@ use crate::error::{finite, positive};
 use crate::{IndenterError, RigidLine};
 use numerics::bracketed_root;
 
-/// How finely a line is sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LeadingEdgeOptions {
-    /// Equal intervals of the domain searched for one turning point each; without effect on a
-    /// [`SampledLine`](crate::SampledLine), which is known exactly.
-    pub samples: usize,
-}
-
-impl Default for LeadingEdgeOptions {
-    fn default() -> Self {
-        Self { samples: 1024 }
-    }
-}
+/// Intervals of the domain of a line that are searched for one turning point each, unless the caller chooses.
+const SAMPLES: usize = 1024;
 
 /// The leading edge A of a rigid line that moves towards positive x.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +35,38 @@ impl LeadingEdge {
     #[must_use]
     pub fn available_depth(&self) -> f64 {
         self.highest - self.lowest
+    }
+
+    /// The part of the leading edge of this `line` up to an indentation `depth` d > 0 \[m].
+    ///
+    /// # Errors
+    /// Like [`contact_line`].
+    pub fn contact_line(
+        &self,
+        line: &(impl RigidLine + ?Sized),
+        depth: f64,
+    ) -> Result<ContactLine, IndenterError> {
+        let depth = positive("depth", depth)?;
+        let available = self.available_depth();
+        if depth > available {
+            return Err(IndenterError::NotHighEnough { available, depth });
+        }
+        let level = self.lowest + depth;
+        let mut intervals = Vec::new();
+        for &[start, end] in &self.intervals {
+            if start < end && line.height(start) < level {
+                let last = if line.height(end) <= level {
+                    end
+                } else {
+                    crossing(line, [start, end], level)?
+                };
+                intervals.push([start, last]);
+            }
+        }
+        Ok(ContactLine {
+            intervals,
+            lowest: self.lowest,
+        })
     }
 }
 
@@ -76,93 +97,67 @@ impl ContactLine {
 /// # Errors
 /// [`IndenterError::InvalidParameter`] when the domain is infinite or a height is not finite.
 pub fn leading_edge(line: &(impl RigidLine + ?Sized)) -> Result<LeadingEdge, IndenterError> {
-    leading_edge_with(line, &LeadingEdgeOptions::default())
+    leading_edge_with(line, SAMPLES)
 }
 
-/// Like [`leading_edge`], with the resolution chosen by the caller.
+/// Like [`leading_edge`], with one turning point searched for in each of so many equal intervals of the domain; without
+/// effect on a [`SampledLine`](crate::SampledLine), which is known exactly.
 ///
 /// # Errors
 /// Like [`leading_edge`].
 pub fn leading_edge_with(
     line: &(impl RigidLine + ?Sized),
-    options: &LeadingEdgeOptions,
+    samples: usize,
 ) -> Result<LeadingEdge, IndenterError> {
     for end in line.domain() {
         finite("end of the domain", end)?;
     }
-    let breaks = line.monotone_breaks(options.samples);
+    let breaks = line.monotone_breaks(samples);
     let heights: Vec<f64> = breaks
         .iter()
         .map(|x| finite("height of the line", line.height(*x)))
         .collect::<Result<_, _>>()?;
-    let end = breaks.len().checked_sub(1).ok_or(IndenterError::TooFew {
-        list: "monotone_breaks",
-        needed: 1,
-        length: 0,
-    })?;
-    let mut backwards = vec![[breaks[end], breaks[end]]];
+    let ([.., end], [first, ..], [.., highest]) = (&breaks[..], &heights[..], &heights[..]) else {
+        return Err(IndenterError::TooFew {
+            list: "monotone_breaks",
+            needed: 1,
+            length: 0,
+        });
+    };
+    let mut backwards = vec![[*end, *end]];
     // Minimum over all breaks to the right of the piece.
     let mut later = f64::INFINITY;
-    for i in (0..end).rev() {
-        let piece = Piece {
-            ends: [breaks[i], breaks[i + 1]],
-            heights: [heights[i], heights[i + 1]],
-        };
-        if let Some(interval) = piece.visible_below(line, later)? {
-            prepend(&mut backwards, interval, later > heights[i + 1]);
+    for (ends, heights) in breaks.windows(2).zip(heights.windows(2)).rev() {
+        let [low, high] = [heights[0], heights[1]];
+        if low < high.min(later) {
+            let [start, mut front] = [ends[0], ends[1]];
+            if later < high {
+                front = crossing(line, [start, front], later)?;
+            }
+            match backwards.last_mut() {
+                // The end of the piece belongs to A, and so to the next interval.
+                Some(next) if later > high => next[0] = start,
+                _ => backwards.push([start, front]),
+            }
         }
-        later = later.min(heights[i + 1]);
+        later = later.min(high);
     }
     backwards.reverse();
     Ok(LeadingEdge {
         intervals: backwards,
-        lowest: later.min(heights[0]),
-        highest: heights[end],
+        lowest: later.min(*first),
+        highest: *highest,
     })
 }
 
-/// A stretch of the line over which it only rises or only falls.
-struct Piece {
-    ends: [f64; 2],
-    heights: [f64; 2],
-}
-
-impl Piece {
-    /// The part of the piece that belongs to A when the lowest later height is `later`.
-    fn visible_below(
-        &self,
-        line: &(impl RigidLine + ?Sized),
-        later: f64,
-    ) -> Result<Option<[f64; 2]>, IndenterError> {
-        let [start, end] = self.heights;
-        if start >= end || start >= later {
-            return Ok(None);
-        }
-        let last = if later >= end {
-            self.ends[1]
-        } else {
-            crossing(line, self.ends, later)?
-        };
-        Ok(Some([self.ends[0], last]))
-    }
-}
-
-/// Adds an interval before the others, joined to the next one when its end belongs to A.
-fn prepend(backwards: &mut Vec<[f64; 2]>, interval: [f64; 2], closed: bool) {
-    match backwards.last_mut() {
-        Some(next) if closed => next[0] = interval[0],
-        _ => backwards.push(interval),
-    }
-}
-
 /// Where the rising line passes a height between those at the two ends.
-fn crossing(
+pub(crate) fn crossing(
     line: &(impl RigidLine + ?Sized),
     ends: [f64; 2],
     height: f64,
 ) -> Result<f64, IndenterError> {
-    let checked = |x: f64| line.height(x) - height;
-    bracketed_root(checked, ends).ok_or(IndenterError::InvalidParameter {
+    let excess = |x: f64| line.height(x) - height;
+    bracketed_root(excess, ends).ok_or(IndenterError::InvalidParameter {
         parameter: "height of the line",
         value: line.height(0.5 * (ends[0] + ends[1])),
         allowed: "continuous and finite",
@@ -178,38 +173,5 @@ pub fn contact_line(
     line: &(impl RigidLine + ?Sized),
     depth: f64,
 ) -> Result<ContactLine, IndenterError> {
-    contact_line_with(line, depth, &LeadingEdgeOptions::default())
-}
-
-/// Like [`contact_line`], with the resolution chosen by the caller.
-///
-/// # Errors
-/// Like [`contact_line`].
-pub fn contact_line_with(
-    line: &(impl RigidLine + ?Sized),
-    depth: f64,
-    options: &LeadingEdgeOptions,
-) -> Result<ContactLine, IndenterError> {
-    let depth = positive("depth", depth)?;
-    let edge = leading_edge_with(line, options)?;
-    let available = edge.available_depth();
-    if depth > available {
-        return Err(IndenterError::NotHighEnough { available, depth });
-    }
-    let level = edge.lowest + depth;
-    let mut intervals = Vec::new();
-    for [start, end] in edge.intervals {
-        if start < end && line.height(start) < level {
-            let last = if line.height(end) <= level {
-                end
-            } else {
-                crossing(line, [start, end], level)?
-            };
-            intervals.push([start, last]);
-        }
-    }
-    Ok(ContactLine {
-        intervals,
-        lowest: edge.lowest,
-    })
+    leading_edge(line)?.contact_line(line, depth)
 }

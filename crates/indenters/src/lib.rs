@@ -60,7 +60,7 @@ mod table;
 mod truncated_paraboloid;
 
 pub use analytic_line::AnalyticLine;
-pub use axisymmetric::{Axisymmetric, Kink, abel_height, abel_slope};
+pub use axisymmetric::{Axisymmetric, Kink, LinePoint, ProfilePoint, abel_height, abel_slope};
 pub use contact_radius::contact_radius;
 pub use cylinder::Cylinder;
 pub use discrete_edge::{leading_indices, running_minimum};
@@ -70,10 +70,7 @@ pub use flat_punch::FlatPunch;
 pub use height_map::HeightMap;
 pub use hyperboloid::Hyperboloid;
 pub use inverse_abel::inverse_abel;
-pub use leading_edge::{
-    ContactLine, LeadingEdge, LeadingEdgeOptions, contact_line, contact_line_with, leading_edge,
-    leading_edge_with,
-};
+pub use leading_edge::{ContactLine, LeadingEdge, contact_line, leading_edge, leading_edge_with};
 pub use line::{EquivalentLine, RigidLine};
 pub use load::{Control, PressingLoad, SlidingLoad};
 pub use piecewise_linear::PiecewiseLinearProfile;

@@ -96,11 +96,8 @@ impl SlidingLoad {
 
     /// Normal force F_N, \[N]; none where the depth is prescribed.
     #[must_use]
-    pub const fn normal_force(&self) -> Option<f64> {
-        match self.control {
-            Control::NormalForce(force) => Some(force),
-            Control::IndentationDepth(_) => None,
-        }
+    pub fn normal_force(&self) -> Option<f64> {
+        self.require_normal_force().ok()
     }
 
     /// Normal force F_N \[N], for methods that cannot prescribe the depth.

@@ -6,8 +6,8 @@
 
 use crate::error::in_range;
 use crate::right_triangle::{arc_sine_difference, leg};
-use crate::table::{Column, check_table};
-use crate::{Axisymmetric, IndenterError, Kink, surface_of_revolution};
+use crate::table::check_table;
+use crate::{Axisymmetric, IndenterError, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 /// A body of revolution with a straight profile between the rows of a table; it ends at the last radius.
 ///
@@ -32,16 +32,7 @@ impl PiecewiseLinearProfile {
     /// # Errors
     /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing` or `InvalidParameter`.
     pub fn new(radii: Vec<f64>, heights: Vec<f64>) -> Result<Self, IndenterError> {
-        check_table(
-            &Column {
-                name: "radii",
-                values: &radii,
-            },
-            &Column {
-                name: "heights",
-                values: &heights,
-            },
-        )?;
+        check_table("radii", &radii, &heights)?;
         in_range("first radius", radii[0], radii[0] == 0.0, "0")?;
         in_range("first height", heights[0], heights[0] == 0.0, "0")?;
         for &height in &heights {
@@ -112,24 +103,17 @@ fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Axisymmetric for PiecewiseLinearProfile {
-    fn profile_height(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         if radius > self.max_radius() {
-            return f64::INFINITY;
+            return ProfilePoint::ENDED;
         }
         let i = self.piece(radius);
         let fraction = (radius - self.radii[i]) / (self.radii[i + 1] - self.radii[i]);
-        self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i])
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        if radius > self.max_radius() {
-            return f64::INFINITY;
+        ProfilePoint {
+            height: self.heights[i] + fraction * (self.heights[i + 1] - self.heights[i]),
+            slope: self.slopes[i],
+            curvature: 0.0,
         }
-        self.slopes[self.piece(radius)]
-    }
-
-    fn profile_curvature(&self, _radius: f64) -> f64 {
-        0.0
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -147,31 +131,25 @@ impl Axisymmetric for PiecewiseLinearProfile {
         self.kinks.clone()
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        let x = x.abs();
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
         if x > self.max_radius() {
-            return f64::INFINITY;
-        }
-        x * self.turned_slope(x)
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.abs();
-        if distance > self.max_radius() {
-            return x.signum() * f64::INFINITY;
+            return Some(LinePoint::ENDED);
         }
         let singular: f64 = self
             .kinks
             .iter()
-            .take_while(|kink| kink.radius < distance)
-            .map(|kink| kink.slope_jump * (kink.radius / leg(distance, kink.radius)))
+            .take_while(|kink| kink.radius < x)
+            .map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)))
             .sum();
-        let smooth = if distance == 0.0 {
+        let smooth = if x == 0.0 {
             self.slopes[0] * std::f64::consts::FRAC_PI_2
         } else {
-            self.turned_slope(distance)
+            self.turned_slope(x)
         };
-        x.signum() * (smooth + singular)
+        Some(LinePoint {
+            height: x * smooth,
+            slope: smooth + singular,
+        })
     }
 }
 

@@ -6,7 +6,7 @@
 //! ```
 
 use crate::error::positive;
-use crate::{Axisymmetric, IndenterError, stretch, surface_of_revolution};
+use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
 
 /// A body of revolution `h(r) = c r^p` with any p > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,33 +80,24 @@ impl PowerProfile {
 }
 
 impl Axisymmetric for PowerProfile {
-    fn profile_height(&self, radius: f64) -> f64 {
-        scaled_power(self.coefficient, radius, self.exponent)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        scaled_power(
-            self.coefficient * self.exponent,
-            radius,
-            self.exponent - 1.0,
-        )
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        let factor = self.coefficient * self.exponent * (self.exponent - 1.0);
-        scaled_power(factor, radius, self.exponent - 2.0)
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        let (c, p) = (self.coefficient, self.exponent);
+        ProfilePoint {
+            height: scaled_power(c, radius, p),
+            slope: scaled_power(c * p, radius, p - 1.0),
+            curvature: scaled_power(c * p * (p - 1.0), radius, p - 2.0),
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
         self.exponent
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        self.stretch * self.profile_height(x.abs())
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        x.signum() * self.stretch * self.profile_slope(x.abs())
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
+        Some(LinePoint {
+            height: self.stretch * self.profile_height(x),
+            slope: self.stretch * self.profile_slope(x),
+        })
     }
 }
 

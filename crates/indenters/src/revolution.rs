@@ -7,21 +7,17 @@ use numerics::bracketed_root;
 /// this gives it everything else.
 ///
 /// ```
-/// use indenters::{Axisymmetric, Surface, surface_of_revolution};
+/// use indenters::{Axisymmetric, ProfilePoint, Surface, surface_of_revolution};
 ///
 /// struct Trumpet;
 ///
 /// impl Axisymmetric for Trumpet {
-///     fn profile_height(&self, radius: f64) -> f64 {
-///         radius.exp_m1()
-///     }
-///
-///     fn profile_slope(&self, radius: f64) -> f64 {
-///         radius.exp()
-///     }
-///
-///     fn profile_curvature(&self, radius: f64) -> f64 {
-///         radius.exp()
+///     fn profile(&self, radius: f64) -> ProfilePoint {
+///         ProfilePoint {
+///             height: radius.exp_m1(),
+///             slope: radius.exp(),
+///             curvature: radius.exp(),
+///         }
 ///     }
 ///
 ///     fn profile_exponent(&self) -> f64 {

@@ -7,7 +7,7 @@
 
 use crate::right_triangle::{arc_cosine, leg};
 use crate::shape::shape;
-use crate::{Axisymmetric, Kink, surface_of_revolution};
+use crate::{Axisymmetric, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// A cone that touches a paraboloid at `radius`, where slope and height agree.
@@ -20,30 +20,20 @@ shape! {
     slope: cone_slope;
 }
 
-impl RoundTippedCone {
-    /// (x − √(x² − b²)) / b without cancellation.
-    fn overhang(&self, x: f64) -> f64 {
-        self.radius / (x + leg(x, self.radius))
-    }
-}
-
 impl Axisymmetric for RoundTippedCone {
-    fn profile_height(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         if radius <= self.radius {
-            return 0.5 * self.slope * radius * (radius / self.radius);
+            return ProfilePoint {
+                height: 0.5 * self.slope * radius * (radius / self.radius),
+                slope: self.slope * (radius / self.radius),
+                curvature: self.slope / self.radius,
+            };
         }
-        self.slope * (radius - 0.5 * self.radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        self.slope * (radius / self.radius).min(1.0)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        if radius <= self.radius {
-            return self.slope / self.radius;
+        ProfilePoint {
+            height: self.slope * (radius - 0.5 * self.radius),
+            slope: self.slope,
+            curvature: 0.0,
         }
-        0.0
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -57,21 +47,20 @@ impl Axisymmetric for RoundTippedCone {
         }]
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        let x = x.abs();
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
         if x <= self.radius {
-            return self.slope * x * (x / self.radius);
+            return Some(LinePoint {
+                height: self.slope * x * (x / self.radius),
+                slope: 2.0 * self.slope * (x / self.radius),
+            });
         }
-        self.slope * x * (arc_cosine(self.radius, x) + self.overhang(x))
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.abs();
-        if distance <= self.radius {
-            return 2.0 * self.slope * (x / self.radius);
-        }
-        let angle = arc_cosine(self.radius, distance);
-        x.signum() * self.slope * (angle + 2.0 * self.overhang(distance))
+        let angle = arc_cosine(self.radius, x);
+        // (x − √(x² − b²)) / b without cancellation.
+        let overhang = self.radius / (x + leg(x, self.radius));
+        Some(LinePoint {
+            height: self.slope * x * (angle + overhang),
+            slope: self.slope * (angle + 2.0 * overhang),
+        })
     }
 }
 

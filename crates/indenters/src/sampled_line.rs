@@ -1,6 +1,6 @@
 //! Rigid lines given by a table, straight between its rows.
 
-use crate::table::{Column, check_table};
+use crate::table::check_table;
 use crate::{IndenterError, RigidLine};
 
 /// A piecewise linear rigid line.
@@ -18,16 +18,7 @@ impl SampledLine {
     /// [`IndenterError`] `LengthMismatch`, `TooFew` (two rows are needed), `NotIncreasing`, or `InvalidParameter` for a
     /// number that is not finite.
     pub fn new(positions: Vec<f64>, heights: Vec<f64>) -> Result<Self, IndenterError> {
-        check_table(
-            &Column {
-                name: "positions",
-                values: &positions,
-            },
-            &Column {
-                name: "heights",
-                values: &heights,
-            },
-        )?;
+        check_table("positions", &positions, &heights)?;
         Ok(Self { positions, heights })
     }
 
@@ -48,16 +39,12 @@ impl SampledLine {
         let inner = &self.positions[1..self.positions.len() - 1];
         inner.partition_point(|position| *position <= x)
     }
-
-    fn holds(&self, x: f64) -> bool {
-        let [lower, upper] = self.domain();
-        x >= lower && x <= upper
-    }
 }
 
 impl RigidLine for SampledLine {
     fn height(&self, x: f64) -> f64 {
-        if !self.holds(x) {
+        let [lower, upper] = self.domain();
+        if !(lower..=upper).contains(&x) {
             return f64::INFINITY;
         }
         let i = self.piece(x);

@@ -6,7 +6,7 @@
 
 use crate::right_triangle::leg;
 use crate::shape::shape;
-use crate::{Axisymmetric, surface_of_revolution};
+use crate::{Axisymmetric, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// The lower half of a sphere; it ends at the equator.
@@ -18,26 +18,16 @@ shape! {
 }
 
 impl Axisymmetric for Sphere {
-    fn profile_height(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         if radius >= self.radius {
-            return f64::INFINITY;
-        }
-        radius * (radius / (self.radius + leg(self.radius, radius)))
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        if radius >= self.radius {
-            return f64::INFINITY;
-        }
-        radius / leg(self.radius, radius)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        if radius >= self.radius {
-            return f64::INFINITY;
+            return ProfilePoint::ENDED;
         }
         let leg = leg(self.radius, radius);
-        (self.radius / leg).powi(2) / leg
+        ProfilePoint {
+            height: radius * (radius / (self.radius + leg)),
+            slope: radius / leg,
+            curvature: (self.radius / leg).powi(2) / leg,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -48,27 +38,18 @@ impl Axisymmetric for Sphere {
         self.radius
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        let x = x.abs();
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
         if x >= self.radius {
-            return f64::INFINITY;
+            return Some(LinePoint::ENDED);
         }
-        x * inverse_hyperbolic_tangent(x, self.radius)
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.abs();
-        if distance >= self.radius {
-            return x.signum() * f64::INFINITY;
-        }
-        let rest = (distance / (self.radius - distance)) * (self.radius / (self.radius + distance));
-        x.signum() * (inverse_hyperbolic_tangent(distance, self.radius) + rest)
+        // artanh(x / R) from the exact difference R − x.
+        let rest = self.radius - x;
+        let inverse_hyperbolic_tangent = 0.5 * (2.0 * x / rest).ln_1p();
+        Some(LinePoint {
+            height: x * inverse_hyperbolic_tangent,
+            slope: inverse_hyperbolic_tangent + (x / rest) * (self.radius / (self.radius + x)),
+        })
     }
 }
 
 surface_of_revolution!(Sphere);
-
-/// artanh(x / R) for 0 ≤ x < R, from the exact difference R − x.
-fn inverse_hyperbolic_tangent(x: f64, radius: f64) -> f64 {
-    0.5 * (2.0 * x / (radius - x)).ln_1p()
-}

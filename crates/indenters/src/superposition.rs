@@ -6,7 +6,7 @@
 
 use crate::error::{in_range, positive};
 use crate::power::scaled_power;
-use crate::{Axisymmetric, IndenterError, stretch, surface_of_revolution};
+use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
 
 /// One term `coefficient · r^exponent` of a [`Superposition`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,28 +79,23 @@ fn line_term(term: &PowerTerm) -> Result<PowerTerm, IndenterError> {
 }
 
 impl Axisymmetric for Superposition {
-    fn profile_height(&self, radius: f64) -> f64 {
-        sum(&self.terms, 0.0, |_| 1.0, radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        sum(&self.terms, 1.0, |p| p, radius)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        sum(&self.terms, 2.0, |p| p * (p - 1.0), radius)
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        ProfilePoint {
+            height: sum(&self.terms, 0.0, |_| 1.0, radius),
+            slope: sum(&self.terms, 1.0, |p| p, radius),
+            curvature: sum(&self.terms, 2.0, |p| p * (p - 1.0), radius),
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
         self.terms[0].exponent
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        sum(&self.line_terms, 0.0, |_| 1.0, x.abs())
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        x.signum() * sum(&self.line_terms, 1.0, |p| p, x.abs())
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
+        Some(LinePoint {
+            height: sum(&self.line_terms, 0.0, |_| 1.0, x),
+            slope: sum(&self.line_terms, 1.0, |p| p, x),
+        })
     }
 }
 

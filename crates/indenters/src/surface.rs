@@ -75,7 +75,7 @@ pub trait Surface: Send + Sync {
     }
 }
 
-forward!(Surface, {
+forward!(Surface + Send + Sync, {
     fn height(&self, position: [f64; 2]) -> f64;
     fn gradient(&self, position: [f64; 2]) -> [f64; 2];
     fn mirrors(&self) -> [bool; 2];

@@ -3,53 +3,53 @@
 use crate::IndenterError;
 use crate::error::finite;
 
-/// One column of a table with its name.
-pub(crate) struct Column<'a> {
-    pub(crate) name: &'static str,
-    pub(crate) values: &'a [f64],
-}
-
-/// Checks that both columns are finite and equally long, have two rows, and that the positions increase.
+/// Checks that both lists are finite and equally long, have two rows, and that the positions, which have a name, increase.
 ///
 /// # Errors
 /// The [`IndenterError`] of the first rule that is broken.
-pub(crate) fn check_table(positions: &Column, heights: &Column) -> Result<(), IndenterError> {
-    check_lengths(positions, heights)?;
-    for column in [positions, heights] {
-        for value in column.values {
-            finite(column.name, *value)?;
+pub(crate) fn check_table(
+    list: &'static str,
+    positions: &[f64],
+    heights: &[f64],
+) -> Result<(), IndenterError> {
+    let length = positions.len();
+    if length != heights.len() {
+        return Err(IndenterError::LengthMismatch {
+            first: list,
+            first_length: length,
+            second: "heights",
+            second_length: heights.len(),
+        });
+    }
+    at_least_two(list, length)?;
+    for (name, values) in [(list, positions), ("heights", heights)] {
+        for value in values {
+            finite(name, *value)?;
         }
     }
-    let pairs = positions.values.windows(2).enumerate();
-    for (index, pair) in pairs {
-        if pair[1] <= pair[0] {
-            return Err(IndenterError::NotIncreasing {
-                list: positions.name,
-                index: index + 1,
-                value: pair[1],
-                previous: pair[0],
-            });
-        }
-    }
-    Ok(())
+    increasing(list, positions)
 }
 
-fn check_lengths(positions: &Column, heights: &Column) -> Result<(), IndenterError> {
-    let length = positions.values.len();
-    if length != heights.values.len() {
-        return Err(IndenterError::LengthMismatch {
-            first: positions.name,
-            first_length: length,
-            second: heights.name,
-            second_length: heights.values.len(),
-        });
+pub(crate) fn at_least_two(list: &'static str, length: usize) -> Result<(), IndenterError> {
+    let needed = 2;
+    if length >= needed {
+        return Ok(());
     }
-    if length < 2 {
-        return Err(IndenterError::TooFew {
-            list: positions.name,
-            needed: 2,
-            length,
-        });
+    Err(IndenterError::TooFew {
+        list,
+        needed,
+        length,
+    })
+}
+
+pub(crate) fn increasing(list: &'static str, values: &[f64]) -> Result<(), IndenterError> {
+    match values.windows(2).position(|pair| pair[1] <= pair[0]) {
+        None => Ok(()),
+        Some(before) => Err(IndenterError::NotIncreasing {
+            list,
+            index: before + 1,
+            value: values[before + 1],
+            previous: values[before],
+        }),
     }
-    Ok(())
 }

@@ -6,7 +6,7 @@
 
 use crate::right_triangle::leg;
 use crate::shape::shape;
-use crate::{Axisymmetric, Kink, surface_of_revolution};
+use crate::{Axisymmetric, Kink, LinePoint, ProfilePoint, surface_of_revolution};
 
 shape! {
     /// A paraboloid whose tip is cut off or worn away; flat up to its `radius`.
@@ -21,25 +21,15 @@ shape! {
 }
 
 impl Axisymmetric for TruncatedParaboloid {
-    fn profile_height(&self, radius: f64) -> f64 {
+    fn profile(&self, radius: f64) -> ProfilePoint {
         if radius <= self.radius {
-            return 0.0;
+            return ProfilePoint::default();
         }
-        self.curvature * (radius - self.radius) * (radius + self.radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        if radius <= self.radius {
-            return 0.0;
+        ProfilePoint {
+            height: self.curvature * (radius - self.radius) * (radius + self.radius),
+            slope: 2.0 * self.curvature * radius,
+            curvature: 2.0 * self.curvature,
         }
-        2.0 * self.curvature * radius
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        if radius <= self.radius {
-            return 0.0;
-        }
-        2.0 * self.curvature
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -53,21 +43,15 @@ impl Axisymmetric for TruncatedParaboloid {
         }]
     }
 
-    fn line_height(&self, x: f64) -> f64 {
-        let x = x.abs();
+    fn closed_line(&self, x: f64) -> Option<LinePoint> {
         if x <= self.radius {
-            return 0.0;
+            return Some(LinePoint::default());
         }
-        2.0 * self.curvature * x * leg(x, self.radius)
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        let distance = x.abs();
-        if distance <= self.radius {
-            return 0.0;
-        }
-        let leg = leg(distance, self.radius);
-        x.signum() * 2.0 * self.curvature * (leg + distance * (distance / leg))
+        let leg = leg(x, self.radius);
+        Some(LinePoint {
+            height: 2.0 * self.curvature * x * leg,
+            slope: 2.0 * self.curvature * (leg + x * (x / leg)),
+        })
     }
 }
 

@@ -4,11 +4,11 @@ use friction_analytic::{
     superposition_sliding,
 };
 use indenters::{
-    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, PowerProfile, PowerTerm, Superposition,
-    contact_radius,
+    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, PowerProfile, PowerTerm, ProfilePoint,
+    Superposition, contact_radius,
 };
 
-use crate::support::{body, with_depth};
+use crate::support::with_depth;
 
 /// The sum that a chain of `n` elements per (a − b) makes of ∫ h̃'² dx / D, with an element edge at the kink b.
 fn discrete_friction(body: &dyn Axisymmetric, [kink, front]: [f64; 2], n: u32) -> f64 {
@@ -21,7 +21,7 @@ fn discrete_friction(body: &dyn Axisymmetric, [kink, front]: [f64; 2], n: u32) -
 #[test]
 fn a_slope_jump_diverges_like_a_logarithm() {
     for case in casebook::group("FRI-04") {
-        let (body, depth) = (body(&case), case.input("D"));
+        let (body, depth) = (case.body(), case.input("D"));
         let (material, load) = with_depth(depth);
         let result = axisymmetric_sliding(body.as_ref(), &material, &load);
         assert_eq!(
@@ -88,16 +88,13 @@ struct SteepeningCone {
 }
 
 impl Axisymmetric for SteepeningCone {
-    fn profile_height(&self, radius: f64) -> f64 {
-        self.slope * radius + self.jump * (radius - self.kink).max(0.0)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        self.slope + if radius > self.kink { self.jump } else { 0.0 }
-    }
-
-    fn profile_curvature(&self, _radius: f64) -> f64 {
-        0.0
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        let jump = if radius > self.kink { self.jump } else { 0.0 };
+        ProfilePoint {
+            height: self.slope * radius + jump * (radius - self.kink),
+            slope: self.slope + jump,
+            curvature: 0.0,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {

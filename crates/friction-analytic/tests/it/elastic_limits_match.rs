@@ -5,8 +5,6 @@ use friction_analytic::{
 use indenters::{Axisymmetric, FlatCone, PowerProfile, stretch};
 use rheology::{StandardSolid, StandardSolidParameters};
 
-use crate::support::body;
-
 fn solid([g1, g2, tau]: [f64; 3]) -> StandardSolid {
     StandardSolid::new(StandardSolidParameters {
         equilibrium_modulus: g1,
@@ -46,7 +44,7 @@ fn pressure_times_curvature_is_the_slope_energy() {
         if case.expected("int_p_laplacian_h").is_none() {
             continue;
         }
-        let body = body(&case);
+        let body = case.body();
         let contact = ElasticContact {
             contact_radius: case.input("a"),
             velocity: 1.0,

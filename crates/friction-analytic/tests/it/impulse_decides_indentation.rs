@@ -10,7 +10,7 @@ use numerics::integrate;
 use proptest::prelude::*;
 use rheology::Viscous;
 
-use crate::support::{Bare, body, fixed_cases};
+use crate::support::{Bare, fixed_cases};
 
 #[test]
 fn impulse_decides_indentation() {
@@ -51,7 +51,7 @@ fn impulse_decides_indentation() {
 fn impulse_is_the_elastic_force_with_viscosity_for_modulus() {
     let material = Viscous::new(1.0).unwrap();
     for case in casebook::group("IND-05") {
-        let body = body(&case);
+        let body = case.body();
         let force = case.expected("F").expect("a force is expected");
         let depth = case.expected("d").unwrap_or_else(|| case.input("d"));
         let from_depth = impulse_to_depth(body.as_ref(), &material, depth).unwrap();

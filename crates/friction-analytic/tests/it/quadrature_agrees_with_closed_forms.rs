@@ -7,7 +7,7 @@ use indenters::{
 };
 use proptest::prelude::*;
 
-use crate::support::{Bare, body, fixed_cases, with_depth};
+use crate::support::{Bare, fixed_cases, with_depth};
 
 fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
     let (material, load) = with_depth(depth);
@@ -17,7 +17,7 @@ fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
 #[test]
 fn sphere_round_tipped_cone_and_hyperboloid_match() {
     for case in casebook::group("FRI-02") {
-        let state = slide(body(&case).as_ref(), case.input("D"));
+        let state = slide(case.body().as_ref(), case.input("D"));
         case.check("x_d", state.contact_length());
         case.check("mu", state.friction_coefficient);
         let estimate = state.error / state.friction_coefficient;

@@ -1,119 +1,89 @@
-use casebook::assert_matches;
+use casebook::{GaussianDip, assert_close, assert_matches, superposition};
 use indenters::{
-    Axisymmetric, FlatCone, FlatPunch, IndenterError, PiecewiseLinearProfile, PowerProfile, Sphere,
+    Axisymmetric, FlatCone, FlatPunch, IndenterError, PowerProfile, ProfilePoint, Sphere,
     contact_radius,
 };
 use numerics::{bracketed_root, integrate};
 use proptest::prelude::*;
 
-use crate::casebook_bodies::{GaussianDip, body, superposition};
-use crate::fixed_seed::fixed_seed;
+use crate::support::{fixed_seed, table};
 
 #[test]
 fn elastic_relations_agree_with_the_casebook() {
     for case in casebook::group("IND-05") {
-        let (body, radius) = (body(&case), case.input("a"));
+        let (body, radius) = (case.body(), case.input("a"));
         let depth = case.expected("d").unwrap_or_else(|| case.input("d"));
         if case.expected("d").is_some() {
             case.check("d", body.line_height(radius));
         }
-        let found = contact_radius(&*body, depth).unwrap();
-        assert!(
-            (found / radius - 1.0).abs() < 1e-12,
-            "{}: contact radius {found}, expected {radius}",
-            case.id()
-        );
-        case.check(
-            "F",
-            8.0 * case.input("G") * area_above(&*body, depth, radius),
-        );
+        assert_close!(contact_radius(&*body, depth).unwrap() => radius, within 1e-12; "{}", case.id());
+        let area = area_above(&*body, depth, radius);
+        case.check("F", 8.0 * case.input("G") * area);
     }
 }
 
 /// ∫₀^a (d − h̃) dx, split at the kinks.
 fn area_above(body: &dyn Axisymmetric, depth: f64, radius: f64) -> f64 {
-    let mut ends = vec![0.0];
-    ends.extend(body.kinks().iter().map(|kink| kink.radius));
-    ends.retain(|end| *end < radius);
-    ends.push(radius);
-    ends.windows(2)
-        .map(|piece| integrate(|x| depth - body.line_height(x), [piece[0], piece[1]], 1e-14).value)
+    let kinks = body.kinks().into_iter().map(|kink| kink.radius);
+    let inside = kinks.filter(|kink| *kink < radius);
+    let ends: Vec<f64> = [0.0].into_iter().chain(inside).chain([radius]).collect();
+    let area = |x: f64| depth - body.line_height(x);
+    let pieces = ends.windows(2);
+    pieces
+        .map(|piece| integrate(area, [piece[0], piece[1]], 1e-14).value)
         .sum()
 }
 
-#[test]
-fn a_line_that_turns_down_names_its_limit() {
-    for case in casebook::group("IND-06") {
-        let result = if case.has_input("c2") {
-            let body = superposition(&[(case.input("c2"), 2.0), (-case.input("c4"), 4.0)]);
-            contact_radius(&body, 1.0)
-        } else {
-            contact_radius(&GaussianDip { length: 1.0 }, 1.3)
-        };
-        let Err(IndenterError::NonMonotoneLine {
+/// The radius and depth that the error names as the last ones before the line turns down.
+fn limits(body: &dyn Axisymmetric, depth: f64) -> [f64; 2] {
+    match contact_radius(body, depth) {
+        Err(IndenterError::NonMonotoneLine {
             limiting_radius,
             limiting_depth,
             ..
-        }) = result
-        else {
-            panic!("{}: {result:?} instead of NonMonotoneLine", case.id());
-        };
-        case.check("x_limit", limiting_radius);
-        case.check("g_max", limiting_depth);
+        }) => [limiting_radius, limiting_depth],
+        other => panic!("{other:?} instead of NonMonotoneLine at depth {depth}"),
     }
 }
 
 #[test]
-fn the_line_turns_before_the_body_does() {
-    let cases = casebook::group("IND-06");
-    let case = cases.iter().find(|case| case.has_input("c2")).unwrap();
-    let body = superposition(&[(case.input("c2"), 2.0), (-case.input("c4"), 4.0)]);
-    let [limit, depth] = ["x_limit", "g_max"].map(|name| case.expected(name).unwrap());
-    case.check("F_max_G1", 8.0 * area_above(&body, depth, limit));
-    let turns_at = bracketed_root(|r| body.profile_slope(r), [limit, 2.0 * limit]).unwrap();
-    case.check("h_turns_at", turns_at);
-}
-
-#[test]
-fn the_limit_is_found_in_every_unit() {
-    // d/dx of the line vanishes at 1.501975268… lengths; it is found as a root, to rounding of the slope.
-    let cases = casebook::group("IND-06");
-    let dip = cases.iter().find(|case| !case.has_input("c2")).unwrap();
-    for length in [1e-12, 1e-6, 1.0, 1e5, 1e12] {
-        let body = GaussianDip { length };
-        let Err(IndenterError::NonMonotoneLine {
-            limiting_radius, ..
-        }) = contact_radius(&body, 1.3 * length)
-        else {
-            panic!("length {length}: the line turns down below 1.3 lengths");
-        };
-        dip.check("x_limit", limiting_radius / length);
-        let shallow = 0.5 * length;
-        let radius = contact_radius(&body, shallow).unwrap();
-        let reached = body.line_height(radius);
-        assert!(
-            (reached / shallow - 1.0).abs() < 1e-12 && radius < limiting_radius,
-            "length {length}: depth {reached} at {radius}, expected {shallow}"
-        );
+fn a_line_that_turns_down_names_its_limit_in_every_unit() {
+    for case in casebook::group("IND-06") {
+        if case.has_input("c2") {
+            let body = superposition(&[(case.input("c2"), 2.0), (-case.input("c4"), 4.0)]);
+            let [limit, depth] = limits(&body, 1.0);
+            case.check("x_limit", limit);
+            case.check("g_max", depth);
+            case.check("F_max_G1", 8.0 * area_above(&body, depth, limit));
+            // The body itself turns later.
+            let turns_at = bracketed_root(|r| body.profile_slope(r), [limit, 2.0 * limit]);
+            case.check("h_turns_at", turns_at.unwrap());
+            continue;
+        }
+        // It is found as a root, to rounding of the slope.
+        for length in [1e-12, 1e-6, 1.0, 1e5, 1e12] {
+            let body = GaussianDip { length };
+            let [limit, depth] = limits(&body, 1.3 * length);
+            case.check("x_limit", limit / length);
+            case.check("g_max", depth / length);
+            let radius = contact_radius(&body, 0.5 * length).unwrap();
+            assert_close!(body.line_height(radius) => 0.5 * length, within 1e-12);
+            assert!(radius < limit, "{radius} beyond the limit {limit}");
+        }
     }
 }
 
 /// A paraboloid with a small pit around its apex, where the line turns down.
-struct PittedParaboloid {
-    pit: GaussianDip,
-}
+struct PittedParaboloid(GaussianDip);
 
 impl Axisymmetric for PittedParaboloid {
-    fn profile_height(&self, radius: f64) -> f64 {
-        radius * radius + self.pit.profile_height(radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        2.0 * radius + self.pit.profile_slope(radius)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        2.0 + self.pit.profile_curvature(radius)
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        let pit = self.0.profile(radius);
+        ProfilePoint {
+            height: radius * radius + pit.height,
+            slope: 2.0 * radius + pit.slope,
+            curvature: 2.0 + pit.curvature,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -122,16 +92,27 @@ impl Axisymmetric for PittedParaboloid {
 }
 
 #[test]
-fn a_turn_far_below_the_contact_radius_is_not_overlooked() {
-    let length = 1e-6;
-    let body = PittedParaboloid {
-        pit: GaussianDip { length },
-    };
-    let result = contact_radius(&body, 3.0);
+fn turns_that_are_narrow_or_far_below_are_not_overlooked() {
     // The paraboloid moves the turn of the pit by a relative 1e-6.
-    assert_matches!(
-        result,
-        Err(IndenterError::NonMonotoneLine { limiting_radius, .. }) if (limiting_radius / (1.501_975_268 * length) - 1.0).abs() < 1e-5
+    let pitted = PittedParaboloid(GaussianDip { length: 1e-6 });
+    assert_close!(limits(&pitted, 3.0)[0] => 1.501_975_268e-6, within 1e-5);
+    // Narrower than the steps of the search.
+    let notched = table(&[0.0, 1.0, 1.001, 2.0], &[0.0, 1.0, 1.0, 2.0]);
+    assert_close!(limits(&notched, 3.0)[0] => 1.0, within 0.0);
+}
+
+#[test]
+fn a_downward_kink_limits_the_contact() {
+    let body = table(&[0.0, 1.0, 2.0, 3.0], &[0.0, 0.1, 0.5, 0.6]);
+    let limit = body.line_height(2.0);
+    let below = contact_radius(&body, 0.999 * limit).unwrap();
+    assert!(
+        (1.9..2.0).contains(&below),
+        "radius {below} just below the edge at 2"
+    );
+    assert_eq!(
+        limits(&body, 1.001 * limit).map(Some),
+        [2.0, limit].map(Some)
     );
 }
 
@@ -148,7 +129,7 @@ fn extreme_exponents_agree_with_the_casebook() {
 #[test]
 fn a_flat_punch_touches_with_its_whole_end() {
     let punch = FlatPunch::new(0.3).unwrap();
-    let table = PiecewiseLinearProfile::new(vec![0.0, 0.1, 0.3], vec![0.0; 3]).unwrap();
+    let table = table(&[0.0, 0.1, 0.3], &[0.0; 3]);
     for depth in [1e-300, 1.0, 1e300] {
         for found in [contact_radius(&punch, depth), contact_radius(&table, depth)] {
             assert_eq!(found, Ok(0.3), "flat end of radius 0.3 at depth {depth}");
@@ -161,41 +142,27 @@ fn a_flat_end_is_always_in_contact() {
     // Near the edge d = t b √(2 (a/b − 1)), up to a relative (a/b − 1).
     let cone = FlatCone::new(0.5, 0.3).unwrap();
     let depth: f64 = 1e-6;
-    let expected = 0.5 * (depth / (0.3 * 0.5)).powi(2);
     let excess = contact_radius(&cone, depth).unwrap() / 0.5 - 1.0;
     // One ulp of the radius is 1e-5 of the excess.
-    assert!(
-        (excess / expected - 1.0).abs() < 2e-5,
-        "a/b − 1 = {excess}, expected {expected}"
-    );
+    assert_close!(excess => 0.5 * (depth / (0.3 * 0.5)).powi(2), within 2e-5);
 }
 
 #[test]
 fn a_body_that_ends_is_not_high_enough() {
-    let table = PiecewiseLinearProfile::new(vec![0.0, 2.0], vec![0.0, 1.0]).unwrap();
-    let available = table.line_height(2.0);
+    let cone = table(&[0.0, 2.0], &[0.0, 1.0]);
+    let available = cone.line_height(2.0);
+    let depth = 2.0;
+    let expected = IndenterError::NotHighEnough { available, depth };
     assert_eq!(
-        contact_radius(&table, 2.0),
-        Err(IndenterError::NotHighEnough {
-            available,
-            depth: 2.0
-        }),
+        contact_radius(&cone, depth),
+        Err(expected),
         "the line of the cone ends at π/2"
     );
-    let nearly = contact_radius(&table, available).unwrap();
-    assert!(
-        (nearly / 2.0 - 1.0).abs() < 1e-15,
-        "at the full height the radius is {nearly}, expected 2"
-    );
-}
-
-#[test]
-fn a_deep_sphere_is_in_contact_up_to_its_equator() {
+    assert_close!(contact_radius(&cone, available).unwrap() => 2.0, within 1e-15);
+    // The line of a sphere is infinite at its end.
     let radius = contact_radius(&Sphere::new(2.0).unwrap(), 1e6).unwrap();
-    assert!(
-        radius <= 2.0 && radius > 2.0 * (1.0 - 1e-15),
-        "contact radius {radius}"
-    );
+    assert!(radius <= 2.0, "{radius} beyond the equator");
+    assert_close!(radius => 2.0, within 1e-15);
 }
 
 #[test]
@@ -230,14 +197,10 @@ proptest! {
         prop_assume!(coefficient.is_normal());
         let body = PowerProfile::new(coefficient, exponent).unwrap();
         let expected = fraction * length;
-        let depth = body.line_height(expected);
-        let actual = contact_radius(&body, depth).unwrap();
+        let actual = contact_radius(&body, body.line_height(expected)).unwrap();
         // One ulp of depth is 1/p ulps of radius.
         let allowed = 4.0 * f64::EPSILON * (1.0 + 1.0 / exponent);
-        prop_assert!(
-            (actual / expected - 1.0).abs() <= allowed,
-            "radius {actual:e}, expected {expected:e} of {body:?}"
-        );
+        assert_close!(actual => expected, within allowed; "{body:?}");
     }
 
     #[test]
@@ -257,9 +220,6 @@ proptest! {
         let expected = fraction * length;
         let actual = contact_radius(&body, body.line_height(expected)).unwrap();
         // One ulp of depth is h̃ / (x h̃') ulps of radius; the local exponent is at least 0.2 here.
-        prop_assert!(
-            (actual / expected - 1.0).abs() <= 1e-14,
-            "radius {actual:e}, expected {expected:e} of {body:?}"
-        );
+        assert_close!(actual => expected, within 1e-14; "{body:?}");
     }
 }

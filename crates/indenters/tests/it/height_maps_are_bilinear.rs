@@ -1,44 +1,41 @@
 //! A height map is exact at its nodes, bilinear between them, ends at its edge, and has its lowest point at the origin.
 
-use casebook::assert_matches;
+use casebook::{assert_close, assert_matches};
 use indenters::{HeightMap, IndenterError, Surface};
 
-/// Heights a + b x + c y + d x y, which a bilinear surface reproduces, lowest at row 1 and column 2.
-fn map(scale: f64) -> HeightMap {
-    let height = |[x, y]: [f64; 2]| scale * (2.0 * x.abs() + 3.0 * y.abs() + 5.0 * (x * y).abs());
-    let heights = (0..4).flat_map(|row| {
-        (0..5).map(move |column| [f64::from(row) - 1.0, 0.5 * (f64::from(column) - 2.0)])
-    });
-    let heights = heights.map(|place| 7.0 * scale + height(place)).collect();
-    HeightMap::new([4, 5], [scale, 0.5 * scale], heights).expect("a map")
+/// A surface that is bilinear in every quadrant.
+fn bilinear([x, y]: [f64; 2]) -> f64 {
+    2.0 * x.abs() + 3.0 * y.abs() + 5.0 * (x * y).abs()
+}
+
+/// Its heights in a unit of length, lowest at row 1 and column 2.
+fn map(unit: f64) -> HeightMap {
+    let place = |node: i32| [f64::from(node / 5) - 1.0, 0.5 * (f64::from(node % 5) - 2.0)];
+    let heights = (0..20).map(|node| unit * (7.0 + bilinear(place(node))));
+    HeightMap::new([4, 5], [unit, 0.5 * unit], heights.collect()).expect("a map")
 }
 
 #[test]
 fn a_bilinear_surface_is_reproduced_in_any_unit() {
-    for scale in [1e-12, 1.0, 1e12] {
-        let map = map(scale);
-        for [x, y] in [
+    for unit in [1e-12, 1.0, 1e12] {
+        let map = map(unit);
+        for place in [
             [0.0, 0.0],
             [0.25, 0.1],
             [-0.75, 0.9],
             [2.0, -1.0],
             [1.5, -0.6],
         ] {
-            let expected = scale * (2.0 * f64::abs(x) + 3.0 * f64::abs(y) + 5.0 * f64::abs(x * y));
-            let actual = map.height([x * scale, y * scale]);
-            // Twenty heights of up to 24 in units of the scale are rounded once, and mixed.
+            let error = map.height(place.map(|x| x * unit)) / unit - bilinear(place);
+            // Twenty heights of up to 24 units are rounded once, and mixed.
             assert!(
-                (actual - expected).abs() <= 64.0 * f64::EPSILON * scale,
-                "h({x}, {y}) is {actual} instead of {expected} at the scale {scale:e}"
+                error.abs() <= 64.0 * f64::EPSILON,
+                "{place:?}: off by {error} units of {unit:e}"
             );
         }
-        let gradient = map.gradient([0.5 * scale, -0.25 * scale]);
-        for (actual, expected) in gradient.into_iter().zip([2.0 + 1.25, -3.0 - 2.5]) {
-            assert!(
-                (actual - expected).abs() < 1e-13,
-                "{gradient:?} at the scale {scale:e}, expected {expected}"
-            );
-        }
+        let [along, across] = map.gradient([0.5 * unit, -0.25 * unit]);
+        assert_close!(along => 2.0 + 1.25, within 3e-14; "unit {unit:e}");
+        assert_close!(across => -3.0 - 2.5, within 1e-14; "unit {unit:e}");
     }
 }
 
@@ -47,23 +44,23 @@ fn a_map_ends_at_its_edge() {
     let map = map(1.0);
     assert_eq!(map.extent(), [[-1.0, 2.0], [-1.0, 1.0]], "the edges");
     for outside in [[-1.001, 0.0], [2.001, 0.0], [0.0, 1.001], [f64::NAN, 0.0]] {
-        let [height, gradient] = [map.height(outside), map.gradient(outside)[0]];
-        assert!(
-            height == f64::INFINITY && gradient == 0.0,
-            "{height} and {gradient} at {outside:?}"
+        let numbers = [map.height(outside), map.gradient(outside)[0]];
+        assert_eq!(
+            numbers.map(Some),
+            [f64::INFINITY, 0.0].map(Some),
+            "at {outside:?}"
         );
     }
 }
 
 #[test]
 fn what_lies_below_a_height_is_inside_its_rectangle() {
-    let map = map(1.0);
     for (height, expected) in [
         (0.0, [[-1.0, 1.0], [-0.5, 0.5]]),
         (1.6, [[-1.0, 1.0], [-1.0, 1.0]]),
         (2.1, [[-1.0, 2.0], [-1.0, 1.0]]),
     ] {
-        assert_eq!(map.extent_below(height), expected, "below {height}");
+        assert_eq!(map(1.0).extent_below(height), expected, "below {height}");
     }
 }
 
@@ -82,8 +79,10 @@ fn of_equal_lowest_heights_the_nearest_to_the_middle_is_the_origin() {
 fn grids_that_do_not_fit_are_refused() {
     let new = |shape, spacing, heights: &[f64]| HeightMap::new(shape, spacing, heights.to_vec());
     let square = [0.0, 1.0, 2.0, 3.0];
-    let few = new([1, 4], [1.0; 2], &square);
-    assert_matches!(few, Err(IndenterError::TooFew { length: 1, .. }));
+    for shape in [[1, 4], [4, 1]] {
+        let few = new(shape, [1.0; 2], &square);
+        assert_matches!(few, Err(IndenterError::TooFew { length: 1, .. }));
+    }
     let many = new([2, 3], [1.0; 2], &square);
     assert_matches!(
         many,
@@ -92,26 +91,22 @@ fn grids_that_do_not_fit_are_refused() {
             ..
         })
     );
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for spacing in [[bad, 1.0], [1.0, bad]] {
-            let result = new([2, 2], spacing, &square);
-            assert_matches!(
-                result,
-                Err(IndenterError::InvalidParameter { .. }),
-                "{spacing:?}"
-            );
-        }
-    }
-    for heights in [
+    let spacings = [0.0, -1.0, f64::NAN, f64::INFINITY].map(|bad| [[bad, 1.0], [1.0, bad]]);
+    let by_spacing = spacings
+        .as_flattened()
+        .iter()
+        .map(|spacing| (*spacing, square));
+    let heights = [
         [0.0, f64::NAN, 1.0, 1.0],
         [0.0, f64::INFINITY, 1.0, 1.0],
         [-1e308, 1e308, 0.0, 0.0],
-    ] {
-        let result = new([2, 2], [1.0; 2], &heights);
+    ];
+    for (spacing, heights) in by_spacing.chain(heights.map(|heights| ([1.0; 2], heights))) {
+        let result = new([2, 2], spacing, &heights);
         assert_matches!(
             result,
             Err(IndenterError::InvalidParameter { .. }),
-            "{heights:?}"
+            "{spacing:?} {heights:?}"
         );
     }
 }

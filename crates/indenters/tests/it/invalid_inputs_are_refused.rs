@@ -1,6 +1,6 @@
 use casebook::assert_matches;
 use indenters::{
-    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, IndenterError,
+    AnalyticLine, Axisymmetric, Cylinder, FlatCone, FlatPunch, Hyperboloid, IndenterError,
     PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone, SampledLine, SlidingLoad,
     Sphere, Superposition, TruncatedParaboloid, contact_line, contact_radius, inverse_abel,
     leading_edge, stretch,
@@ -30,6 +30,7 @@ fn every_parameter_of_every_shape_is_checked() {
         assert_names(PowerProfile::cone(bad), "slope", bad);
         assert_names(PowerProfile::paraboloid(bad), "curvature", bad);
         assert_names(Sphere::new(bad), "radius", bad);
+        assert_names(Cylinder::new(bad), "radius", bad);
         assert_names(FlatPunch::new(bad), "radius", bad);
         assert_names(FlatCone::new(bad, 1.0), "radius", bad);
         assert_names(FlatCone::new(1.0, bad), "slope", bad);

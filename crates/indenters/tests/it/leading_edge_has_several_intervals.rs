@@ -1,26 +1,27 @@
-use casebook::{Case, assert_matches};
+use casebook::{Case, assert_close, assert_matches};
 use indenters::{
-    AnalyticLine, EquivalentLine, IndenterError, LeadingEdgeOptions, PiecewiseLinearProfile,
-    PowerProfile, RigidLine, SampledLine, contact_line, leading_edge, leading_edge_with,
-    leading_indices, running_minimum,
+    AnalyticLine, EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line,
+    leading_edge, leading_edge_with, leading_indices, running_minimum,
 };
 use proptest::prelude::*;
 
-use crate::fixed_seed::fixed_seed;
+use crate::support::{fixed_seed, sampled, table};
 
 /// The line e (x³/3 − 3x²/2 + 2x) on [0, 3], in a unit of length, or run through backwards.
 fn cubic(case: &Case, unit: f64) -> impl RigidLine {
     let epsilon = case.input("eps");
-    let backwards = case.has_input("direction");
-    let turn = move |x: f64| if backwards { -x / unit } else { x / unit };
-    let sign = if backwards { -1.0 } else { 1.0 };
+    let (sign, domain) = if case.has_input("direction") {
+        (-1.0, [-3.0 * unit, 0.0])
+    } else {
+        (1.0, [0.0, 3.0 * unit])
+    };
+    let turn = move |x: f64| sign * x / unit;
     let height = move |x: f64| {
         let x = turn(x);
         unit * epsilon * x * (x * (x / 3.0 - 1.5) + 2.0)
     };
     let slope = move |x: f64| sign * epsilon * (turn(x) - 1.0) * (turn(x) - 2.0);
-    let domain = if backwards { [-3.0, 0.0] } else { [0.0, 3.0] };
-    AnalyticLine::new(height, slope, domain.map(|end| end * unit)).unwrap()
+    AnalyticLine::new(height, slope, domain).unwrap()
 }
 
 fn cubic_cases() -> Vec<Case> {
@@ -28,28 +29,37 @@ fn cubic_cases() -> Vec<Case> {
     cases.filter(|case| case.has_input("eps")).collect()
 }
 
+fn assert_ends(intervals: &[[f64; 2]], expected: &[f64], tolerance: f64, what: &str) {
+    let ends = intervals.as_flattened();
+    let close =
+        |(actual, expected): (&f64, &f64)| (actual - expected).abs() <= tolerance * expected;
+    assert!(
+        ends.len() == expected.len() && ends.iter().zip(expected).all(close),
+        "{what}: intervals {intervals:?}, expected {expected:?}"
+    );
+}
+
 #[test]
 fn contact_lines_of_the_cubic_agree_with_the_casebook() {
     for case in cubic_cases() {
         for unit in [1e-12, 1.0, 1e12] {
+            let what = format!("{} in the unit {unit}", case.id());
             let depth = unit * case.input("D_over_eps") * case.input("eps");
             let result = contact_line(&cubic(&case, unit), depth);
             let Some(expected) = case.expected_list("intervals") else {
                 assert_matches!(
                     result,
-                    Err(IndenterError::NotHighEnough { available, .. }) if available < depth,
-                    "{} in the unit {unit}: {result:?}", case.id()
+                    Err(IndenterError::NotHighEnough { available, .. }) if available < depth, "{what}"
                 );
                 continue;
             };
-            let ends: Vec<f64> = result.unwrap().intervals.concat();
-            let close = |(actual, expected): (&f64, &f64)| {
-                (actual / unit - expected).abs() <= case.relative_tolerance() * expected
-            };
-            assert!(
-                ends.len() == expected.len() && ends.iter().zip(&expected).all(close),
-                "{} in the unit {unit}: intervals {ends:?}, expected {expected:?}",
-                case.id()
+            let scaled = |interval: [f64; 2]| interval.map(|end| end / unit);
+            let intervals: Vec<_> = result.unwrap().intervals.into_iter().map(scaled).collect();
+            assert_ends(
+                &intervals,
+                &expected,
+                2.0 * case.relative_tolerance(),
+                &what,
             );
         }
     }
@@ -58,23 +68,16 @@ fn contact_lines_of_the_cubic_agree_with_the_casebook() {
 #[test]
 fn the_edge_of_the_cubic_does_not_depend_on_the_sampling() {
     let case = &cubic_cases()[0];
-    let line = cubic(case, 1.0);
     for samples in [2, 7, 100, 1024, 3000] {
-        let edge = leading_edge_with(&line, &LeadingEdgeOptions { samples }).unwrap();
-        let expected = [0.0, 0.5, 2.0, 3.0];
-        let ends = edge.intervals.concat();
-        let close = |(actual, expected): (&f64, &f64)| (actual - expected).abs() <= 1e-14;
-        assert!(
-            ends.len() == 4 && ends.iter().zip(&expected).all(close),
-            "{samples} samples: {ends:?}, expected {expected:?}"
+        let edge = leading_edge_with(&cubic(case, 1.0), samples).unwrap();
+        assert_ends(
+            &edge.intervals,
+            &[0.0, 0.5, 2.0, 3.0],
+            3e-15,
+            &format!("{samples} samples"),
         );
-        let highest = 1.5 * case.input("eps");
-        assert!(
-            edge.lowest.abs() <= 0.0 && (edge.highest / highest - 1.0).abs() < 1e-15,
-            "{samples} samples: from {} to {}, expected 0 to {highest}",
-            edge.lowest,
-            edge.highest
-        );
+        assert_close!(edge.lowest => 0.0, within 0.0; "{samples} samples");
+        assert_close!(edge.highest => 1.5 * case.input("eps"), within 1e-15; "{samples} samples");
     }
 }
 
@@ -85,105 +88,89 @@ fn separate_points_agree_with_the_casebook() {
             continue;
         }
         let heights = case.input_list("h");
+        let minima = running_minimum(&heights);
         if let Some(expected) = case.expected_list("A") {
-            let actual: Vec<f64> = leading_indices(&heights)
-                .into_iter()
-                .map(|i| f64::from(u32::try_from(i).unwrap()))
-                .collect();
+            let indices = leading_indices(&heights);
+            let actual: Vec<f64> = indices.into_iter().map(|i| i as f64).collect();
             assert_eq!(actual, expected, "leading edge of {}", case.id());
-            case.check("h0", running_minimum(&heights)[0]);
+            case.check("h0", minima[0]);
             continue;
         }
-        let minima = running_minimum(&heights);
         let expected = case.expected_list("running_min").unwrap();
         assert_eq!(minima, expected, "running minimum of {}", case.id());
-        let increments: Vec<f64> = minima.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        // The increments up to the depth, of which the last one is cut.
         let until_contact_ends = case.expected_list("increments").unwrap().len();
-        let capped = increments.iter().take(until_contact_ends);
-        let level = case.input("D");
-        let sum: f64 = capped
-            .scan(0.0, |sum, step| {
-                let step = step.min(level - *sum);
-                *sum += step;
-                Some(step)
-            })
-            .sum();
-        case.check("sum_increments", sum);
+        let top = (minima[until_contact_ends] - minima[0]).min(case.input("D"));
+        case.check("sum_increments", top);
     }
 }
 
+/// Heights over 0, 1, 2, …, and the intervals of the leading edge.
 #[test]
-fn of_a_plateau_only_the_right_end_belongs() {
-    let line = SampledLine::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], vec![0.0, 1.0, 1.0, 1.0, 2.0]);
-    let edge = leading_edge(&line.unwrap()).unwrap();
-    assert_eq!(edge.intervals, [[0.0, 1.0], [3.0, 4.0]], "{edge:?}");
-}
-
-#[test]
-fn a_flank_that_starts_at_a_later_minimum_is_hidden() {
-    let line = SampledLine::new(vec![0.0, 1.0, 2.0, 3.0, 4.0], vec![0.0, 1.0, 2.0, 1.0, 3.0]);
-    let edge = leading_edge(&line.unwrap()).unwrap();
-    assert_eq!(edge.intervals, [[0.0, 1.0], [3.0, 4.0]], "{edge:?}");
-}
-
-#[test]
-fn at_a_vertex_the_slope_looks_forward() {
-    let line = SampledLine::new(vec![0.0, 1.0, 3.0], vec![0.0, 2.0, 1.0]).unwrap();
-    for (x, expected) in [(0.0, 2.0), (1.0, -0.5), (3.0, -0.5)] {
-        let actual = line.slope(x);
-        assert!(
-            (actual - expected).abs() < 1e-15,
-            "slope {actual} at {x}, expected {expected}"
+fn tables_of_heights_have_their_edges() {
+    let rows: [(&str, &[f64], &[f64]); 3] = [
+        (
+            "of a plateau only the right end belongs",
+            &[0.0, 1.0, 1.0, 1.0, 2.0],
+            &[0.0, 1.0, 3.0, 4.0],
+        ),
+        (
+            "a flank that starts at a later minimum is hidden",
+            &[0.0, 1.0, 2.0, 1.0, 3.0],
+            &[0.0, 1.0, 3.0, 4.0],
+        ),
+        (
+            "a falling line has an edge of one point",
+            &[5.0, 4.0, 3.0],
+            &[2.0, 2.0],
+        ),
+    ];
+    for (claim, heights, expected) in rows {
+        let positions: Vec<f64> = (0..heights.len()).map(|i| i as f64).collect();
+        let line = sampled(&positions, heights);
+        let edge = leading_edge(&line).unwrap();
+        assert_ends(&edge.intervals, expected, 0.0, claim);
+        let (available, depth) = (edge.available_depth(), 4.0);
+        let expected = IndenterError::NotHighEnough { available, depth };
+        assert_eq!(
+            contact_line(&line, depth),
+            Err(expected),
+            "{claim}: it carries no such depth"
         );
     }
 }
 
 #[test]
-fn a_falling_line_has_an_edge_of_one_point() {
-    let line = SampledLine::new(vec![0.0, 1.0, 2.0], vec![5.0, 4.0, 3.0]).unwrap();
-    let edge = leading_edge(&line).unwrap();
-    assert_eq!(edge.intervals, [[2.0, 2.0]], "{edge:?}");
-    assert_eq!(
-        contact_line(&line, 0.1),
-        Err(IndenterError::NotHighEnough {
-            available: 0.0,
-            depth: 0.1
-        }),
-        "one point carries nothing"
-    );
+fn at_a_vertex_the_slope_looks_forward() {
+    let line = sampled(&[0.0, 1.0, 3.0], &[0.0, 2.0, 1.0]);
+    for (x, expected) in [(0.0, 2.0), (1.0, -0.5), (3.0, -0.5)] {
+        assert_close!(line.slope(x) => expected, within 1e-15; "x = {x}");
+    }
 }
 
 #[test]
 fn sampled_lines_are_cut_between_their_points() {
     // Falls to 1, rises to 3, falls to 2 (which hides what is above 2), rises to 4.
-    let line = SampledLine::new(vec![0.0, 1.0, 3.0, 4.0, 6.0], vec![2.0, 1.0, 3.0, 2.0, 4.0]);
-    let line = line.unwrap();
+    let line = sampled(&[0.0, 1.0, 3.0, 4.0, 6.0], &[2.0, 1.0, 3.0, 2.0, 4.0]);
     let edge = leading_edge(&line).unwrap();
     assert_eq!(edge.intervals, [[1.0, 2.0], [4.0, 6.0]], "{edge:?}");
     let contact = contact_line(&line, 1.5).unwrap();
     assert_eq!(contact.intervals, [[1.0, 2.0], [4.0, 4.5]], "{contact:?}");
-    assert!((contact.length() - 1.5).abs() < 1e-15, "{contact:?}");
+    assert_close!(contact.length() => 1.5, within 1e-15);
 }
 
 #[test]
 fn kinks_of_a_body_are_seen() {
     // A cone with a sunken ring: its line falls outside the downward kink at 2 and rises again.
-    let table =
-        PiecewiseLinearProfile::new(vec![0.0, 1.0, 2.0, 3.0, 6.0], vec![0.0, 0.1, 0.5, 0.6, 3.0]);
-    let table = table.unwrap();
+    let table = table(&[0.0, 1.0, 2.0, 3.0, 6.0], &[0.0, 0.1, 0.5, 0.6, 3.0]);
     let line = EquivalentLine(&table);
     let edge = leading_edge(&line).unwrap();
-    assert_eq!(edge.intervals.len(), 2, "{edge:?}");
-    let [[start, hidden], [valley, end]] = [edge.intervals[0], edge.intervals[1]];
-    assert!(
-        start.abs() <= 0.0 && hidden < 2.0 && valley > 2.0 && (end - 6.0).abs() <= 0.0,
-        "{edge:?}"
-    );
-    let [left, right] = [hidden, valley].map(|x| line.height(x));
-    assert!(
-        (left / right - 1.0).abs() < 1e-14,
-        "the valley at {valley} has the height {right}, the hidden flank begins at {left}"
-    );
+    let [[start, hidden], [valley, end]] = edge.intervals[..] else {
+        panic!("two intervals were expected: {edge:?}");
+    };
+    assert_eq!((start.abs(), end), (0.0, 6.0), "{edge:?}");
+    assert!(hidden < 2.0 && valley > 2.0, "{edge:?}");
+    assert_close!(line.height(hidden) => line.height(valley), within 1e-14);
 }
 
 #[test]
@@ -202,26 +189,24 @@ proptest! {
     #[test]
     fn sampled_edges_hold_the_definition(heights in prop::collection::vec(0_u8..12, 2..30)) {
         let heights: Vec<f64> = heights.into_iter().map(f64::from).collect();
-        let positions: Vec<f64> = (0_u32..).take(heights.len()).map(f64::from).collect();
-        let line = SampledLine::new(positions, heights.clone()).unwrap();
+        let positions: Vec<f64> = (0..heights.len()).map(|i| i as f64).collect();
+        let line = sampled(&positions, &heights);
         let edge = leading_edge(&line).unwrap();
         // Vertices decide: the definition holds on the line exactly where it does among finely divided points.
         let fine = 8 * (heights.len() - 1);
-        let x = |i: usize| f64::from(u32::try_from(i).unwrap()) / 8.0;
-        let points: Vec<f64> = (0..=fine).map(|i| line.height(x(i))).collect();
+        let points: Vec<f64> = (0..=fine).map(|i| line.height(i as f64 / 8.0)).collect();
         let last = edge.intervals.len() - 1;
         for i in 0..=fine {
+            let x = i as f64 / 8.0;
             let expected = points[i + 1..].iter().all(|later| points[i] < *later);
-            let inside = |(k, [start, end]): (usize, &[f64; 2])| {
-                x(i) >= *start && (x(i) < *end || (k == last && x(i) <= *end))
-            };
-            let actual = edge.intervals.iter().enumerate().any(inside);
+            let actual = edge.intervals.iter().enumerate().any(|(k, [start, end])| {
+                x >= *start && (x < *end || (k == last && x <= *end))
+            });
             // A crossing level lies between two points of the division or on one of them, where rounding decides.
-            let on_an_end = edge.intervals.iter().any(|[_, end]| (x(i) - end).abs() < 1e-12);
+            let on_an_end = edge.intervals.iter().any(|[_, end]| (x - end).abs() < 1e-12);
             prop_assert!(
                 actual == expected || on_an_end,
-                "x = {}: in the edge {actual}, by definition {expected}; {edge:?} of {heights:?}",
-                x(i)
+                "x = {x}: in the edge {actual}, by definition {expected}; {edge:?} of {heights:?}"
             );
         }
         prop_assert!(edge.lowest <= points.iter().copied().fold(f64::INFINITY, f64::min));

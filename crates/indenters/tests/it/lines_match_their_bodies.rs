@@ -1,73 +1,60 @@
-use casebook::Case;
+use casebook::{assert_close, assert_matches};
 use indenters::{
-    Axisymmetric, EquivalentLine, FlatCone, FlatPunch, Hyperboloid, PiecewiseLinearProfile,
-    PowerProfile, RigidLine, RoundTippedCone, Sphere, Surface, TruncatedParaboloid, abel_height,
-    abel_slope, surface_of_revolution,
+    AnalyticLine, Axisymmetric, EquivalentLine, FlatCone, FlatPunch, IndenterError, PowerProfile,
+    ProfilePoint, RigidLine, Sphere, Surface, abel_height, abel_slope, inverse_abel,
+    surface_of_revolution,
 };
 
-use crate::casebook_bodies::{body, boxed, superposition};
+use crate::support::{all_shapes, boxed, table};
 
 #[test]
 fn heights_and_lines_agree_with_the_casebook() {
     for case in casebook::group("IND-02") {
-        let (body, x): (_, f64) = (body(&case), case.input("x"));
+        let (body, x) = (case.body(), case.input("x"));
+        let line = EquivalentLine(&*body);
         case.check("h", body.profile_height(x));
-        case.check("g", body.line_height(x));
-        case.check("dg", body.line_slope(x));
-        check_symmetry(&case, &*body, x);
+        case.check("g", line.height(x));
+        case.check("dg", line.slope(x));
+        assert_close!(line.height(-x) => line.height(x), within 0.0; "{}", case.id());
+        assert_close!(line.slope(-x) => -line.slope(x), within 0.0; "{}", case.id());
     }
 }
 
-fn check_symmetry(case: &Case, body: &dyn Axisymmetric, x: f64) {
-    let line = EquivalentLine(body);
-    let pairs = [
-        (line.height(-x), line.height(x)),
-        (line.slope(-x), -line.slope(x)),
-    ];
-    for (mirrored, expected) in pairs {
-        assert!(
-            (mirrored - expected).abs() <= 0.0,
-            "{}: mirrored value {mirrored}, expected {expected}",
-            case.id()
-        );
+#[test]
+fn table_lines_agree_with_the_casebook() {
+    for case in casebook::group("IND-04") {
+        let table = table(&case.input_list("r"), &case.input_list("h"));
+        let height = table.checked_line_height(case.input("x"));
+        if case.expected_error().is_none() {
+            case.check("g", height.unwrap());
+            continue;
+        }
+        let beyond = IndenterError::OutOfDomain {
+            position: 3.5,
+            lower: 0.0,
+            upper: 3.0,
+        };
+        assert_eq!(height, Err(beyond), "{} must not extrapolate", case.id());
     }
 }
 
-/// Every shape of the crate with the size 1, or about that.
-fn all_shapes() -> Vec<(&'static str, Box<dyn Axisymmetric>)> {
-    let table = PiecewiseLinearProfile::new(vec![0.0, 0.4, 0.7, 2.0], vec![0.0, 0.1, 0.4, 1.0]);
-    let sum = superposition(&[(1.0, 2.0), (0.2, 0.7), (-0.5, 4.0)]);
-    vec![
-        ("root", boxed(PowerProfile::new(0.3, 0.5))),
-        ("needle", boxed(PowerProfile::new(0.3, 0.05))),
-        ("cone", boxed(PowerProfile::cone(0.3))),
-        ("paraboloid", boxed(PowerProfile::paraboloid(2.0))),
-        ("power 7.3", boxed(PowerProfile::new(2.0, 7.3))),
-        ("sphere", boxed(Sphere::new(1.1))),
-        ("flat cone", boxed(FlatCone::new(0.5, 0.3))),
-        ("worn paraboloid", boxed(TruncatedParaboloid::new(0.5, 0.3))),
-        ("round-tipped cone", boxed(RoundTippedCone::new(0.5, 0.3))),
-        ("hyperboloid", boxed(Hyperboloid::new(0.5, 0.3))),
-        ("superposition", Box::new(sum)),
-        ("table", boxed(table)),
-    ]
+#[test]
+fn collinear_rows_are_no_kink() {
+    // 0.1 k and 0.3 k are not exact: slopes of neighbouring pieces differ in the last digits.
+    let rows = |step: f64| -> Vec<f64> { (0..50).map(|k| step * f64::from(k)).collect() };
+    let table = table(&rows(0.1), &rows(0.3));
+    assert_eq!(table.kinks(), Vec::new(), "the table is a cone");
+    let expected = std::f64::consts::FRAC_PI_2 * 3.0 * 3.33;
+    assert_close!(table.line_height(3.33) => expected, within 1e-14);
 }
 
 #[test]
 fn closed_lines_equal_the_numerical_transform() {
     // The quadrature is asked for 1e-14 of the integral of the modulus; 1e-12 leaves room for cancellation.
-    for (name, body) in all_shapes() {
+    for (name, body) in all_shapes(1.0) {
         for x in [1e-6, 0.01, 0.3, 0.50001, 0.55, 0.9, 1.05] {
-            let pairs = [
-                ("height", body.line_height(x), abel_height(&*body, x)),
-                ("slope", body.line_slope(x), abel_slope(&*body, x)),
-            ];
-            for (quantity, closed, numerical) in pairs {
-                assert!(
-                    (closed - numerical).abs() <= 1e-12 * closed.abs(),
-                    "{name}, x = {x}: {quantity} {closed}, by quadrature {numerical}"
-                );
-            }
+            assert_close!(abel_height(&*body, x) => body.line_height(x), within 1e-12; "{name}, x = {x}");
+            assert_close!(abel_slope(&*body, x) => body.line_slope(x), within 1e-12; "{name}, x = {x}");
         }
     }
 }
@@ -76,27 +63,26 @@ fn closed_lines_equal_the_numerical_transform() {
 fn lines_near_a_kink_keep_their_digits() {
     // Just outside the flat end, x = b (1 + ε): h̃ = t b √(2ε) and h̃' = t / √(2ε) up to O(ε).
     let epsilon = 2.0_f64.powi(-44);
-    let (radius, slope) = (0.5, 0.3);
-    let cone = FlatCone::new(radius, slope).unwrap();
-    let x = radius * (1.0 + epsilon);
+    let cone = FlatCone::new(0.5, 0.3).unwrap();
+    let x = 0.5 * (1.0 + epsilon);
     let root = (2.0 * epsilon).sqrt();
-    let pairs = [
-        (cone.line_height(x), slope * radius * root),
-        (cone.line_slope(x), slope / root),
-    ];
-    for (actual, expected) in pairs {
-        assert!(
-            (actual / expected - 1.0).abs() < 1e-12,
-            "{actual}, expected {expected}"
-        );
-    }
+    assert_close!(cone.line_height(x) => 0.3 * 0.5 * root, within 1e-12);
+    assert_close!(cone.line_slope(x) => 0.3 / root, within 1e-12);
 }
 
 #[test]
-fn gradients_are_the_derivatives_of_heights() {
+fn gradients_and_curvatures_are_derivatives() {
     // Central differences of step δ: truncation h''' δ²/6 and rounding ε h / δ are both below 1e-9 at δ = 1e-5.
     let step = 1e-5;
-    for (name, body) in all_shapes() {
+    let difference = |at: &dyn Fn(f64) -> f64| (at(step) - at(-step)) / (2.0 * step);
+    let check = |what: &str, actual: f64, at: &dyn Fn(f64) -> f64, size: f64| {
+        let expected = difference(at);
+        assert!(
+            (actual - expected).abs() < 1e-7 * (1.0 + size),
+            "{what}: {actual}, by differences {expected}"
+        );
+    };
+    for (name, body) in all_shapes(1.0) {
         for [x, y] in [
             [0.3, 0.1],
             [-0.2, 0.25],
@@ -104,33 +90,20 @@ fn gradients_are_the_derivatives_of_heights() {
             [-0.6, -0.6],
             [0.95, 0.1],
         ] {
-            let at = |dx, dy| body.height([x + dx, y + dy]);
-            let expected = [
-                (at(step, 0.0) - at(-step, 0.0)) / (2.0 * step),
-                (at(0.0, step) - at(0.0, -step)) / (2.0 * step),
-            ];
-            let actual = body.gradient([x, y]);
-            let error = (actual[0] - expected[0]).hypot(actual[1] - expected[1]);
-            let size = 1.0 + actual[0].hypot(actual[1]);
-            assert!(
-                error < 1e-7 * size,
-                "{name} at [{x}, {y}]: gradient {actual:?}, by differences {expected:?}"
-            );
+            let [along, across] = body.gradient([x, y]);
+            let size = along.hypot(across);
+            let place = format!("gradient of {name} at [{x}, {y}]");
+            check(&place, along, &|d| body.height([x + d, y]), size);
+            check(&place, across, &|d| body.height([x, y + d]), size);
         }
-    }
-}
-
-#[test]
-fn curvatures_are_the_derivatives_of_slopes() {
-    let step = 1e-5;
-    for (name, body) in all_shapes() {
         for r in [0.1, 0.3, 0.6, 0.9] {
-            let expected =
-                (body.profile_slope(r + step) - body.profile_slope(r - step)) / (2.0 * step);
-            let actual = body.profile_curvature(r);
-            assert!(
-                (actual - expected).abs() < 1e-7 * (1.0 + actual.abs()),
-                "{name} at {r}: curvature {actual}, by differences {expected}"
+            let curvature = body.profile_curvature(r);
+            let place = format!("curvature of {name} at {r}");
+            check(
+                &place,
+                curvature,
+                &|d| body.profile_slope(r + d),
+                curvature.abs(),
             );
         }
     }
@@ -138,52 +111,33 @@ fn curvatures_are_the_derivatives_of_slopes() {
 
 #[test]
 fn shapes_are_numbers_everywhere() {
-    let mut shapes = all_shapes();
+    let mut shapes = all_shapes(1.0);
     shapes.push(("flat punch", boxed(FlatPunch::new(0.5))));
     shapes.push(("steep", boxed(PowerProfile::new(1e300, 1e6))));
     for (name, body) in shapes {
         for r in [0.0, 5e-324, 1e-300, 0.5, 1.1, 2.0, 1e12, 1e200] {
             let [x, y] = body.gradient([r, 0.0]);
-            let values = [
-                body.profile_height(r),
-                body.line_height(r),
-                body.line_slope(r),
-                body.line_slope(-r),
-                x,
-                y,
-            ];
-            assert!(
-                values.iter().all(|value| !value.is_nan()),
-                "{name} at r = {r}: {values:?}"
-            );
+            let line = [body.line_height(r), body.line_slope(r), body.line_slope(-r)];
+            let values = [[body.profile_height(r), x, y], line];
+            let are_numbers = values.as_flattened().iter().all(|value| !value.is_nan());
+            assert!(are_numbers, "{name} at r = {r}: {values:?}");
         }
     }
 }
 
 #[test]
 fn lines_scale_with_the_unit_of_length() {
-    // The same bodies in other units of length: heights scale like the unit, slopes not at all.
+    // Heights scale like the unit, slopes not at all; the terms of the sum of powers cancel.
     for unit in [1e-12, 1e-3, 1e12] {
-        let shapes = |unit: f64| {
-            [
-                boxed(Sphere::new(2.0 * unit)),
-                boxed(FlatCone::new(0.5 * unit, 0.3)),
-                boxed(RoundTippedCone::new(0.5 * unit, 0.3)),
-                boxed(TruncatedParaboloid::new(0.5 * unit, 0.3 / unit)),
-            ]
-        };
-        for (base, scaled) in shapes(1.0).into_iter().zip(shapes(unit)) {
-            let expected = [base.line_height(0.9) * unit, base.line_slope(0.9)];
-            let actual = [
-                scaled.line_height(0.9 * unit),
-                scaled.line_slope(0.9 * unit),
-            ];
-            for (actual, expected) in actual.iter().zip(expected) {
-                assert!(
-                    (actual / expected - 1.0).abs() < 1e-14,
-                    "unit {unit}: {actual}, expected {expected}"
-                );
-            }
+        for ((name, base), (_, scaled)) in all_shapes(1.0).into_iter().zip(all_shapes(unit)) {
+            let x = 0.9 * unit;
+            let tolerance = if name == "superposition" {
+                1e-13
+            } else {
+                1e-14
+            };
+            assert_close!(scaled.line_height(x) => base.line_height(0.9) * unit, within tolerance; "{name}");
+            assert_close!(scaled.line_slope(x) => base.line_slope(0.9), within tolerance; "{name}");
         }
     }
 }
@@ -192,16 +146,12 @@ fn lines_scale_with_the_unit_of_length() {
 struct Stub;
 
 impl Axisymmetric for Stub {
-    fn profile_height(&self, radius: f64) -> f64 {
-        if radius > 1.0 { f64::INFINITY } else { radius }
-    }
-
-    fn profile_slope(&self, _radius: f64) -> f64 {
-        1.0
-    }
-
-    fn profile_curvature(&self, _radius: f64) -> f64 {
-        0.0
+    fn profile(&self, radius: f64) -> ProfilePoint {
+        ProfilePoint {
+            height: if radius > 1.0 { f64::INFINITY } else { radius },
+            slope: 1.0,
+            curvature: 0.0,
+        }
     }
 
     fn profile_exponent(&self) -> f64 {
@@ -218,14 +168,52 @@ surface_of_revolution!(Stub);
 #[test]
 fn gradients_vanish_where_there_is_no_body() {
     let sphere = Sphere::new(1.1).unwrap();
-    let pairs = [
+    for (place, gradient) in [
         ("the equator", sphere.gradient([1.1, 0.0])),
         ("beyond the equator", sphere.gradient([1.0, -1.0])),
         ("beyond the stub", Stub.gradient([0.0, 1.5])),
         ("the apex", Stub.gradient([0.0, 0.0])),
-    ];
-    for (place, gradient) in pairs {
-        let steepness = gradient[0].hypot(gradient[1]);
-        assert!(steepness <= 0.0, "gradient {gradient:?} at {place}");
+    ] {
+        assert!(
+            gradient.iter().all(|slope| slope.abs() <= 0.0),
+            "gradient {gradient:?} at {place}"
+        );
     }
+}
+
+#[test]
+fn the_inverse_transform_recovers_the_body() {
+    for case in casebook::group("IND-03") {
+        let (body, radius) = (case.body(), case.input("r"));
+        // Known kinks leave nothing to search: also the kinked rows reach the smooth tolerance.
+        let height = inverse_abel(&EquivalentLine(&*body), radius, 1e-12).unwrap();
+        case.check_within("h", height, 1e-9);
+        let (height, slope) = (|x| body.line_height(x), |x| body.line_slope(x));
+        let without_kinks = AnalyticLine::new(height, slope, [0.0, radius]).unwrap();
+        let tolerance = 0.1 * case.relative_tolerance();
+        case.check(
+            "h",
+            inverse_abel(&without_kinks, radius, tolerance).unwrap(),
+        );
+    }
+}
+
+#[test]
+fn an_inverse_transform_that_cannot_be_is_refused() {
+    let line = AnalyticLine::new(|x| x, |_| 1.0, [0.0, 1.0]).unwrap();
+    let beyond = IndenterError::OutOfDomain {
+        position: 1.5,
+        lower: 0.0,
+        upper: 1.0,
+    };
+    assert_eq!(
+        inverse_abel(&line, 1.5, 1e-9),
+        Err(beyond),
+        "the line ends at 1"
+    );
+    // Infinitely many waves towards x = 0, as high there as anywhere.
+    let height = |x: f64| if x < 1e-300 { 0.0 } else { x.recip().sin() };
+    let line = AnalyticLine::new(height, |_| 0.0, [0.0, 1.0]).unwrap();
+    let result = inverse_abel(&line, 0.7, 1e-12);
+    assert_matches!(result, Err(IndenterError::NotConverged { reached, .. }) if reached > 1e-12);
 }

@@ -1,6 +1,9 @@
+use std::sync::Arc;
+
+use casebook::assert_close;
 use indenters::{
-    Axisymmetric, Cylinder, FlatPunch, HeightMap, PowerProfile, RigidLine, Sphere, Surface,
-    Unmirrored,
+    Axisymmetric, Cylinder, EquivalentLine, FlatPunch, HeightMap, PowerProfile, RigidLine, Sphere,
+    Surface, Unmirrored,
 };
 
 /// Paraboloids of both curvatures, turned and moved, or none.
@@ -52,15 +55,15 @@ fn an_own_surface_is_searched_tightly_at_every_scale() {
             for axis in [0, 1] {
                 let [start, end] =
                     [-1.0, 1.0].map(|side| own.moved[axis] + side * half_widths[axis]);
-                let spare = 0.1 * (end.max(0.0) - start.min(0.0));
+                // The origin is in it too.
+                let [start, end] = [start.min(0.0), end.max(0.0)];
+                let spare = 0.1 * (end - start);
                 let [low, high] = extent[axis];
+                let is_tight =
+                    (start - spare..=start).contains(&low) && (end..=end + spare).contains(&high);
                 assert!(
-                    low <= start && high >= end,
-                    "axis {axis} of {aspect}, {angle}, scale {scale}: {extent:?} does not hold [{start}, {end}]"
-                );
-                assert!(
-                    low >= start.min(0.0) - spare && high <= end.max(0.0) + spare,
-                    "axis {axis} of {aspect}, {angle}, scale {scale}: {extent:?} is too large for [{start}, {end}]"
+                    is_tight,
+                    "axis {axis} of {aspect}, {angle}, scale {scale}: {extent:?} for [{start}, {end}]"
                 );
             }
         }
@@ -91,6 +94,15 @@ fn an_endless_surface_has_an_endless_extent() {
 }
 
 #[test]
+fn a_cylinder_is_its_parabola_at_every_scale() {
+    for scale in [1e-150, 1.0, 1e150] {
+        let cylinder = Cylinder::new(2.0 * scale).unwrap();
+        assert_close!(cylinder.height([scale, 7.0]) => 0.25 * scale, within 1e-15);
+        assert_close!(cylinder.gradient([scale, 7.0])[0] => 0.5, within 1e-15);
+    }
+}
+
+#[test]
 fn a_body_of_revolution_knows_its_extent() {
     let sphere = Sphere::new(1.0).unwrap();
     let punch = FlatPunch::new(0.3).unwrap();
@@ -105,56 +117,42 @@ fn a_body_of_revolution_knows_its_extent() {
     ];
     for (body, height, radius) in bodies {
         for end in body.extent_below(height).as_flattened() {
-            assert!(
-                (end.abs() - radius).abs() <= 1e-14 * radius,
-                "{end} instead of {radius} below {height}"
-            );
+            assert_close!(end.abs() => radius, within 1e-14; "below {height}");
         }
     }
 }
 
 #[test]
-fn references_and_boxes_say_what_their_body_says() {
+fn pointers_say_what_their_body_says() {
     let body = Sphere::new(2.0).unwrap();
     let boxed: Box<dyn Axisymmetric> = Box::new(body);
-    let surfaces: [&dyn Surface; 4] = [&body, &&body, &boxed, &Box::new(body)];
-    for surface in surfaces {
-        let numbers = [
-            (surface.height([1.2, 0.0]), body.profile_height(1.2)),
-            (surface.gradient([1.2, 0.0])[0], body.profile_slope(1.2)),
-            (
-                surface.extent_below(0.1)[1][1],
-                body.extent_below(0.1)[1][1],
-            ),
-            (surface.apex_exponent(), 2.0),
-        ];
-        for (actual, expected) in numbers {
-            assert!((actual - expected).abs() <= 0.0, "{actual}, not {expected}");
-        }
-        assert_eq!(surface.mirrors(), [true; 2]);
+    let said = |surface: &dyn Surface| {
         let line = surface.as_axisymmetric().map(|body| body.line_height(1.0));
-        assert_eq!(line, Some(body.line_height(1.0)), "the line of the sphere");
+        let numbers = [
+            surface.height([1.2, 0.0]),
+            surface.gradient([1.2, 0.0])[0],
+            surface.extent_below(0.1)[1][1],
+            surface.apex_exponent(),
+        ];
+        (numbers, surface.mirrors(), line)
+    };
+    for surface in [&&body as &dyn Surface, &boxed, &Arc::new(body)] {
+        assert_eq!(said(surface), said(&body), "of the surface");
     }
-    let line = indenters::EquivalentLine(&*boxed);
-    let lines: [&dyn RigidLine; 2] = [&line, &Box::new(line)];
-    for line in lines {
-        let numbers = [line.height(-1.0), line.domain()[1]];
-        assert_eq!(
-            numbers.map(Some),
-            [Some(body.line_height(1.0)), Some(2.0)],
-            "of the line"
-        );
-    }
+    let line = EquivalentLine(&*boxed);
+    let said =
+        |line: &dyn RigidLine| [line.height(-1.0), line.slope(-1.0), line.domain()[1]].map(Some);
+    assert_eq!(
+        said(&Box::new(line)),
+        said(&EquivalentLine(&body)),
+        "of the line"
+    );
 }
 
 #[test]
 fn only_mirrors_are_hidden_by_unmirrored() {
-    let map = HeightMap::new(
-        [3, 3],
-        [1.0; 2],
-        vec![2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 2.0],
-    );
-    let map = map.unwrap();
+    let heights = vec![2.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 2.0];
+    let map = HeightMap::new([3, 3], [1.0; 2], heights).unwrap();
     let hidden = Unmirrored(&map);
     assert_eq!((map.mirrors(), hidden.mirrors()), ([true; 2], [false; 2]));
     assert_eq!(hidden.extent_below(0.5), map.extent_below(0.5));

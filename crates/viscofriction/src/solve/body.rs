@@ -1,11 +1,11 @@
 //! The rigid body of a scene.
 
+use std::ops::Deref;
 use std::path::Path;
 
 use indenters::{
-    Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError, Kink,
+    Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
-    surface_of_revolution,
 };
 
 use super::problem::ReadFile;
@@ -48,8 +48,11 @@ impl std::fmt::Debug for Revolution {
     }
 }
 
-impl Revolution {
-    fn shape(&self) -> &dyn Axisymmetric {
+/// A body of revolution is the shape that it holds.
+impl Deref for Revolution {
+    type Target = dyn Axisymmetric;
+
+    fn deref(&self) -> &Self::Target {
         match self {
             Self::Power(profile) => profile,
             Self::Sum(profile) => profile,
@@ -58,43 +61,6 @@ impl Revolution {
         }
     }
 }
-
-/// Forwards all that a shape may override.
-impl Axisymmetric for Revolution {
-    fn profile_height(&self, radius: f64) -> f64 {
-        self.shape().profile_height(radius)
-    }
-
-    fn profile_slope(&self, radius: f64) -> f64 {
-        self.shape().profile_slope(radius)
-    }
-
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        self.shape().profile_curvature(radius)
-    }
-
-    fn profile_exponent(&self) -> f64 {
-        self.shape().profile_exponent()
-    }
-
-    fn max_radius(&self) -> f64 {
-        self.shape().max_radius()
-    }
-
-    fn kinks(&self) -> Vec<Kink> {
-        self.shape().kinks()
-    }
-
-    fn line_height(&self, x: f64) -> f64 {
-        self.shape().line_height(x)
-    }
-
-    fn line_slope(&self, x: f64) -> f64 {
-        self.shape().line_slope(x)
-    }
-}
-
-surface_of_revolution!(Revolution);
 
 /// The body of a table of the scene file.
 ///
