@@ -15,18 +15,11 @@ pub enum SceneError {
         /// The values it may take.
         allowed: &'static str,
     },
-    /// Something that does not fit the types: an unknown key, a missing one, a text instead of a number.
+    /// Something else is wrong at a key, alone or together with others: an unknown key, a missing one, a text instead of a
+    /// number, numbers that contradict each other.
     #[error("{key}: {problem}")]
-    Form {
-        /// Where.
-        key: String,
-        /// What is wrong.
-        problem: String,
-    },
-    /// Numbers that are right alone and wrong together.
-    #[error("{key}: {problem}")]
-    Together {
-        /// The key that is best changed.
+    At {
+        /// The key, or the one that is best changed.
         key: String,
         /// What is wrong.
         problem: String,
@@ -42,9 +35,9 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// Numbers that are wrong together, at the key that is best changed.
-    pub fn together(key: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self::Together {
+    /// Something is wrong at a key, or at several, of which this one is best changed.
+    pub fn at(key: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::At {
             key: key.into(),
             problem: problem.into(),
         }
@@ -54,9 +47,7 @@ impl SceneError {
     #[must_use]
     pub fn key(&self) -> Option<&str> {
         match self {
-            Self::Value { key, .. } | Self::Form { key, .. } | Self::Together { key, .. } => {
-                Some(key)
-            }
+            Self::Value { key, .. } | Self::At { key, .. } => Some(key),
             Self::Syntax { .. } => None,
         }
     }

@@ -32,11 +32,11 @@ impl Load {
             (None, Some(depth)) => {
                 positive("load.indentation_depth", depth).map(Control::IndentationDepth)
             }
-            (Some(_), Some(_)) => Err(SceneError::together(
+            (Some(_), Some(_)) => Err(SceneError::at(
                 "load.indentation_depth",
                 "either normal_force or indentation_depth is given, not both",
             )),
-            (None, None) => Err(SceneError::together(
+            (None, None) => Err(SceneError::at(
                 "load.normal_force",
                 "normal_force or indentation_depth is missing",
             )),

@@ -2,89 +2,74 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 /// The half space; every kind may have a Poisson ratio.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[strum(serialize_all = "kebab-case")]
 pub enum MaterialTable {
     /// A dashpot.
-    Viscous(Viscous),
+    Viscous {
+        /// Shear viscosity η > 0, [Pa s].
+        viscosity: f64,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// A spring.
-    Elastic(Elastic),
+    Elastic {
+        /// Shear modulus G > 0, \[Pa].
+        shear_modulus: f64,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// Spring and dashpot in parallel.
-    KelvinVoigt(SpringAndDashpot),
+    KelvinVoigt {
+        /// Shear modulus G > 0, \[Pa].
+        shear_modulus: f64,
+        /// Shear viscosity η > 0, [Pa s].
+        viscosity: f64,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// Spring and dashpot in series.
-    Maxwell(SpringAndDashpot),
+    Maxwell {
+        /// Shear modulus G > 0, \[Pa].
+        shear_modulus: f64,
+        /// Shear viscosity η > 0, [Pa s].
+        viscosity: f64,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// A spring in parallel with a Maxwell element.
-    StandardSolid(StandardSolid),
+    StandardSolid {
+        /// Shear modulus of the spring > 0, \[Pa].
+        equilibrium_modulus: f64,
+        /// Shear modulus of the Maxwell element > 0, \[Pa].
+        maxwell_modulus: f64,
+        /// Viscosity of the Maxwell element > 0, [Pa s].
+        viscosity: f64,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// Spring, dashpot and Maxwell branches in parallel.
-    Prony(Prony),
-}
-
-/// A dashpot.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Viscous {
-    /// Shear viscosity η > 0, [Pa s].
-    pub viscosity: f64,
-    /// Poisson ratio, −1 < ν ≤ 1/2.
-    #[serde(default = "incompressible")]
-    pub poisson_ratio: f64,
-}
-
-/// A spring.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Elastic {
-    /// Shear modulus G > 0, \[Pa].
-    pub shear_modulus: f64,
-    /// Poisson ratio, −1 < ν ≤ 1/2.
-    #[serde(default = "incompressible")]
-    pub poisson_ratio: f64,
-}
-
-/// A spring and a dashpot.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpringAndDashpot {
-    /// Shear modulus G > 0, \[Pa].
-    pub shear_modulus: f64,
-    /// Shear viscosity η > 0, [Pa s].
-    pub viscosity: f64,
-    /// Poisson ratio, −1 < ν ≤ 1/2.
-    #[serde(default = "incompressible")]
-    pub poisson_ratio: f64,
-}
-
-/// A spring in parallel with a Maxwell element.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct StandardSolid {
-    /// Shear modulus of the spring > 0, \[Pa].
-    pub equilibrium_modulus: f64,
-    /// Shear modulus of the Maxwell element > 0, \[Pa].
-    pub maxwell_modulus: f64,
-    /// Viscosity of the Maxwell element > 0, [Pa s].
-    pub viscosity: f64,
-    /// Poisson ratio, −1 < ν ≤ 1/2.
-    #[serde(default = "incompressible")]
-    pub poisson_ratio: f64,
-}
-
-/// Spring, dashpot and Maxwell branches in parallel.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Prony {
-    /// Shear modulus of the lone spring ≥ 0, \[Pa].
-    pub equilibrium_modulus: f64,
-    /// Viscosity of the lone dashpot ≥ 0, [Pa s].
-    #[serde(default)]
-    pub viscosity: f64,
-    /// Maxwell branches.
-    pub branches: Vec<Branch>,
-    /// Poisson ratio, −1 < ν ≤ 1/2.
-    #[serde(default = "incompressible")]
-    pub poisson_ratio: f64,
+    Prony {
+        /// Shear modulus of the lone spring ≥ 0, \[Pa].
+        equilibrium_modulus: f64,
+        /// Viscosity of the lone dashpot ≥ 0, [Pa s].
+        #[serde(default)]
+        viscosity: f64,
+        /// Maxwell branches.
+        branches: Vec<Branch>,
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
 }
 
 /// A Maxwell branch.
@@ -104,27 +89,21 @@ const fn incompressible() -> f64 {
 impl MaterialTable {
     /// The key of the table.
     #[must_use]
-    pub const fn key(&self) -> &'static str {
-        match self {
-            Self::Viscous(_) => "material.viscous",
-            Self::Elastic(_) => "material.elastic",
-            Self::KelvinVoigt(_) => "material.kelvin-voigt",
-            Self::Maxwell(_) => "material.maxwell",
-            Self::StandardSolid(_) => "material.standard-solid",
-            Self::Prony(_) => "material.prony",
-        }
+    pub fn key(&self) -> String {
+        let name: &str = self.into();
+        format!("material.{name}")
     }
 
     /// Poisson ratio ν.
     #[must_use]
     pub const fn poisson_ratio(&self) -> f64 {
         match self {
-            Self::Viscous(Viscous { poisson_ratio, .. })
-            | Self::Elastic(Elastic { poisson_ratio, .. })
-            | Self::KelvinVoigt(SpringAndDashpot { poisson_ratio, .. })
-            | Self::Maxwell(SpringAndDashpot { poisson_ratio, .. })
-            | Self::StandardSolid(StandardSolid { poisson_ratio, .. })
-            | Self::Prony(Prony { poisson_ratio, .. }) => *poisson_ratio,
+            Self::Viscous { poisson_ratio, .. }
+            | Self::Elastic { poisson_ratio, .. }
+            | Self::KelvinVoigt { poisson_ratio, .. }
+            | Self::Maxwell { poisson_ratio, .. }
+            | Self::StandardSolid { poisson_ratio, .. }
+            | Self::Prony { poisson_ratio, .. } => *poisson_ratio,
         }
     }
 }

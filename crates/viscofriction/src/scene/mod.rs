@@ -19,15 +19,10 @@ use serde::{Deserialize, Serialize};
 
 pub use error::{SceneError, in_range, not_negative, positive};
 pub use height_map_file::height_map;
-pub use indenter::{
-    Cone, HeightMapFile, Indenter, Paraboloid, Power, Round, RoundAndCurvature, RoundAndSlope, Sum,
-    TableFile, Term,
-};
+pub use indenter::{Indenter, Term};
 pub use indenters::Control;
 pub use load::Load;
-pub use material::{
-    Branch, Elastic, MaterialTable, Prony, SpringAndDashpot, StandardSolid, Viscous,
-};
+pub use material::{Branch, MaterialTable};
 pub use numerics::Accuracy;
 pub use solve::{Method, Model, Solve};
 pub use source::{Source, scene_file, split_index};

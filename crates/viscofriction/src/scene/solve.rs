@@ -3,6 +3,7 @@
 use numerics::Accuracy;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 use super::SceneError;
 use super::error::{in_range, positive};
@@ -35,9 +36,10 @@ pub struct Solve {
     pub threads: Option<usize>,
 }
 
-/// A way to the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+/// How the answer is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Method {
     /// Closed forms and quadrature.
     Analytic,
@@ -52,8 +54,9 @@ pub enum Method {
 }
 
 /// What the elastomer is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Model {
     /// The one-dimensional model of the method of dimensionality reduction.
     Line,
@@ -64,11 +67,8 @@ pub enum Model {
 impl Model {
     /// The name in a scene file.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::HalfSpace => "half-space",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
@@ -78,6 +78,12 @@ const ELEMENTS: std::ops::RangeInclusive<usize> = 8..=100_000;
 const THREADS: std::ops::RangeInclusive<usize> = 1..=1024;
 
 impl Method {
+    /// The name in a scene file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
+
     /// The one model that the method is of; none of closed forms, which there are of both.
     #[must_use]
     pub const fn model(self) -> Option<Model> {
@@ -85,18 +91,6 @@ impl Method {
             Self::Analytic => None,
             Self::MdrSteady | Self::MdrTransient => Some(Model::Line),
             Self::BemSteady | Self::BemTransient => Some(Model::HalfSpace),
-        }
-    }
-
-    /// The name in a scene file.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Analytic => "analytic",
-            Self::MdrSteady => "mdr-steady",
-            Self::MdrTransient => "mdr-transient",
-            Self::BemSteady => "bem-steady",
-            Self::BemTransient => "bem-transient",
         }
     }
 }
@@ -115,7 +109,7 @@ impl Solve {
     /// [`SceneError`] for a number out of range, or both an error and a number of elements.
     pub fn accuracy(&self) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
-            (Some(_), Some(_)) => Err(SceneError::together(
+            (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.elements",
                 "either relative_error or elements is given, not both",
             )),
@@ -154,7 +148,7 @@ impl Solve {
     /// [`SceneError`] for a number out of range, or both a time and a distance.
     pub fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
         match (self.duration, self.sliding_distance) {
-            (Some(_), Some(_)) => Err(SceneError::together(
+            (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.sliding_distance",
                 "either duration or sliding_distance is given, not both",
             )),
@@ -174,11 +168,11 @@ impl Solve {
     pub fn indentation_time(&self) -> Result<f64, SceneError> {
         if self.sliding_distance.is_some() {
             let problem = "load.velocity is 0, so that nothing slides; give solve.duration";
-            return Err(SceneError::together("solve.sliding_distance", problem));
+            return Err(SceneError::at("solve.sliding_distance", problem));
         }
         let Some(duration) = self.duration else {
             let problem = "a velocity of 0 is pure indentation, which needs solve.duration [s]";
-            return Err(SceneError::together("load.velocity", problem));
+            return Err(SceneError::at("load.velocity", problem));
         };
         positive("solve.duration", duration)
     }

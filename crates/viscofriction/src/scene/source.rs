@@ -99,7 +99,7 @@ impl Source {
 /// The scene that keys and values describe.
 ///
 /// # Errors
-/// [`SceneError::Form`] for an unknown or missing key or a value of the wrong type.
+/// [`SceneError::At`] for an unknown or missing key or a value of the wrong type.
 pub fn scene_file(table: Table) -> Result<Scene, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
@@ -110,7 +110,7 @@ pub fn scene_file(table: Table) -> Result<Scene, SceneError> {
     serde_path_to_error::deserialize(table).map_err(|error| {
         let path = error.path().to_string();
         let problem = error.inner().message().trim().to_owned();
-        SceneError::Form {
+        SceneError::At {
             key: full_key(&path, &problem),
             problem,
         }
@@ -124,7 +124,7 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
             "a table is needed, and not a value of type {}",
             value.type_str()
         );
-        return Err(SceneError::together(key, problem));
+        return Err(SceneError::at(key, problem));
     };
     let is_kind = ["indenter", "material"].contains(&key);
     for (name, value) in table {
@@ -145,7 +145,7 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
                     "a table is needed, and not a value of type {}",
                     other.type_str()
                 );
-                return Err(SceneError::together(inner, problem));
+                return Err(SceneError::at(inner, problem));
             }
             _ => {}
         }
@@ -167,7 +167,7 @@ fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     }
     let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
     let [count, names] = [kinds.len().to_string(), names.join(", ")];
-    Err(SceneError::together(
+    Err(SceneError::at(
         key,
         format!("exactly one kind is needed, as in [{key}.kind], but there are {count}: {names}"),
     ))

@@ -1,24 +1,26 @@
 //! Answers in closed form, or by quadrature.
 
-use super::error::{Context as _, Result};
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 use friction_analytic::{
-    Indentation, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
-    half_space_power_friction, impulse_to_depth, indentation_after_impulse, kelvin_voigt_sliding,
-    maxwell_sliding, power_sliding, superposition_sliding, transient_sliding,
+    FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
+    cylinder_half_width_after_impulse, half_space_power_friction, impulse_to_depth,
+    indentation_after_impulse, kelvin_voigt_sliding, maxwell_sliding, power_sliding,
+    superposition_sliding, transient_sliding,
 };
-use indenters::{Axisymmetric, PowerProfile, PressingLoad, SlidingLoad, contact_radius};
-use numerics::Estimate;
-use numerics::bracketed_root;
+use indenters::{
+    Axisymmetric as _, Control, Cylinder, PowerProfile, PressingLoad, SlidingLoad, contact_radius,
+};
+use numerics::{Estimate, bracketed_root};
 use rheology::{Material, Viscous};
 
 use super::answer::{Answer, ContactBox, within};
 use super::body::Revolution;
-use super::error::bail;
+use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
 use super::pressing::{impulse, stiffness, unit_dashpot};
-use crate::scene::{Control, Method, Model};
+use super::work::ClosedForm;
+use crate::scene::{Method, Model};
 
 /// Points of the load along the contact.
 const N_POINTS: usize = 200;
@@ -26,68 +28,88 @@ const N_POINTS: usize = 200;
 const QUADRATURE: f64 = 1e-10;
 /// Relative error that is stated for closed forms of which only the front had to be searched; far above their rounding.
 const SEARCHED: f64 = 1e-12;
+/// Relative rounding of the closed form.
+const ROUNDING: f64 = 1e-14;
 
-/// A body that slides, on the half space or on the one-dimensional model.
-pub(crate) fn slid(
-    body: &Revolution,
-    material: &dyn Material,
-    load: &SlidingLoad,
-    model: Model,
-) -> Result<Answer> {
-    let Some(simple) = simple(material)? else {
-        bail!("there is no closed form on this material");
-    };
-    match (simple, body) {
+/// The answer of a closed form.
+pub(crate) fn answer(form: ClosedForm<'_>, material: &dyn Material) -> Result<Answer> {
+    match form {
+        ClosedForm::Pressed(body, load) => pressed(body, material, &load),
+        ClosedForm::CylinderPressed(cylinder, force, duration) => {
+            cylinder_pressed(cylinder, material, force, duration)
+        }
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
-        (Simple::Elastic, body) => {
+        ClosedForm::Elastic(body, load) => {
             let load = PressingLoad::new(load.control(), 1.0)?;
-            Ok(Answer {
-                friction_coefficient: Some(Estimate::exact(0.0)),
-                ..pressed(body, material, &load)?
+            pressed(body, material, &load).map(without_friction)
+        }
+        ClosedForm::ElasticCylinder(cylinder, force) => {
+            cylinder_pressed(cylinder, material, force, 1.0).map(without_friction)
+        }
+        ClosedForm::HalfSpacePower(profile, material, load) => {
+            viscous_half_space(profile, &material, &load)
+        }
+        ClosedForm::ViscousLine(body, material, load) => viscous_line(body, &material, &load),
+        ClosedForm::ViscousTransient(profile, material, load, distance) => {
+            viscous_transient(profile, &material, &load, distance)
+        }
+        ClosedForm::KelvinVoigtLine(profile, material, load) => {
+            viscoelastic_line(profile, &load, |contact| {
+                kelvin_voigt_sliding(profile, &material, contact)
             })
         }
-        (Simple::Viscous(material), Revolution::Power(profile)) if model == Model::HalfSpace => {
-            viscous_half_space(profile, &material, load)
+        ClosedForm::MaxwellLine(profile, material, load) => {
+            viscoelastic_line(profile, &load, |contact| {
+                maxwell_sliding(profile, &material, contact)
+            })
         }
-        (Simple::Viscous(material), body) => match (load.sliding_distance(), body) {
-            (Some(_), Revolution::Power(profile)) => viscous_transient(profile, &material, load),
-            _ => viscous_line(body, &material, load),
-        },
-        (material, Revolution::Power(profile)) => viscoelastic_line(profile, &material, load),
-        _ => bail!("there is no closed form for this body on this material"),
+    }
+}
+
+fn without_friction(pressed: Answer) -> Answer {
+    Answer {
+        friction_coefficient: Some(Estimate::exact(0.0)),
+        ..pressed
     }
 }
 
 /// The stationary state on a viscous line.
 fn viscous_line(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Result<Answer> {
     let velocity = load.velocity();
-    let load = line_load(material, load.control(), velocity)?;
+    let per_depth = 4.0 * material.viscosity() * velocity;
+    let force = match load.control() {
+        Control::NormalForce(force) => force,
+        // d = F_N/(4 η v), (12).
+        Control::IndentationDepth(depth) => per_depth * depth,
+    };
+    let under_force = SlidingLoad::new(force, velocity)?;
     let state = match body {
-        Revolution::Power(profile) => power_sliding(profile, material, &load),
-        Revolution::Sum(profile) => superposition_sliding(profile, material, &load),
-        Revolution::Sphere(_) | Revolution::Other(_) => axisymmetric_sliding(body, material, &load),
+        Revolution::Power(profile) => power_sliding(profile, material, &under_force),
+        Revolution::Sum(profile) => superposition_sliding(profile, material, &under_force),
+        Revolution::Sphere(_) | Revolution::Other(_) => {
+            axisymmetric_sliding(body, material, &under_force)
+        }
     }?;
-    let force = Estimate::exact(load.require_normal_force()?);
+    let (force, depth) = found_beside(load.control(), [force, state.indentation_depth], SEARCHED);
     let mut answer = Answer {
         friction_coefficient: Some(Estimate {
             value: state.friction_coefficient,
             error: state.error,
         }),
-        indentation_depth: Some(within(state.indentation_depth, SEARCHED)),
+        indentation_depth: Some(depth),
         contact_box: ends(&state.contact_line).map(along),
         ..Answer::new(Method::Analytic, Model::Line, force)
     };
-    answer.fields.line_load = load_along(body, material, velocity, &state);
+    answer.fields.line_load = load_along(body, per_depth, &state);
     Ok(answer)
 }
 
-/// d = F_N/(4 η v), (12), both ways.
-fn line_load(material: &Viscous, control: Control, velocity: f64) -> Result<SlidingLoad> {
-    let force = match control {
-        Control::NormalForce(force) => force,
-        Control::IndentationDepth(depth) => 4.0 * material.viscosity() * velocity * depth,
-    };
-    SlidingLoad::new(force, velocity).context("the force that belongs to the depth")
+/// Force and depth, of which the one that is given is exact.
+fn found_beside(given: Control, [force, depth]: [f64; 2], error: f64) -> (Estimate, Estimate) {
+    match given {
+        Control::NormalForce(force) => (Estimate::exact(force), within(depth, error)),
+        Control::IndentationDepth(depth) => (within(force, error), Estimate::exact(depth)),
+    }
 }
 
 /// The contact of a closed form.
@@ -101,24 +123,18 @@ fn ends(intervals: &[[f64; 2]]) -> Option<[f64; 2]> {
 }
 
 /// w = 4 η v h̃'(x), where it is finite.
-fn load_along(
-    body: &Revolution,
-    material: &Viscous,
-    velocity: f64,
-    state: &StationarySliding,
-) -> Vec<[f64; 2]> {
+fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> Vec<[f64; 2]> {
     let Some([rear, front]) = ends(&state.contact_line) else {
         return Vec::new();
     };
     let position = |index: usize| rear + (front - rear) * (index as f64 / N_POINTS as f64);
-    let load = |x: f64| {
-        [
-            x,
-            4.0 * material.viscosity() * velocity * body.line_slope(x),
-        ]
-    };
     (0..=N_POINTS)
-        .map(|index| load(position(index)))
+        .map(|index| {
+            [
+                position(index),
+                per_depth * body.line_slope(position(index)),
+            ]
+        })
         .filter(|[_, load]| load.is_finite())
         .collect()
 }
@@ -129,13 +145,10 @@ fn viscous_half_space(
     material: &Viscous,
     load: &SlidingLoad,
 ) -> Result<Answer> {
-    let friction = half_space_power_friction(profile, material, load)?;
     let force = Estimate::exact(load.require_normal_force()?);
+    let friction = half_space_power_friction(profile, material, load)?;
     Ok(Answer {
-        friction_coefficient: Some(Estimate {
-            value: friction.value,
-            error: friction.error,
-        }),
+        friction_coefficient: Some(friction),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
@@ -145,8 +158,8 @@ fn viscous_transient(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
+    distance: f64,
 ) -> Result<Answer> {
-    let distance = load.sliding_distance().context("no sliding distance")?;
     let load = &SlidingLoad::new(load.require_normal_force()?, load.velocity())?;
     let state = transient_sliding(profile, material, load, distance / load.velocity())?;
     let force = Estimate::exact(load.require_normal_force()?);
@@ -161,35 +174,22 @@ fn viscous_transient(
 /// Cone and paraboloid on a Kelvin–Voigt or Maxwell line.
 fn viscoelastic_line(
     profile: &PowerProfile,
-    material: &Simple,
     load: &SlidingLoad,
+    sliding: impl Fn(SlidingContact) -> Result<ViscoelasticSliding, FrictionError>,
 ) -> Result<Answer> {
-    let (control, velocity) = (load.control(), load.velocity());
-    let at_front = |front: f64| -> Result<Option<ViscoelasticSliding>> {
-        let contact = SlidingContact { front, velocity };
-        Ok(match material {
-            Simple::KelvinVoigt(solid) => Some(kelvin_voigt_sliding(profile, solid, contact)?),
-            Simple::Maxwell(fluid) => Some(maxwell_sliding(profile, fluid, contact)?),
-            Simple::Viscous(_) | Simple::Elastic => None,
-        })
-    };
-    let front = match control {
+    let velocity = load.velocity();
+    let at_front = |front: f64| sliding(SlidingContact { front, velocity });
+    let front = match load.control() {
         Control::IndentationDepth(depth) => profile.line_position(depth),
         Control::NormalForce(force) => {
-            let excess = |front: f64| Some(at_front(front).ok()??.normal_force / force);
-            front_of_force(excess).context("the front that carries the force was not found")?
+            let ratio = |front: f64| Some(at_front(front).ok()?.normal_force / force);
+            let normal_force = force;
+            front_of_force(ratio).ok_or(SolveError::FrontNotFound { normal_force })?
         }
     };
-    let state = at_front(front)?.context("there is no closed form on this material")?;
-    let (force, depth) = match control {
-        Control::NormalForce(force) => {
-            let depth = within(state.indentation_depth, SEARCHED);
-            (Estimate::exact(force), depth)
-        }
-        Control::IndentationDepth(depth) => {
-            (within(state.normal_force, SEARCHED), Estimate::exact(depth))
-        }
-    };
+    let state = at_front(front)?;
+    let found = [state.normal_force, state.indentation_depth];
+    let (force, depth) = found_beside(load.control(), found, SEARCHED);
     Ok(Answer {
         friction_coefficient: Some(within(state.friction_coefficient, SEARCHED)),
         indentation_depth: Some(depth),
@@ -213,32 +213,27 @@ fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
 }
 
 /// A body that is pressed, in closed form or by quadrature: half space and line agree exactly.
-pub(crate) fn pressed(
-    body: &Revolution,
-    material: &dyn Material,
-    load: &PressingLoad,
-) -> Result<Answer> {
-    let (control, duration) = (load.control(), load.duration());
-    let (force, contact) = match control {
+fn pressed(body: &Revolution, material: &dyn Material, load: &PressingLoad) -> Result<Answer> {
+    let (duration, dashpot) = (load.duration(), unit_dashpot()?);
+    let (force, depth, radius) = match load.control() {
         Control::NormalForce(force) => {
             let impulse = impulse(material, force, duration)?;
-            let contact = indentation_after_impulse(body, &unit_dashpot()?, impulse)?;
-            (force, contact)
+            let contact = indentation_after_impulse(body, &dashpot, impulse)?;
+            (force, contact.indentation_depth, contact.contact_radius)
         }
-        Control::IndentationDepth(depth) => held(body, material, depth, duration)?,
+        Control::IndentationDepth(depth) => {
+            let impulse = impulse_to_depth(body, &dashpot, depth)?;
+            let force = stiffness(material, duration)? * impulse;
+            (force, depth, contact_radius(body, depth)?)
+        }
     };
-    let radius = contact.contact_radius;
-    let depth = contact.indentation_depth;
     let peak_pressure = match (body, simple(material)?) {
         (Revolution::Power(profile), Some(Simple::Elastic)) => {
             peak_of_power(profile, material, radius)?
         }
         _ => None,
     };
-    let (force, depth) = match control {
-        Control::NormalForce(_) => (Estimate::exact(force), within(depth, QUADRATURE)),
-        Control::IndentationDepth(_) => (within(force, QUADRATURE), Estimate::exact(depth)),
-    };
+    let (force, depth) = found_beside(load.control(), [force, depth], QUADRATURE);
     let across = [-radius, radius];
     Ok(Answer {
         indentation_depth: Some(depth),
@@ -247,21 +242,6 @@ pub(crate) fn pressed(
         peak_pressure: peak_pressure.map(|pressure| within(pressure, QUADRATURE)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
-}
-
-/// Force and contact of a body that is held at a depth.
-fn held(
-    body: &Revolution,
-    material: &dyn Material,
-    depth: f64,
-    duration: f64,
-) -> Result<(f64, Indentation)> {
-    let force = stiffness(material, duration)? * impulse_to_depth(body, &unit_dashpot()?, depth)?;
-    let contact = Indentation {
-        contact_radius: contact_radius(body, depth)?,
-        indentation_depth: depth,
-    };
-    Ok((force, contact))
 }
 
 /// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
@@ -279,4 +259,65 @@ fn peak_of_power(
     Ok(Some(
         4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
     ))
+}
+
+/// A cylinder that is infinite along y, under a constant force in plane strain: all forces and areas are per length.
+fn cylinder_pressed(
+    cylinder: &Cylinder,
+    material: &dyn Material,
+    force: f64,
+    duration: f64,
+) -> Result<Answer> {
+    let impulse = impulse(material, force, duration)?;
+    let dashpot = unit_dashpot()?;
+    let half_width = cylinder_half_width_after_impulse(cylinder, &dashpot, impulse)?;
+    let peak_pressure = match simple(material)? {
+        Some(Simple::Elastic) => Some(2.0 * FRAC_1_PI * (force / half_width)),
+        _ => None,
+    };
+    Ok(Answer {
+        is_per_length: true,
+        contact_area: Some(within(2.0 * half_width, ROUNDING)),
+        contact_box: Some(ContactBox::along(
+            [-half_width, half_width],
+            ROUNDING * half_width,
+        )),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, ROUNDING)),
+        ..Answer::new(Method::Analytic, Model::HalfSpace, Estimate::exact(force))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Answer, Estimate, Problem, Scene, solve};
+
+    fn answer(scene: &str) -> Answer {
+        let scene: Scene = scene.parse().expect("a scene");
+        solve(&Problem::try_from(&scene).expect("a problem")).expect("an answer")
+    }
+
+    #[test]
+    fn a_cylinder_on_springs_has_no_friction() {
+        let answer = answer(
+            "indenter.cylinder.radius = 1e-2\nmaterial.elastic.shear_modulus = 1e6\n\
+             load = { normal_force = 1e3, velocity = 0.1 }",
+        );
+        let exact = Some(Estimate::exact(0.0));
+        assert_eq!(answer.friction_coefficient, exact, "friction");
+        assert!(answer.contact_area.is_some(), "width of the contact");
+    }
+
+    /// F = 4 η v d (12).
+    #[test]
+    fn of_force_and_depth_the_given_one_is_exact() {
+        let answer = answer(
+            "indenter.cone.slope = 0.1\nmaterial.viscous.viscosity = 1e4\n\
+             load = { indentation_depth = 1e-3, velocity = 0.1 }\nsolve.model = \"line\"",
+        );
+        let exact = Some(Estimate::exact(1e-3));
+        assert_eq!(answer.indentation_depth, exact, "depth");
+        let force = answer.normal_force;
+        assert!((force.value - 4.0).abs() <= force.error, "force {force:?}");
+        assert!(force.error > 0.0, "force {force:?}");
+    }
 }

@@ -9,9 +9,7 @@ use indenters::{
 };
 
 use super::problem::ReadFile;
-use crate::scene::{
-    HeightMapFile, Indenter, SceneError, Term, height_map, in_range, positive, profile,
-};
+use crate::scene::{Indenter, SceneError, Term, height_map, in_range, positive, profile};
 use crate::text::WrongInput;
 
 /// The rigid body, by what the methods tell apart.
@@ -67,50 +65,45 @@ impl Deref for Revolution {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, SceneError> {
-    let key = indenter.key();
-    match indenter {
-        Indenter::Power(table) => power(key, PowerProfile::new(table.coefficient, table.exponent)),
-        Indenter::Cone(table) => power(key, PowerProfile::cone(table.slope)),
-        Indenter::Paraboloid(table) => power(key, PowerProfile::paraboloid(table.curvature)),
-        Indenter::Superposition(table) => sum(&table.terms),
-        Indenter::Sphere(table) => {
-            let sphere = Sphere::new(table.radius).map_err(|error| refused(key, error))?;
-            Ok(Body::Revolution(Revolution::Sphere(sphere)))
+    let of = Revolution::Power;
+    let shape = match indenter {
+        &Indenter::Power {
+            coefficient,
+            exponent,
+        } => PowerProfile::new(coefficient, exponent).map(of),
+        &Indenter::Cone { slope } => PowerProfile::cone(slope).map(of),
+        &Indenter::Paraboloid { curvature } => PowerProfile::paraboloid(curvature).map(of),
+        &Indenter::Sphere { radius } => Sphere::new(radius).map(Revolution::Sphere),
+        &Indenter::FlatPunch { radius } => FlatPunch::new(radius).map(other),
+        &Indenter::FlatCone { radius, slope } => FlatCone::new(radius, slope).map(other),
+        &Indenter::RoundTippedCone { radius, slope } => {
+            RoundTippedCone::new(radius, slope).map(other)
         }
-        Indenter::FlatPunch(table) => other(key, FlatPunch::new(table.radius)),
-        Indenter::FlatCone(table) => other(key, FlatCone::new(table.radius, table.slope)),
-        Indenter::RoundTippedCone(table) => {
-            other(key, RoundTippedCone::new(table.radius, table.slope))
+        &Indenter::Hyperboloid { radius, slope } => Hyperboloid::new(radius, slope).map(other),
+        &Indenter::TruncatedParaboloid { radius, curvature } => {
+            TruncatedParaboloid::new(radius, curvature).map(other)
         }
-        Indenter::Hyperboloid(table) => other(key, Hyperboloid::new(table.radius, table.slope)),
-        Indenter::TruncatedParaboloid(table) => {
-            other(key, TruncatedParaboloid::new(table.radius, table.curvature))
+        Indenter::Superposition { terms } => Ok(Revolution::Sum(sum(terms)?)),
+        Indenter::Table { file } => Ok(table_profile(&folder.join(file), read)?),
+        &Indenter::Cylinder { radius } => {
+            let cylinder = Cylinder::new(radius);
+            let cylinder = cylinder.map_err(|error| refused(&indenter.key(), error))?;
+            return Ok(Body::Cylinder(cylinder));
         }
-        Indenter::Table(table) => table_profile(&folder.join(&table.file), read),
-        Indenter::Cylinder(table) => {
-            let cylinder = Cylinder::new(table.radius);
-            Ok(Body::Cylinder(
-                cylinder.map_err(|error| refused(key, error))?,
-            ))
+        Indenter::HeightMap { file, spacing } => {
+            let map = map(&folder.join(file), *spacing, read)?;
+            return Ok(Body::HeightMap(map));
         }
-        Indenter::HeightMap(table) => map(table, &folder.join(&table.file), read),
-    }
+    };
+    let shape = shape.map_err(|error| refused(&indenter.key(), error))?;
+    Ok(Body::Revolution(shape))
 }
 
-fn power(key: &str, profile: Result<PowerProfile, IndenterError>) -> Result<Body, SceneError> {
-    let profile = profile.map_err(|error| refused(key, error))?;
-    Ok(Body::Revolution(Revolution::Power(profile)))
+fn other(shape: impl Axisymmetric + 'static) -> Revolution {
+    Revolution::Other(Box::new(shape))
 }
 
-fn other<S>(key: &str, shape: Result<S, IndenterError>) -> Result<Body, SceneError>
-where
-    S: Axisymmetric + 'static,
-{
-    let shape = shape.map_err(|error| refused(key, error))?;
-    Ok(Body::Revolution(Revolution::Other(Box::new(shape))))
-}
-
-fn sum(terms: &[Term]) -> Result<Body, SceneError> {
+fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
     for (index, term) in terms.iter().enumerate() {
         let key = |name: &str| format!("indenter.superposition.terms[{index}].{name}");
         let coefficient = term.coefficient;
@@ -122,34 +115,31 @@ fn sum(terms: &[Term]) -> Result<Body, SceneError> {
         coefficient: term.coefficient,
         exponent: term.exponent,
     };
-    let terms = terms.iter().map(term).collect();
     let key = "indenter.superposition.terms";
-    let profile =
-        Superposition::new(terms).map_err(|error| SceneError::together(key, error.to_string()))?;
-    Ok(Body::Revolution(Revolution::Sum(profile)))
+    Superposition::new(terms.iter().map(term).collect())
+        .map_err(|error| SceneError::at(key, error.to_string()))
 }
 
-fn table_profile(file: &Path, read: ReadFile) -> Result<Body, SceneError> {
-    let wrong = |problem| SceneError::together("indenter.table.file", problem);
+fn table_profile(file: &Path, read: ReadFile) -> Result<Revolution, SceneError> {
+    let wrong = |problem| SceneError::at("indenter.table.file", problem);
     let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    let profile = profile(file, &contents).map_err(wrong)?;
-    Ok(Body::Revolution(Revolution::Other(Box::new(profile))))
+    profile(file, &contents).map(other).map_err(wrong)
 }
 
-fn map(table: &HeightMapFile, file: &Path, read: ReadFile) -> Result<Body, SceneError> {
-    for (index, spacing) in table.spacing.into_iter().enumerate() {
+fn map(file: &Path, spacing: [f64; 2], read: ReadFile) -> Result<HeightMap, SceneError> {
+    for (index, spacing) in spacing.into_iter().enumerate() {
         positive(&format!("indenter.height-map.spacing[{index}]"), spacing)?;
     }
-    let wrong = |problem| SceneError::together("indenter.height-map.file", problem);
+    let wrong = |problem| SceneError::at("indenter.height-map.file", problem);
     let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    let map = height_map(file, &contents, table.spacing).map_err(wrong)?;
+    let map = height_map(file, &contents, spacing).map_err(wrong)?;
     if map.extent().into_iter().flatten().any(|end| end == 0.0) {
         return Err(wrong(format!(
             "{}: the lowest height lies on the edge of the map, where the contact would end with it",
             file.display()
         )));
     }
-    Ok(Body::HeightMap(map))
+    Ok(map)
 }
 
 /// The number that the library refuses, with its key.
@@ -164,6 +154,6 @@ fn refused(table: &str, error: IndenterError) -> SceneError {
             value,
             allowed,
         },
-        other => SceneError::together(table, other.to_string()),
+        other => SceneError::at(table, other.to_string()),
     }
 }

@@ -7,6 +7,9 @@ use mdr_core::MdrError;
 use rheology::RheologyError;
 use thiserror::Error;
 
+use super::Omission;
+use crate::scene::Method;
+
 /// Why a problem that is well posed has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SolveError {
@@ -39,34 +42,42 @@ pub enum SolveError {
         /// Infinite, or not a number.
         value: f64,
     },
-    /// What was asked for was not reached; the sentence says what was.
-    #[error("{0}")]
-    NotReached(String),
+    /// A method that does not answer the problem was asked by its name.
+    #[error("{} does not answer this scene: {why}", method.name())]
+    Refused {
+        /// The method.
+        method: Method,
+        /// Why it does not.
+        why: &'static str,
+    },
+    /// At a depth that is held so long the force has relaxed.
+    #[error(
+        "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
+    )]
+    Relaxed {
+        /// Time, \[s].
+        duration: f64,
+        /// Relaxation modulus at that time, \[Pa].
+        modulus: f64,
+    },
+    /// No front of the contact carries the force.
+    #[error("no front of the contact was found that carries the normal force {normal_force}")]
+    FrontNotFound {
+        /// The force, \[N].
+        normal_force: f64,
+    },
+    /// The answer says nothing of the grid behind it, which is to be solved again.
+    #[error("the answer has no grid to solve again")]
+    NoGrid,
+    /// Work that the method does not have, and so cannot leave out.
+    #[error("{} does not leave out {}", method.name(), omission.name())]
+    NotLeftOut {
+        /// The method of the answer.
+        method: Method,
+        /// The work.
+        omission: Omission,
+    },
 }
 
 /// An answer or why there is none.
 pub type Result<T, E = SolveError> = std::result::Result<T, E>;
-
-macro_rules! bail {
-    ($($text:tt)*) => {
-        return Err($crate::solve::error::SolveError::NotReached(format!($($text)*)))
-    };
-}
-pub(crate) use bail;
-
-/// A value that is needed.
-pub(crate) trait Context<T> {
-    fn context(self, what: &str) -> Result<T>;
-}
-
-impl<T, E> Context<T> for std::result::Result<T, E> {
-    fn context(self, what: &str) -> Result<T> {
-        self.map_err(|_| SolveError::NotReached(what.to_owned()))
-    }
-}
-
-impl<T> Context<T> for Option<T> {
-    fn context(self, what: &str) -> Result<T> {
-        self.ok_or_else(|| SolveError::NotReached(what.to_owned()))
-    }
-}

@@ -5,63 +5,58 @@ use rheology::{
     RelaxationSpectrum, RheologyError, StandardSolid, StandardSolidParameters, Viscous,
 };
 
-use crate::scene::{Branch, MaterialTable, SceneError, not_negative, positive};
+use crate::scene::{Branch, MaterialTable, SceneError};
 
 /// The material of a table of the scene file.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub(crate) fn half_space(table: &MaterialTable) -> Result<Box<dyn Material>, SceneError> {
-    check_branches(table)?;
-    let material = in_shear(table).map_err(|error| refused(table.key(), error))?;
-    let ratio = table.poisson_ratio();
-    let material = Compressible::new(&*material, ratio);
-    Ok(Box::new(
-        material.map_err(|error| refused(table.key(), error))?,
-    ))
+    in_shear(table)
+        .and_then(|material| Compressible::new(&*material, table.poisson_ratio()))
+        .map(|material| Box::new(material) as Box<dyn Material>)
+        .map_err(|error| refused(&table.key(), error))
 }
 
 fn in_shear(table: &MaterialTable) -> Result<Box<dyn Material>, RheologyError> {
     Ok(match table {
-        MaterialTable::Viscous(table) => Box::new(Viscous::new(table.viscosity)?),
-        MaterialTable::Elastic(table) => Box::new(Elastic::new(table.shear_modulus)?),
-        MaterialTable::KelvinVoigt(table) => {
-            Box::new(KelvinVoigt::new(table.shear_modulus, table.viscosity)?)
-        }
-        MaterialTable::Maxwell(table) => {
-            Box::new(Maxwell::new(table.shear_modulus, table.viscosity)?)
-        }
-        MaterialTable::StandardSolid(table) => {
-            Box::new(StandardSolid::new(StandardSolidParameters {
-                equilibrium_modulus: table.equilibrium_modulus,
-                maxwell_modulus: table.maxwell_modulus,
-                viscosity: table.viscosity,
-            })?)
-        }
-        MaterialTable::Prony(table) => {
+        MaterialTable::Viscous { viscosity, .. } => Box::new(Viscous::new(*viscosity)?),
+        MaterialTable::Elastic { shear_modulus, .. } => Box::new(Elastic::new(*shear_modulus)?),
+        MaterialTable::KelvinVoigt {
+            shear_modulus,
+            viscosity,
+            ..
+        } => Box::new(KelvinVoigt::new(*shear_modulus, *viscosity)?),
+        MaterialTable::Maxwell {
+            shear_modulus,
+            viscosity,
+            ..
+        } => Box::new(Maxwell::new(*shear_modulus, *viscosity)?),
+        MaterialTable::StandardSolid {
+            equilibrium_modulus,
+            maxwell_modulus,
+            viscosity,
+            ..
+        } => Box::new(StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus: *equilibrium_modulus,
+            maxwell_modulus: *maxwell_modulus,
+            viscosity: *viscosity,
+        })?),
+        MaterialTable::Prony {
+            equilibrium_modulus,
+            viscosity,
+            branches,
+            ..
+        } => {
             let branch = |branch: &Branch| RelaxationBranch {
                 modulus: branch.modulus,
                 relaxation_time: branch.relaxation_time,
             };
-            let branches = table.branches.iter().map(branch).collect();
-            let spectrum =
-                RelaxationSpectrum::new(table.equilibrium_modulus, table.viscosity, branches)?;
+            let branches = branches.iter().map(branch).collect();
+            let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches)?;
             Box::new(Prony::new(spectrum)?)
         }
     })
-}
-
-/// The library names the list; the key of the element is known here.
-fn check_branches(table: &MaterialTable) -> Result<(), SceneError> {
-    let MaterialTable::Prony(table) = table else {
-        return Ok(());
-    };
-    for (index, branch) in table.branches.iter().enumerate() {
-        let key = |name: &str| format!("material.prony.branches[{index}].{name}");
-        not_negative(&key("modulus"), branch.modulus)?;
-        positive(&key("relaxation_time"), branch.relaxation_time)?;
-    }
-    Ok(())
 }
 
 /// The number that the library refuses; a derived one belongs to the whole table.
@@ -76,16 +71,29 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
             value,
             allowed,
         },
-        other => SceneError::together(table, other.to_string()),
+        RheologyError::InvalidElement {
+            list,
+            index,
+            parameter,
+            value,
+            allowed,
+        } if KEYS.contains(&parameter) => SceneError::Value {
+            key: format!("{table}.{list}[{index}].{parameter}"),
+            value,
+            allowed,
+        },
+        other => SceneError::at(table, other.to_string()),
     }
 }
 
 /// Parameters of the library that are keys too.
-const KEYS: [&str; 5] = [
+const KEYS: [&str; 7] = [
     "viscosity",
     "shear_modulus",
     "equilibrium_modulus",
     "maxwell_modulus",
+    "modulus",
+    "relaxation_time",
     "poisson_ratio",
 ];
 

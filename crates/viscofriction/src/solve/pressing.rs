@@ -8,7 +8,7 @@
 //! F(t) = 8 G(t)/(2 (1 − ν)) ∫₀^a x h̃' dx    constant depth, contact radius a
 //! ```
 
-use super::error::{Result, bail};
+use super::error::{Result, SolveError};
 use bem_halfspace::indent::IndentStep;
 use rheology::{Material, RheologyError, Viscous};
 
@@ -29,9 +29,7 @@ pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();
     if !(stiffness.is_finite() && stiffness > 0.0) {
-        bail!(
-            "at a depth held for {duration} s the force has relaxed: the relaxation modulus is {modulus:e} Pa there"
-        );
+        return Err(SolveError::Relaxed { duration, modulus });
     }
     Ok(stiffness)
 }

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
-use rheology::Material;
+use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
-use super::half_space::half_space;
+use super::half_space::{Simple, half_space, simple};
 use super::offer::{NotOffered, choose};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError, Source, scene_file};
 use crate::text::WrongInput;
@@ -31,6 +31,8 @@ pub struct Problem {
     pub model: Model,
     /// Threads that the scene asks for; the caller provides them.
     pub threads: Option<usize>,
+    /// The material, where it is one of those that have closed forms.
+    pub(crate) simple: Option<Simple>,
 }
 
 /// How the body moves.
@@ -60,9 +62,13 @@ impl Problem {
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
         let motion = motion(scene)?;
+        let body = body(&scene.indenter, folder, read)?;
+        let material = half_space(&scene.material)?;
+        let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         Ok(Self {
-            body: body(&scene.indenter, folder, read)?,
-            material: half_space(&scene.material)?,
+            body,
+            simple: simple(&*material).map_err(not_reduced)?,
+            material,
             motion,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
@@ -86,7 +92,7 @@ impl TryFrom<&Scene> for Problem {
 }
 
 fn motion(scene: &Scene) -> Result<Motion, SceneError> {
-    let wrong = |error: IndenterError| SceneError::together("load", error.to_string());
+    let wrong = |error: IndenterError| SceneError::at("load", error.to_string());
     let (control, velocity) = (scene.load.control()?, scene.load.checked_velocity()?);
     if velocity > 0.0 {
         let load = SlidingLoad::with(control, velocity).map_err(wrong)?;
@@ -121,7 +127,6 @@ pub(crate) fn not_offered(source: &Source, error: &NotOffered) -> WrongInput {
     let key = match error {
         NotOffered::Method { .. } => "solve.method",
         NotOffered::AnyMethod { .. } => "indenter",
-        NotOffered::Material(_) => "material",
     };
-    source.locate(&SceneError::together(key, error.to_string()))
+    source.locate(&SceneError::at(key, error.to_string()))
 }

@@ -11,11 +11,11 @@ use indenters::{PressingLoad, SlidingLoad, Surface, Unmirrored};
 
 use super::answer::{Answer, Grid};
 use super::body::Body;
-use super::error::{Context as _, Result, bail};
+use super::error::{Result, SolveError};
 use super::omission::Omission;
 use super::pressing;
 use super::problem::{Motion, Problem};
-use crate::scene::Control;
+use crate::scene::{Control, Method};
 
 /// Far below the agreement that is demanded.
 const STATIONARY_TOLERANCE: f64 = 1e-11;
@@ -34,6 +34,7 @@ pub(crate) type Number = [f64; 2];
 pub struct SameProblem<'a> {
     problem: &'a Problem,
     grid: Grid,
+    method: Method,
     /// Distance over which the answer marched, \[m].
     marched: Option<f64>,
 }
@@ -47,7 +48,8 @@ impl<'a> SameProblem<'a> {
         let last = answer.fields.history.last();
         Ok(Self {
             problem,
-            grid: answer.grid.context("the answer has no grid")?,
+            grid: answer.grid.ok_or(SolveError::NoGrid)?,
+            method: answer.method,
             marched: last.map(|row| row.sliding_distance_m),
         })
     }
@@ -61,7 +63,14 @@ impl<'a> SameProblem<'a> {
         match &self.problem.body {
             Body::Revolution(body) => self.with_or_without_mirrors(body, kept),
             Body::HeightMap(map) => self.with_or_without_mirrors(map, kept),
-            Body::Cylinder(_) => bail!("nothing of a line contact is measured"),
+            Body::Cylinder(_) => Err(SolveError::NoGrid),
+        }
+    }
+
+    const fn not_left_out(&self, omission: Omission) -> SolveError {
+        SolveError::NotLeftOut {
+            method: self.method,
+            omission,
         }
     }
 
@@ -83,7 +92,7 @@ impl<'a> SameProblem<'a> {
             (Motion::Sliding(load), Grid::Stationary { options, .. }) => {
                 self.stationary(surface, &load, &options, kept)
             }
-            (Motion::Pressing(_), Grid::Stationary { .. }) => bail!("nothing slides"),
+            (Motion::Pressing(_), Grid::Stationary { .. }) => Err(SolveError::NoGrid),
         }
     }
 
@@ -100,9 +109,7 @@ impl<'a> SameProblem<'a> {
                 None => None,
                 Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
                 Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
-                Some(other) => {
-                    bail!("the stationary solver does not leave out {}", other.name())
-                }
+                Some(other) => return Err(self.not_left_out(other)),
             },
             ..*grid
         };
@@ -118,14 +125,14 @@ impl<'a> SameProblem<'a> {
         kept: Option<Omission>,
     ) -> Result<Vec<Number>> {
         let distance = load.sliding_distance().or(self.marched);
-        let load = load.after(distance.context("the answer has no distance")?)?;
+        let load = load.after(distance.ok_or(SolveError::NoGrid)?)?;
         let options = GridOptions {
             contact: CONTACT,
             redundant_work: match kept {
                 None => None,
                 Some(Omission::OutsideContact) => Some(SlideOmission::OutsideContact),
                 Some(Omission::RowsBehind) => Some(SlideOmission::RowsBehind),
-                Some(other) => bail!("a march does not leave out {}", other.name()),
+                Some(other) => return Err(self.not_left_out(other)),
             },
             ..*grid
         };
@@ -134,7 +141,7 @@ impl<'a> SameProblem<'a> {
         while let Some(row) = march.step()? {
             last = Some(row);
         }
-        of_motion(&last.context("the march made no step")?)
+        of_motion(&last.ok_or(SolveError::NoGrid)?)
     }
 
     fn press(
@@ -163,7 +170,7 @@ impl<'a> SameProblem<'a> {
                 let steps = IndentStep::constant(control, &[load.duration()]);
                 indent_history_on_grid(surface, material, &steps, &options)
             }
-            (Some(other), _) => bail!("pressing does not leave out {}", other.name()),
+            (Some(other), _) => return Err(self.not_left_out(other)),
         }?;
         of_press(control, &rows)
     }
@@ -208,7 +215,7 @@ fn of_state(state: &SteadySliding) -> Vec<Number> {
 
 /// Friction relative to the slope of a body that rises by the depth over the length of the contact.
 fn of_motion(row: &MotionRow) -> Result<Vec<Number>> {
-    let [rear, front] = row.contact_x.context("the march ended without contact")?;
+    let [rear, front] = row.contact_x.ok_or(SolveError::NoGrid)?;
     let slope = row.indentation_depth.abs() / (front - rear);
     Ok(vec![
         [row.tangential_force / row.normal_force, slope],
@@ -220,7 +227,7 @@ fn of_motion(row: &MotionRow) -> Result<Vec<Number>> {
 
 /// Of force and depth the one that is not given.
 fn of_press(control: Control, rows: &[IndentRow]) -> Result<Vec<Number>> {
-    let last = rows.last().context("the march made no step")?;
+    let last = rows.last().ok_or(SolveError::NoGrid)?;
     let found = match control {
         Control::NormalForce(_) => last.indentation_depth,
         Control::IndentationDepth(_) => impulse(rows),

@@ -32,7 +32,7 @@ impl Plan {
         for (index, one) in vary.iter().enumerate() {
             if vary[..index].iter().any(|other| other.key == one.key) {
                 let problem = "it is varied twice";
-                return Err(source.locate(&SceneError::together(&one.key, problem)));
+                return Err(source.locate(&SceneError::at(&one.key, problem)));
             }
         }
         let points = vary
@@ -144,7 +144,7 @@ impl Plan {
 
 /// Sets a key; the table it is in must be there.
 fn set(table: &mut Table, key: &str, value: f64) -> Result<(), SceneError> {
-    let missing = || SceneError::together(key, "the scene has no such table to vary a key of");
+    let missing = || SceneError::at(key, "the scene has no such table to vary a key of");
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
     let mut inner = table;
     for segment in path.split('.') {

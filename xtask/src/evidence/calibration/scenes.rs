@@ -238,7 +238,7 @@ impl Scene {
     /// Whether the equivalent line is infinitely steep somewhere.
     pub(super) fn is_sharp(&self) -> bool {
         let has_cusp =
-            matches!(&self.file.indenter, Indenter::Power(power) if power.exponent < 1.0);
+            matches!(self.file.indenter, Indenter::Power { exponent, .. } if exponent < 1.0);
         has_cusp || self.has_edge()
     }
 
@@ -250,10 +250,10 @@ impl Scene {
 
     /// Whether the half space has no friction, whatever slides over it.
     pub(super) fn is_elastic(&self) -> bool {
-        matches!(&self.file.material, MaterialTable::Elastic(_))
+        matches!(self.file.material, MaterialTable::Elastic { .. })
     }
 
     pub(super) fn is_viscous(&self) -> bool {
-        matches!(&self.file.material, MaterialTable::Viscous(_))
+        matches!(self.file.material, MaterialTable::Viscous { .. })
     }
 }
