@@ -58,12 +58,11 @@ impl Request {
     /// The scene as this method has to solve it; where nothing slides both models are the same.
     fn problem(&self, scene: &Scene) -> Result<Problem> {
         let of_method = self.method.model().filter(|_| presses(scene));
-        Ok(Problem {
-            method: Some(self.method),
-            model: of_method.unwrap_or(self.model),
-            accuracy: self.accuracy,
-            ..problem(scene)?
-        })
+        let mut problem = problem(scene)?;
+        problem.method = Some(self.method);
+        problem.model = of_method.unwrap_or(self.model);
+        problem.accuracy = self.accuracy;
+        Ok(problem)
     }
 
     /// Whether the method solves such scenes.
