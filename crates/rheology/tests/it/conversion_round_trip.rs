@@ -180,9 +180,12 @@ fn kelvin_chains_survive_the_round_trip() {
     }
 }
 
-/// A single branch, no branch, and times that differ by a few roundings.
+/// A single branch, no branch, branches without modulus, and times that differ by a few roundings.
 #[test]
 fn degenerate_spectra_convert() {
+    let with_zero = spectrum(1.0, 0.0, &[2.0, 0.0, 3.0], &[0.1, 1.0, 10.0]);
+    let sorted = spectrum(1.0, 0.0, &[3.0, 2.0], &[10.0, 0.1]);
+    assert_eq!(with_zero, sorted, "sorted and without zeros");
     let repeated = spectrum(1.0, 0.0, &[1.0, 2.0], &[1.0, 1.0]);
     assert_eq!(repeated, spectrum(1.0, 0.0, &[3.0], &[1.0]), "one branch");
     let close = spectrum(1.0, 0.0, &[1.0, 2.0], &[1.0, 1.0 + 3e-9]);

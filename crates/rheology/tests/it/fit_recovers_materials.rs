@@ -1,10 +1,13 @@
+use std::f64::consts::TAU;
+use std::ops::Range;
+
 use casebook::assert_close;
 use rheology::RelaxationSpectrum;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
 
-use crate::support::{named_spectrum, spectrum};
+use crate::support::{NEGATIVE, NOT_POSITIVE, named_spectrum, refuses, spectrum};
 
 /// Number of the pairs `x, y, …` of a table with two header lines.
 fn table(text: &str) -> Vec<Vec<f64>> {
@@ -13,24 +16,54 @@ fn table(text: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Measured at ten frequencies per decade.
-fn oscillation(material: &RelaxationSpectrum, decades: std::ops::Range<i32>) -> MeasuredCurve {
+fn point([angular_frequency, storage, loss]: [f64; 3]) -> ModulusPoint {
+    ModulusPoint {
+        angular_frequency,
+        storage,
+        loss,
+    }
+}
+
+/// Measured at ten frequencies per decade, each number changed to what the apparatus shows of the `k`-th.
+fn measured(
+    material: &RelaxationSpectrum,
+    decades: Range<i32>,
+    shown: impl Fn(f64, [f64; 3]) -> [f64; 3],
+) -> MeasuredCurve {
     let points = (10 * decades.start..=10 * decades.end).map(|k| {
-        let angular_frequency = 10_f64.powf(0.1 * f64::from(k));
-        let modulus = material.complex_modulus(angular_frequency).unwrap();
-        ModulusPoint {
-            angular_frequency,
-            storage: modulus.storage,
-            loss: modulus.loss,
-        }
+        let omega = 10_f64.powf(0.1 * f64::from(k));
+        let modulus = material.complex_modulus(omega).unwrap();
+        let nth = f64::from(k - 10 * decades.start);
+        point(shown(nth, [omega, modulus.storage, modulus.loss]))
     });
     MeasuredCurve::oscillation(points.collect()).unwrap()
 }
 
-fn branches(n_branches: usize, ending: Ending) -> IdentifyOptions {
+fn oscillation(material: &RelaxationSpectrum, decades: Range<i32>) -> MeasuredCurve {
+    measured(material, decades, |_, point| point)
+}
+
+/// Asserts that two spectra have the same branches, moduli and times each within a relative tolerance.
+fn assert_same_branches(
+    new: &RelaxationSpectrum,
+    old: &RelaxationSpectrum,
+    [modulus, time]: [f64; 2],
+) {
+    assert_eq!(
+        new.branches().len(),
+        old.branches().len(),
+        "{new:?}, expected {old:?}"
+    );
+    for (new, old) in new.branches().iter().zip(old.branches()) {
+        assert_close!(new.modulus => old.modulus, within modulus);
+        assert_close!(new.relaxation_time => old.relaxation_time, within time);
+    }
+}
+
+fn solid(control: Control) -> IdentifyOptions {
     IdentifyOptions {
-        ending,
-        control: Control::Branches(n_branches),
+        ending: Ending::Solid,
+        control,
     }
 }
 
@@ -40,17 +73,18 @@ fn exact_data_give_back_their_spectrum() {
     let liquid = spectrum(0.0, 0.0, &[5e6, 2e5, 3e3], &[1e-4, 1e-1, 1e2]);
     for (given, ending) in [(solid, Ending::Solid), (liquid, Ending::Liquid)] {
         let curve = oscillation(&given, -4..8);
-        let found = identify(&curve, &branches(3, ending)).unwrap();
+        let options = IdentifyOptions {
+            ending,
+            control: Control::Branches(3),
+        };
+        let found = identify(&curve, &options).unwrap();
         // The refinement stops when the squares fall by less than 1e-4 of themselves.
         assert!(found.rms_relative_error < 1e-6, "{ending:?}: {found:?}");
         assert_close!(
             found.spectrum.equilibrium_modulus() => given.equilibrium_modulus(),
             within 1e-5
         );
-        for (new, old) in found.spectrum.branches().iter().zip(given.branches()) {
-            assert_close!(new.modulus => old.modulus, within 1e-5);
-            assert_close!(new.relaxation_time => old.relaxation_time, within 1e-5);
-        }
+        assert_same_branches(&found.spectrum, &given, [1e-5; 2]);
     }
 }
 
@@ -58,8 +92,7 @@ fn exact_data_give_back_their_spectrum() {
 fn pyvisco_squares(data: &[Vec<f64>], found: &RelaxationSpectrum) -> f64 {
     let scale = data.last().unwrap()[1];
     let errors = data.iter().map(|row| {
-        let omega = std::f64::consts::TAU * row[0];
-        let modulus = found.complex_modulus(omega).unwrap();
+        let modulus = found.complex_modulus(TAU * row[0]).unwrap();
         (modulus.storage - row[1]).hypot(modulus.loss - row[2]) / scale
     });
     errors.map(|error| error * error).sum()
@@ -70,22 +103,14 @@ fn pyvisco_squares(data: &[Vec<f64>], found: &RelaxationSpectrum) -> f64 {
 #[test]
 fn twenty_branches_fit_pyviscos_frequency_data_better_than_pyvisco() {
     let data = table(include_str!("../data/pyvisco_frequency_master.csv"));
-    let points = data.iter().map(|row| ModulusPoint {
-        angular_frequency: std::f64::consts::TAU * row[0],
-        storage: row[1],
-        loss: row[2],
-    });
+    let points = data.iter().map(|row| point([TAU * row[0], row[1], row[2]]));
     let curve = MeasuredCurve::oscillation(points.collect()).unwrap();
     for (n_branches, peer) in [(20, 1.3385e-2), (26, 8.822e-3)] {
-        let found = identify(&curve, &branches(n_branches, Ending::Solid)).unwrap();
+        let found = identify(&curve, &solid(Control::Branches(n_branches))).unwrap();
         let squares = pyvisco_squares(&data, &found.spectrum);
         assert!(
-            found.spectrum.branches().len() <= n_branches,
-            "{n_branches}: {found:?}"
-        );
-        assert!(
-            squares < peer,
-            "{n_branches} branches: squares {squares:e}, pyvisco {peer:e}"
+            found.spectrum.branches().len() <= n_branches && squares < peer,
+            "{n_branches} branches: squares {squares:e}, pyvisco {peer:e}, {found:?}"
         );
     }
     let fewest = identify(&curve, &IdentifyOptions::default()).unwrap();
@@ -108,7 +133,7 @@ fn pyviscos_relaxation_data_are_fitted_better_than_by_pyvisco() {
     });
     let curve = MeasuredCurve::relaxation(points.collect()).unwrap();
     for (n_branches, peer) in [(20, 3.856e-3), (31, 4.139e-4)] {
-        let found = identify(&curve, &branches(n_branches, Ending::Solid)).unwrap();
+        let found = identify(&curve, &solid(Control::Branches(n_branches))).unwrap();
         let errors = data.iter().map(|row| {
             let modulus = found.spectrum.relaxation_modulus(row[0]).unwrap();
             ((modulus - row[1]) / data[0][1]).powi(2)
@@ -124,29 +149,14 @@ fn pyviscos_relaxation_data_are_fitted_better_than_by_pyvisco() {
 /// As many branches as the data have, and no more.
 #[test]
 fn parsimony_finds_the_number_of_branches() {
-    let noisy = |k: usize, value: f64| value * (1.0 + 0.01 * (12.9898 * k as f64).sin());
+    let noise = |k: f64| 1.0 + 0.01 * (12.9898 * k).sin();
     let given = spectrum(1e5, 0.0, &[5e6, 2e7, 3e5], &[1e-5, 1e-2, 1e2]);
-    let points = (-40..=80).enumerate().map(|(k, exponent)| {
-        let angular_frequency = 10_f64.powf(0.1 * f64::from(exponent));
-        let modulus = given.complex_modulus(angular_frequency).unwrap();
-        ModulusPoint {
-            angular_frequency,
-            storage: noisy(2 * k, modulus.storage),
-            loss: noisy(2 * k + 1, modulus.loss),
-        }
+    let curve = measured(&given, -4..8, |k, [omega, storage, loss]| {
+        [omega, storage * noise(2.0 * k), loss * noise(2.0 * k + 1.0)]
     });
-    let curve = MeasuredCurve::oscillation(points.collect()).unwrap();
-    let options = IdentifyOptions {
-        ending: Ending::Solid,
-        control: Control::Parsimony { tolerance: 0.05 },
-    };
-    let found = identify(&curve, &options).unwrap();
-    assert_eq!(found.spectrum.branches().len(), 3, "{found:?}");
+    let found = identify(&curve, &solid(Control::Parsimony { tolerance: 0.05 })).unwrap();
     // Errors of 1 %, of random sign, over some forty numbers per branch.
-    for (new, old) in found.spectrum.branches().iter().zip(given.branches()) {
-        assert_close!(new.modulus => old.modulus, within 5e-3);
-        assert_close!(new.relaxation_time => old.relaxation_time, within 1e-2);
-    }
+    assert_same_branches(&found.spectrum, &given, [5e-3, 1e-2]);
 }
 
 /// Tikhonov: the stronger, the smoother and the farther from the data.
@@ -155,26 +165,15 @@ fn smoothing_trades_closeness_for_smoothness() {
     let curve = oscillation(&named_spectrum("P10"), -6..9);
     let mut last = (0.0, f64::INFINITY);
     for weight in [0.0, 0.1, 1.0, 10.0] {
-        let options = IdentifyOptions {
-            ending: Ending::Solid,
-            control: Control::Smooth {
-                n_branches: 40,
-                weight,
-            },
-        };
-        let found = identify(&curve, &options).unwrap();
+        let n_branches = 40;
+        let found = identify(&curve, &solid(Control::Smooth { n_branches, weight })).unwrap();
         let logs = found.spectrum.branches().iter().map(|b| b.modulus.ln());
         let logs: Vec<f64> = logs.collect();
         let bends = logs.windows(3).map(|m| (m[0] - 2.0 * m[1] + m[2]).powi(2));
         let roughness = bends.sum::<f64>() / logs.len() as f64;
         assert!(
-            found.rms_relative_error >= last.0,
-            "weight {weight}: {found:?}"
-        );
-        assert!(
-            roughness <= last.1,
-            "weight {weight}: roughness {roughness}, before {}",
-            last.1
+            found.rms_relative_error >= last.0 && roughness <= last.1,
+            "weight {weight}: roughness {roughness}, error and roughness before {last:?}, {found:?}"
         );
         last = (found.rms_relative_error, roughness);
     }
@@ -183,67 +182,57 @@ fn smoothing_trades_closeness_for_smoothness() {
 #[test]
 fn identification_does_not_depend_on_units() {
     let given = named_spectrum("P10");
-    let found = identify(&oscillation(&given, -4..8), &branches(6, Ending::Solid)).unwrap();
-    let points = (-40..=80).map(|k| {
-        let omega = 10_f64.powf(0.1 * f64::from(k));
-        let modulus = given.complex_modulus(omega).unwrap();
-        ModulusPoint {
-            angular_frequency: omega * 1e9,
-            storage: modulus.storage * 1e-12,
-            loss: modulus.loss * 1e-12,
-        }
-    });
-    let scaled = MeasuredCurve::oscillation(points.collect()).unwrap();
-    let scaled = identify(&scaled, &branches(6, Ending::Solid)).unwrap();
+    let in_other_units =
+        |_, [omega, storage, loss]: [f64; 3]| [omega * 1e9, storage * 1e-12, loss * 1e-12];
+    let options = solid(Control::Branches(6));
+    let found = identify(&oscillation(&given, -4..8), &options).unwrap();
+    let scaled = identify(&measured(&given, -4..8, in_other_units), &options).unwrap();
     assert_close!(scaled.rms_relative_error => found.rms_relative_error, within 1e-9);
-    for (new, old) in scaled
-        .spectrum
-        .branches()
-        .iter()
-        .zip(found.spectrum.branches())
-    {
+    let [new, old] = [&scaled, &found].map(|found| found.spectrum.branches());
+    for (new, old) in new.iter().zip(old) {
         // The refinement stops where its squares are flat to 1e-4; rounding moves the place.
         assert_close!(new.modulus * 1e12 => old.modulus, within 1e-6);
         assert_close!(new.relaxation_time * 1e9 => old.relaxation_time, within 1e-6);
     }
 }
 
-const fn point([angular_frequency, storage, loss]: [f64; 3]) -> ModulusPoint {
-    ModulusPoint {
-        angular_frequency,
-        storage,
-        loss,
-    }
-}
-
 #[test]
 fn curves_that_are_not_measurements_are_refused() {
-    let good = point([1.0, 1.0, 1.0]);
-    let few = MeasuredCurve::oscillation(vec![good]).unwrap_err();
+    let good = point([1.0; 3]);
+    let next = |numbers| MeasuredCurve::oscillation(vec![good, point(numbers)]);
+    let not_increasing = &[1.0, 0.5, f64::NAN];
+    let frequency = "angular_frequency of points[1]";
+    refuses(frequency, not_increasing, |x| next([x, 1.0, 1.0]));
+    refuses("storage of points[1]", NEGATIVE, |x| next([2.0, x, 1.0]));
+    refuses("loss of points[1]", NEGATIVE, |x| next([2.0, 1.0, x]));
+    refuses("modulus of points[1]", &[0.0], |x| next([2.0, x, x]));
+    let relaxing = |[time, modulus]: [f64; 2]| {
+        let points = [[1.0, 1.0], [time, modulus]];
+        let point = |[time, modulus]: [f64; 2]| RelaxationPoint { time, modulus };
+        MeasuredCurve::relaxation(points.map(point).to_vec())
+    };
+    refuses("time of points[1]", not_increasing, |x| relaxing([x, 1.0]));
+    let modulus = "modulus of points[1]";
+    refuses(modulus, NOT_POSITIVE, |x| relaxing([2.0, x]));
+    let few = MeasuredCurve::oscillation(vec![good])
+        .unwrap_err()
+        .to_string();
     assert_eq!(
-        few.to_string(),
-        "at least 2 points are needed, but there are 1",
-        "{few:?}"
+        few, "at least 2 points are needed, but there are 1",
+        "one point"
     );
-    for (bad, parameter) in [
-        ([1.0, 1.0, 1.0], "angular_frequency"),
-        ([0.5, 1.0, 1.0], "angular_frequency"),
-        ([f64::NAN, 1.0, 1.0], "angular_frequency"),
-        ([2.0, -1.0, 1.0], "storage"),
-        ([2.0, 1.0, f64::NAN], "loss"),
-        ([2.0, 0.0, 0.0], "modulus"),
-    ] {
-        let error = MeasuredCurve::oscillation(vec![good, point(bad)]).unwrap_err();
-        let (message, expected) = (
-            error.to_string(),
-            format!("{parameter} of points[1] must be"),
-        );
-        assert!(
-            message.starts_with(&expected),
-            "{message}, expected {expected}"
-        );
-    }
-    let curve = MeasuredCurve::oscillation(vec![good, point([2.0, 1.0, 1.0])]).unwrap();
-    let none = identify(&curve, &branches(0, Ending::Solid)).unwrap_err();
-    assert!(none.to_string().starts_with("n_branches must be"), "{none}");
+    let curve = next([2.0, 1.0, 1.0]).unwrap();
+    let identified = |control| identify(&curve, &solid(control));
+    let n_branches = "n_branches";
+    refuses(n_branches, &[0.0], |_| identified(Control::Branches(0)));
+    refuses(n_branches, &[201.0], |_| identified(Control::Branches(201)));
+    refuses("tolerance", NOT_POSITIVE, |tolerance| {
+        identified(Control::Parsimony { tolerance })
+    });
+    refuses("weight", NEGATIVE, |weight| {
+        identified(Control::Smooth {
+            n_branches: 3,
+            weight,
+        })
+    });
 }

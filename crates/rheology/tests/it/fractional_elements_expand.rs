@@ -1,7 +1,18 @@
-use casebook::{assert_close, assert_matches};
-use rheology::{
-    Elastic, FractionalMaxwell, FractionalMaxwellParameters, Material, RheologyError, Springpot,
-};
+use casebook::assert_close;
+use rheology::{Elastic, FractionalMaxwell, FractionalMaxwellParameters, Material, Springpot};
+
+fn fractional_maxwell(
+    shear_modulus: f64,
+    relaxation_time: f64,
+    exponent: f64,
+) -> FractionalMaxwell {
+    FractionalMaxwell::new(FractionalMaxwellParameters {
+        shear_modulus,
+        relaxation_time,
+        exponent,
+    })
+    .unwrap()
+}
 
 #[test]
 fn springpot_has_its_closed_forms() {
@@ -35,15 +46,10 @@ fn fractional_maxwell_relaxes_like_the_mittag_leffler_function() {
             continue;
         }
         let (exponent, x) = (case.input("a"), case.input("x"));
-        let element = FractionalMaxwell::new(FractionalMaxwellParameters {
-            shear_modulus: 1.0,
-            relaxation_time: 1.0,
-            exponent,
-        })
-        .unwrap();
         let time = x.powf(exponent.recip());
-        let band = [1e-3 / time, 1e3 / time];
-        let series = element.expand(band, 1e-10).unwrap().spectrum;
+        let element = fractional_maxwell(1.0, 1.0, exponent);
+        let expansion = element.expand([1e-3 / time, 1e3 / time], 1e-10);
+        let series = expansion.unwrap().spectrum;
         case.check("E", series.relaxation_modulus(time).unwrap());
     }
 }
@@ -81,54 +87,14 @@ fn expansions_keep_to_the_error_asked_for_anywhere_in_the_band() {
 #[test]
 fn fractional_standard_solid_creeps_like_its_closed_form() {
     let (g1, g2, tau) = (2.0, 6.0, 3.0);
-    let branch = FractionalMaxwell::new(FractionalMaxwellParameters {
-        shear_modulus: g2,
-        relaxation_time: tau,
-        exponent: 0.5,
-    })
-    .unwrap();
-    let series = branch.expand([1e-6, 1e6], 1e-10).unwrap().spectrum;
+    let expansion = fractional_maxwell(g2, tau, 0.5).expand([1e-6, 1e6], 1e-10);
     let spring = Elastic::new(g1).unwrap().relaxation();
-    let creep = series
-        .in_parallel_with(&spring)
-        .unwrap()
-        .to_creep()
-        .unwrap();
+    let solid = expansion.unwrap().spectrum.in_parallel_with(&spring);
+    let creep = solid.unwrap().to_creep().unwrap();
     for time in [1e-3, 0.1, 1.0, 10.0, 1e3] {
         let x: f64 = (time / tau).sqrt() * g1 / (g1 + g2);
         let relaxed = (x * x).exp() * libm::erfc(x);
         let exact = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * relaxed;
         assert_close!(creep.creep_compliance(time).unwrap() => exact, within 1e-9; "J({time})");
-    }
-}
-
-#[test]
-fn what_cannot_be_expanded_is_refused() {
-    for exponent in [0.0, 1.0, -0.5, f64::NAN] {
-        let error = Springpot::new(1.0, exponent).unwrap_err();
-        assert!(error.to_string().starts_with("exponent must be"), "{error}");
-    }
-    let springpot = Springpot::new(1.0, 0.5).unwrap();
-    for band in [
-        [1.0, 1.0],
-        [2.0, 1.0],
-        [0.0, 1.0],
-        [1.0, f64::INFINITY],
-        [f64::NAN, 1.0],
-    ] {
-        let error = springpot.expand(band, 1e-3).unwrap_err();
-        assert!(
-            error.to_string().contains("_frequency must be"),
-            "{band:?}: {error}"
-        );
-    }
-    for error in [0.0, 1e-16, 0.5, f64::NAN] {
-        let refused = springpot.expand([1.0, 2.0], error).unwrap_err();
-        let expected = "relative_error";
-        assert_matches!(
-            refused,
-            RheologyError::InvalidParameter { parameter, .. } if parameter == expected,
-            "{error}: {refused}"
-        );
     }
 }

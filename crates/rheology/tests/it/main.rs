@@ -1,16 +1,12 @@
 //! What the materials promise, against exact numbers.
 
+mod answers_match_the_casebook;
 mod bad_input_is_refused;
-mod conversion_is_exact;
 mod conversion_round_trip;
-mod creep_survives_a_vanishing_spring;
 #[cfg(feature = "fit")]
 mod fit_recovers_materials;
 mod fractional_elements_expand;
-mod limits_are_the_simpler_materials;
-mod materials_match_the_textbook;
-mod moduli_match_equation_2;
+mod standard_solid_has_its_limits;
 mod steps_are_exact;
 mod support;
 mod temperature_shifts_curves;
-mod viscous_window_closes;

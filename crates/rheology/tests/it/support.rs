@@ -1,11 +1,16 @@
 //! Materials for the tests.
 
+use std::fmt::Debug;
+
+use casebook::Case;
 use proptest::test_runner::{Config, RngSeed};
-use rheology::{RelaxationBranch, RelaxationSpectrum, StandardSolid, StandardSolidParameters};
+use rheology::{
+    RelaxationBranch, RelaxationSpectrum, RheologyError, StandardSolid, StandardSolidParameters,
+};
 
 /// The solid of these equilibrium and Maxwell moduli and this viscosity.
-pub(crate) fn solid([g1, g2, eta]: [f64; 3]) -> StandardSolid {
-    StandardSolid::new(parameters([g1, g2, eta])).expect("the moduli and the viscosity are legal")
+pub(crate) fn solid(numbers: [f64; 3]) -> StandardSolid {
+    StandardSolid::new(parameters(numbers)).expect("the moduli and the viscosity are legal")
 }
 
 pub(crate) fn parameters([g1, g2, eta]: [f64; 3]) -> StandardSolidParameters {
@@ -25,20 +30,21 @@ pub(crate) fn fixed_cases() -> Config {
     }
 }
 
-/// The Prony spectrum of a casebook model: Ge, G and tau.
-pub(crate) fn casebook_spectrum(case: &casebook::Case) -> RelaxationSpectrum {
+/// The Prony spectrum of a case: Ge, G and tau, or the name of a model.
+pub(crate) fn casebook_spectrum(case: &Case) -> RelaxationSpectrum {
+    if !case.has_input("Ge") {
+        return named_spectrum(case.input_text("model"));
+    }
     let (moduli, times) = (case.input_list("G"), case.input_list("tau"));
     spectrum(case.input("Ge"), 0.0, &moduli, &times)
 }
 
-/// The spectrum of a named casebook model, for the groups that give its name only.
+/// The spectrum of a named casebook model.
 pub(crate) fn named_spectrum(model: &str) -> RelaxationSpectrum {
-    let cases = casebook::group("RHE-04");
-    let scalars = cases
-        .iter()
-        .find(|case| case.id() == format!("RHE-04/{model}/scalars"))
-        .expect("the model is in RHE-04");
-    casebook_spectrum(scalars)
+    let cases = casebook::group("RHE-05");
+    let mut models = cases.iter().filter(|case| case.has_input("Ge"));
+    let case = models.find(|case| case.input_text("model") == model);
+    casebook_spectrum(case.expect("the model is in RHE-05"))
 }
 
 /// A relaxation spectrum from lists of moduli and times.
@@ -64,4 +70,25 @@ pub(crate) fn assert_same(what: &str, actual: f64, expected: f64) {
         expected.to_bits(),
         "{what} is {actual:e}, expected {expected:e}"
     );
+}
+
+pub(crate) const NEGATIVE: &[f64] = &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -1e-300];
+pub(crate) const NOT_POSITIVE: &[f64] = &[f64::NAN, f64::INFINITY, -1.0, -1e-300, -0.0, 0.0];
+
+/// Asserts that an error names the parameter and the range that each number is outside of.
+pub(crate) fn refuses<T: Debug>(
+    parameter: &str,
+    numbers: &[f64],
+    attempt: impl Fn(f64) -> Result<T, RheologyError>,
+) {
+    for number in numbers {
+        let message = match attempt(*number) {
+            Err(error) => error.to_string(),
+            Ok(value) => panic!("{number} as {parameter} gives {value:?}"),
+        };
+        assert!(
+            message.starts_with(&format!("{parameter} must be ")) && message.contains(", but is "),
+            "{message}, for {number} as {parameter}"
+        );
+    }
 }

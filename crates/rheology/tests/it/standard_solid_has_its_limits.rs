@@ -1,0 +1,120 @@
+use casebook::assert_close;
+use proptest::prelude::*;
+use rheology::{Material, StandardSolid};
+
+use crate::support::{fixed_cases, solid};
+
+/// Over 600 decades the three functions agree with one another and with their leading terms.
+#[test]
+fn no_frequency_overflows() {
+    for gamma in [1e-12, 1e-3, 0.2, 1.0, 1e6] {
+        let solid = solid([gamma, 1.0, 1.0]);
+        for exponent in -300..=300 {
+            let omega = 10_f64.powi(exponent);
+            let modulus = solid.complex_modulus(omega).unwrap();
+            let tangent = solid.loss_tangent(omega).unwrap();
+            let what = format!("Ω = {omega:e}, γ = {gamma:e}");
+            // Each of the three is rounded a handful of times.
+            assert_close!(tangent => modulus.loss / modulus.storage, within 2e-15; "{what}");
+            let asymptote = omega.min(omega.recip());
+            let expected = asymptote / (1.0 + asymptote * asymptote);
+            assert_close!(modulus.loss => expected, within 1e-15; "{what}");
+        }
+    }
+}
+
+/// γ → 0: J = 1/G + t/η, G' and G'' of a spring and a dashpot in series, tan δ = 1/Ω.
+#[test]
+fn without_the_lone_spring_it_is_a_maxwell_fluid() {
+    let (modulus, eta) = (1e6, 2e4);
+    let solid = solid([1e-300, modulus, eta]);
+    for exponent in -9..=9 {
+        let time = 10_f64.powi(exponent);
+        assert_close!(
+            solid.creep_compliance(time).unwrap() => 1.0 / modulus + time / eta,
+            within 1e-15
+        );
+        let omega = time * eta / modulus;
+        let square = omega * omega;
+        let storage = solid.complex_modulus(time).unwrap().storage;
+        assert_close!(storage => modulus * square / (1.0 + square), within 1e-14);
+        assert_close!(solid.loss_tangent(time).unwrap() => omega.recip(), within 1e-15);
+    }
+}
+
+#[test]
+fn loss_peak_and_viscous_window_match_the_closed_forms() {
+    for case in casebook::group("RHE-02") {
+        if !case.has_input("gamma") {
+            case.check("gamma_c", StandardSolid::LARGEST_VISCOUS_RATIO);
+            continue;
+        }
+        // A relaxation time other than 1 shows that ω and Ω are told apart.
+        let (g2, tau) = (4.0, 0.25);
+        let solid = solid([case.input("gamma") * g2, g2, g2 * tau]);
+        let peak = solid.loss_peak();
+        case.check("W_star", peak.angular_frequency * tau);
+        case.check("tan_delta_max", peak.loss_tangent);
+        case.check("tau_c_over_tau", solid.retardation_time() / tau);
+        match (solid.viscous_window(), case.expected("W_minus")) {
+            (Some([lower, upper]), Some(_)) => {
+                case.check("W_minus", lower * tau);
+                case.check("W_plus", upper * tau);
+            }
+            (window, expected) => {
+                assert_eq!(window.map(|[lower, _]| lower), expected, "{}", case.id());
+            }
+        }
+    }
+}
+
+#[test]
+fn loss_tangent_is_one_at_the_ends_of_the_window_and_larger_inside() {
+    for gamma in [1e-12, 1e-4, 0.05, 0.2, 0.207] {
+        let solid = solid([gamma, 1.0, 3.0]);
+        let [lower, upper] = solid.viscous_window().expect("the window is open");
+        for end in [lower, upper] {
+            assert_close!(solid.loss_tangent(end).unwrap() => 1.0, within 1e-14);
+        }
+        let peak = solid.loss_peak();
+        assert!(
+            lower < peak.angular_frequency && peak.angular_frequency < upper,
+            "γ = {gamma}: the peak {peak:?} lies outside [{lower}, {upper}]"
+        );
+        let [below, at_peak, above] = [0.9, 1.0, 1.1]
+            .map(|shift| solid.loss_tangent(shift * peak.angular_frequency).unwrap());
+        assert_close!(at_peak => peak.loss_tangent, within 1e-15);
+        assert!(
+            below.max(above) < at_peak,
+            "γ = {gamma}: {below} and {above} beside the peak {at_peak}"
+        );
+    }
+}
+
+#[test]
+fn window_is_closed_from_its_threshold_up() {
+    let threshold = StandardSolid::LARGEST_VISCOUS_RATIO;
+    let window = |gamma| solid([gamma, 1.0, 1.0]).viscous_window();
+    assert_eq!(window(threshold), None, "at the threshold");
+    let [lower, upper] = window(threshold * (1.0 - 1e-14)).expect("just below it is open");
+    // Half width √(1 − 4γ(1+γ)) / (2 (1+γ)) with 1 − 4γ(1+γ) = 4 √2 · 1e-14 γ_c to leading order; γ itself is
+    // rounded to 1e-16, that is to 1 % of its distance from the threshold.
+    let half_width = (4.0 * 2_f64.sqrt() * 1e-14 * threshold).sqrt() / (2.0 * (1.0 + threshold));
+    assert_close!(0.5 * (upper - lower) => half_width, within 0.01);
+}
+
+proptest! {
+    #![proptest_config(fixed_cases())]
+
+    /// The textbook form, where it does not cancel.
+    #[test]
+    fn creep_has_the_textbook_form(gamma in 0.1_f64..10.0, log_time in -2.0_f64..3.0, log_scale in -12.0_f64..12.0) {
+        let scale = 10_f64.powf(log_scale);
+        let (g1, g2, eta) = (gamma * scale, scale, 7.0);
+        let solid = solid([g1, g2, eta]);
+        let time = 10_f64.powf(log_time) * solid.relaxation_time();
+        let decay = (-time / solid.retardation_time()).exp();
+        let textbook = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * decay;
+        assert_close!(solid.creep_compliance(time).unwrap() => textbook, within 1e-13);
+    }
+}
