@@ -1,10 +1,11 @@
 //! Error bars that the methods have in common: of the quantities of a contact, from several resolutions.
 
 use indenters::{Control, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, NotReached, Quantity};
+use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
 use rheology::Material;
 
 use crate::BemError;
+use crate::steady::Refinement;
 
 /// Slowest and fastest order in which friction is assumed to converge: smooth bodies are better than the first, which is
 /// safe to assume although their outline follows the elements; below the smallest one nothing converges.
@@ -13,15 +14,76 @@ const ORDERS: [f64; 2] = [0.1, 1.0];
 /// decides whether all of it or nothing counts; `the_bars_of_an_elastic_contact_hold` has the ends of known contacts.
 const ELEMENTS_AT_END: f64 = 1.5;
 
-/// One value for each quantity of a contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Quantities<V> {
-    pub(crate) friction_coefficient: V,
-    pub(crate) normal_force: V,
-    pub(crate) indentation_depth: V,
-    pub(crate) contact_area: V,
-    pub(crate) peak_pressure: V,
+/// A contact with the error bar of every quantity; an error of 0 says that the quantity is given.
+///
+/// In plane strain the force and the area are per length along y, \[N/m] and \[m].
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct ContactEstimate<S, O> {
+    /// Friction coefficient μ = F_h/F_N; 0 where nothing slides.
+    pub friction_coefficient: Estimate,
+    /// What the error of the friction coefficient consists of; where nothing slides that of the depth, or of the force where
+    /// the depth is given.
+    pub error_parts: ErrorParts,
+    /// Normal force F_N, \[N].
+    pub normal_force: Estimate,
+    /// Depth of the lowest point below the undeformed surface, \[m]; none in plane strain, and none where the material flows
+    /// and the load has no sliding distance, because the body sinks for ever.
+    pub indentation_depth: Option<Estimate>,
+    /// Contact area, \[m²].
+    pub contact_area: Estimate,
+    /// Largest pressure \[Pa], of smooth bodies of revolution, and cylinders, on materials that react at once; everywhere else
+    /// it grows without limit on refinement, or is not known to have one. None too where the pressure depends on how the
+    /// contact has grown.
+    pub peak_pressure: Option<Estimate>,
+    /// Error of the ends of the contact along x and y in [`finest`](Self::finest), \[m].
+    pub contact_box_error: f64,
+    /// The averages over shifted grids that led to a stationary state of a relative error, from coarse to fine; none
+    /// elsewhere.
+    pub refinements: Vec<Refinement>,
+    /// The contact on the finest grid.
+    pub finest: S,
+    /// The finest grid.
+    pub options: O,
 }
+
+/// A contact on one grid.
+pub(crate) struct OnGrid<S, O> {
+    pub(crate) quantities: Quantities,
+    /// Parts of the error of the target that all grids have in common, and hence do not show.
+    pub(crate) other_error: ErrorParts,
+    /// Edge of an element, the longer one of two, \[m].
+    pub(crate) spacing: f64,
+    pub(crate) state: S,
+    pub(crate) options: O,
+}
+
+/// The quantities of a contact that have error bars.
+pub(crate) struct Quantities {
+    pub(crate) friction_coefficient: f64,
+    pub(crate) normal_force: f64,
+    pub(crate) indentation_depth: f64,
+    pub(crate) contact_area: f64,
+    pub(crate) peak_pressure: f64,
+}
+
+impl Quantities {
+    const fn to_array(&self) -> [f64; 5] {
+        [
+            self.friction_coefficient,
+            self.normal_force,
+            self.indentation_depth,
+            self.contact_area,
+            self.peak_pressure,
+        ]
+    }
+}
+
+/// Places of some quantities in an array of them.
+const FRICTION: usize = 0;
+const FORCE: usize = 1;
+const DEPTH: usize = 2;
 
 /// The quantity that a refinement drives to the error asked for, beside the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,61 +93,13 @@ pub(crate) enum Target {
     Depth,
 }
 
-/// What the resolutions lead to.
-#[derive(Debug)]
-pub(crate) struct Resolved<T> {
-    pub(crate) finest: T,
-    pub(crate) estimates: Quantities<Estimate>,
-    pub(crate) parts: Quantities<ErrorParts>,
-}
-
-impl<V: Copy> Quantities<V> {
-    pub(crate) const fn all(value: V) -> Self {
-        Self {
-            friction_coefficient: value,
-            normal_force: value,
-            indentation_depth: value,
-            contact_area: value,
-            peak_pressure: value,
-        }
-    }
-
-    const fn to_array(self) -> [V; 5] {
-        [
-            self.friction_coefficient,
-            self.normal_force,
-            self.indentation_depth,
-            self.contact_area,
-            self.peak_pressure,
-        ]
-    }
-
-    const fn from_array(values: [V; 5]) -> Self {
-        let [
-            friction_coefficient,
-            normal_force,
-            indentation_depth,
-            contact_area,
-            peak_pressure,
-        ] = values;
-        Self {
-            friction_coefficient,
-            normal_force,
-            indentation_depth,
-            contact_area,
-            peak_pressure,
-        }
-    }
-}
-
 /// How a contact is resolved.
 pub(crate) struct Resolution {
-    pub(crate) accuracy: Accuracy,
+    pub(crate) goal: Goal,
+    pub(crate) control: Control,
     pub(crate) target: Target,
-    /// Elements along the contact after which the error asked for is given up.
-    pub(crate) largest: usize,
-    /// Power of the elements with which the errors fall, at least.
-    pub(crate) order: f64,
+    /// Whether the largest pressure is known to have a limit.
+    pub(crate) has_peak: bool,
 }
 
 /// The order 2p − 1 of the friction under an apex h ∼ r^p, or the first where that is slower.
@@ -93,9 +107,9 @@ pub(crate) fn order_of_friction(apex_exponent: f64) -> f64 {
     (2.0 * apex_exponent - 1.0).clamp(ORDERS[0], ORDERS[1])
 }
 
-/// Error of the ends of a contact, \[m].
-pub(crate) fn of_box(spacing: [f64; 2]) -> f64 {
-    ELEMENTS_AT_END * spacing[0].max(spacing[1])
+/// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].
+pub(crate) fn of_box(spacing: f64) -> f64 {
+    ELEMENTS_AT_END * spacing
 }
 
 /// Whether a material has an instantaneous modulus. Without one the pressure is singular at the front.
@@ -115,44 +129,45 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, material: &(impl Material + 
 
 /// Solves with the number of elements asked for, or with more and more until normal force and target have the error asked
 /// for.
-///
-/// `others` are the parts of the error that all resolutions have in common, and hence do not show.
-pub(crate) fn resolve<T>(
+pub(crate) fn resolve<S, O>(
     resolution: &Resolution,
-    solve: impl Fn(usize) -> Result<T, BemError>,
-    values: impl Fn(&T) -> Quantities<f64>,
-    others: impl Fn(usize, &T) -> Quantities<ErrorParts>,
-) -> Result<Resolved<T>, BemError> {
-    let goal = Goal {
-        accuracy: resolution.accuracy,
-        largest: resolution.largest,
-        order: resolution.order,
+    solve: impl Fn(usize) -> Result<OnGrid<S, O>, BemError>,
+) -> Result<ContactEstimate<S, O>, BemError> {
+    let control = resolution.control;
+    let target = match (resolution.target, control) {
+        (Target::Friction, _) => FRICTION,
+        (Target::Depth, Control::NormalForce(_)) => DEPTH,
+        (Target::Depth, Control::IndentationDepth(_)) => FORCE,
     };
-    let target = resolution.target;
-    let drives = [
-        target == Target::Friction,
-        true,
-        target == Target::Depth,
-        false,
-        false,
-    ];
-    let quantities = |state: &T| {
-        let values = values(state).to_array();
+    let quantities = |contact: &OnGrid<S, O>| {
+        let values = contact.quantities.to_array();
         std::array::from_fn(|index| Quantity {
-            drives: drives[index],
+            drives: index == target || index == FORCE,
             ..Quantity::from(values[index])
         })
     };
-    let others = |elements: usize, state: &T| Ok(others(elements, state).to_array());
-    let resolved = numerics::refine(&goal, solve, quantities, others)?;
-    let values = values(&resolved.value).to_array();
-    Ok(Resolved {
-        estimates: Quantities::from_array(std::array::from_fn(|index| Estimate {
-            value: values[index],
-            error: resolved.error[index],
-        })),
-        parts: Quantities::from_array(resolved.parts),
-        finest: resolved.value,
+    let others = |_, contact: &OnGrid<S, O>| {
+        let mut others = [ErrorParts::NONE; 5];
+        others[target] = contact.other_error;
+        Ok(others)
+    };
+    let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
+    let values = refined.value.quantities.to_array();
+    let [friction, force, depth, area, peak] = std::array::from_fn(|index| Estimate {
+        value: values[index],
+        error: refined.error[index],
+    });
+    Ok(ContactEstimate {
+        friction_coefficient: friction,
+        error_parts: refined.parts[target],
+        normal_force: given_force(control).unwrap_or(force),
+        indentation_depth: Some(given_depth(control).unwrap_or(depth)),
+        contact_area: area,
+        peak_pressure: resolution.has_peak.then_some(peak),
+        contact_box_error: of_box(refined.value.spacing),
+        refinements: Vec::new(),
+        finest: refined.value.state,
+        options: refined.value.options,
     })
 }
 
@@ -167,12 +182,12 @@ impl From<NotReached> for BemError {
             ..
         } = reached;
         match quantity {
-            0 => Self::FrictionNotReached {
+            FRICTION => Self::FrictionNotReached {
                 friction_coefficient: value,
                 error,
                 relative_error,
             },
-            1 => Self::ForceNotReached {
+            FORCE => Self::ForceNotReached {
                 normal_force: value,
                 error,
                 relative_error,
@@ -186,18 +201,18 @@ impl From<NotReached> for BemError {
     }
 }
 
-/// The force that is given, exactly, or the one that was found.
-pub(crate) fn force(control: Control, found: Estimate) -> Estimate {
+/// The force that is given, exactly.
+pub(crate) fn given_force(control: Control) -> Option<Estimate> {
     match control {
-        Control::NormalForce(value) => Estimate { value, error: 0.0 },
-        Control::IndentationDepth(_) => found,
+        Control::NormalForce(force) => Some(Estimate::exact(force)),
+        Control::IndentationDepth(_) => None,
     }
 }
 
-/// The depth that is given, exactly, or the one that was found.
-pub(crate) fn depth(control: Control, found: Estimate) -> Estimate {
+/// The depth that is given, exactly.
+pub(crate) fn given_depth(control: Control) -> Option<Estimate> {
     match control {
-        Control::NormalForce(_) => found,
-        Control::IndentationDepth(value) => Estimate { value, error: 0.0 },
+        Control::NormalForce(_) => None,
+        Control::IndentationDepth(depth) => Some(Estimate::exact(depth)),
     }
 }

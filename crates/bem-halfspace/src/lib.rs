@@ -48,6 +48,7 @@ pub mod slide;
 pub mod steady;
 mod stepping;
 
+pub use bars::ContactEstimate;
 pub use contact::{Contact, ContactOptions, ContactProblem, ContactState, solve_contact};
 pub use convolution::{Convolution, ConvolutionWorkspace};
 pub use error::BemError;

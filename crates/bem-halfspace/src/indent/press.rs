@@ -5,16 +5,16 @@
 //! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
 
 use indenters::{Control, PressingLoad, Surface, contact_radius};
-use numerics::{Accuracy, ErrorParts, Estimate};
+use numerics::{Accuracy, ErrorParts, Goal};
 use rheology::{Elastic, Material};
 
 use super::elements_across;
-use crate::bars::{self, Quantities, Resolution, Target};
+use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
 use crate::error::{check_contact_elements, positive};
 use crate::plan::GridPlan;
 use crate::slide::PressureField;
 use crate::stepping::{Route, Stepping};
-use crate::{BemError, ContactOptions, GridOptions};
+use crate::{BemError, GridOptions};
 
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
@@ -45,29 +45,8 @@ pub struct PressSolution {
     pub pressure: Option<PressureField>,
 }
 
-/// A contact under a control that was constant, with its error bars; an error of 0 says that the quantity is given.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct PressEstimate {
-    /// Depth of the lowest point, \[m].
-    pub indentation_depth: Estimate,
-    /// Normal force F_N, \[N].
-    pub normal_force: Estimate,
-    /// What the error of the depth, or of the force where the depth is given, consists of.
-    pub error_parts: ErrorParts,
-    /// Contact area, \[m²].
-    pub contact_area: Estimate,
-    /// Largest pressure \[Pa], of smooth bodies of revolution, where the pressure is known; everywhere else it grows without
-    /// limit on refinement, or is not known to have one.
-    pub peak_pressure: Option<Estimate>,
-    /// Error of the ends of the contact along x and y in [`finest`](Self::finest), \[m].
-    pub contact_box_error: f64,
-    /// The contact on the finest grid.
-    pub finest: PressSolution,
-    /// The finest grid.
-    pub options: GridOptions,
-}
+/// A contact under a control that was constant, with its error bars.
+pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 
 /// Presses `surface` into a half space and waits until the material has come to rest, to a relative error of depth or
 /// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
@@ -231,70 +210,57 @@ fn estimate(
     accuracy: Accuracy,
 ) -> Result<PressEstimate, BemError> {
     let plan = GridPlan::pressed(surface, spring.scaled(control)?)?;
-    let options = |elements: usize| {
-        let spacing = 2.0 * plan.length() / elements as f64;
-        GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
-    };
     let resolution = Resolution {
-        accuracy,
-        target: Target::Depth,
-        largest: LARGEST_GRID,
-        order: ORDER,
-    };
-    let resolved = bars::resolve(
-        &resolution,
-        |elements| {
-            Ok((
-                elements,
-                spring.solve(surface, control, &options(elements))?,
-            ))
+        goal: Goal {
+            accuracy,
+            largest: LARGEST_GRID,
+            order: ORDER,
         },
-        |(_, state)| quantities(state),
-        |elements, (_, state)| iteration_errors(elements, state),
-    )?;
-    let ((elements, finest), known) = (resolved.finest, resolved.estimates);
-    let options = options(elements);
+        control,
+        target: Target::Depth,
+        has_peak: spring.has_pressure && bars::peak_has_limit(surface, &Elastic::new(1.0)?),
+    };
+    let estimate = bars::resolve(&resolution, |elements| {
+        let spacing = 2.0 * plan.length() / elements as f64;
+        let options = GridOptions::new([spacing; 2], plan.footprint.widened(spacing));
+        let state = spring.solve(surface, control, &options)?;
+        Ok(state.on_grid(control, options, elements))
+    })?;
     if let Some(body) = surface.as_axisymmetric() {
         // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
-        contact_radius(body, finest.indentation_depth)?;
+        contact_radius(body, estimate.finest.indentation_depth)?;
     }
-    let has_peak = finest.pressure.is_some() && bars::peak_has_limit(surface, &Elastic::new(1.0)?);
-    Ok(PressEstimate {
-        indentation_depth: bars::depth(control, known.indentation_depth),
-        normal_force: bars::force(control, known.normal_force),
-        error_parts: match control {
-            Control::NormalForce(_) => resolved.parts.indentation_depth,
-            Control::IndentationDepth(_) => resolved.parts.normal_force,
-        },
-        contact_area: known.contact_area,
-        peak_pressure: has_peak.then_some(known.peak_pressure),
-        contact_box_error: bars::of_box(options.spacing),
-        finest,
-        options,
-    })
+    Ok(estimate)
 }
 
-fn quantities(state: &PressSolution) -> Quantities<f64> {
-    Quantities {
-        friction_coefficient: 0.0,
-        normal_force: state.normal_force,
-        indentation_depth: state.indentation_depth,
-        contact_area: state.contact_area,
-        peak_pressure: state.pressure.as_ref().map_or(0.0, PressureField::largest),
-    }
-}
-
-/// How much a residual of the size of the tolerance changes: the depth by as much, and the force by as many times that part
-/// as there are elements along the contact.
-fn iteration_errors(elements: usize, state: &PressSolution) -> Quantities<ErrorParts> {
-    let tolerance = ContactOptions::default().tolerance;
-    let part = |error: f64| ErrorParts {
-        iteration: Some(tolerance * error),
-        ..ErrorParts::NONE
-    };
-    Quantities {
-        indentation_depth: part(state.indentation_depth),
-        normal_force: part(elements as f64 * state.normal_force),
-        ..Quantities::all(ErrorParts::NONE)
+impl PressSolution {
+    /// A residual of the size of the tolerance changes the depth by as much, and the force by as many times that part as
+    /// there are elements along the contact.
+    fn on_grid(
+        self,
+        control: Control,
+        options: GridOptions,
+        elements: usize,
+    ) -> OnGrid<Self, GridOptions> {
+        let error = match control {
+            Control::NormalForce(_) => self.indentation_depth,
+            Control::IndentationDepth(_) => elements as f64 * self.normal_force,
+        };
+        OnGrid {
+            quantities: Quantities {
+                friction_coefficient: 0.0,
+                normal_force: self.normal_force,
+                indentation_depth: self.indentation_depth,
+                contact_area: self.contact_area,
+                peak_pressure: self.pressure.as_ref().map_or(0.0, PressureField::largest),
+            },
+            other_error: ErrorParts {
+                iteration: Some(options.contact.tolerance * error),
+                ..ErrorParts::NONE
+            },
+            spacing: options.spacing[0],
+            state: self,
+            options,
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate};
+use numerics::{Accuracy, ErrorParts, Goal};
 use rheology::{CreepSpectrum, Material};
 
-use crate::bars::{self, Quantities, Resolution, Resolved, Target, peak_has_limit};
+use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::slide::{
     PressureField, StationaryOptions, Transient, slide_on_grid, slide_to_stationary,
@@ -23,32 +23,8 @@ const LONGEST: f64 = 500.0;
 /// Change of the friction by which a solid counts as stationary, relative to the error asked for.
 const SETTLED: f64 = 0.1;
 
-/// The end of a march with its error bars; an error of 0 says that the quantity is given.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct SlideEstimate {
-    /// Friction coefficient μ = F_h/F_N after the sliding distance, or of the stationary state.
-    pub friction_coefficient: Estimate,
-    /// What the error of the friction coefficient consists of.
-    pub error_parts: ErrorParts,
-    /// Normal force F_N, \[N].
-    pub normal_force: Estimate,
-    /// Depth of the lowest point below the undeformed surface, \[m]; none for the stationary state of a material that
-    /// flows, into which the body sinks for ever.
-    pub indentation_depth: Option<Estimate>,
-    /// Contact area, \[m²].
-    pub contact_area: Estimate,
-    /// Largest pressure \[Pa], of smooth bodies of revolution on materials that react at once; everywhere else it grows
-    /// without limit on refinement, or is not known to have one.
-    pub peak_pressure: Option<Estimate>,
-    /// Error of the ends of the contact along x and y in [`finest`](Self::finest), \[m].
-    pub contact_box_error: f64,
-    /// The march on the finest grid: contact, pressure and history.
-    pub finest: Transient,
-    /// The finest grid.
-    pub options: GridOptions,
-}
+/// The end of a march with its error bars: after the sliding distance, or in the stationary state.
+pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 
 /// Slides `surface` over a linear viscoelastic half space from first touch on, in time, under a force or at a depth: over
 /// the sliding distance of the load, or without one until the state is stationary.
@@ -104,70 +80,35 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
 
     fn solve(&self) -> Result<SlideEstimate, BemError> {
         let resolution = Resolution {
-            accuracy: self.accuracy,
+            goal: Goal {
+                accuracy: self.accuracy,
+                largest: LARGEST_GRID,
+                order: bars::order_of_friction(self.plan.apex_exponent),
+            },
+            control: self.load.control(),
             // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
             target: if self.is_elastic() {
                 Target::Depth
             } else {
                 Target::Friction
             },
-            largest: LARGEST_GRID,
-            order: bars::order_of_friction(self.plan.apex_exponent),
+            has_peak: peak_has_limit(self.surface, self.material),
         };
-        let resolved = bars::resolve(
-            &resolution,
-            |elements| self.march(self.plan.length() / elements as f64),
-            |end| end.quantities(),
-            |_, end| self.other_parts(end),
-        )?;
-        Ok(self.estimate(resolved))
+        let mut estimate = bars::resolve(&resolution, |elements| self.march(elements))?;
+        if self.is_elastic() {
+            // There is none but what the elements make of it.
+            let friction = &mut estimate.friction_coefficient;
+            friction.error = friction.value.abs();
+            estimate.error_parts = ErrorParts::of_elements(friction.error);
+        }
+        if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
+            estimate.indentation_depth = None;
+        }
+        Ok(estimate)
     }
 
     fn is_elastic(&self) -> bool {
         self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
-    }
-
-    /// Errors of the contact solver and of the finite distance.
-    fn other_parts(&self, end: &End) -> Quantities<ErrorParts> {
-        let mut parts = Quantities::all(ErrorParts::NONE);
-        if !self.is_elastic() {
-            parts.friction_coefficient = ErrorParts {
-                iteration: Some(iteration_error(self.surface, &end.transient.pressure)),
-                truncation: end.truncation,
-                ..ErrorParts::NONE
-            };
-        }
-        parts
-    }
-
-    fn estimate(&self, resolved: Resolved<End>) -> SlideEstimate {
-        let Resolved {
-            finest: end,
-            estimates,
-            parts,
-        } = resolved;
-        let mut friction = estimates.friction_coefficient;
-        let mut error_parts = parts.friction_coefficient;
-        if self.is_elastic() {
-            // There is none but what the elements make of it.
-            friction.error = friction.value.abs();
-            error_parts = ErrorParts::of_elements(friction.error);
-        }
-        let control = self.load.control();
-        let has_depth = self.load.sliding_distance().is_some() || self.creep.fluidity() == 0.0;
-        let depth = bars::depth(control, estimates.indentation_depth);
-        SlideEstimate {
-            friction_coefficient: friction,
-            error_parts,
-            normal_force: bars::force(control, estimates.normal_force),
-            indentation_depth: has_depth.then_some(depth),
-            contact_area: estimates.contact_area,
-            peak_pressure: peak_has_limit(self.surface, self.material)
-                .then_some(estimates.peak_pressure),
-            contact_box_error: bars::of_box(end.transient.pressure.grid.spacing()),
-            options: self.options(end.transient.pressure.grid.spacing()[0]),
-            finest: end.transient,
-        }
     }
 
     /// At a depth the body reaches the boundary of its footprint.
@@ -179,12 +120,36 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         GridOptions::new([spacing; 2], footprint)
     }
 
-    fn march(&self, spacing: f64) -> Result<End, BemError> {
-        let options = self.options(spacing);
-        match (self.load.control(), self.load.sliding_distance()) {
-            (Control::NormalForce(_), None) => self.to_stationary(&options),
-            _ => self.over_distance(self.load, &options),
-        }
+    fn march(&self, elements: usize) -> Result<OnGrid<Transient, GridOptions>, BemError> {
+        let options = self.options(self.plan.length() / elements as f64);
+        let End {
+            friction,
+            truncation,
+            transient,
+        } = match (self.load.control(), self.load.sliding_distance()) {
+            (Control::NormalForce(_), None) => self.to_stationary(&options)?,
+            _ => self.over_distance(self.load, &options)?,
+        };
+        let last = transient.last();
+        let quantities = Quantities {
+            friction_coefficient: friction,
+            normal_force: last.normal_force,
+            indentation_depth: last.indentation_depth,
+            contact_area: last.contact_area,
+            peak_pressure: transient.pressure.largest(),
+        };
+        let iteration = || iteration_error(self.surface, &transient.pressure);
+        Ok(OnGrid {
+            quantities,
+            other_error: ErrorParts {
+                iteration: (!self.is_elastic()).then(iteration),
+                truncation,
+                ..ErrorParts::NONE
+            },
+            spacing: options.spacing[0],
+            state: transient,
+            options,
+        })
     }
 
     fn over_distance(&self, load: &SlidingLoad, options: &GridOptions) -> Result<End, BemError> {
@@ -243,19 +208,6 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         let elements = self.creep.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         self.load.velocity() * times.fold(0.0, f64::max)
-    }
-}
-
-impl End {
-    fn quantities(&self) -> Quantities<f64> {
-        let last = self.transient.last();
-        Quantities {
-            friction_coefficient: self.friction,
-            normal_force: last.normal_force,
-            indentation_depth: last.indentation_depth,
-            contact_area: last.contact_area,
-            peak_pressure: self.transient.pressure.largest(),
-        }
     }
 }
 

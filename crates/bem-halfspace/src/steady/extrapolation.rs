@@ -2,44 +2,21 @@
 
 use numerics::Estimate;
 
-/// The limit and its estimated error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Limit {
-    pub(super) value: f64,
-    pub(super) error: f64,
-}
-
-impl From<Limit> for Estimate {
-    fn from(limit: Limit) -> Self {
-        Self {
-            value: limit.value,
-            error: limit.error,
-        }
-    }
-}
-
-impl Limit {
-    /// Before anything is known.
-    pub(super) const NONE: Self = Self {
-        value: 0.0,
-        error: f64::MAX,
-    };
-
-    /// Whether the error is small enough in relation to the value.
-    pub(super) fn holds(&self, relative_error: f64) -> bool {
-        self.error <= relative_error * self.value.abs()
-    }
-}
+/// Before anything is known.
+const UNKNOWN: Estimate = Estimate {
+    value: 0.0,
+    error: f64::MAX,
+};
 
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
 /// The error of a grid falls with the spacing to the power `order`, and with the next power after that. Each power is
 /// eliminated over a factor of two in the spacing. One elimination is enough, unless the order is below 1 or the second
 /// one narrows the error bar to less than half.
-pub(super) fn extrapolate(values: &[f64], order: f64) -> Limit {
+pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     let once = eliminate(values, order);
     let twice = eliminate(&once, next_order(order));
-    let unknown = values.last().map_or(Limit::NONE, |value| Limit {
+    let unknown = values.last().map_or(UNKNOWN, |value| Estimate {
         value: *value,
         error: value.abs(),
     });
@@ -66,13 +43,13 @@ const fn next_order(order: f64) -> f64 {
 
 /// The last limit with what the last two refinements changed and what the last elimination did. Two limits may agree by
 /// accident, three seldom do: with two of them the bar held in three of four cases, with three in 97 of 100.
-fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Limit> {
+fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     let [.., earlier, before, value] = limits else {
         return None;
     };
     let changes = (value - before).abs().max(0.5 * (before - earlier).abs());
     let elimination = (value - eliminated.last()?).abs();
-    Some(Limit {
+    Some(Estimate {
         value: *value,
         error: changes + 0.25 * elimination,
     })

@@ -10,19 +10,23 @@
 //! along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate};
+use numerics::{Accuracy, Estimate};
 use rheology::Material;
 
-use crate::bars::{self, Resolution, Target};
+use crate::bars::{self, ContactEstimate};
 use crate::plan::GridPlan;
+use crate::steady::estimate::resolution;
 use crate::steady::loading::{Loading, scale_of_profile};
-use crate::steady::refinement::{Refined, limit, refine};
+use crate::steady::refinement::{Problem, refine};
 use crate::steady::sliding_creep::SlidingCreep;
-use crate::steady::{Refinement, RefinementOptions, Reuse, SteadyOptions, SteadySliding, solve};
+use crate::steady::{
+    RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
+};
 use crate::{BemError, Footprint};
 
 /// One grid for stationary sliding in plane strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LineOptions {
     /// Length Δx of an element, \[m].
     pub spacing: f64,
@@ -60,26 +64,7 @@ pub struct LineSliding {
 }
 
 /// A stationary state in plane strain with its error bars.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct LineEstimate {
-    /// Friction coefficient μ.
-    pub friction_coefficient: Estimate,
-    /// What its error consists of.
-    pub error_parts: ErrorParts,
-    /// Width of the contact along x, which is its area per length, \[m].
-    pub contact_width: Estimate,
-    /// Error of the ends of the contact in [`finest`](Self::finest), \[m].
-    pub contact_error: f64,
-    /// Largest pressure \[Pa], where the material reacts at once; everywhere else it grows without limit on refinement.
-    pub peak_pressure: Option<Estimate>,
-    /// The refinements that led there, from coarse to fine, with forces and areas per length; none where the number of
-    /// elements was given.
-    pub refinements: Vec<Refinement>,
-    /// The state on the finest grid.
-    pub finest: LineSliding,
-}
+pub type LineEstimate = ContactEstimate<LineSliding, LineOptions>;
 
 /// Elements of the coarsest grids along the half contact of a cylinder on an elastic half space.
 const COARSEST: f64 = 4.0;
@@ -109,11 +94,47 @@ pub fn steady_line(
     load: &SlidingLoad,
     accuracy: impl Into<Accuracy>,
 ) -> Result<LineEstimate, BemError> {
-    let problem = Problem::new(&profile, material, load)?;
-    match accuracy.into() {
-        Accuracy::RelativeError(relative_error) => problem.refined(relative_error),
-        accuracy @ Accuracy::Elements(_) => problem.with_elements(accuracy),
-    }
+    let profile: &dyn Surface = &profile;
+    let creep = SlidingCreep::new(material, load.velocity())?;
+    let force = load.require_normal_force()?;
+    let [_, length] = scale_of_profile(profile, &creep, force)?;
+    let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
+    let footprint = [-REAR * length, front * length];
+    let loading = Loading::per_length(profile, material, load, footprint)?;
+    let strip = Strip::new(profile, &loading);
+    let problem = Problem {
+        surface: &strip,
+        loading,
+        plan: GridPlan {
+            footprint: strip.footprint(footprint),
+            coarsest_spacing: length / COARSEST,
+            apex_exponent: 2.0,
+        },
+        has_peak: bars::reacts_at_once(material),
+    };
+    let known = match accuracy.into() {
+        Accuracy::RelativeError(relative_error) => {
+            let options = RefinementOptions {
+                relative_error,
+                max_unknowns: MOST_UNKNOWNS,
+                ..RefinementOptions::default()
+            };
+            refine(&problem, &options)?
+        }
+        accuracy @ Accuracy::Elements(_) => with_elements(&problem, strip.length, accuracy)?,
+    };
+    Ok(LineEstimate {
+        friction_coefficient: known.friction_coefficient,
+        error_parts: known.error_parts,
+        normal_force: Estimate::exact(force),
+        indentation_depth: None,
+        contact_area: known.contact_area,
+        peak_pressure: known.peak_pressure,
+        contact_box_error: bars::of_box(known.options.spacing[0]),
+        refinements: known.refinements,
+        finest: LineSliding::of(&known.finest),
+        options: LineOptions::of(&known.options),
+    })
 }
 
 /// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
@@ -142,107 +163,39 @@ pub fn steady_line_on_grid(
     Ok(LineSliding::of(&state))
 }
 
-/// A profile in plane strain and the grids for it.
-struct Problem<'a> {
-    strip: Strip<'a>,
-    loading: Loading,
-    plan: GridPlan,
-    reacts_at_once: bool,
+/// On a number of elements along the contact of a cylinder on an elastic half space.
+fn with_elements(
+    problem: &Problem,
+    strip: f64,
+    accuracy: Accuracy,
+) -> Result<SteadyEstimate, BemError> {
+    let Problem {
+        surface,
+        loading,
+        plan,
+        has_peak,
+    } = problem;
+    let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
+    let resolution = resolution(accuracy, loading.control, plan.apex_exponent, *has_peak);
+    let mut known = bars::resolve(&resolution, |elements| {
+        let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
+        let state = solve(*surface, loading, &options, &mut Reuse::default())?;
+        Ok(state.on_grid(options, None))
+    })?;
+    known.contact_area.value /= strip;
+    known.contact_area.error /= strip;
+    Ok(known)
 }
 
-impl<'a> Problem<'a> {
-    fn new(
-        profile: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
-        load: &SlidingLoad,
-    ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(material, load.velocity())?;
-        let [_, length] = scale_of_profile(profile, &creep, load.require_normal_force()?)?;
-        let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
-        let footprint = [-REAR * length, front * length];
-        let loading = Loading::per_length(profile, material, load, footprint)?;
-        let strip = Strip::new(profile, &loading);
-        Ok(Self {
-            plan: GridPlan {
-                footprint: strip.footprint(footprint),
-                coarsest_spacing: length / COARSEST,
-                apex_exponent: 2.0,
-            },
-            strip,
-            loading,
-            reacts_at_once: bars::reacts_at_once(material),
-        })
-    }
-
-    fn refined(self, relative_error: f64) -> Result<LineEstimate, BemError> {
-        let options = RefinementOptions {
-            relative_error,
-            max_unknowns: MOST_UNKNOWNS,
-            ..RefinementOptions::default()
-        };
-        let length = self.strip.length;
-        let Refined {
-            friction_coefficient: friction,
-            refinements,
-            finest,
-            ..
-        } = refine(&self.strip, self.loading, &self.plan, &options)?;
-        let iteration = finest.iteration_error();
-        let per_length = |refinement: Refinement| refinement.per_length(length);
-        let refinements: Vec<Refinement> = refinements.into_iter().map(per_length).collect();
-        let width = limit(&refinements, 1.0, |r| r.contact_area);
-        let peak = limit(&refinements, 1.5, |r| r.peak_pressure);
-        Ok(LineEstimate {
-            friction_coefficient: Estimate {
-                value: friction.value,
-                error: friction.error + iteration,
-            },
-            error_parts: ErrorParts {
-                discretisation: Some(friction.error),
-                iteration: Some(iteration),
-                ..ErrorParts::NONE
-            },
-            contact_width: width.into(),
-            contact_error: bars::of_box([finest.pressure.grid.spacing()[0]; 2]),
-            peak_pressure: self.reacts_at_once.then(|| peak.into()),
-            refinements,
-            finest: LineSliding::of(&finest),
-        })
-    }
-
-    fn with_elements(self, accuracy: Accuracy) -> Result<LineEstimate, BemError> {
-        let length = ELEMENTS_OF_CYLINDER * self.plan.coarsest_spacing;
-        let resolution = Resolution {
-            accuracy,
-            target: Target::Friction,
-            largest: usize::MAX,
-            order: bars::order_of_friction(self.plan.apex_exponent),
-        };
-        let solve = |elements: usize| {
-            let spacing = [length / elements as f64, self.strip.length];
-            let options = SteadyOptions::new(spacing, self.plan.footprint);
-            solve(&self.strip, &self.loading, &options, &mut Reuse::default())
-        };
-        let resolved = bars::resolve(
-            &resolution,
-            solve,
-            |state| state.quantities(None),
-            |_, state| state.other_parts(),
-        )?;
-        let (finest, known) = (resolved.finest, resolved.estimates);
-        let per_length = |area: Estimate| Estimate {
-            value: area.value / self.strip.length,
-            error: area.error / self.strip.length,
-        };
-        Ok(LineEstimate {
-            friction_coefficient: known.friction_coefficient,
-            error_parts: resolved.parts.friction_coefficient,
-            contact_width: per_length(known.contact_area),
-            contact_error: bars::of_box([finest.pressure.grid.spacing()[0]; 2]),
-            peak_pressure: self.reacts_at_once.then_some(known.peak_pressure),
-            refinements: Vec::new(),
-            finest: LineSliding::of(&finest),
-        })
+impl LineOptions {
+    const fn of(grid: &SteadyOptions) -> Self {
+        Self {
+            spacing: grid.spacing[0],
+            phase: grid.phase[0],
+            footprint: grid.footprint.x,
+            tolerance: grid.tolerance,
+            max_iterations: grid.max_iterations,
+        }
     }
 }
 
@@ -275,7 +228,7 @@ impl<'a> Strip<'a> {
     fn new(profile: &'a dyn Surface, loading: &Loading) -> Self {
         Self {
             profile,
-            length: loading.strip().unwrap_or(f64::INFINITY),
+            length: loading.strip.unwrap_or(f64::INFINITY),
         }
     }
 

@@ -30,11 +30,11 @@ pub(super) struct Loading {
     /// Unit of heights D, \[m].
     pub(super) depth_scale: f64,
     /// The force of a plane-strain problem is that on its whole strip.
-    control: Control,
+    pub(super) control: Control,
     /// \[m]; always where a depth is given.
     pub(super) sliding_distance: Option<f64>,
     /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
-    strip: Option<f64>,
+    pub(super) strip: Option<f64>,
 }
 
 /// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
@@ -105,11 +105,6 @@ impl Loading {
         })
     }
 
-    /// The length of a strip \[m], where the problem is one of plane strain.
-    pub(super) const fn strip(&self) -> Option<f64> {
-        self.strip
-    }
-
     /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
     pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
         let width = if self.strip.is_some() {
@@ -118,11 +113,6 @@ impl Loading {
             factor * dy
         };
         [factor * dx, width]
-    }
-
-    /// Force or depth, whichever is given.
-    pub(super) const fn control(&self) -> Control {
-        self.control
     }
 
     /// The problem on a grid.

@@ -6,13 +6,15 @@
 //! On materials that recover the outline is closed behind, and what is left of the scatter decides: it widens the error
 //! bar.
 
-use indenters::{Control, Surface};
+use indenters::Surface;
+use numerics::{ErrorParts, Estimate};
 
+use crate::bars;
 use crate::error::{below_one, positive};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
-use crate::steady::extrapolation::{Limit, extrapolate};
+use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
-use crate::steady::{Reuse, SteadyOptions, SteadySliding, solve};
+use crate::steady::{Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve};
 use crate::{BemError, Footprint};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
@@ -20,6 +22,8 @@ const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 const PHASES_OF_STRIP: usize = 2;
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
+/// Order in which the area of the elements in contact approaches that of the contact.
+const AREA_ORDER: f64 = 1.0;
 /// Refinements of which an error bar can come, at least.
 const FEWEST: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
@@ -93,7 +97,7 @@ impl Average {
     }
 }
 
-/// One refinement: averages over shifted grids.
+/// One refinement: averages over shifted grids; in plane strain forces and areas are per length along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Refinement {
@@ -114,80 +118,53 @@ pub struct Refinement {
     pub unknowns: usize,
 }
 
-impl Refinement {
-    /// With forces and areas per length along y, of a strip of this length, \[m].
-    pub(super) fn per_length(self, length: f64) -> Self {
-        Self {
-            normal_force: self.normal_force.times(length.recip()),
-            contact_area: self.contact_area.times(length.recip()),
-            ..self
-        }
-    }
-}
-
-/// Refined grids whose limits are known to the error asked for.
-#[derive(Debug)]
-pub(super) struct Refined {
-    pub(super) friction_coefficient: Limit,
-    pub(super) normal_force: Limit,
-    pub(super) refinements: Vec<Refinement>,
-    /// The last solution on the finest grids, and its grid.
-    pub(super) finest: SteadySliding,
-    pub(super) options: SteadyOptions,
+/// A surface that slides, and the grids for it.
+pub(super) struct Problem<'a> {
+    pub(super) surface: &'a dyn Surface,
+    pub(super) loading: Loading,
+    pub(super) plan: GridPlan,
+    /// Whether the largest pressure is known to have a limit.
+    pub(super) has_peak: bool,
 }
 
 /// Refines until friction and force have the error asked for.
 pub(super) fn refine(
-    surface: &dyn Surface,
-    loading: Loading,
-    plan: &GridPlan,
+    problem: &Problem,
     options: &RefinementOptions,
-) -> Result<Refined, BemError> {
+) -> Result<SteadyEstimate, BemError> {
     let relative_error = below_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
-    let order = order_of_friction(plan.apex_exponent)?;
     let mut grids = Grids {
-        surface,
-        loading,
-        plan,
+        problem,
         options,
+        order: order_of_friction(problem.plan.apex_exponent)?,
         reuse: Reuse::default(),
     };
-    let (mut index, first) = grids.coarsest()?;
-    let mut refinements = vec![first.averages];
-    let mut finest = (first.finest, first.options);
+    let (mut index, mut finest) = grids.coarsest()?;
+    let mut refinements = vec![finest.averages];
     loop {
-        let friction = grids.friction(&refinements, order);
-        let force = grids.force(&refinements, order);
-        let rounding = ROUNDING * finest.0.mean_slope;
-        let is_known = friction.holds(relative_error) || friction.error <= rounding;
-        if is_known && force.holds(relative_error) {
-            let (finest, options) = finest;
-            return Ok(Refined {
-                friction_coefficient: friction,
-                normal_force: force,
-                refinements,
-                finest,
-                options,
-            });
+        let friction = grids.friction(&refinements);
+        let force = grids.force(&refinements);
+        let rounding = ROUNDING * finest.state.mean_slope;
+        let is_known = friction.is_within(relative_error) || friction.error <= rounding;
+        if is_known && force.is_within(relative_error) {
+            return Ok(grids.estimate(friction, force, refinements, finest));
         }
         index += 1;
-        let last = refinements.last();
-        if last.is_some_and(|last| !grids.allows(index, last)) {
+        if !grids.allows(index, &finest.averages) {
             return Err(not_reached(friction, force, relative_error));
         }
-        let next = grids.refine(index)?;
-        refinements.push(next.averages);
-        finest = (next.finest, next.options);
+        finest = grids.refine(index)?;
+        refinements.push(finest.averages);
     }
 }
 
 /// The limit of averages with what is left of their scatter.
-pub(super) fn limit(
+fn limit(
     refinements: &[Refinement],
     order: f64,
     quantity: impl Fn(&Refinement) -> Average,
-) -> Limit {
+) -> Estimate {
     let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
     let mut limit = extrapolate(&values, order);
     if let Some(last) = refinements.last() {
@@ -197,7 +174,7 @@ pub(super) fn limit(
 }
 
 /// Order of the error of the averages.
-pub(super) fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
+fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
     if order > 0.0 {
         return Ok(order);
@@ -210,8 +187,8 @@ pub(super) fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     })
 }
 
-fn not_reached(friction: Limit, force: Limit, relative_error: f64) -> BemError {
-    if force.holds(relative_error) {
+fn not_reached(friction: Estimate, force: Estimate, relative_error: f64) -> BemError {
+    if force.is_within(relative_error) {
         return BemError::FrictionNotReached {
             friction_coefficient: friction.value,
             error: friction.error,
@@ -228,37 +205,68 @@ fn not_reached(friction: Limit, force: Limit, relative_error: f64) -> BemError {
 /// One refinement, and the last solution of it with its grid.
 struct Solved {
     averages: Refinement,
-    finest: SteadySliding,
+    state: SteadySliding,
     options: SteadyOptions,
 }
 
 /// A problem on finer and finer grids.
 struct Grids<'a> {
-    surface: &'a dyn Surface,
-    loading: Loading,
-    plan: &'a GridPlan,
+    problem: &'a Problem<'a>,
     options: &'a RefinementOptions,
+    /// Order of the error of the averages.
+    order: f64,
     reuse: Reuse,
 }
 
 impl Grids<'_> {
     /// On a dashpot the scatter falls as fast as the rest of the error.
-    fn friction(&self, refinements: &[Refinement], order: f64) -> Limit {
+    fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let quantity = |refinement: &Refinement| {
             let mut friction = refinement.friction_coefficient;
-            if self.loading.creep.only_flows() {
+            if self.problem.loading.creep.only_flows() {
                 friction.scatter = 0.0;
             }
             friction
         };
-        limit(refinements, order, quantity)
+        limit(refinements, self.order, quantity)
     }
 
     /// The normal force that is given, or the limit of those at the depth.
-    fn force(&self, refinements: &[Refinement], order: f64) -> Limit {
-        match self.loading.control() {
-            Control::NormalForce(value) => Limit { value, error: 0.0 },
-            Control::IndentationDepth(_) => limit(refinements, order, |r| r.normal_force),
+    fn force(&self, refinements: &[Refinement]) -> Estimate {
+        let given = bars::given_force(self.problem.loading.control);
+        given.unwrap_or_else(|| limit(refinements, self.order, |r| r.normal_force))
+    }
+
+    fn estimate(
+        &self,
+        friction: Estimate,
+        normal_force: Estimate,
+        refinements: Vec<Refinement>,
+        finest: Solved,
+    ) -> SteadyEstimate {
+        let iteration = finest.state.iteration_error();
+        let depth = bars::given_depth(self.problem.loading.control);
+        let [dx, dy] = finest.options.spacing;
+        SteadyEstimate {
+            friction_coefficient: Estimate {
+                value: friction.value,
+                error: friction.error + iteration,
+            },
+            error_parts: ErrorParts {
+                iteration: Some(iteration),
+                ..ErrorParts::of_elements(friction.error)
+            },
+            normal_force,
+            indentation_depth: Some(
+                depth.unwrap_or_else(|| limit(&refinements, self.order, |r| r.indentation_depth)),
+            ),
+            contact_area: limit(&refinements, AREA_ORDER, |r| r.contact_area),
+            peak_pressure: (self.problem.has_peak)
+                .then(|| limit(&refinements, self.order, |r| r.peak_pressure)),
+            contact_box_error: bars::of_box(dx.max(dy)),
+            refinements,
+            finest: finest.state,
+            options: finest.options,
         }
     }
 
@@ -291,20 +299,20 @@ impl Grids<'_> {
 
     /// Elements of the footprint.
     fn n_elements(&self, refinement: i32) -> f64 {
-        let Footprint { x, y } = self.plan.footprint;
+        let Footprint { x, y } = self.problem.plan.footprint;
         let [dx, dy] = self.edges(refinement);
         (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
     }
 
     /// Edges of an element.
     fn edges(&self, refinement: i32) -> [f64; 2] {
-        let dx = self.plan.spacing(refinement);
-        let strip = self.loading.strip();
+        let dx = self.problem.plan.spacing(refinement);
+        let strip = self.problem.loading.strip;
         [dx, strip.unwrap_or(self.options.aspect * dx)]
     }
 
     fn phases(&self) -> &'static [[f64; 2]] {
-        match self.loading.strip() {
+        match self.problem.loading.strip {
             Some(_) => &PHASES[..PHASES_OF_STRIP],
             None => &PHASES,
         }
@@ -319,7 +327,7 @@ impl Grids<'_> {
         let spacing = self.edges(index);
         let mut options = SteadyOptions {
             max_iterations: MAX_ITERATIONS,
-            ..SteadyOptions::new(spacing, self.plan.footprint.widened(spacing[0]))
+            ..SteadyOptions::new(spacing, self.problem.plan.footprint.widened(spacing[0]))
         };
         let mut states = Vec::new();
         for &phase in self.phases() {
@@ -329,38 +337,49 @@ impl Grids<'_> {
             states.push(state.clone());
             self.reuse.solution = Some(state);
         }
-        let distance = self.loading.sliding_distance;
+        let distance = self.problem.loading.sliding_distance;
+        let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let averages = Refinement {
             spacing: spacing[0],
             friction_coefficient: average(&|state| state.friction_coefficient),
-            normal_force: average(&|state| state.normal_force),
+            normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at(distance)),
-            contact_area: average(&|state| state.contact_area),
+            contact_area: average(&|state| state.contact_area).times(per_length),
             peak_pressure: average(&|state| state.pressure.largest()),
             unknowns: states.iter().map(|state| state.unknowns).max().unwrap_or(0),
         };
-        let finest = states.swap_remove(states.len() - 1);
-        options.spacing = finest.pressure.grid.spacing();
+        let state = states.swap_remove(states.len() - 1);
+        options.spacing = state.pressure.grid.spacing();
         Ok(Solved {
             averages,
-            finest,
+            state,
             options,
         })
     }
 
     /// The solution on a grid, or on a slightly finer one where pivoting cycles.
     fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
-        let mut solution = solve(self.surface, &self.loading, options, &mut self.reuse);
+        let mut solution = solve(
+            self.problem.surface,
+            &self.problem.loading,
+            options,
+            &mut self.reuse,
+        );
         for finer in FINER {
             if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
                 break;
             }
             let other = SteadyOptions {
-                spacing: self.loading.scaled(options.spacing, finer),
+                spacing: self.problem.loading.scaled(options.spacing, finer),
                 ..*options
             };
-            solution = solve(self.surface, &self.loading, &other, &mut self.reuse);
+            solution = solve(
+                self.problem.surface,
+                &self.problem.loading,
+                &other,
+                &mut self.reuse,
+            );
         }
         solution
     }
@@ -369,10 +388,10 @@ impl Grids<'_> {
     fn tolerance(&self) -> f64 {
         let part = match &self.reuse.solution {
             Some(last) => last.friction_coefficient.abs() / last.mean_slope,
-            None if self.loading.creep.only_flows() => 1.0,
+            None if self.problem.loading.creep.only_flows() => 1.0,
             None => FIRST_PART,
         };
-        let share = match self.loading.strip() {
+        let share = match self.problem.loading.strip {
             Some(_) => RESIDUAL_SHARE_OF_STRIP,
             None => RESIDUAL_SHARE,
         };

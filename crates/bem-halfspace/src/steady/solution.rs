@@ -2,9 +2,10 @@
 
 use numerics::ErrorParts;
 
-use crate::bars::Quantities;
+use crate::bars::{OnGrid, Quantities};
 use crate::error::check_contact_elements;
 use crate::slide::PressureField;
+use crate::steady::SteadyOptions;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
@@ -34,7 +35,7 @@ pub struct SteadySliding {
     /// Active sets tried.
     pub iterations: usize,
     /// Largest residual |h + u − d| in the contact relative to the depth scale, see
-    /// [`SteadyOptions::tolerance`](crate::steady::SteadyOptions::tolerance).
+    /// [`SteadyOptions::tolerance`].
     pub residual: f64,
     /// Pressure over the contact.
     pub pressure: PressureField,
@@ -54,24 +55,26 @@ impl SteadySliding {
         self.residual * self.mean_slope
     }
 
-    pub(super) fn quantities(&self, sliding_distance: Option<f64>) -> Quantities<f64> {
-        Quantities {
-            friction_coefficient: self.friction_coefficient,
-            normal_force: self.normal_force,
-            indentation_depth: self.depth.at(sliding_distance),
-            contact_area: self.contact_area,
-            peak_pressure: self.pressure.largest(),
-        }
-    }
-
-    /// Parts of the errors that do not depend on the grid.
-    pub(super) fn other_parts(&self) -> Quantities<ErrorParts> {
-        Quantities {
-            friction_coefficient: ErrorParts {
+    pub(super) fn on_grid(
+        self,
+        options: SteadyOptions,
+        sliding_distance: Option<f64>,
+    ) -> OnGrid<Self, SteadyOptions> {
+        OnGrid {
+            quantities: Quantities {
+                friction_coefficient: self.friction_coefficient,
+                normal_force: self.normal_force,
+                indentation_depth: self.depth.at(sliding_distance),
+                contact_area: self.contact_area,
+                peak_pressure: self.pressure.largest(),
+            },
+            other_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::NONE
             },
-            ..Quantities::all(ErrorParts::NONE)
+            spacing: options.spacing[0],
+            state: self,
+            options,
         }
     }
 

@@ -1,15 +1,26 @@
 //! What boundary elements say, as answers.
 
-use bem_halfspace::indent::{self, PressEstimate};
 use bem_halfspace::slide::{SlideRow, slide};
-use bem_halfspace::steady::{steady, steady_line};
+use bem_halfspace::{ContactEstimate, indent, steady, steady_line};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
-use numerics::Estimate;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::error::Result;
 use crate::scene::{Accuracy, Method, Model};
+
+/// The quantities of an estimate, with the ends of its contact along x and y.
+fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64; 2]; 2]) -> Answer {
+    Answer {
+        friction_coefficient: Some(estimate.friction_coefficient),
+        indentation_depth: estimate.indentation_depth,
+        error_parts: estimate.error_parts,
+        contact_area: Some(estimate.contact_area),
+        peak_pressure: estimate.peak_pressure,
+        contact_box: Some(ContactBox::around(x, y, estimate.contact_box_error)),
+        ..Answer::new(method, Model::HalfSpace, estimate.normal_force)
+    }
+}
 
 /// The stationary state.
 pub(crate) fn stationary(
@@ -19,27 +30,18 @@ pub(crate) fn stationary(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = steady(surface, material, load, accuracy)?;
-    let finest = estimate.finest;
+    let finest = &estimate.finest;
+    let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
-        friction_coefficient: Some(estimate.friction_coefficient),
-        indentation_depth: estimate.indentation_depth,
-        error_parts: estimate.error_parts,
-        contact_area: Some(estimate.contact_area),
-        peak_pressure: estimate.peak_pressure,
-        contact_box: Some(ContactBox::around(
-            finest.contact_x,
-            finest.contact_y,
-            estimate.contact_box_error,
-        )),
         unknowns: finest.unknowns,
         iterations: finest.iterations,
         grid: Some(Grid::Stationary {
             options: estimate.options,
             factorised: finest.is_factorised(),
         }),
-        ..Answer::new(Method::BemSteady, Model::HalfSpace, estimate.normal_force)
+        ..answer(&estimate, Method::BemSteady, ends)
     };
-    answer.fields.pressure = Some(finest.pressure);
+    answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
 }
 
@@ -51,20 +53,16 @@ pub(crate) fn line_contact(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = steady_line(cylinder, material, load, accuracy)?;
-    let finest = estimate.finest;
-    let force = load.require_normal_force()?;
+    let finest = &estimate.finest;
+    let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
     let mut answer = Answer {
         is_per_length: true,
-        friction_coefficient: Some(estimate.friction_coefficient),
-        error_parts: estimate.error_parts,
-        contact_area: Some(estimate.contact_width),
-        peak_pressure: estimate.peak_pressure,
-        contact_box: Some(ContactBox::along(finest.contact, estimate.contact_error)),
+        contact_box: Some(contact),
         unknowns: finest.unknowns,
         iterations: finest.iterations,
-        ..Answer::new(Method::BemSteady, Model::HalfSpace, Estimate::exact(force))
+        ..answer(&estimate, Method::BemSteady, [finest.contact; 2])
     };
-    answer.fields.line_pressure = finest.pressure;
+    answer.fields.line_pressure = estimate.finest.pressure;
     Ok(answer)
 }
 
@@ -76,30 +74,16 @@ pub(crate) fn transient(
     accuracy: Accuracy,
 ) -> Result<Answer> {
     let estimate = slide(surface, material, load, accuracy)?;
-    let finest = estimate.finest;
-    let last = finest.last();
+    let last = estimate.finest.last();
+    let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
-        friction_coefficient: Some(estimate.friction_coefficient),
-        indentation_depth: estimate.indentation_depth,
-        error_parts: estimate.error_parts,
-        contact_area: Some(estimate.contact_area),
-        peak_pressure: estimate.peak_pressure,
-        contact_box: Some(ContactBox::around(
-            last.contact_x,
-            last.contact_y,
-            estimate.contact_box_error,
-        )),
         unknowns: last.n_contact,
-        iterations: finest.rows.len(),
+        iterations: estimate.finest.rows.len(),
         grid: Some(Grid::March(estimate.options)),
-        ..Answer::new(
-            Method::BemTransient,
-            Model::HalfSpace,
-            estimate.normal_force,
-        )
+        ..answer(&estimate, Method::BemTransient, ends)
     };
-    answer.fields.history = finest.rows.iter().map(history_row).collect();
-    answer.fields.pressure = Some(finest.pressure);
+    answer.fields.history = estimate.finest.rows.iter().map(history_row).collect();
+    answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
 }
 
@@ -110,32 +94,17 @@ pub(crate) fn pressed(
     load: &PressingLoad,
     accuracy: Accuracy,
 ) -> Result<Answer> {
-    let PressEstimate {
-        indentation_depth,
-        normal_force,
-        error_parts,
-        contact_area,
-        peak_pressure,
-        contact_box_error,
-        finest,
-        options,
-    } = indent::indent(surface, material, load, accuracy)?;
+    let estimate = indent(surface, material, load, accuracy)?;
+    let finest = &estimate.finest;
+    let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
-        indentation_depth: Some(indentation_depth),
-        error_parts,
-        contact_area: Some(contact_area),
-        peak_pressure,
-        contact_box: Some(ContactBox::around(
-            finest.contact_x,
-            finest.contact_y,
-            contact_box_error,
-        )),
+        friction_coefficient: None,
         unknowns: finest.n_contact,
         iterations: 1,
-        grid: Some(Grid::March(options)),
-        ..Answer::new(Method::BemTransient, Model::HalfSpace, normal_force)
+        grid: Some(Grid::March(estimate.options)),
+        ..answer(&estimate, Method::BemTransient, ends)
     };
-    answer.fields.pressure = finest.pressure;
+    answer.fields.pressure = estimate.finest.pressure;
     Ok(answer)
 }
 
