@@ -11,8 +11,8 @@ mod press;
 use indenters::{Control, Surface};
 use rheology::Material;
 
-use crate::error::{check_contact_elements, positive};
-use crate::stepping::{Instant, Route, Stepping};
+use crate::error::check_contact_elements;
+use crate::stepping::{Instant, March, Motion};
 use crate::{BemError, GridOptions};
 pub use history::{ControlHistory, HistoryOptions, IndentHistory, PiecewiseLinear, indent_history};
 pub use press::{PressEstimate, PressSolution, indent, indent_on_grid, press, press_on_grid};
@@ -64,12 +64,15 @@ pub fn indent_history_on_grid(
     steps: &[IndentStep],
     options: &GridOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
-    let ends = steps.iter().map(|step| (step.time, 0.0, step.control));
-    let route = Route::through(ends, positive("spacing along x", options.spacing[0])?)?;
-    let mut stepping = Stepping::new(&surface, material, route, options)?;
+    let motions = steps.iter().map(|step| Motion {
+        time: step.time,
+        position: 0.0,
+        control: step.control,
+    });
+    let mut march = March::through(&surface, material, motions, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
-    while let Some(instant) = stepping.advance()? {
+    while let Some(instant) = march.advance()? {
         largest = largest.max(elements_across(&instant));
         rows.push(row(&instant, options));
     }

@@ -13,7 +13,7 @@ use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target}
 use crate::error::{check_contact_elements, positive};
 use crate::plan::GridPlan;
 use crate::slide::PressureField;
-use crate::stepping::{Route, Stepping};
+use crate::stepping::{March, Motion};
 use crate::{BemError, GridOptions};
 
 /// Elements along the contact after which the error asked for is given up.
@@ -175,15 +175,17 @@ impl Spring {
         control: Control,
         options: &GridOptions,
     ) -> Result<PressSolution, BemError> {
-        let spacing = positive("spacing along x", options.spacing[0])?;
-        let step = (1.0, 0.0, self.scaled(control)?);
-        let route = Route::through(std::iter::once(step), spacing)?;
-        let leg = route.legs[0];
-        let mut stepping = Stepping::new(surface, &Elastic::new(1.0)?, route, options)?;
-        let instant = stepping.follow(leg)?;
+        let motion = Motion {
+            time: 1.0,
+            position: 0.0,
+            control: self.scaled(control)?,
+        };
+        let once = std::iter::once(motion);
+        let mut march = March::through(surface, &Elastic::new(1.0)?, once, options)?;
+        let instant = march.first()?;
         check_contact_elements(elements_across(&instant))?;
-        let [contact_x, contact_y] = stepping.edges(&stepping.contact_bounds(), 0.0);
-        let mut pressure = stepping.pressure()?;
+        let [contact_x, contact_y] = march.edges(&march.contact_bounds(), 0.0);
+        let mut pressure = march.pressure()?;
         for value in &mut pressure.pressure {
             *value /= self.compliance;
         }

@@ -11,9 +11,6 @@
 //! [`March`].
 
 mod estimate;
-mod march;
-mod motion;
-mod slopes;
 mod stationary;
 mod transient;
 mod until_stationary;
@@ -21,11 +18,9 @@ mod until_stationary;
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
-pub use crate::stepping::{MarchState, SlideOmission};
+pub use crate::stepping::{March, MarchState, Motion, MotionRow, SlideOmission};
 use crate::{BemError, GridOptions};
 pub use estimate::{SlideEstimate, slide};
-pub use march::March;
-pub use motion::{Motion, MotionRow};
 pub use stationary::StationaryFriction;
 pub use transient::{PressureField, SlideRow, Transient};
 pub use until_stationary::{StationaryOptions, StationarySlide, slide_to_stationary};

@@ -4,7 +4,7 @@ use std::ops::{Range, RangeBounds};
 
 use rheology::ExponentialStep;
 
-use super::Stepping;
+use super::March;
 use crate::BemError;
 use crate::bounds::Bounds;
 use crate::contact::ContactBox;
@@ -34,19 +34,28 @@ impl MarchState {
     }
 }
 
-impl Stepping<'_> {
-    pub(crate) fn state(&self) -> MarchState {
+impl March<'_> {
+    /// The state from which a later run can continue.
+    #[must_use]
+    pub fn state(&self) -> MarchState {
         let Bounds { lower, upper } = self.contact_box.bounds;
         MarchState {
             steps_done: self.steps_done,
             footprint: self.layout.followed(),
             contact_box: [lower, upper],
             load: self.contact_box.state.pressure().to_vec(),
-            memory: self.window.memory(self.rows_needed()).to_vec(),
+            memory: self
+                .window
+                .memory(self.rows_needed(self.steps_done))
+                .to_vec(),
         }
     }
 
-    pub(crate) fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
+    /// Continues from the `state` of a march with the same input; the steps are the same to the last bit.
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit this march.
+    pub fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
         let (mut contact_box, memory) = self.check(state)?;
         contact_box
             .state
@@ -86,7 +95,7 @@ impl Stepping<'_> {
             within("start of the contact box", lower[axis], ..last)?;
         }
         let bounds = Bounds { lower, upper };
-        let rows = self.route.rows_from(state.steps_done, shape[0]);
+        let rows = self.rows_needed(state.steps_done);
         let n_values = self.window.memory(rows.clone()).len();
         for (field, values, elements) in [
             ("load", &state.load, bounds.n_elements()),
@@ -108,7 +117,7 @@ impl Stepping<'_> {
                 });
             }
         }
-        Ok((ContactBox::of(self.window.convolution(), bounds)?, rows))
+        Ok((ContactBox::of(&self.window.convolution, bounds)?, rows))
     }
 }
 

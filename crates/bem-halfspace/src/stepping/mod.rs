@@ -10,11 +10,15 @@
 //! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
 
 mod checkpoint;
+mod march;
+mod motion;
 mod press;
 mod route;
+mod slopes;
 mod window;
 
 use std::f64::consts::PI;
+use std::fmt;
 use std::ops::Range;
 
 use indenters::{Control, Surface};
@@ -27,7 +31,9 @@ use crate::resolution::Layout;
 use crate::slide::PressureField;
 use crate::{BemError, Grid, GridOptions};
 pub use checkpoint::MarchState;
-pub(crate) use route::{Leg, Route};
+pub use motion::{Motion, MotionRow};
+use route::{Leg, Route};
+use slopes::{MeanSlopes, Slopes};
 use window::Window;
 
 /// A part of the work of a march that is left out where a problem does not need it.
@@ -40,11 +46,11 @@ pub enum SlideOmission {
     RowsBehind,
 }
 
-/// An indenter that moves over a half space.
-pub(crate) struct Stepping<'a> {
+/// An indenter that moves over a half space, step by step.
+pub struct March<'a> {
     surface: &'a dyn Surface,
-    pub(crate) options: GridOptions,
-    pub(crate) layout: Layout,
+    options: GridOptions,
+    layout: Layout,
     pub(crate) material: HalfSpace,
     route: Route,
     steps_done: usize,
@@ -59,6 +65,14 @@ pub(crate) struct Stepping<'a> {
     contact_box: ContactBox,
     /// Unit of heights, \[m].
     scale: f64,
+    slopes: Slopes,
+    means: MeanSlopes,
+}
+
+impl fmt::Debug for March<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("March").finish_non_exhaustive()
+    }
 }
 
 /// The creep of the surface of a half space.
@@ -95,11 +109,28 @@ pub(crate) struct Instant {
     pub(crate) iterations: usize,
 }
 
-impl<'a> Stepping<'a> {
-    pub(crate) fn new(
+impl<'a> March<'a> {
+    /// From an undeformed half space at time zero, where the lowest point is over the centre of an element at position
+    /// zero.
+    pub(crate) fn through(
         surface: &'a dyn Surface,
         material: &(impl Material + ?Sized),
+        motions: impl Iterator<Item = Motion>,
+        options: &GridOptions,
+    ) -> Result<Self, BemError> {
+        let spacing = positive("spacing along x", options.spacing[0])?;
+        Self::on(
+            Route::through(motions, spacing)?,
+            surface,
+            material,
+            options,
+        )
+    }
+
+    fn on(
         route: Route,
+        surface: &'a dyn Surface,
+        material: &(impl Material + ?Sized),
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let [along_x, along_y] = surface.mirrors();
@@ -117,7 +148,7 @@ impl<'a> Stepping<'a> {
         };
         let n_rows = route.rows_from(0, layout.followed()[0]).end;
         let window = Window::new(n_rows, &layout, dy / dx, step.n_fields())?;
-        let mut stepping = Self {
+        let mut march = Self {
             surface,
             options: *options,
             layout,
@@ -130,26 +161,32 @@ impl<'a> Stepping<'a> {
             heights: Vec::new(),
             sampled_offset: f64::NAN,
             separation: vec![0.0; layout.followed().iter().product()],
-            contact_box: ContactBox::of(window.convolution(), Bounds::around([0; 2]))?,
+            contact_box: ContactBox::of(&window.convolution, Bounds::around([0; 2]))?,
             window,
+            slopes: Slopes::default(),
+            means: MeanSlopes::default(),
         };
-        stepping.sample(stepping.route.legs[0].offset)?;
-        stepping.contact_box = stepping.box_at_lowest(&stepping.heights)?;
-        Ok(stepping)
+        march.sample(march.route.legs[0].offset)?;
+        march.contact_box = march.box_at_lowest(&march.heights)?;
+        Ok(march)
     }
 
-    /// Number of stored values per element.
-    pub(crate) fn n_fields(&self) -> usize {
-        self.window.n_fields()
+    /// Number of values in the memory of an element: one per retardation element of the material, one more for free
+    /// flow, none for an elastic material.
+    #[must_use]
+    pub const fn n_fields(&self) -> usize {
+        self.window.n_fields
     }
 
-    pub(crate) fn n_elements(&self) -> usize {
-        self.window.n_elements()
+    /// Number of elements of the half space that are followed.
+    #[must_use]
+    pub fn n_elements(&self) -> usize {
+        self.window.convolution.grid().n_elements()
     }
 
     /// Elements of the footprint in front of the mirrors with load in the last step, and their loads there, of which only
     /// the ratios matter.
-    pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
+    fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         let [first_row, first_column] = self.layout.first();
         let loaded = self.contact_box.loaded_elements();
         loaded.map(move |([row, column], load)| ([first_row + row, first_column + column], load))
@@ -171,19 +208,12 @@ impl<'a> Stepping<'a> {
         )
     }
 
-    /// Distance of the lowest point from the centre of its element in the last step, in elements.
-    pub(crate) fn offset(&self) -> f64 {
-        self.sampled_offset
-    }
-
-    /// Pressure of an element per unit of its load, \[Pa].
-    pub(crate) fn pressure_per_load(&self) -> f64 {
-        4.0 * PI * self.scale / self.options.spacing[0] / self.compliance()
-    }
-
     /// Pressure in the last step; a single element without pressure where there is no contact.
-    pub(crate) fn pressure(&self) -> Result<PressureField, BemError> {
-        let unit = self.pressure_per_load();
+    ///
+    /// # Errors
+    /// None after a step that succeeded.
+    pub fn pressure(&self) -> Result<PressureField, BemError> {
+        let unit = 4.0 * PI * self.scale / self.options.spacing[0] / self.compliance();
         let bounds = self.contact_bounds();
         let columns = bounds.shape()[1];
         let mut pressure = vec![0.0; bounds.n_elements()];
@@ -206,10 +236,9 @@ impl<'a> Stepping<'a> {
 
     /// Ends of a box of elements along x and y relative to the lowest point, \[m].
     pub(crate) fn edges(&self, bounds: &Bounds, offset: f64) -> [[f64; 2]; 2] {
-        let half = 0.5;
         let [dx, dy] = self.options.spacing;
-        let x = |row: usize| (self.along(row, offset) - half) * dx;
-        let y = |column: usize| self.across(column) - half * dy;
+        let x = |row: usize| (self.along(row, offset) - 0.5) * dx;
+        let y = |column: usize| self.across(column) - 0.5 * dy;
         [
             [bounds.lower[0], bounds.upper[0]].map(x),
             [bounds.lower[1], bounds.upper[1]].map(y),
@@ -227,8 +256,12 @@ impl<'a> Stepping<'a> {
         leg.map(|leg| self.follow(leg)).transpose()
     }
 
-    /// The contact at the end of the next step, which is this leg.
-    pub(crate) fn follow(&mut self, leg: Leg) -> Result<Instant, BemError> {
+    /// The contact at the end of the first step, which every march has.
+    pub(crate) fn first(&mut self) -> Result<Instant, BemError> {
+        self.follow(self.route.legs[0])
+    }
+
+    fn follow(&mut self, leg: Leg) -> Result<Instant, BemError> {
         self.set_time_step(leg.time_step)?;
         self.sample(leg.offset)?;
         self.set_separation(leg.row);
@@ -236,19 +269,18 @@ impl<'a> Stepping<'a> {
             Some(depth) => self.free(leg, depth)?,
             None => self.press(leg)?,
         };
-        let wanted = self.rows_needed();
-        self.window.remember(&self.step, wanted);
+        self.window
+            .remember(&self.step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
         Ok(instant)
     }
 
-    /// Rows that the step under way or a later one needs.
-    fn rows_needed(&self) -> Range<usize> {
+    /// Rows that a step or a later one needs.
+    fn rows_needed(&self, step: usize) -> Range<usize> {
         if self.options.redundant_work == Some(SlideOmission::RowsBehind) {
-            return 0..self.window.n_rows();
+            return 0..self.window.convolution.grid().shape()[0];
         }
-        let n_rows = self.layout.followed()[0];
-        self.route.rows_from(self.steps_done, n_rows)
+        self.route.rows_from(step, self.layout.followed()[0])
     }
 
     fn set_time_step(&mut self, time_step: f64) -> Result<(), BemError> {
@@ -267,12 +299,12 @@ impl<'a> Stepping<'a> {
     }
 
     /// Position of a row of the footprint in the frame of the indenter, in elements.
-    pub(crate) fn along(&self, row: usize, offset: f64) -> f64 {
+    fn along(&self, row: usize, offset: f64) -> f64 {
         row as f64 - self.layout.apex[0] as f64 - offset
     }
 
     /// Position of a column of the footprint across, \[m].
-    pub(crate) fn across(&self, column: usize) -> f64 {
+    fn across(&self, column: usize) -> f64 {
         (column as f64 - self.layout.apex[1] as f64) * self.options.spacing[1]
     }
 
@@ -307,7 +339,7 @@ impl<'a> Stepping<'a> {
 
     /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
-        let convolution = self.window.convolution();
+        let convolution = &self.window.convolution;
         let [rows, columns] = self.layout.followed();
         if self.options.redundant_work == Some(SlideOmission::OutsideContact) {
             let bounds = Bounds {
@@ -337,11 +369,8 @@ impl<'a> Stepping<'a> {
 
     /// The depth of an indenter that is not pressed, or held above the surface; nothing when there is contact.
     fn depth_without_contact(&self, control: Control) -> Option<f64> {
-        let lowest = self
-            .separation
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
+        let separation = self.separation.iter().copied();
+        let lowest = separation.fold(f64::INFINITY, f64::min);
         match control {
             Control::NormalForce(force) => (force == 0.0).then_some(lowest * self.scale),
             Control::IndentationDepth(depth) => (depth / self.scale <= lowest).then_some(depth),
@@ -352,7 +381,7 @@ impl<'a> Stepping<'a> {
         if self.contact_box.loaded_elements().next().is_some() {
             self.contact_box = self.box_at_lowest(&self.separation)?;
         }
-        self.window.release(self.rows_needed());
+        self.window.release(self.rows_needed(self.steps_done));
         Ok(Instant {
             leg,
             indentation_depth,

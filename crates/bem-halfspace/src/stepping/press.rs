@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use indenters::Control;
 
-use super::{Instant, Leg, SlideOmission, Stepping};
+use super::{Instant, Leg, March, SlideOmission};
 use crate::BemError;
 use crate::bounds::Bounds;
 use crate::contact::Solved;
@@ -14,7 +14,7 @@ use crate::mirror::images;
 /// solver would take a smaller box of its own.
 const NEEDED_PART: f64 = 0.75;
 
-impl Stepping<'_> {
+impl March<'_> {
     /// Solves the contact at the end of a step, on a box that grows until the indenter penetrates nowhere outside.
     pub(super) fn press(&mut self, leg: Leg) -> Result<Instant, BemError> {
         let mut enlarged = false;
@@ -59,9 +59,9 @@ impl Stepping<'_> {
     }
 
     fn n_contact(&self) -> usize {
-        let elements = self.loaded_elements().map(|(element, _)| element);
-        elements
-            .map(|element| self.layout.n_images_of(element))
+        let loaded = self.loaded_elements();
+        loaded
+            .map(|(element, _)| self.layout.n_images_of(element))
             .sum()
     }
 
@@ -81,16 +81,13 @@ impl Stepping<'_> {
     }
 
     fn fill_box(&mut self) {
+        let field = (&self.separation[..], self.layout.followed()[1]);
         let bounds = self.contact_box.bounds;
-        self.contact_box.separation.clear();
-        for row in 0..bounds.shape()[0] {
-            let row = &self.separation[bounds.row_range(row, self.layout.followed()[1])];
-            self.contact_box.separation.extend_from_slice(row);
-        }
+        bounds.cut(field, &mut self.contact_box.separation);
     }
 
     fn find_increment(&mut self, first_row: usize) {
-        let wanted = self.rows_needed();
+        let wanted = self.rows_needed(self.steps_done);
         if self.contact_box.loaded_elements().next().is_none() {
             self.window.release(wanted);
             return;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use indenters::Control;
 
+use super::Motion;
 use crate::BemError;
 use crate::error::positive;
 use crate::grid::whole;
@@ -36,19 +37,24 @@ pub(crate) struct Route {
 }
 
 impl Route {
-    /// The path through the ends (time, position, control), from a centre of an element at time and position zero.
+    /// The path through the ends of motions, from a centre of an element at time and position zero.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no ends, times that do not increase from above zero, or positions and
     /// controls out of range; [`BemError::GridTooLarge`] for a path too long.
     pub(crate) fn through(
-        ends: impl Iterator<Item = (f64, f64, Control)>,
+        motions: impl Iterator<Item = Motion>,
         spacing: f64,
     ) -> Result<Self, BemError> {
         let mut legs = Vec::new();
         let mut cells = Vec::new();
         let (mut time_before, mut cell_before, mut offset_before) = (0.0, 0.0, 0.0);
-        for (time, position, control) in ends {
+        for motion in motions {
+            let Motion {
+                time,
+                position,
+                control,
+            } = motion;
             let time_step = positive("time step", time - time_before)?;
             let [cell, offset] = place(position, spacing)?;
             check(control)?;

@@ -15,14 +15,14 @@ use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Fields over all elements of a path in front of the mirrors; displacements in units of the height scale, lengths in Δx.
 pub(super) struct Window {
-    convolution: Convolution,
+    pub(super) convolution: Convolution,
     workspace: ConvolutionWorkspace,
     load: Vec<f64>,
     /// Displacement by the load of the present step.
     increment: Vec<f64>,
     /// [row][field][column], so that the rows of a step lie together.
     memory: Vec<f64>,
-    n_fields: usize,
+    pub(super) n_fields: usize,
 }
 
 impl Window {
@@ -44,22 +44,6 @@ impl Window {
             n_fields,
             convolution,
         })
-    }
-
-    pub(super) const fn convolution(&self) -> &Convolution {
-        &self.convolution
-    }
-
-    pub(super) fn n_elements(&self) -> usize {
-        self.load.len()
-    }
-
-    pub(super) fn n_rows(&self) -> usize {
-        self.convolution.grid().shape()[0]
-    }
-
-    pub(super) fn n_fields(&self) -> usize {
-        self.n_fields
     }
 
     fn columns(&self) -> usize {

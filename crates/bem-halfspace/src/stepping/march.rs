@@ -1,35 +1,16 @@
 //! Sliding, one step after the other.
 
-use std::fmt;
-
 use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
+use super::{Instant, March, Motion, MotionRow, Route};
 use crate::error::positive;
 use crate::grid::elements_along;
-use crate::slide::PressureField;
-use crate::slide::motion::{Motion, MotionRow};
-use crate::slide::slopes::{MeanSlopes, Slopes};
-use crate::stepping::{HalfSpace, Instant, MarchState, Route, Stepping};
 use crate::{BemError, Grid, GridOptions};
 
 /// Steps at a depth after which a march is not begun.
 const MOST_STEPS: f64 = 1e5;
 const MARCH_ENDS: &str = "a march over a half space ends after a distance";
-
-/// An indenter that moves over a half space, step by step.
-pub struct March<'a> {
-    surface: &'a dyn Surface,
-    stepping: Stepping<'a>,
-    slopes: Slopes,
-    means: MeanSlopes,
-}
-
-impl fmt::Debug for March<'_> {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("March").finish_non_exhaustive()
-    }
-}
 
 impl<'a> March<'a> {
     /// A march through `motions`, from an undeformed half space at time zero, where the lowest point is over the centre
@@ -47,12 +28,7 @@ impl<'a> March<'a> {
         motions: &[Motion],
         options: &GridOptions,
     ) -> Result<Self, BemError> {
-        let ends = motions
-            .iter()
-            .map(|motion| (motion.time, motion.position, motion.control));
-        let spacing = positive("spacing along x", options.spacing[0])?;
-        let route = Route::through(ends, spacing)?;
-        Self::on(route, surface, material, options)
+        Self::through(surface, material, motions.iter().copied(), options)
     }
 
     /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load: under a force in
@@ -82,20 +58,6 @@ impl<'a> March<'a> {
         Self::on(route, surface, material, options)
     }
 
-    fn on(
-        route: Route,
-        surface: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
-        options: &GridOptions,
-    ) -> Result<Self, BemError> {
-        Ok(Self {
-            surface,
-            stepping: Stepping::new(surface, material, route, options)?,
-            slopes: Slopes::default(),
-            means: MeanSlopes::default(),
-        })
-    }
-
     /// Makes the next step; none after the last.
     ///
     /// # Errors
@@ -103,66 +65,29 @@ impl<'a> March<'a> {
     /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for a slope that is not a number;
     /// [`BemError::Material`].
     pub fn step(&mut self) -> Result<Option<MotionRow>, BemError> {
-        let Some(instant) = self.stepping.advance()? else {
+        let Some(instant) = self.advance()? else {
             return Ok(None);
         };
-        self.means = self.slopes.over(self.surface, &self.stepping, &instant)?;
+        let mut slopes = std::mem::take(&mut self.slopes);
+        self.means = slopes.over(self, &instant)?;
+        self.slopes = slopes;
         Ok(Some(self.row(&instant)))
     }
 
-    /// The state from which a later run can continue.
-    #[must_use]
-    pub fn state(&self) -> MarchState {
-        self.stepping.state()
-    }
-
-    /// Continues from the `state` of a march with the same input; the steps are the same to the last bit.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit this march.
-    pub fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
-        self.stepping.resume(state)
-    }
-
-    /// Number of values in the memory of an element: one per retardation element of the material, one more for free
-    /// flow, none for an elastic material.
-    #[must_use]
-    pub fn n_fields(&self) -> usize {
-        self.stepping.n_fields()
-    }
-
-    /// Number of elements of the half space that are followed.
-    #[must_use]
-    pub fn n_elements(&self) -> usize {
-        self.stepping.n_elements()
-    }
-
-    /// Pressure in the last step; a single element without pressure where there is no contact.
-    ///
-    /// # Errors
-    /// None after a step that succeeded.
-    pub fn pressure(&self) -> Result<PressureField, BemError> {
-        self.stepping.pressure()
-    }
-
     /// Largest rise of the body over an element in contact, \[m].
-    pub(super) fn largest_rise(&self) -> f64 {
-        self.means.largest * self.stepping.options.spacing[0]
+    pub(crate) fn largest_rise(&self) -> f64 {
+        self.means.largest * self.options.spacing[0]
     }
 
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
-    pub(super) fn steepness(&self) -> f64 {
+    pub(crate) fn steepness(&self) -> f64 {
         self.means.steepness
-    }
-
-    pub(super) fn half_space(&self) -> &HalfSpace {
-        &self.stepping.material
     }
 
     fn row(&self, instant: &Instant) -> MotionRow {
         let Instant { leg, bounds, .. } = instant;
-        let [dx, dy] = self.stepping.options.spacing;
-        let edges = bounds.map(|bounds| self.stepping.edges(&bounds, leg.offset));
+        let [dx, dy] = self.options.spacing;
+        let edges = bounds.map(|bounds| self.edges(&bounds, leg.offset));
         MotionRow {
             time: leg.time,
             position: leg.position,

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use indenters::Surface;
 
 use crate::BemError;
-use crate::stepping::{Instant, Leg, Stepping};
+use crate::stepping::{Instant, Leg, March};
 
 /// Slopes of the loaded elements, weighted with their pressure; zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
@@ -41,20 +41,17 @@ impl Slopes {
     /// Means over the step that has been made.
     pub(super) fn over(
         &mut self,
-        surface: &dyn Surface,
-        stepping: &Stepping<'_>,
+        march: &March<'_>,
         instant: &Instant,
     ) -> Result<MeanSlopes, BemError> {
-        self.turn_to(
-            Chord::new(elastic_share(stepping, instant)?, &instant.leg),
-            stepping.layout.shape,
-        );
+        let chord = Chord::new(elastic_share(march, instant)?, &instant.leg);
+        self.turn_to(chord, march.layout.shape);
         let mut sum = MeanSlopes::default();
         let mut normal = 0.0;
         // Images fore and aft have the opposite slope.
-        let has_image = !stepping.layout.mirrors[0].is_none();
-        for (element, load) in stepping.loaded_elements() {
-            let [met, end] = self.at(surface, stepping, element)?;
+        let has_image = !march.layout.mirrors[0].is_none();
+        for (element, load) in march.loaded_elements() {
+            let [met, end] = self.at(march, element)?;
             if !has_image {
                 sum.met += load * met;
                 sum.end += load * end;
@@ -83,28 +80,21 @@ impl Slopes {
         }
     }
 
-    fn at(
-        &mut self,
-        surface: &dyn Surface,
-        stepping: &Stepping<'_>,
-        [row, column]: [usize; 2],
-    ) -> Result<[f64; 2], BemError> {
-        let index = row * stepping.layout.shape[1] + column;
+    fn at(&mut self, march: &March<'_>, [row, column]: [usize; 2]) -> Result<[f64; 2], BemError> {
+        let index = row * march.layout.shape[1] + column;
         if let Some(known) = self.known[index] {
             return Ok(known);
         }
-        let spacing = stepping.options.spacing[0];
-        let [here, y] = [
-            stepping.along(row, stepping.offset()),
-            stepping.across(column),
-        ];
-        let height = |place: f64| surface.height([place * spacing, y]);
+        let spacing = march.options.spacing[0];
+        let here = march.along(row, march.sampled_offset);
+        let y = march.across(column);
+        let height = |place: f64| march.surface.height([place * spacing, y]);
         let met = self.chord.rise(here, height) / spacing;
         let x = here * spacing;
         if !met.is_finite() {
             return Err(BemError::VerticalWall { x, y });
         }
-        let slopes = [met, checked_gradient(surface, [x, y])?];
+        let slopes = [met, checked_gradient(march.surface, [x, y])?];
         self.known[index] = Some(slopes);
         Ok(slopes)
     }
@@ -123,8 +113,8 @@ fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, Be
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
-fn elastic_share(stepping: &Stepping<'_>, instant: &Instant) -> Result<f64, BemError> {
-    let creep = &stepping.material.creep;
+fn elastic_share(march: &March<'_>, instant: &Instant) -> Result<f64, BemError> {
+    let creep = &march.material.creep;
     let Leg {
         advance, time_step, ..
     } = instant.leg;
