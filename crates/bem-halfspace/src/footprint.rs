@@ -1,7 +1,6 @@
 //! Where contact may occur, seen from the indenter.
 
-use indenters::{Axisymmetric, Control, SlidingLoad, Surface};
-use numerics::bracketed_root;
+use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::BemError;
@@ -43,46 +42,36 @@ impl Footprint {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let surface: &dyn Surface = &surface;
-        match (load.control(), surface.as_axisymmetric()) {
-            (Control::IndentationDepth(depth), _) => Self::below(surface, depth),
-            (Control::NormalForce(_), Some(body)) => {
-                let depth = depth_scale_of_body(body, material, load)?;
-                let height = if body.profile_exponent() < 0.75 {
-                    2.0
-                } else {
-                    1.5
-                };
-                Self::of_body_below(body, height * depth)
+        let body = match (load.control(), surface.as_axisymmetric()) {
+            (Control::IndentationDepth(depth), _) => return Self::below(surface, depth),
+            (Control::NormalForce(_), Some(body)) => body,
+            (Control::NormalForce(_), None) => {
+                let depth = depth_scale_of_surface(&surface, material, load)?;
+                return Self::below(surface, 2.0 * depth);
             }
-            (Control::NormalForce(_), None) => Self::below(
-                surface,
-                2.0 * depth_scale_of_surface(surface, material, load)?,
-            ),
+        };
+        let sharp = body.profile_exponent() < 0.75;
+        let height = if sharp { 2.0 } else { 1.5 } * depth_scale_of_body(body, material, load)?;
+        let footprint = Self::below(surface, height)?;
+        let [_, radius] = footprint.x;
+        if radius < body.max_radius() || body.profile_height(radius) >= height {
+            return Ok(footprint);
         }
+        Err(nowhere_as_high(height))
     }
 
-    /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m].
+    /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends
+    /// lower, as a flat punch, has its end for a boundary.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for a height that is not positive, and for a surface that is below it everywhere.
     pub fn below(surface: &(impl Surface + ?Sized), height: f64) -> Result<Self, BemError> {
         positive("indentation depth", height)?;
-        let body = surface.as_axisymmetric();
-        // A body that ends lower, as a flat punch, has its end for a boundary.
-        if let Some(square) = body.and_then(|body| Self::of_body_below(body, height).ok()) {
-            return Ok(square);
-        }
         let [x, y] = surface.extent_below(height);
         if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {
             return Ok(Self { x, y });
         }
         Err(nowhere_as_high(height))
-    }
-
-    fn of_body_below(body: &dyn Axisymmetric, height: f64) -> Result<Self, BemError> {
-        let radius = radius_at_height(body, height).filter(|radius| *radius > 0.0);
-        radius.map(Self::square).ok_or(nowhere_as_high(height))
     }
 
     /// With room for two elements at the boundary, where a steep body leaves none.
@@ -123,23 +112,6 @@ impl Footprint {
         }
         Ok(counts)
     }
-}
-
-fn radius_at_height(body: &dyn Axisymmetric, height: f64) -> Option<f64> {
-    let above = |radius: f64| body.profile_height(radius) >= height;
-    let mut radius = if body.max_radius().is_finite() {
-        body.max_radius()
-    } else {
-        1.0
-    };
-    while !above(radius) && radius < 0.25 * f64::MAX && radius < body.max_radius() {
-        radius *= 2.0;
-    }
-    while above(0.5 * radius) && radius > f64::MIN_POSITIVE {
-        radius *= 0.5;
-    }
-    let excess = |radius: f64| (body.profile_height(radius) - height).clamp(-height, height);
-    bracketed_root(excess, [0.5 * radius, radius]).or(above(radius).then_some(radius))
 }
 
 fn nowhere_as_high(height: f64) -> BemError {
