@@ -265,7 +265,9 @@ mod tests {
     fn half_and_quarter_of_a_mirrored_field_convolve_like_all_of_it() -> Result<(), BemError> {
         let shapes = [[2, 6], [6, 10], [12, 14], [30, 18]];
         let odd = [[1, 1], [3, 2], [4, 5], [9, 7], [29, 17], [18, 31]];
-        for shape in shapes.into_iter().chain(odd) {
+        // On both sides of the length up to which half a period about a centre is transformed as half.
+        let long = [[3, 45], [1, 375], [3, 511], [2, 1125], [1, 4095]];
+        for shape in shapes.into_iter().chain(odd).chain(long) {
             let grid = Grid::new(shape, [1.0, 0.6])?;
             for has_mirror in [[true, false], [false, true], [true, true]] {
                 check(&Convolution::new(&grid), has_mirror);

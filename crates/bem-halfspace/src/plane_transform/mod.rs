@@ -174,9 +174,7 @@ impl PlaneTransform {
         (tile, loaded): (usize, &Range<usize>),
     ) {
         let stride = self.column_stride();
-        for column in buffers.columns.chunks_exact_mut(stride) {
-            self.columns.clear_beside(loaded, column);
-        }
+        buffers.columns.fill(ZERO);
         for strip in loaded.start / STRIP..loaded.end.div_ceil(STRIP) {
             let pieces = &strips[(strip * self.n_tiles() + tile) * STRIP..][..STRIP];
             for row in rows_of_strip(strip, loaded) {

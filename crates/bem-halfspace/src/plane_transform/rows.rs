@@ -16,47 +16,42 @@ use crate::plane_transform::workspace::Buffers;
 /// a mirror are real, and two of them side by side are stored as one complex number.
 #[derive(Clone)]
 pub(super) enum RowTransform {
-    Whole {
+    Fourier {
         forward: Arc<dyn RealToComplex<f64>>,
         inverse: Arc<dyn ComplexToReal<f64>>,
+        /// Of [`about_edge`]; none without a mirror there.
+        turns: Option<Vec<Complex<f64>>>,
     },
     AboutCentre(Cosines),
-    AboutEdge {
-        forward: Arc<dyn RealToComplex<f64>>,
-        inverse: Arc<dyn ComplexToReal<f64>>,
-        turns: Vec<Complex<f64>>,
-    },
 }
 
 impl RowTransform {
     /// For a period of so many elements.
     pub(super) fn new(period: usize, mirror: Mirror) -> Self {
         let mut planner = RealFftPlanner::new();
-        let length = period / 2;
-        match mirror {
-            Mirror::None => Self::Whole {
-                forward: planner.plan_fft_forward(period),
-                inverse: planner.plan_fft_inverse(period),
-            },
-            Mirror::Centre => Self::AboutCentre(Cosines::new(&mut planner, length)),
-            Mirror::Edge => Self::AboutEdge {
-                forward: planner.plan_fft_forward(length),
-                inverse: planner.plan_fft_inverse(length),
-                turns: about_edge::turns(length),
-            },
+        let half = period / 2;
+        let (length, turns) = match mirror {
+            Mirror::None => (period, None),
+            Mirror::Centre => return Self::AboutCentre(Cosines::new(&mut planner, half)),
+            Mirror::Edge => (half, Some(about_edge::turns(half))),
+        };
+        Self::Fourier {
+            forward: planner.plan_fft_forward(length),
+            inverse: planner.plan_fft_inverse(length),
+            turns,
         }
     }
 
     /// Number of elements that are transformed.
     pub(super) fn len(&self) -> usize {
         match self {
-            Self::Whole { forward, .. } | Self::AboutEdge { forward, .. } => forward.len(),
+            Self::Fourier { forward, .. } => forward.len(),
             Self::AboutCentre(cosines) => cosines.len(),
         }
     }
 
     pub(super) const fn has_mirror(&self) -> bool {
-        !matches!(self, Self::Whole { .. })
+        !matches!(self, Self::Fourier { turns: None, .. })
     }
 
     /// Number of complex numbers that hold the coefficients.
@@ -70,10 +65,7 @@ impl RowTransform {
 
     pub(super) fn scratch_len(&self) -> usize {
         match self {
-            Self::Whole {
-                forward, inverse, ..
-            }
-            | Self::AboutEdge {
+            Self::Fourier {
                 forward, inverse, ..
             } => forward.get_scratch_len().max(inverse.get_scratch_len()),
             Self::AboutCentre(cosines) => cosines.scratch_len(),
@@ -84,14 +76,14 @@ impl RowTransform {
     pub(super) fn buffers(&self) -> CosineBuffers {
         match self {
             Self::AboutCentre(cosines) => cosines.buffers(),
-            Self::Whole { .. } | Self::AboutEdge { .. } => CosineBuffers::default(),
+            Self::Fourier { .. } => CosineBuffers::default(),
         }
     }
 
     /// Transforms all elements of a row without a mirror; they are overwritten.
     pub(super) fn forward_whole(&self, row: &mut [f64], transformed: &mut [Complex<f64>]) {
         debug_assert!(!self.has_mirror(), "a whole row");
-        if let Self::Whole { forward, .. } = self {
+        if let Self::Fourier { forward, .. } = self {
             let mut scratch = forward.make_scratch_vec();
             forward_real(&**forward, (row, transformed), &mut scratch);
         }
@@ -101,25 +93,22 @@ impl RowTransform {
     /// the buffers.
     pub(super) fn forward(&self, buffers: &mut Buffers, values: &[f64]) {
         match self {
-            Self::Whole { forward, .. } => {
-                fill(&mut buffers.row, values);
+            Self::Fourier { forward, turns, .. } => {
+                match turns {
+                    Some(_) => about_edge::order(values, &mut buffers.row),
+                    None => fill(&mut buffers.row, values),
+                }
                 let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
                 forward_real(&**forward, fields, &mut buffers.scratch);
+                if let Some(turns) = turns {
+                    about_edge::turn(turns, &buffers.half_row, &mut buffers.row);
+                    pair(&buffers.row, &mut buffers.half_row);
+                }
             }
             Self::AboutCentre(cosines) => {
                 fill(&mut buffers.row, values);
                 buffers.row[0] *= 2.0;
-                cosines.apply(
-                    &mut buffers.row,
-                    (&mut buffers.cosines, &mut buffers.scratch),
-                );
-                pair(&buffers.row, &mut buffers.half_row);
-            }
-            Self::AboutEdge { forward, turns, .. } => {
-                about_edge::order(values, &mut buffers.row);
-                let fields = (&mut buffers.row[..], &mut buffers.half_row[..]);
-                forward_real(&**forward, fields, &mut buffers.scratch);
-                about_edge::turn(turns, &buffers.half_row, &mut buffers.row);
+                cosines.apply(buffers);
                 pair(&buffers.row, &mut buffers.half_row);
             }
         }
@@ -128,27 +117,23 @@ impl RowTransform {
     /// Transforms back, without normalisation, the coefficients in the half row of the buffers.
     pub(super) fn inverse(&self, buffers: &mut Buffers, values: &mut [f64]) {
         match self {
-            Self::Whole { inverse, .. } => {
+            Self::Fourier { inverse, turns, .. } => {
+                if let Some(turns) = turns {
+                    unpair(&buffers.half_row, &mut buffers.row);
+                    about_edge::turn_back(turns, &buffers.row, &mut buffers.half_row);
+                }
                 let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
                 inverse_real(&**inverse, fields, &mut buffers.scratch);
-                values.copy_from_slice(&buffers.row[..values.len()]);
+                if turns.is_some() {
+                    return about_edge::order_back(&buffers.row, values);
+                }
             }
             Self::AboutCentre(cosines) => {
                 unpair(&buffers.half_row, &mut buffers.row);
-                cosines.apply(
-                    &mut buffers.row,
-                    (&mut buffers.cosines, &mut buffers.scratch),
-                );
-                values.copy_from_slice(&buffers.row[..values.len()]);
-            }
-            Self::AboutEdge { inverse, turns, .. } => {
-                unpair(&buffers.half_row, &mut buffers.row);
-                about_edge::turn_back(turns, &buffers.row, &mut buffers.half_row);
-                let fields = (&mut buffers.half_row[..], &mut buffers.row[..]);
-                inverse_real(&**inverse, fields, &mut buffers.scratch);
-                about_edge::order_back(&buffers.row, values);
+                cosines.apply(buffers);
             }
         }
+        values.copy_from_slice(&buffers.row[..values.len()]);
     }
 }
 
