@@ -24,16 +24,6 @@ impl Bands {
         }
     }
 
-    /// How a field with one value per element is divided.
-    pub(crate) const fn starts(&self) -> Starts<'static> {
-        self.starts_of_rows(self.shape[1])
-    }
-
-    /// How a field with so many values per row is divided.
-    pub(crate) const fn starts_of_rows(&self, values: usize) -> Starts<'static> {
-        Starts::Every(self.rows_per_band * values)
-    }
-
     /// How a field with one value per block of so many elements along an edge is divided.
     pub(crate) const fn starts_of_blocks(&self, edge: usize) -> Starts<'static> {
         Starts::Every(self.rows_per_band / edge * self.shape[1].div_ceil(edge))
@@ -80,7 +70,7 @@ impl Bands {
         fields: [&mut [T]; N],
         work: impl Fn(usize, [&mut [T]; N]) + Sync,
     ) {
-        self.for_each_part(fields.map(|field| (field, self.starts())), work);
+        self.for_each_part(fields.map(|field| (field, self.starts_of_blocks(1))), work);
     }
 
     /// Results of the bands, combined pairwise.
@@ -96,6 +86,20 @@ impl Bands {
     pub(crate) fn sum(&self, work: impl Fn(usize) -> f64 + Sync) -> f64 {
         self.gather(work, |left, right| left + right)
     }
+}
+
+/// Does work on every row of a field of so many columns, side by side; it gets the number of the row.
+pub(crate) fn for_each_row<T: Send>(
+    field: &mut [T],
+    columns: usize,
+    work: impl Fn(usize, &mut [T]) + Sync,
+) {
+    let bands = Bands::new([field.len().div_ceil(columns), columns]);
+    bands.for_each([field], |band, [field]| {
+        for (row, values) in bands.rows(band).zip(field.chunks_mut(columns)) {
+            work(row, values);
+        }
+    });
 }
 
 /// Copies of a value, first touched by the threads that share the memory from then on.

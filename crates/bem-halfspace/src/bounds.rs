@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::bands::Bands;
+use crate::bands::{Bands, for_each_row};
 use crate::fast_length::fast_length;
 use crate::mirror::Mirror;
 
@@ -23,11 +23,9 @@ impl Bounds {
 
     /// The smallest box that holds all elements; none without any.
     pub(crate) fn of(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
-        elements.fold(None, |bounds: Option<Self>, element| {
-            let mut bounds = bounds.unwrap_or(Self::around(element));
-            bounds.include(element);
-            Some(bounds)
-        })
+        elements
+            .map(Self::around)
+            .reduce(|bounds, element| bounds.union(&element))
     }
 
     /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
@@ -61,21 +59,12 @@ impl Bounds {
         }
     }
 
-    pub(crate) fn include(&mut self, element: [usize; 2]) {
-        for (axis, &index) in element.iter().enumerate() {
-            self.lower[axis] = self.lower[axis].min(index);
-            self.upper[axis] = self.upper[axis].max(index + 1);
-        }
-    }
-
     pub(crate) fn contains(&self, [row, column]: [usize; 2]) -> bool {
         self.rows().contains(&row) && self.columns().contains(&column)
     }
 
     pub(crate) fn contains_all(&self, other: &Self) -> bool {
-        (0..2).all(|axis| {
-            self.lower[axis] <= other.lower[axis] && other.upper[axis] <= self.upper[axis]
-        })
+        self.union(other) == *self
     }
 
     pub(crate) const fn rows(&self) -> Range<usize> {
@@ -102,11 +91,8 @@ impl Bounds {
 
     /// Copies what lies inside the box from a field with `columns` columns.
     pub(crate) fn cut(&self, (field, columns): (&[f64], usize), part: &mut [f64]) {
-        let bands = Bands::new(self.shape());
-        bands.for_each([part], |band, [part]| {
-            for (row, part) in bands.rows(band).zip(part.chunks_exact_mut(self.shape()[1])) {
-                part.copy_from_slice(&field[self.row_range(row, columns)]);
-            }
+        for_each_row(part, self.shape()[1], |row, part| {
+            part.copy_from_slice(&field[self.row_range(row, columns)]);
         });
     }
 

@@ -135,7 +135,7 @@ impl ActiveSet {
 
     /// A field with one value per element, for [`Bands::fold`].
     pub(super) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
-        (field, self.bands.starts())
+        (field, self.bands.starts_of_blocks(1))
     }
 
     /// A field with one value per block of so many elements along an edge, for [`Bands::fold`].

@@ -1,6 +1,6 @@
 //! A first guess from grids of larger elements.
 
-use crate::bands::Bands;
+use crate::bands::for_each_row;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::solve::LoadProblem;
 use crate::contact::{Accuracy, ContactState, map_force, solve_loads};
@@ -29,13 +29,10 @@ pub(super) fn start_from_coarser(problem: LoadProblem, state: &mut ContactState)
     };
     // What was reached is a guess too; the finer grid decides whether the problem can be solved.
     let _guess = solve_loads(problem, &mut coarse, &Accuracy::GUESS);
-    let bands = Bands::new([rows, columns]);
-    bands.for_each([&mut state.load], |band, [loads]| {
-        for (row, loads) in bands.rows(band).zip(loads.chunks_exact_mut(columns)) {
-            let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
-            for (column, load) in loads.iter_mut().enumerate() {
-                *load = coarse[column / 2];
-            }
+    for_each_row(&mut state.load, columns, |row, loads| {
+        let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
+        for (column, load) in loads.iter_mut().enumerate() {
+            *load = coarse[column / 2];
         }
     });
     MirrorWeights::of(convolution).apply(&mut state.load);
@@ -62,12 +59,9 @@ fn mean_of_four(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
     };
     let shape = [rows, columns].map(|n| n.div_ceil(2));
     let mut means = vec![0.0; shape[0] * shape[1]];
-    let bands = Bands::new(shape);
-    bands.for_each([&mut means], |band, [means]| {
-        for (row, means) in bands.rows(band).zip(means.chunks_exact_mut(shape[1])) {
-            for (column, value) in means.iter_mut().enumerate() {
-                *value = mean(2 * row, 2 * column);
-            }
+    for_each_row(&mut means, shape[1], |row, means| {
+        for (column, value) in means.iter_mut().enumerate() {
+            *value = mean(2 * row, 2 * column);
         }
     });
     means

@@ -1,6 +1,6 @@
 //! A part of a grid on which the contact is solved.
 
-use crate::bands::Bands;
+use crate::bands::for_each_row;
 use crate::bounds::Bounds;
 use crate::chunks::in_pool;
 use crate::contact::solve::LoadProblem;
@@ -70,17 +70,12 @@ impl ContactBox {
 
     /// Copies the load into a field with `columns` columns.
     pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {
-        let (bounds, shape) = (self.bounds, self.bounds.shape());
-        let bands = Bands::new(shape);
-        let rows = bounds.rows();
-        let copy = |band, [field]: [&mut [f64]; 1]| {
-            let load = self.state.load[bands.elements(band)].chunks_exact(shape[1]);
-            for (load, row) in load.zip(field.chunks_exact_mut(columns)) {
-                row[bounds.columns()].copy_from_slice(load);
-            }
-        };
+        let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
         let field = &mut field[rows.start * columns..rows.end * columns];
-        bands.for_each_part([(field, bands.starts_of_rows(columns))], copy);
+        for_each_row(field, columns, |row, values| {
+            let load = &self.state.load[row * width..][..width];
+            values[self.bounds.columns()].copy_from_slice(load);
+        });
     }
 
     /// Solves for the separation set before; the load has the unit of a length.

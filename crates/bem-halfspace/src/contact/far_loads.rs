@@ -25,7 +25,7 @@
 
 use std::f64::consts::PI;
 
-use crate::bands::{Bands, resize};
+use crate::bands::{Bands, for_each_row, resize};
 use crate::contact::active_set::ActiveSet;
 use crate::contact::blocks::sum_blocks;
 use crate::{Grid, influence};
@@ -101,7 +101,7 @@ impl FarLoads {
         levels[0].find_own();
         for_each_larger(levels, |smaller, level| {
             let load = |block: usize| smaller.sums[block] * (1.0 - smaller.own[block]);
-            add_blocks((smaller.shape, load), (level.shape, &mut level.sums));
+            add_blocks((smaller.shape, load), (level.shape[1], &mut level.sums));
             level.find_own();
         });
     }
@@ -123,7 +123,7 @@ impl FarLoads {
             let load = |block: usize| {
                 smaller.sums[block] * (1.0 - smaller.own[block]) * smaller.values[block]
             };
-            add_blocks((smaller.shape, load), (level.shape, &mut level.values));
+            add_blocks((smaller.shape, load), (level.shape[1], &mut level.values));
             level.divide_by_sums();
         });
         let mut larger = None;
@@ -168,9 +168,9 @@ impl Level {
     }
 
     fn divide_by_sums(&mut self) {
-        let (bands, sums) = (Bands::new(self.shape), &self.sums);
-        bands.for_each([&mut self.values], |band, [values]| {
-            for (value, sum) in values.iter_mut().zip(&sums[bands.elements(band)]) {
+        let (columns, sums) = (self.shape[1], &self.sums);
+        for_each_row(&mut self.values, columns, |row, values| {
+            for (value, sum) in values.iter_mut().zip(&sums[row * columns..]) {
                 *value = if *sum > 0.0 { *value / sum } else { 0.0 };
             }
         });
@@ -178,15 +178,13 @@ impl Level {
 
     /// Under the displacement of the blocks of twice the edges; beyond the largest block there is no load.
     fn find_displacements_in(&mut self, larger: Option<&Self>) {
-        let (bands, columns, own) = (Bands::new(self.shape), self.shape[1], &self.own);
-        bands.for_each([&mut self.values], |band, [values]| {
-            for (row, values) in bands.rows(band).zip(values.chunks_exact_mut(columns)) {
-                let own = &own[row * columns..][..columns];
-                let around = larger.map(|larger| &larger.values[row / 2 * larger.shape[1]..]);
-                for (column, (value, own)) in values.iter_mut().zip(own).enumerate() {
-                    let around = around.map_or(0.0, |around| around[column / 2]);
-                    *value = own * *value + (1.0 - own) * around;
-                }
+        let (columns, own) = (self.shape[1], &self.own);
+        for_each_row(&mut self.values, columns, |row, values| {
+            let own = &own[row * columns..];
+            let around = larger.map(|larger| &larger.values[row / 2 * larger.shape[1]..]);
+            for (column, (value, own)) in values.iter_mut().zip(own).enumerate() {
+                let around = around.map_or(0.0, |around| around[column / 2]);
+                *value = own * *value + (1.0 - own) * around;
             }
         });
     }
@@ -195,17 +193,14 @@ impl Level {
 /// Sums of the loads of two by two blocks of a field; `load` gets the number of a block.
 fn add_blocks(
     ([rows, columns], load): ([usize; 2], impl Fn(usize) -> f64 + Sync),
-    (shape, sums): ([usize; 2], &mut [f64]),
+    (larger_columns, sums): (usize, &mut [f64]),
 ) {
-    let bands = Bands::new(shape);
-    bands.for_each([sums], |band, [sums]| {
-        for (row, sums) in bands.rows(band).zip(sums.chunks_exact_mut(shape[1])) {
-            for (column, sum) in sums.iter_mut().enumerate() {
-                *sum = 0.0;
-                for row in 2 * row..(2 * row + 2).min(rows) {
-                    for column in 2 * column..(2 * column + 2).min(columns) {
-                        *sum += load(row * columns + column);
-                    }
+    for_each_row(sums, larger_columns, |row, sums| {
+        for (column, sum) in sums.iter_mut().enumerate() {
+            *sum = 0.0;
+            for row in 2 * row..(2 * row + 2).min(rows) {
+                for column in 2 * column..(2 * column + 2).min(columns) {
+                    *sum += load(row * columns + column);
                 }
             }
         }

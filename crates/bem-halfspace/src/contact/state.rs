@@ -1,6 +1,6 @@
 //! Pressure and buffers of a contact solve.
 
-use crate::bands::Bands;
+use crate::bands::for_each_row;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::iteration::Fields;
 use crate::convolution::Surroundings;
@@ -75,10 +75,8 @@ impl ContactState {
         let kind = Some((*convolution.grid(), convolution.surroundings()));
         if self.kind != kind {
             self.kind = kind;
-            self.workspace = None;
-            self.fields = None;
-            self.inner = None;
-            self.front = None;
+            (self.workspace, self.fields) = (None, None);
+            (self.inner, self.front) = (None, None);
         }
     }
 
@@ -96,8 +94,8 @@ impl ContactState {
     }
 
     fn for_each_load(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
-        Bands::new(grid.shape()).for_each([&mut self.load], |_, [load]| {
-            for load in load {
+        for_each_row(&mut self.load, grid.shape()[1], |_, row| {
+            for load in row {
                 *load = replace(*load);
             }
         });

@@ -4,8 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::bands::copies;
-use crate::chunks::{Starts, fold_chunks};
+use crate::bands::{copies, for_each_row};
 use crate::plane_transform::ZERO;
 use crate::{Convolution, influence};
 
@@ -15,12 +14,10 @@ impl Convolution {
         let normalisation = self.transform.normalisation();
         let length = self.transform.padded()[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);
-        for_each_group(&mut spectrum, length, |first, group| {
-            for (column, values) in (first..).zip(group.chunks_exact_mut(length)) {
-                let q_y = column as f64 * unit_y;
-                for (row, value) in values.iter_mut().enumerate() {
-                    *value = symbol([row as f64 * unit_x, q_y]) * normalisation;
-                }
+        for_each_row(&mut spectrum, length, |column, values| {
+            let q_y = column as f64 * unit_y;
+            for (row, value) in values.iter_mut().enumerate() {
+                *value = symbol([row as f64 * unit_x, q_y]) * normalisation;
             }
         });
         spectrum
@@ -83,26 +80,25 @@ impl Convolution {
         let rows = self.transformed_kernel_rows();
         let length = self.transform.padded()[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);
-        for_each_group(&mut spectrum, length, |first, group| {
-            let mut values = vec![ZERO; self.transform.padded()[0]];
-            for (pair, spectrum) in group.chunks_mut(2 * length).enumerate() {
-                self.gather_kernel_columns(&rows, first + 2 * pair, &mut values);
-                self.transform.column_forward(&mut values);
-                self.separate(&values, spectrum);
-            }
+        for_each_row(&mut spectrum, 2 * length, |pair, spectrum| {
+            let mut values = self.kernel_columns(&rows, 2 * pair);
+            self.transform.column_forward(&mut values);
+            self.separate(&values, spectrum);
         });
         spectrum
     }
 
     /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
-    fn gather_kernel_columns(&self, rows: &[f64], column: usize, values: &mut [Complex<f64>]) {
-        values.fill(ZERO);
+    fn kernel_columns(&self, rows: &[f64], column: usize) -> Vec<Complex<f64>> {
+        let period = self.transform.padded()[0];
+        let mut values = vec![ZERO; period];
         for (row, transformed) in rows.chunks_exact(self.transform.n_columns()).enumerate() {
             let second = transformed.get(column + 1).copied();
             let value = Complex::new(transformed[column], second.map_or(0.0, |value| value));
             values[row] = value;
-            values[(self.transform.padded()[0] - row) % self.transform.padded()[0]] = value;
+            values[(period - row) % period] = value;
         }
+        values
     }
 
     fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
@@ -120,39 +116,26 @@ impl Convolution {
     fn transformed_kernel_rows(&self) -> Vec<f64> {
         let n_columns = self.transform.n_columns();
         let mut rows = copies(0.0, self.grid.shape()[0] * n_columns);
-        for_each_group(&mut rows, n_columns, |first, group| {
-            let mut values = vec![0.0; self.transform.padded()[1]];
+        for_each_row(&mut rows, n_columns, |row, result| {
             let mut transformed = vec![ZERO; n_columns];
-            for (row, result) in (first..).zip(group.chunks_exact_mut(n_columns)) {
-                self.fill_kernel_row(row, &mut values);
-                self.transform.transform_row(&mut values, &mut transformed);
-                for (result, value) in result.iter_mut().zip(&transformed) {
-                    *result = value.re;
-                }
+            self.transform
+                .transform_row(&mut self.kernel_row(row), &mut transformed);
+            for (result, value) in result.iter_mut().zip(&transformed) {
+                *result = value.re;
             }
         });
         rows
     }
 
-    fn fill_kernel_row(&self, row: usize, values: &mut [f64]) {
+    fn kernel_row(&self, row: usize) -> Vec<f64> {
         let [dx, dy] = self.grid.spacing();
-        values.fill(0.0);
+        let period = self.transform.padded()[1];
+        let mut values = vec![0.0; period];
         for column in 0..self.grid.shape()[1] {
             let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
             values[column] = coefficient;
-            values[(self.transform.padded()[1] - column) % self.transform.padded()[1]] =
-                coefficient;
+            values[(period - column) % period] = coefficient;
         }
+        values
     }
-}
-
-/// Rows that share their buffers; an even number, because columns pass in pairs.
-const GROUP: usize = 16;
-
-/// Does the work on groups of rows of so many values side by side; `work` gets the number of the first row.
-fn for_each_group(values: &mut [f64], length: usize, work: impl Fn(usize, &mut [f64]) + Sync) {
-    let groups = 0..values.len().div_ceil(GROUP * length);
-    let in_group = |group, [values]: [&mut [f64]; 1]| work(group * GROUP, values);
-    let values = [(values, Starts::Every(GROUP * length))];
-    fold_chunks(groups, values, &in_group, &|(), ()| ());
 }
