@@ -1,11 +1,13 @@
 //! `Ok` means stationary: the drift bounds the distance to the limit, and what was not reached is an error that says how
 //! far it came.
 
-use indenters::{EquivalentLine, RigidLine};
-use mdr_core::{MdrError, SlideOptions, slide_on_grid};
+use casebook::assert_matches;
+use indenters::EquivalentLine;
+use mdr_core::{MdrError, SlideOptions, Transient, slide_on_grid};
 
 use crate::support::{
-    DEPTH, Nodes, VISCOSITY, load_for_depth, material, power, power_friction, slide_to,
+    DEPTH, Line, VISCOSITY, assert_close, endless, load_for_depth, material, power, power_friction,
+    slide_to,
 };
 
 /// One contact length of n elements shrinks the distance to the limit by (1 + 1/n)^n or more, which tends to e.
@@ -15,42 +17,45 @@ fn distance_to_the_limit_is_below_the_drift() {
         let body = power(exponent);
         let (length, n) = (body.line_position(DEPTH), 100.0_f64);
         let line = EquivalentLine(&body);
-        let limit = slide_to(&line, DEPTH, length / n, 1e-13).last;
+        let march = |drift| slide_to(&line, DEPTH, length / n, drift).expect("a state");
+        let limit = march(1e-13).last;
         for drift_tolerance in [1e-2, 1e-4, 1e-6, 1e-8] {
-            let transient = slide_to(&line, DEPTH, length / n, drift_tolerance);
-            let row = transient.last;
-            let depth = (row.indentation_depth / limit.indentation_depth - 1.0).abs();
-            let friction = (row.friction_coefficient / limit.friction_coefficient - 1.0).abs();
-            let bound = transient.drift / ((1.0 + 1.0 / n).powf(n) - 1.0);
+            let Transient { last, drift, .. } = march(drift_tolerance);
+            let depth = (last.indentation_depth / limit.indentation_depth - 1.0).abs();
+            let friction = (last.friction_coefficient / limit.friction_coefficient - 1.0).abs();
+            let bound = drift / ((1.0 + 1.0 / n).powf(n) - 1.0);
             // The approach is exponential to first order in the distance itself.
             let bound = bound * (1.0 + 2.0 * drift_tolerance) + 1e-12;
             assert!(
-                transient.drift <= drift_tolerance && depth <= bound,
-                "p = {exponent}, {drift_tolerance}: depth off by {depth}, bound {bound}"
-            );
-            assert!(
-                friction <= bound,
-                "p = {exponent}, {drift_tolerance}: friction off by {friction}, bound {bound}"
+                drift <= drift_tolerance && depth <= bound && friction <= bound,
+                "p = {exponent}, {drift_tolerance}: off by {depth} and {friction}, bound {bound}"
             );
         }
     }
 }
 
-#[test]
-fn too_short_a_distance_returns_the_transient_in_the_error() {
+/// The parabola with a spacing and over a distance relative to the length of its contact.
+fn parabola(spacing: f64, max_sliding_distance: f64) -> Result<Transient, MdrError> {
     let body = power(2.0);
     let length = body.line_position(DEPTH);
     let options = SlideOptions {
-        spacing: length / 40.0,
+        spacing: length * spacing,
         drift_tolerance: 1e-6,
-        max_sliding_distance: 2.01 * length,
+        max_sliding_distance: length * max_sliding_distance,
     };
-    let result = slide_on_grid(
+    let load = load_for_depth(DEPTH);
+    slide_on_grid(
         &EquivalentLine(&body),
         &material(VISCOSITY),
-        &load_for_depth(DEPTH),
+        &load,
         &options,
-    );
+    )
+}
+
+#[test]
+fn too_short_a_distance_returns_the_transient_in_the_error() {
+    let length = power(2.0).line_position(DEPTH);
+    let result = parabola(1.0 / 40.0, 2.01);
     let Err(MdrError::NotStationary {
         drift,
         drift_tolerance,
@@ -65,160 +70,71 @@ fn too_short_a_distance_returns_the_transient_in_the_error() {
         drift > drift_tolerance && drift < 0.3 && sliding_distance <= 2.0 * length * (1.0 + 1e-12),
         "drift {drift} over {sliding_distance}"
     );
-    let friction = rows[79].friction_coefficient;
-    let limit = power_friction(&body, DEPTH);
+    let (friction, limit) = (
+        rows[79].friction_coefficient,
+        power_friction(&power(2.0), DEPTH),
+    );
     assert!(
         friction > 0.8 * limit && friction < limit,
         "friction {friction} on the way to {limit}"
     );
-}
-
-#[test]
-fn drift_is_that_from_nothing_before_one_contact_length() {
-    let body = power(2.0);
-    let spacing = body.line_position(DEPTH) / 40.0;
-    let options = SlideOptions {
-        spacing,
-        drift_tolerance: 0.5,
-        max_sliding_distance: 0.5 * spacing,
-    };
-    let result = slide_on_grid(
-        &EquivalentLine(&body),
-        &material(VISCOSITY),
-        &load_for_depth(DEPTH),
-        &options,
-    );
+    // No step fits into the distance: the drift is that from nothing.
     let expected = MdrError::NotStationary {
         drift: 1.0,
-        drift_tolerance: 0.5,
+        drift_tolerance: 1e-6,
         sliding_distance: 0.0,
         rows: Vec::new(),
     };
-    assert_eq!(result, Err(expected), "no step fits into the distance");
+    assert_eq!(
+        parabola(1.0 / 40.0, 0.5 / 40.0),
+        Err(expected),
+        "half a step"
+    );
 }
 
 #[test]
 fn too_few_elements_are_refused() {
-    let body = power(2.0);
-    let spacing = body.line_position(DEPTH) / 1.5;
-    let options = SlideOptions {
-        spacing,
-        drift_tolerance: 1e-6,
-        max_sliding_distance: 100.0 * spacing,
-    };
-    let result = slide_on_grid(
-        &EquivalentLine(&body),
-        &material(VISCOSITY),
-        &load_for_depth(DEPTH),
-        &options,
+    assert_matches!(
+        parabola(1.0 / 1.5, 100.0),
+        Err(MdrError::TooCoarse { n_contact: 2, needed: 3, spacing })
+            if (spacing * 1.5 / power(2.0).line_position(DEPTH) - 1.0).abs() < 1e-15
     );
-    let expected = MdrError::TooCoarse {
-        n_contact: 2,
-        needed: 3,
-        spacing,
-    };
-    assert_eq!(result, Err(expected), "one and a half elements");
 }
 
 /// The line is high enough, but its last element is not: the end of the domain falls between two elements.
 #[test]
 fn contact_reaches_the_last_element() {
-    struct Ramp;
-    impl RigidLine for Ramp {
-        fn height(&self, x: f64) -> f64 {
-            x
-        }
-        fn slope(&self, _x: f64) -> f64 {
-            1.0
-        }
-        fn domain(&self) -> [f64; 2] {
-            [0.0, 1.0]
-        }
-    }
-    let options = SlideOptions {
-        spacing: 0.15,
-        drift_tolerance: 1e-9,
-        max_sliding_distance: 100.0,
+    let ramp = Line {
+        height: |x| x,
+        domain: [0.0, 1.0],
+        kinks: Vec::new(),
     };
-    let result = slide_on_grid(&Ramp, &material(VISCOSITY), &load_for_depth(0.99), &options);
-    let Err(MdrError::ContactReachesEdge {
-        position,
-        indentation_depth,
-        time,
-    }) = result
-    else {
-        panic!("{result:?}");
-    };
-    assert!(
-        (position - 0.9).abs() < 1e-12 && indentation_depth > position && time > 0.0,
-        "{position} at depth {indentation_depth}, time {time}"
-    );
-}
-
-/// The line comes down again far behind a hump that is higher than the contact: it is found.
-#[test]
-fn a_second_foot_beyond_a_hump_is_seen() {
-    let mut heights = vec![0.0, 0.1, 0.2, 0.9];
-    heights.extend([0.9; 40]);
-    heights.extend([0.15, 0.9, 1.0]);
-    let line = Nodes {
-        heights,
-        spacing: 1.0,
-    };
-    let row = slide_to(&line, 0.3, 1.0, 1e-12).last;
-    assert!(
-        (row.contact[1] - 44.0).abs() < 1e-12 && (row.indentation_depth - 0.3).abs() < 1e-12,
-        "front {:?}, depth {}",
-        row.contact,
-        row.indentation_depth
+    assert_matches!(
+        slide_to(&ramp, 0.99, 0.15, 1e-9),
+        Err(MdrError::ContactReachesEdge { position, indentation_depth, time })
+            if (position - 0.9).abs() < 1e-12 && indentation_depth > position && time > 0.0
     );
 }
 
 /// A smooth line on an infinite domain, without a kink to start from: an element is laid on its lowest point.
 #[test]
 fn the_lowest_point_of_a_smooth_line_is_found() {
-    struct Parabola;
-    impl RigidLine for Parabola {
-        fn height(&self, x: f64) -> f64 {
-            2.5 + 10.0 * (x - 0.377).powi(2)
-        }
-        fn slope(&self, x: f64) -> f64 {
-            20.0 * (x - 0.377)
-        }
-        fn domain(&self) -> [f64; 2] {
-            [f64::NEG_INFINITY, f64::INFINITY]
-        }
-    }
+    let parabola = endless(|x| 2.5 + 10.0 * (x - 0.377) * (x - 0.377));
     // D = 0.1, x_d = 0.1, n = 20: the mean slope gives (4/3) (D/x_d) (1 - 1/(4 n^2)) when an element is at the apex.
-    let row = slide_to(&Parabola, DEPTH, 0.005, 1e-11).last;
+    let row = slide_to(&parabola, DEPTH, 0.005, 1e-11)
+        .expect("a state")
+        .last;
     let expected = 4.0 / 3.0 * (1.0 - 1.0 / 1600.0);
     // The lowest point of a smooth line is known to the square root of rounding, half of the digits.
-    assert!(
-        (row.friction_coefficient / expected - 1.0).abs() < 1e-7
-            && (row.contact[0] - 0.377).abs() < 1e-7,
-        "{row:?} instead of {expected}"
-    );
+    assert_close([row.friction_coefficient, expected], 1e-7, 0.0, &row);
+    assert_close([row.contact[0], 0.377], 1e-7, 1.0, &row);
 }
 
 /// On an infinite domain a foot is seen although it stands a hundred contact lengths ahead of the lowest point.
 #[test]
 fn a_far_foot_on_an_infinite_domain_is_seen() {
-    struct TwoFeet;
-    impl RigidLine for TwoFeet {
-        fn height(&self, x: f64) -> f64 {
-            x.abs().min(0.05 + 0.5 * (x - 30.0).abs())
-        }
-        fn slope(&self, _x: f64) -> f64 {
-            1.0
-        }
-        fn domain(&self) -> [f64; 2] {
-            [f64::NEG_INFINITY, f64::INFINITY]
-        }
-    }
-    let row = slide_to(&TwoFeet, 0.3, 0.05, 1e-11).last;
-    assert!(
-        row.contact[0].abs() < 1e-12 && (row.contact[1] - 30.45).abs() <= 0.051,
-        "contact {:?} instead of [0, 30.5]",
-        row.contact
-    );
+    let feet = endless(|x: f64| x.abs().min(0.05 + 0.5 * (x - 30.0).abs()));
+    let row = slide_to(&feet, 0.3, 0.05, 1e-11).expect("a state").last;
+    assert_close([row.contact[0], 0.0], 1e-12, 1.0, &row);
+    assert_close([row.contact[1], 30.45], 0.051 / 30.45, 0.0, &row);
 }

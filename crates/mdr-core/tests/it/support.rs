@@ -1,18 +1,24 @@
-//! Shapes, closed forms and helpers that several claims need.
+//! Materials, loads, lines, marches and comparisons that several claims need.
 
-use std::f64::consts::FRAC_PI_2;
 use std::fmt::Debug;
 
 use casebook::Case;
-use friction_analytic::{power_sliding, transient_sliding};
+use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RigidLine,
-    RoundTippedCone, SlidingLoad, Sphere, Superposition, TruncatedParaboloid, stretch,
+    Axisymmetric, Control, EquivalentLine, FlatCone, Hyperboloid, PowerProfile, PowerTerm,
+    RigidLine, RoundTippedCone, SlidingLoad, Sphere, Superposition, TruncatedParaboloid, stretch,
 };
 use mdr_core::{
-    IndentRow, IndentStep, MdrError, SlideOptions, Transient, indent_history, slide_on_grid,
+    IndentRow, IndentStep, MdrError, SlideOptions, SteadySliding, Transient, indent_history,
+    slide_on_grid, steady,
 };
-use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
+use numerics::Estimate;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use rheology::{
+    Material, Prony, RelaxationBranch, RelaxationSpectrum, StandardSolid, StandardSolidParameters,
+    Viscous,
+};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
 pub(crate) const VISCOSITY: f64 = 50.0;
@@ -21,32 +27,27 @@ pub(crate) const DEPTH: f64 = 0.1;
 /// Relative error asked of stationary states.
 pub(crate) const ASKED: f64 = 1e-8;
 
-pub(crate) fn at_depth(indentation_depth: f64, velocity: f64) -> SlidingLoad {
-    SlidingLoad::at_depth(indentation_depth, velocity).expect("a positive depth and speed")
+/// The same cases in every run, and no file left behind.
+pub(crate) fn fixed_cases(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(2014),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
 }
 
-/// Presses with a constant force up to some times.
-pub(crate) fn indent(
-    line: &(impl RigidLine + ?Sized),
-    material: &(impl Material + ?Sized),
-    force: f64,
-    times: &[f64],
-    spacing: f64,
-) -> Result<Vec<IndentRow>, MdrError> {
-    let step = |time: &f64| IndentStep {
-        time: *time,
-        control: Control::NormalForce(force),
-    };
-    let steps: Vec<IndentStep> = times.iter().map(step).collect();
-    indent_history(line, material, &steps, spacing)
-}
-
-pub(crate) fn material(viscosity: f64) -> Viscous {
-    Viscous::new(viscosity).expect("a positive viscosity")
+/// A length, modulus or time between 10^-n and 10^n.
+pub(crate) fn decades(n: f64) -> impl Strategy<Value = f64> {
+    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
 }
 
 pub(crate) fn load(normal_force: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::new(normal_force, velocity).expect("a positive force and speed")
+}
+
+pub(crate) fn at_depth(indentation_depth: f64, velocity: f64) -> SlidingLoad {
+    SlidingLoad::at_depth(indentation_depth, velocity).expect("a positive depth and speed")
 }
 
 /// The load that gives a line the stationary depth (12) on [`VISCOSITY`].
@@ -54,140 +55,8 @@ pub(crate) fn load_for_depth(depth: f64) -> SlidingLoad {
     load(4.0 * VISCOSITY * 0.1 * depth, 0.1)
 }
 
-pub(crate) fn power(exponent: f64) -> PowerProfile {
-    PowerProfile::new(0.4, exponent).expect("a power profile")
-}
-
-/// Friction coefficient (16) of a power profile at the stationary depth (12).
-pub(crate) fn power_friction(body: &PowerProfile, depth: f64) -> f64 {
-    let stationary = power_sliding(body, &material(VISCOSITY), &load_for_depth(depth));
-    stationary
-        .expect("a friction coefficient")
-        .friction_coefficient
-}
-
-pub(crate) fn slide_to(
-    line: &(impl RigidLine + ?Sized),
-    stationary_depth: f64,
-    spacing: f64,
-    drift_tolerance: f64,
-) -> Transient {
-    let options = SlideOptions {
-        spacing,
-        drift_tolerance,
-        max_sliding_distance: 1e5 * spacing,
-    };
-    slide_on_grid(
-        line,
-        &material(VISCOSITY),
-        &load_for_depth(stationary_depth),
-        &options,
-    )
-    .expect("a stationary state")
-}
-
-/// Orders observed between errors at halved spacings.
-pub(crate) fn observed_orders(errors: &[f64]) -> Vec<f64> {
-    errors
-        .windows(2)
-        .map(|pair| (pair[0] / pair[1]).abs().log2())
-        .collect()
-}
-
-/// A line given at equally spaced nodes, the first at x = 0; between them the nearest node counts.
-#[derive(Debug, Clone)]
-pub(crate) struct Nodes {
-    pub(crate) heights: Vec<f64>,
-    pub(crate) spacing: f64,
-}
-
-impl RigidLine for Nodes {
-    fn height(&self, x: f64) -> f64 {
-        let nearest = |k: &usize| (x / self.spacing - *k as f64).abs() <= 0.5;
-        let node = (0..self.heights.len()).find(nearest);
-        node.map_or(f64::INFINITY, |k| self.heights[k])
-    }
-
-    fn slope(&self, _x: f64) -> f64 {
-        0.0
-    }
-
-    fn domain(&self) -> [f64; 2] {
-        [0.0, (self.heights.len() - 1) as f64 * self.spacing]
-    }
-
-    fn kinks(&self) -> Vec<f64> {
-        let inner = 1..self.heights.len() - 1;
-        inner.map(|k| k as f64 * self.spacing).collect()
-    }
-}
-
-/// The cubic line of casebook FRI-03 on [0, 3], moved towards positive or, mirrored, negative x.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Cubic {
-    pub(crate) scale: f64,
-    pub(crate) mirrored: bool,
-}
-
-impl RigidLine for Cubic {
-    fn height(&self, x: f64) -> f64 {
-        if !(0.0..=3.0).contains(&x) {
-            return f64::INFINITY;
-        }
-        let x = if self.mirrored { 3.0 - x } else { x };
-        self.scale * x * (x * x / 3.0 - 1.5 * x + 2.0)
-    }
-
-    fn slope(&self, x: f64) -> f64 {
-        let (x, sign) = if self.mirrored {
-            (3.0 - x, -1.0)
-        } else {
-            (x, 1.0)
-        };
-        sign * self.scale * (x - 1.0) * (x - 2.0)
-    }
-
-    fn domain(&self) -> [f64; 2] {
-        [0.0, 3.0]
-    }
-}
-
-/// The two bodies of the exact transient, casebook MDR-02.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Shape {
-    Cone,
-    Paraboloid,
-}
-
-impl Shape {
-    pub(crate) fn of(case: &Case) -> Self {
-        match case.input_text("shape") {
-            "cone" => Self::Cone,
-            "paraboloid" => Self::Paraboloid,
-            other => panic!("{}: unknown shape {other:?}", case.id()),
-        }
-    }
-
-    /// The body whose equivalent line is s |x| or k x².
-    pub(crate) fn body(self, line_coefficient: f64) -> PowerProfile {
-        match self {
-            Self::Cone => PowerProfile::cone(line_coefficient / FRAC_PI_2),
-            Self::Paraboloid => PowerProfile::paraboloid(0.5 * line_coefficient),
-        }
-        .expect("a body")
-    }
-
-    /// Exact [d/D, μ/μ_∞] after sliding over a distance in stationary contact lengths (MDR-02).
-    pub(crate) fn exact(self, distance: f64) -> [f64; 2] {
-        // With a depth, a contact length and a speed of one, the time is the distance.
-        let (body, material, load) = (self.body(1.0), material(1.0), load(4.0, 1.0));
-        let stationary = power_sliding(&body, &material, &load).expect("a stationary state");
-        let transient = transient_sliding(&body, &material, &load, distance).expect("a transient");
-        [
-            transient.indentation_depth / stationary.indentation_depth,
-            transient.friction_coefficient / stationary.friction_coefficient,
-        ]
-    }
+pub(crate) fn material(viscosity: f64) -> Viscous {
+    Viscous::new(viscosity).expect("a positive viscosity")
 }
 
 /// A generalised Maxwell material.
@@ -199,6 +68,181 @@ pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64
     let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect())
         .expect("moduli");
     Prony::new(relaxation).expect("a material")
+}
+
+/// A power profile.
+pub(crate) fn power(exponent: f64) -> PowerProfile {
+    PowerProfile::new(0.4, exponent).expect("a power profile")
+}
+
+/// The power profile whose equivalent line is `coefficient` |x|^p.
+pub(crate) fn line_power(coefficient: f64, exponent: f64) -> PowerProfile {
+    let stretch = stretch(exponent).expect("an exponent");
+    PowerProfile::new(coefficient / stretch, exponent).expect("a power profile")
+}
+
+/// Bodies of six kinds; the last two have a flat end, and so has no other one friction without limit on a dashpot.
+pub(crate) fn body(kind: usize, size: f64, unit: f64) -> Box<dyn Axisymmetric> {
+    let radius = size * unit;
+    match kind {
+        0 => Box::new(Sphere::new((1.0 + size) * unit).expect("a sphere")),
+        1 => {
+            let exponent = 0.7 + 3.3 * size / (1.0 + size);
+            Box::new(PowerProfile::new(unit.powf(1.0 - exponent), exponent).expect("a power"))
+        }
+        2 => Box::new(Hyperboloid::new(radius, 0.7).expect("a hyperboloid")),
+        3 => Box::new(RoundTippedCone::new(radius, 0.7).expect("a cone")),
+        4 => Box::new(FlatCone::new(radius, 0.7).expect("a cone")),
+        _ => Box::new(TruncatedParaboloid::new(radius, 0.7 / unit).expect("a paraboloid")),
+    }
+}
+
+/// A line given by its heights alone: what is claimed of it does not depend on its slope.
+#[derive(Debug, Clone)]
+pub(crate) struct Line<H> {
+    pub(crate) height: H,
+    pub(crate) domain: [f64; 2],
+    pub(crate) kinks: Vec<f64>,
+}
+
+/// A line without ends.
+pub(crate) fn endless<H: Fn(f64) -> f64>(height: H) -> Line<H> {
+    Line {
+        height,
+        domain: [f64::NEG_INFINITY, f64::INFINITY],
+        kinks: Vec::new(),
+    }
+}
+
+impl<H: Fn(f64) -> f64> RigidLine for Line<H> {
+    fn height(&self, x: f64) -> f64 {
+        let [rear, front] = self.domain;
+        if x < rear || x > front {
+            return f64::INFINITY;
+        }
+        (self.height)(x)
+    }
+
+    fn slope(&self, _x: f64) -> f64 {
+        0.0
+    }
+
+    fn domain(&self) -> [f64; 2] {
+        self.domain
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.kinks.clone()
+    }
+}
+
+/// Friction coefficient (16) of a power profile at the stationary depth (12).
+pub(crate) fn power_friction(body: &PowerProfile, depth: f64) -> f64 {
+    let stationary = power_sliding(body, &material(VISCOSITY), &load_for_depth(depth));
+    stationary.expect("a closed form").friction_coefficient
+}
+
+/// Stationary sliding on [`VISCOSITY`] at the depth (12), by marching.
+pub(crate) fn slide_to(
+    line: &(impl RigidLine + ?Sized),
+    depth: f64,
+    spacing: f64,
+    drift_tolerance: f64,
+) -> Result<Transient, MdrError> {
+    let options = SlideOptions {
+        spacing,
+        drift_tolerance,
+        max_sliding_distance: 1e5 * spacing,
+    };
+    slide_on_grid(line, &material(VISCOSITY), &load_for_depth(depth), &options)
+}
+
+/// A march with a number of elements along the stationary contact.
+pub(crate) fn march(
+    line: &(impl RigidLine + ?Sized),
+    material: &dyn Material,
+    load: &SlidingLoad,
+    elements: usize,
+    drift_tolerance: f64,
+) -> Transient {
+    let options = SlideOptions {
+        drift_tolerance,
+        ..SlideOptions::with_elements(elements, line, material, load).expect("a contact")
+    };
+    slide_on_grid(line, material, load, &options).expect("a stationary state")
+}
+
+/// The stationary state, directly.
+pub(crate) fn slid(
+    line: &(impl RigidLine + ?Sized),
+    material: &dyn Material,
+    load: &SlidingLoad,
+) -> SteadySliding {
+    steady(line, material, load, ASKED).expect("a stationary state")
+}
+
+/// Presses by what a control says at each of some times.
+pub(crate) fn indent(
+    line: &(impl RigidLine + ?Sized),
+    material: &dyn Material,
+    times: &[f64],
+    spacing: f64,
+    control: impl Fn(f64) -> Control,
+) -> Result<Vec<IndentRow>, MdrError> {
+    let step = |time: &f64| IndentStep {
+        time: *time,
+        control: control(*time),
+    };
+    let steps: Vec<IndentStep> = times.iter().map(step).collect();
+    indent_history(line, material, &steps, spacing)
+}
+
+/// Asserts that errors at halved spacings fall with a power of the spacing, from each to the next.
+pub(crate) fn assert_order(errors: &[f64], expected: f64, context: &dyn Debug) {
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).abs().log2();
+        assert!(
+            (order - expected).abs() < 0.15,
+            "order {order} instead of {expected}, errors {errors:?}: {context:?}"
+        );
+    }
+}
+
+/// Asserts that two numbers agree relative to the second one or, where that is smaller, to a scale.
+pub(crate) fn assert_close(
+    [actual, expected]: [f64; 2],
+    tolerance: f64,
+    scale: f64,
+    context: &dyn Debug,
+) {
+    let error = tolerance * expected.abs().max(scale);
+    let value = actual;
+    assert_agree(
+        [Estimate { value, error }, Estimate::exact(expected)],
+        context,
+    );
+}
+
+/// Asserts that two numbers agree within the sum of their errors.
+pub(crate) fn assert_agree([actual, expected]: [Estimate; 2], context: &dyn Debug) {
+    let difference = (actual.value - expected.value).abs();
+    assert!(
+        difference <= actual.error + expected.error,
+        "{actual:?} instead of {expected:?}, off by {difference:e}: {context:?}"
+    );
+}
+
+/// The cubic line of casebook FRI-03 on [0, 3], moved towards positive or, mirrored, negative x.
+pub(crate) fn cubic(case: &Case) -> impl RigidLine + use<> {
+    let (scale, mirrored) = (case.input("eps"), case.has_input("direction"));
+    Line {
+        height: move |x: f64| {
+            let x = if mirrored { 3.0 - x } else { x };
+            scale * x * (x * x / 3.0 - 1.5 * x + 2.0)
+        },
+        domain: [0.0, 3.0],
+        kinks: Vec::new(),
+    }
 }
 
 /// The materials that the casebook names.
@@ -221,54 +265,59 @@ pub(crate) fn model(name: &str) -> Prony {
     }
 }
 
-/// A material of twenty branches over twelve decades, a relaxation modulus that falls like a power of time.
-pub(crate) fn twenty_branches() -> Prony {
-    let branches: Vec<(f64, f64)> = (0..20)
-        .map(|k| 12.0 * f64::from(k) / 19.0)
-        .map(|decades| {
-            (
-                1e9 * 10.0_f64.powf(-0.3 * decades),
-                1e-9 * 10.0_f64.powf(decades),
-            )
-        })
-        .collect();
-    prony([1e5, 0.0], &branches)
+/// The material of a case: a model by its name, a spring, a dashpot and branches, or what is known of its group.
+pub(crate) fn material_of(case: &Case) -> Box<dyn Material> {
+    Box::new(match case.id().split('/').next() {
+        Some("MDR-03") => prony([case.input("G"), case.input("eta")], &[]),
+        Some("MDR-04") => prony([0.0; 2], &[(case.input("G"), case.input("tau"))]),
+        _ if case.has_input("G2") => {
+            let solid = StandardSolid::new(StandardSolidParameters {
+                equilibrium_modulus: case.input("G1"),
+                maxwell_modulus: case.input("G2"),
+                viscosity: case.input("G2") * case.input("tau"),
+            });
+            return Box::new(solid.expect("a solid"));
+        }
+        _ if case.has_input("Ge") => {
+            let [moduli, times] = ["G", "tau"].map(|name| case.input_list(name));
+            let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
+            let viscosity = if case.has_input("eta") {
+                case.input("eta")
+            } else {
+                0.0
+            };
+            prony([case.input("Ge"), viscosity], &branches)
+        }
+        _ => model(case.input_text("model")),
+    })
 }
 
 /// Everything a case says about its body; the line of a power is given by its own coefficient.
 pub(crate) fn body_of(case: &Case) -> Box<dyn Axisymmetric> {
-    let shape = match case.input_text("shape") {
-        "" if case.id().contains("cone") => "cone",
-        "" => "paraboloid",
-        shape => shape,
-    };
-    let line_power = |p: f64| PowerProfile::new(0.5 / stretch(p).expect("p"), p).expect("a power");
-    match shape {
-        "cone" => Box::new(Shape::Cone.body(case.input("s"))),
-        "paraboloid" if case.has_input("R") => {
-            Box::new(Shape::Paraboloid.body(case.input("R").recip()))
-        }
-        "paraboloid" => Box::new(Shape::Paraboloid.body(case.input("k"))),
-        "sphere" => Box::new(Sphere::new(case.input("R")).expect("a sphere")),
+    let input = |name| case.input(name);
+    match case.input_text("shape") {
+        "cone" => Box::new(line_power(input("s"), 1.0)),
+        "" if case.has_input("s") => Box::new(line_power(input("s"), 1.0)),
+        "" | "paraboloid" if case.has_input("R") => Box::new(line_power(input("R").recip(), 2.0)),
+        "" | "paraboloid" => Box::new(line_power(input("k"), 2.0)),
+        "sphere" => Box::new(Sphere::new(input("R")).expect("a sphere")),
         "round-tipped cone" => {
-            let (tip, slope) = (case.input("b"), case.input("tan_theta"));
-            Box::new(RoundTippedCone::new(tip, slope).expect("a cone"))
+            Box::new(RoundTippedCone::new(input("b"), input("tan_theta")).expect("a cone"))
         }
         "hyperboloid" => {
-            let tip = case.input("b");
-            Box::new(Hyperboloid::new(tip, case.input("L") / tip).expect("a hyperboloid"))
+            let tip = input("b");
+            Box::new(Hyperboloid::new(tip, input("L") / tip).expect("a hyperboloid"))
         }
         "polynomial c1 r + c2 r^2 + c4 r^4" => {
-            let term = |(name, exponent)| PowerTerm {
-                coefficient: case.input(name),
+            let terms = [("c1", 1.0), ("c2", 2.0), ("c4", 4.0)].map(|(name, exponent)| PowerTerm {
+                coefficient: input(name),
                 exponent,
-            };
-            let terms = [("c1", 1.0), ("c2", 2.0), ("c4", 4.0)].map(term);
+            });
             Box::new(Superposition::new(terms.to_vec()).expect("a sum of powers"))
         }
-        "power p=0.4" => Box::new(line_power(0.4)),
-        "power p=0.5" => Box::new(line_power(0.5)),
-        // The group states both in words: t = 0.3, R = 2, b = 0.5.
+        "power p=0.4" => Box::new(line_power(0.5, 0.4)),
+        "power p=0.5" => Box::new(line_power(0.5, 0.5)),
+        // The groups state both in words: t = 0.3, R = 2, b = 0.5.
         "flat-ended cone" => Box::new(FlatCone::new(0.5, 0.3).expect("a flat cone")),
         "truncated paraboloid" => {
             Box::new(TruncatedParaboloid::new(0.5, 0.25).expect("a paraboloid"))
@@ -277,30 +326,18 @@ pub(crate) fn body_of(case: &Case) -> Box<dyn Axisymmetric> {
     }
 }
 
-/// The foundation of a case of MDR-03 to MDR-08.
-pub(crate) fn foundation_of(case: &Case) -> Box<dyn Material> {
-    let prony = match case.id().split('/').next() {
-        Some("MDR-03") => prony([case.input("G"), case.input("eta")], &[]),
-        Some("MDR-04") => prony([0.0; 2], &[(case.input("G"), case.input("tau"))]),
-        Some("MDR-05" | "MDR-08" | "EXT-04") => {
-            let branch = (case.input("G2"), case.input("tau"));
-            prony([case.input("G1"), 0.0], &[branch])
-        }
-        _ => model(case.input_text("model")),
-    };
-    Box::new(prony)
+/// The friction, force and ends of a state, each with its name.
+pub(crate) fn named(state: &SteadySliding) -> [(&'static str, Estimate); 5] {
+    [
+        ("mu", state.friction_coefficient),
+        ("d", state.indentation_depth),
+        ("F", state.normal_force),
+        ("x_l", state.ends[0]),
+        ("x_r", state.ends[1]),
+    ]
 }
 
-/// Asserts that two numbers agree relative to the second one or, where that is smaller, to a scale.
-pub(crate) fn assert_close(
-    [actual, expected]: [f64; 2],
-    tolerance: f64,
-    scale: f64,
-    context: &dyn Debug,
-) {
-    let difference = (actual - expected).abs();
-    assert!(
-        difference <= tolerance * expected.abs().max(scale),
-        "{actual:e} instead of {expected:e}, off by {difference:e}: {context:?}"
-    );
+/// A line of a body, boxed with it.
+pub(crate) fn line_of(body: &dyn Axisymmetric) -> EquivalentLine<'_, dyn Axisymmetric + '_> {
+    EquivalentLine(body)
 }

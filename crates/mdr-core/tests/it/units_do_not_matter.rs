@@ -1,182 +1,168 @@
-//! Numbers depend on the question, not on its units, and are the same every time.
+//! Numbers depend on the question, not on its units, also near the smallest and largest ones, where squares of depths are
+//! no numbers any more; and they are the same every time.
 
-use indenters::{EquivalentLine, PowerProfile};
-use mdr_core::{SlideOptions, Transient, slide_on_grid, steady};
+use indenters::{Control, EquivalentLine, PowerProfile};
+use mdr_core::{SteadySliding, Transient};
 
-use crate::support::{ASKED, indent, load, material, prony};
+use crate::support::{assert_close, indent, load, march, material, prony, slid};
 
 /// One unit of length, force and time, in units of SI.
 type Units = [f64; 3];
 
-const SCALES: [f64; 9] = [-12.0, -9.0, -6.0, -3.0, 0.0, 3.0, 6.0, 9.0, 12.0];
-
-fn scaled(exponents: [f64; 3]) -> Units {
-    exponents.map(|exponent| 10.0_f64.powf(exponent))
-}
-
-fn march(exponent: f64, [length, force, time]: Units) -> Transient {
-    let coefficient = 0.4 * length.powf(1.0 - exponent);
-    let body = PowerProfile::new(coefficient, exponent).expect("a power profile");
-    let material = material(50.0 * force * time / (length * length));
-    let load = load(2.0 * force, 0.1 * length / time);
-    let options = SlideOptions {
-        drift_tolerance: 1e-13,
-        ..SlideOptions::with_elements(24, &EquivalentLine(&body), &material, &load)
-            .expect("a contact")
-    };
-    slide_on_grid(&EquivalentLine(&body), &material, &load, &options).expect("a stationary state")
-}
-
-fn assert_same(transient: &Transient, reference: &Transient, units: Units) {
-    let [length, _, time] = units;
-    // The drift decides on the last row within rounding; all rows that both have are compared. So does the count of
-    // elements, where one is touched and not compressed.
-    for (row, expected) in transient.rows.iter().zip(&reference.rows) {
-        for (name, actual, expected) in [
-            (
-                "friction",
-                row.friction_coefficient,
-                expected.friction_coefficient,
-            ),
-            (
-                "depth",
-                row.indentation_depth / length,
-                expected.indentation_depth,
-            ),
-            ("time", row.time / time, expected.time),
-            (
-                "distance",
-                row.sliding_distance / length,
-                expected.sliding_distance,
-            ),
-        ] {
-            assert!(
-                (actual / expected - 1.0).abs() < 1e-12,
-                "{name} {actual} instead of {expected} at {expected}, units {units:?}"
-            );
-        }
-    }
-    let (last, expected) = (transient.last, reference.last);
-    let change = last.friction_coefficient / expected.friction_coefficient - 1.0;
-    assert!(
-        change.abs() < 1e-12,
-        "stationary friction off by {change}, units {units:?}"
-    );
-}
-
 /// The exponents mix the three units, so that none can hide behind another.
+fn all_units() -> impl Iterator<Item = Units> {
+    let decades = (-12..=12).step_by(3).map(f64::from);
+    decades.flat_map(|scale| {
+        [
+            [scale, 0.0, 0.0],
+            [0.0, scale, 0.0],
+            [0.0, 0.0, scale],
+            [scale, -scale, scale],
+        ]
+        .map(|exponents| exponents.map(|exponent| 10.0_f64.powf(exponent)))
+    })
+}
+
+fn body(exponent: f64, length: f64) -> PowerProfile {
+    let coefficient = 0.4 * length.powf(1.0 - exponent);
+    PowerProfile::new(coefficient, exponent).expect("a power profile")
+}
+
+fn marched(exponent: f64, [length, force, time]: Units) -> Transient {
+    let body = body(exponent, length);
+    let dashpot = material(50.0 * force * time / (length * length));
+    let load = load(2.0 * force, 0.1 * length / time);
+    march(&EquivalentLine(&body), &dashpot, &load, 24, 1e-13)
+}
+
 #[test]
-fn results_are_the_same_over_twenty_four_decades() {
+fn marches_are_the_same_over_twenty_four_decades() {
     for exponent in [0.75, 1.0, 2.0] {
-        let reference = march(exponent, [1.0; 3]);
-        for scale in SCALES {
-            for mixed in [
-                [scale, 0.0, 0.0],
-                [0.0, scale, 0.0],
-                [0.0, 0.0, scale],
-                [scale, -scale, scale],
-            ] {
-                let units = scaled(mixed);
-                assert_same(&march(exponent, units), &reference, units);
+        let reference = marched(exponent, [1.0; 3]);
+        for units in all_units() {
+            let [length, _, time] = units;
+            let transient = marched(exponent, units);
+            let last = [transient.last, reference.last].map(|row| row.friction_coefficient);
+            assert_close(last, 1e-12, 0.0, &units);
+            // The drift decides on the last row within rounding; all rows that both have are compared. So does the count of
+            // elements, where one is touched and not compressed.
+            for (row, expected) in transient.rows.iter().zip(&reference.rows) {
+                for pair in [
+                    [row.friction_coefficient, expected.friction_coefficient],
+                    [row.indentation_depth / length, expected.indentation_depth],
+                    [row.time / time, expected.time],
+                    [row.sliding_distance / length, expected.sliding_distance],
+                ] {
+                    assert_close(pair, 1e-12, 0.0, &units);
+                }
             }
         }
     }
 }
 
-/// Casebook EXT-06: the paraboloid in three systems of units, 64 elements, 1/(4 n²) below the integral.
-#[test]
-fn casebook_units_give_one_friction_coefficient() {
-    let frictions: Vec<f64> = casebook::group("EXT-06")
-        .iter()
-        .map(|case| {
-            let body = PowerProfile::paraboloid(case.input("c")).expect("a paraboloid");
-            let material = material(case.input("eta"));
-            let load = load(case.input("F"), case.input("v"));
-            let options = SlideOptions {
-                drift_tolerance: 1e-12,
-                ..SlideOptions::with_elements(64, &EquivalentLine(&body), &material, &load)
-                    .expect("a contact")
-            };
-            let row = slide_on_grid(&EquivalentLine(&body), &material, &load, &options)
-                .expect("a stationary state")
-                .last;
-            case.check("d", row.indentation_depth);
-            case.check_within(
-                "mu",
-                row.friction_coefficient / (1.0 - 0.25 / 4096.0),
-                1e-11,
-            );
-            row.friction_coefficient
-        })
-        .collect();
-    for friction in &frictions {
-        assert!(
-            (friction / frictions[0] - 1.0).abs() < 1e-12,
-            "{friction} instead of {}",
-            frictions[0]
-        );
-    }
-}
-
 #[test]
 fn the_same_question_has_the_same_answer_to_the_last_bit() {
-    let [first, second] = [march(1.5, [1.0; 3]), march(1.5, [1.0; 3])];
+    let [first, second] = [marched(1.5, [1.0; 3]), marched(1.5, [1.0; 3])];
     assert_eq!(first, second, "two runs of one question");
 }
 
 #[test]
 fn indentation_is_the_same_over_twenty_four_decades() {
     let depth = |[length, force, time]: Units| {
-        let body = PowerProfile::paraboloid(0.4 / length).expect("a paraboloid");
-        let material = material(50.0 * force * time / (length * length));
-        let spacing = 0.01 * length;
+        let body = body(2.0, length);
+        let (line, dashpot) = (
+            EquivalentLine(&body),
+            material(50.0 * force * time / (length * length)),
+        );
         let times = [1.0 * time, 3.0 * time];
-        let line = EquivalentLine(&body);
-        let rows = indent(&line, &material, 2.0 * force, &times, spacing).expect("a contact");
+        let force = |_| Control::NormalForce(2.0 * force);
+        let rows = indent(&line, &dashpot, &times, 0.01 * length, force).expect("a contact");
         rows[1].indentation_depth / length
     };
     let expected = depth([1.0; 3]);
-    for scale in SCALES {
-        let actual = depth(scaled([scale, -scale, 0.5 * scale]));
-        assert!(
-            (actual / expected - 1.0).abs() < 1e-12,
-            "{actual} instead of {expected}, scale {scale}"
-        );
+    for units in all_units() {
+        assert_close([depth(units), expected], 1e-12, 0.0, &units);
     }
 }
 
 /// A solid with a dashpot of its own, at a speed at which everything relaxes.
+fn stationary([length, force, time]: Units) -> SteadySliding {
+    let modulus = force / (length * length);
+    let branches = [(2.0 * modulus, 0.3 * time), (5.0 * modulus, 10.0 * time)];
+    let material = prony([modulus, 0.1 * modulus * time], &branches);
+    let load = load(2.0 * force, 0.7 * length / time);
+    slid(&EquivalentLine(&body(1.5, length)), &material, &load)
+}
+
 #[test]
 fn the_stationary_state_is_the_same_over_twenty_four_decades() {
-    let state = |[length, force, time]: Units| {
-        let modulus = force / (length * length);
-        let branches = [(2.0 * modulus, 0.3 * time), (5.0 * modulus, 10.0 * time)];
-        let material = prony([modulus, 0.1 * modulus * time], &branches);
-        let body = PowerProfile::new(0.4 * length.powf(-0.5), 1.5).expect("a power profile");
-        let line = EquivalentLine(&body);
-        let load = load(2.0 * force, 0.7 * length / time);
-        let state = steady(&line, &material, &load, ASKED).expect("a state");
-        [
-            state.friction_coefficient.value,
-            state.indentation_depth.value / length,
-            state.contacts[0][0] / length,
-        ]
-    };
-    let expected = state([1.0; 3]);
-    for scale in SCALES {
-        for mixed in [
-            [scale, 0.0, 0.0],
-            [0.0, scale, 0.0],
-            [0.0, 0.0, scale],
-            [scale, -scale, scale],
+    let expected = stationary([1.0; 3]);
+    for units in all_units() {
+        let state = stationary(units);
+        for (actual, expected, unit) in [
+            (
+                state.friction_coefficient,
+                expected.friction_coefficient,
+                1.0,
+            ),
+            (
+                state.indentation_depth,
+                expected.indentation_depth,
+                units[0],
+            ),
+            (state.ends[0], expected.ends[0], units[0]),
         ] {
-            for (actual, expected) in state(scaled(mixed)).iter().zip(expected) {
-                // The pieces of the line depend on where the range was found, the error asked for is 1e-8.
-                assert!(
-                    (actual / expected - 1.0).abs() < 1e-10,
-                    "{actual} instead of {expected}, units {mixed:?}"
-                );
-            }
+            // The pieces of the line depend on where the range was found, the error asked for is 1e-8.
+            assert_close([actual.value / unit, expected.value], 1e-10, 0.0, &units);
         }
+    }
+}
+
+/// (22) with a curvature, a viscosity and a speed of one: d = F/4, μ = 4/3 √(2 d).
+#[test]
+fn extreme_forces_keep_their_digits() {
+    let profile = PowerProfile::paraboloid(1.0).expect("a profile");
+    let (line, dashpot) = (EquivalentLine(&profile), material(1.0));
+    for force in [
+        1e-300, 1e-200, 1e-150, 1e-100, 1e100, 1e150, 1e200, 1e300_f64,
+    ] {
+        let depth = 0.25 * force;
+        let friction = 4.0 / 3.0 * (2.0 * depth).sqrt();
+        let state = slid(&line, &dashpot, &load(force, 1.0));
+        assert_close([state.indentation_depth.value, depth], 1e-8, 0.0, &force);
+        assert_close(
+            [state.friction_coefficient.value, friction],
+            1e-8,
+            0.0,
+            &force,
+        );
+        // Second order in the spacing.
+        let row = march(&line, &dashpot, &load(force, 1.0), 50, 1e-9).last;
+        assert_close(
+            [row.indentation_depth, depth],
+            50.0_f64.powi(-2),
+            0.0,
+            &force,
+        );
+        assert_close(
+            [row.friction_coefficient, friction],
+            50.0_f64.powi(-2),
+            0.0,
+            &force,
+        );
+    }
+}
+
+/// Moduli as well: the paraboloid on a Maxwell foundation whose distance of relaxation is the same part of its front.
+#[test]
+fn stiff_and_soft_materials_keep_their_digits() {
+    let profile = PowerProfile::paraboloid(1.0).expect("a profile");
+    let friction = |unit: f64| {
+        let maxwell = prony([0.0; 2], &[(unit, 1.0)]);
+        let state = slid(&EquivalentLine(&profile), &maxwell, &load(unit, 1.0));
+        state.friction_coefficient.value
+    };
+    for unit in [1e-300, 1e-200, 1e200, 1e300] {
+        assert_close([friction(unit), friction(1.0)], 1e-12, 0.0, &unit);
     }
 }
