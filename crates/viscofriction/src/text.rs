@@ -1,9 +1,14 @@
 //! Places in the text of a file, and the error that names them.
 
+use std::path::Path;
+
 /// The input was wrong; one line that names the place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct WrongInput(pub String);
+
+/// Reads a file that a scene names; the sentence of a failure names it.
+pub type ReadFile = fn(&Path) -> Result<Vec<u8>, WrongInput>;
 
 /// The line at which a record of a CSV file begins, counted from 1; empty lines before it belong to its position.
 #[must_use]

@@ -84,7 +84,7 @@ fn saving(problem: &Problem, answer: &Timed<'_>, omission: Omission) -> Result<S
         bail!("the answer took longer than {LONGEST} s");
     }
     let answer = answer.answer;
-    match omission.done_by(answer, problem.motion) {
+    match omission.done_by(answer.model, problem.motion) {
         Some(method) => by_method(problem, answer, method),
         None => on_same_problem(&SameProblem::of(problem, answer)?, omission),
     }

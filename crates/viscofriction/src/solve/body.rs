@@ -8,9 +8,8 @@ use indenters::{
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
-use super::problem::ReadFile;
 use crate::scene::{Indenter, SceneError, Term, height_map, in_range, positive, profile};
-use crate::text::WrongInput;
+use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]

@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use super::problem::Problem;
 use super::work::{Refusal, work};
-use crate::scene::{Method, Model};
+use crate::scene::{Method, Model, SceneError, Source, scene_file};
+use crate::text::{ReadFile, WrongInput};
 
 /// The methods from cheap to expensive.
 const BY_COST: [Method; 5] = [
@@ -97,4 +98,30 @@ fn other_model(method: Method, asked: Model) -> Option<Refusal> {
 /// Whether a method answers a problem, whichever method and model that names.
 pub(crate) fn answers(method: Method, problem: &Problem) -> bool {
     work(problem, method, problem.accuracy).is_ok()
+}
+
+/// What a scene file asks, and the method that answers it: the one given, that of the scene, or the cheapest.
+///
+/// # Errors
+/// [`WrongInput`] with the place where the scene is wrong.
+pub fn problem_of(
+    source: &Source,
+    method: Option<Method>,
+    read: ReadFile,
+) -> Result<(Problem, Method), WrongInput> {
+    let located = |error: SceneError| source.locate(&error);
+    let mut scene = scene_file(source.table()?).map_err(located)?;
+    scene.solve.method = method.or(scene.solve.method);
+    let problem = Problem::new(&scene, source.folder(), read).map_err(located)?;
+    let method = choose(&problem).map_err(|error| not_offered(source, &error))?;
+    Ok((problem, method))
+}
+
+/// A combination that is not offered is wrong input, at the method or at the whole scene.
+pub(crate) fn not_offered(source: &Source, error: &NotOffered) -> WrongInput {
+    let key = match error {
+        NotOffered::Method { .. } => "solve.method",
+        NotOffered::AnyMethod { .. } => "indenter",
+    };
+    source.locate(&SceneError::at(key, error.to_string()))
 }

@@ -7,12 +7,8 @@ use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
 use super::half_space::{Simple, half_space, simple};
-use super::offer::{NotOffered, choose};
-use crate::scene::{Accuracy, Method, Model, Scene, SceneError, Source, scene_file};
-use crate::text::WrongInput;
-
-/// Reads a file that a scene names; the sentence of a failure names it.
-pub type ReadFile = fn(&Path) -> Result<Vec<u8>, WrongInput>;
+use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
+use crate::text::{ReadFile, WrongInput};
 
 /// What is asked of the methods.
 #[derive(Debug)]
@@ -103,30 +99,4 @@ fn motion(scene: &Scene) -> Result<Motion, SceneError> {
     }
     let load = PressingLoad::new(control, scene.solve.indentation_time()?);
     load.map(Motion::Pressing).map_err(wrong)
-}
-
-/// What a scene file asks, and the method that answers it: the one given, that of the scene, or the cheapest.
-///
-/// # Errors
-/// [`WrongInput`] with the place where the scene is wrong.
-pub fn problem_of(
-    source: &Source,
-    method: Option<Method>,
-    read: ReadFile,
-) -> Result<(Problem, Method), WrongInput> {
-    let located = |error: SceneError| source.locate(&error);
-    let mut scene = scene_file(source.table()?).map_err(located)?;
-    scene.solve.method = method.or(scene.solve.method);
-    let problem = Problem::new(&scene, source.folder(), read).map_err(located)?;
-    let method = choose(&problem).map_err(|error| not_offered(source, &error))?;
-    Ok((problem, method))
-}
-
-/// A combination that is not offered is wrong input, at the method or at the whole scene.
-pub(crate) fn not_offered(source: &Source, error: &NotOffered) -> WrongInput {
-    let key = match error {
-        NotOffered::Method { .. } => "solve.method",
-        NotOffered::AnyMethod { .. } => "indenter",
-    };
-    source.locate(&SceneError::at(key, error.to_string()))
 }

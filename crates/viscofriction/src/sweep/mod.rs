@@ -4,6 +4,6 @@ mod plan;
 mod row;
 mod vary;
 
-pub use plan::Plan;
-pub use row::{Row, header, identity};
+pub use plan::{Plan, header, identity};
+pub use row::Row;
 pub use vary::{Shard, Vary};

@@ -5,11 +5,14 @@ use toml::{Table, Value};
 use super::row::Row;
 use super::vary::{MOST_POINTS, Vary};
 use crate::scene::{SceneError, Source, scene_file, split_index};
-use crate::solve::{Problem, ReadFile, choose, not_offered, solve};
-use crate::text::WrongInput;
+use crate::solve::{Answer, Problem, choose, not_offered, solve};
+use crate::text::{ReadFile, WrongInput};
 
 /// Keys of a scene whose values are names of files.
 const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
+
+/// The columns before and after the keys that vary.
+const BEFORE: [&str; 3] = ["sweep", "point", "points"];
 
 /// A scene and the keys that vary.
 #[derive(Debug)]
@@ -114,7 +117,7 @@ impl Plan {
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
         let answer = solve(&self.problem(point)?);
-        Ok(Row::new(self, point, answer))
+        Ok(Row::new(point, identity(self, point), answer))
     }
 
     fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
@@ -140,6 +143,30 @@ impl Plan {
             ))
         })
     }
+}
+
+/// The names of the columns.
+#[must_use]
+pub fn header(plan: &Plan) -> Vec<String> {
+    let before = BEFORE.into_iter().chain(plan.keys()).map(str::to_owned);
+    let names = ["method", "model"].map(str::to_owned);
+    let after = ["unknowns", "failure"].map(str::to_owned);
+    let columns = Answer::columns();
+    before.chain(names).chain(columns).chain(after).collect()
+}
+
+/// What tells a row from every other: sweep, point counted from 1, number of points, values.
+#[must_use]
+pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
+    let values = plan.values(point);
+    [
+        plan.fingerprint.clone(),
+        (point + 1).to_string(),
+        plan.n_points().to_string(),
+    ]
+    .into_iter()
+    .chain(values.iter().map(|value| format!("{value:?}")))
+    .collect()
 }
 
 /// Sets a key; the table it is in must be there.

@@ -1,10 +1,6 @@
 //! One row of a sweep: which point it is, and what came out.
 
-use super::plan::Plan;
 use crate::solve::{Answer, Result};
-
-/// The columns before and after the keys that vary.
-const BEFORE: [&str; 3] = ["sweep", "point", "points"];
 
 /// The fields of a row; times are not among them, because they differ from run to run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,10 +12,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// The row of a point and its answer, or why there is none.
-    #[must_use]
-    pub fn new(plan: &Plan, point: usize, answer: Result<Answer>) -> Self {
-        let mut fields = identity(plan, point);
+    /// The row of a point and its answer, or why there is none; `fields` say which point of which sweep it is.
+    pub(super) fn new(point: usize, mut fields: Vec<String>, answer: Result<Answer>) -> Self {
         match answer {
             Ok(answer) => fields.extend(results(&answer)),
             Err(error) => {
@@ -38,30 +32,6 @@ impl Row {
             .last()
             .is_some_and(|failure| !failure.is_empty())
     }
-}
-
-/// The names of the columns.
-#[must_use]
-pub fn header(plan: &Plan) -> Vec<String> {
-    let before = BEFORE.into_iter().chain(plan.keys()).map(str::to_owned);
-    let names = ["method", "model"].map(str::to_owned);
-    let after = ["unknowns", "failure"].map(str::to_owned);
-    let columns = Answer::columns();
-    before.chain(names).chain(columns).chain(after).collect()
-}
-
-/// What tells a row from every other: sweep, point counted from 1, number of points, values.
-#[must_use]
-pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
-    let values = plan.values(point);
-    [
-        plan.fingerprint.clone(),
-        (point + 1).to_string(),
-        plan.n_points().to_string(),
-    ]
-    .into_iter()
-    .chain(values.iter().map(|value| format!("{value:?}")))
-    .collect()
 }
 
 fn results(answer: &Answer) -> Vec<String> {
