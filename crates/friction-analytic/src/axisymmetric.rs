@@ -5,11 +5,16 @@
 //! ```
 
 use indenters::{Axisymmetric, IndenterError, SlidingLoad, contact_radius};
+use numerics::Estimate;
 use rheology::Viscous;
 
-use crate::slope_energy::{divergence_cause, slope_energy};
+use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::checked_depth;
-use crate::{FrictionError, StationarySliding};
+use crate::{DivergenceCause, FrictionError, StationarySliding};
+
+/// Part of the first stretch in which the line is taken as its leading power. Any other power of the profile whose
+/// exponent is larger by 0.11 or more has fallen to rounding there.
+const APEX_REACH: f64 = 1e-150;
 
 /// Stationary depth, contact line and coefficient of friction of a body of revolution, from (12) and (16).
 ///
@@ -23,23 +28,22 @@ pub fn axisymmetric_sliding(
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
-    let radius = contact_radius(body, depth).map_err(no_stationary_state)?;
-    if let Some(cause) = divergence_cause(body, radius, depth) {
-        return Err(FrictionError::FrictionDiverges {
-            cause,
-            indentation_depth: depth,
-            contact_length: radius,
-        });
-    }
+    let radius = radius_with_friction(body, depth)?;
     let energy = slope_energy(body, radius)?;
     // The contact radius is rounded too, and moves the end of the integral.
     let end = body.line_slope(radius).powi(2) * radius;
-    Ok(StationarySliding {
-        indentation_depth: depth,
-        contact_line: vec![[0.0, radius]],
-        friction_coefficient: energy.value / depth,
-        error: (energy.error + 4.0 * f64::EPSILON * (energy.value + end)) / depth,
-    })
+    let contact = vec![[0.0, radius]];
+    Ok(StationarySliding::of_energy(depth, contact, energy, end))
+}
+
+/// The front of the stationary contact at a depth, unless its friction is infinite.
+pub(crate) fn radius_with_friction(
+    body: &(impl Axisymmetric + ?Sized),
+    depth: f64,
+) -> Result<f64, FrictionError> {
+    let radius = contact_radius(body, depth).map_err(no_stationary_state)?;
+    refuse_divergence(body, [0.0, radius], depth)?;
+    Ok(radius)
 }
 
 /// Remark 4: a line that ends below the stationary depth has no stationary state.
@@ -51,4 +55,62 @@ pub(crate) fn no_stationary_state(error: IndenterError) -> FrictionError {
         },
         other => other.into(),
     }
+}
+
+/// Refuses a contact over which ∫ h̃'² dx is infinite.
+pub(crate) fn refuse_divergence(
+    body: &(impl Axisymmetric + ?Sized),
+    [rear, front]: [f64; 2],
+    depth: f64,
+) -> Result<(), FrictionError> {
+    let exponent = body.profile_exponent();
+    let kinks = body.kinks().into_iter();
+    let mut jumps = kinks.filter(|kink| kink.radius < front && kink.slope_jump > 0.0);
+    let cause = if exponent <= 0.5 {
+        DivergenceCause::ApexExponent { exponent }
+    } else if let Some(kink) = jumps.next() {
+        DivergenceCause::SlopeJump {
+            radius: kink.radius,
+            jump: kink.slope_jump,
+        }
+    } else if front >= body.max_radius() && body.line_height(front) < depth {
+        DivergenceCause::VerticalEdge { radius: front }
+    } else {
+        return Ok(());
+    };
+    Err(FrictionError::FrictionDiverges {
+        cause,
+        indentation_depth: depth,
+        contact_length: front - rear,
+    })
+}
+
+/// ∫₀^a h̃'(x)² dx, \[m], for a line without a reason to diverge.
+pub(crate) fn slope_energy(
+    body: &(impl Axisymmetric + ?Sized),
+    radius: f64,
+) -> Result<Estimate, FrictionError> {
+    let ends = ends_outside_apex(body, radius);
+    let inner = from_apex(body, ends[0]);
+    let outer = over_pieces(|x| body.line_slope(x).powi(2), &ends);
+    accepted("integral of the squared slope", inner + outer)
+}
+
+/// ∫ h̃'² dx from the apex, where h̃' ∼ x^(p−1) may be singular, to `end`.
+fn from_apex(body: &(impl Axisymmetric + ?Sized), end: f64) -> Estimate {
+    let square = |x: f64| body.line_slope(x).powi(2);
+    let exponent = body.profile_exponent();
+    if exponent >= 1.0 {
+        return over_pieces(square, &[0.0, end]);
+    }
+    // As p approaches 1/2 most of the integral lies below the smallest number. So the innermost part is that of the
+    // leading power, and in the rest x = end s^(1/(2p − 1)) makes the integrand of that power a constant.
+    let rate = 2.0 * exponent - 1.0;
+    let apex = APEX_REACH * end;
+    let innermost = apex * square(apex) / rate;
+    let integrand = |s: f64| {
+        let x = end * s.powf(rate.recip());
+        square(x) * x / (rate * s)
+    };
+    over_pieces(integrand, &[APEX_REACH.powf(rate), 1.0]) + Estimate::exact(innermost)
 }

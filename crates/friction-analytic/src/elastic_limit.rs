@@ -14,10 +14,10 @@ use indenters::{Axisymmetric, contact_radius};
 use rheology::Material;
 
 use crate::FrictionError;
+use crate::axisymmetric::{refuse_divergence, slope_energy};
 use crate::error::{positive, representable};
-use crate::indentation::moment;
-use crate::pieces::{accepted, over_pieces};
-use crate::slope_energy::{divergence_cause, ends_outside_apex, slope_energy};
+use crate::indentation::known_moment;
+use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 
 /// A contact of given size that slides over a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,27 +53,18 @@ pub fn low_speed_friction(
     solid: &(impl Material + ?Sized),
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
-    let (radius, depth) = checked(body, contact)?;
-    if let Some(cause) = divergence_cause(body, radius, depth) {
-        return Err(FrictionError::FrictionDiverges {
-            cause,
-            indentation_depth: depth,
-            contact_length: 2.0 * radius,
-        });
-    }
-    let moment = positive_moment(body, radius)?;
+    let depth = checked_depth(body, contact)?;
+    let radius = contact.contact_radius;
+    refuse_divergence(body, [-radius, radius], depth)?;
+    let moment = known_moment(body, radius)?;
     let relaxation = solid.relaxation();
     // A fluid has no elastic limit at low speed.
     let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
     // η_0 of the slow limit holds the lone dashpot and all branches.
     let shift = relaxation.zero_shear_viscosity() * contact.velocity / modulus;
     let line = shift * (slope_energy(body, radius)?.value / moment);
-    let line = representable("friction coefficient", line)?;
-    Ok(ElasticLimitFriction {
-        normal_force: normal_force(solid, modulus, moment)?,
-        line,
-        half_space: 0.5 * line,
-    })
+    let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
+    limit(force, [line, 0.5 * line])
 }
 
 /// Friction at high speed, v τ ≫ a: inversely proportional to the speed, and the same on half space and line.
@@ -88,8 +79,8 @@ pub fn high_speed_friction(
     solid: &(impl Material + ?Sized),
     contact: ElasticContact,
 ) -> Result<ElasticLimitFriction, FrictionError> {
-    let (radius, depth) = checked(body, contact)?;
-    let moment = positive_moment(body, radius)?;
+    let depth = checked_depth(body, contact)?;
+    let moment = known_moment(body, contact.contact_radius)?;
     let relaxation = solid.relaxation();
     // A lone dashpot has no elastic limit at high speed.
     let glass = positive("glass_modulus", relaxation.glass_modulus())?;
@@ -98,50 +89,37 @@ pub fn high_speed_friction(
     let rate: f64 = branches
         .map(|branch| branch.modulus / glass / branch.relaxation_time)
         .sum();
-    let energy = squared_compression(body, radius, depth)?;
+    // ∫₀^a (d − h̃)² dx.
+    let mut ends = ends_outside_apex(body, contact.contact_radius);
+    ends.insert(0, 0.0);
+    let energy = over_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
+    let energy = accepted("squared compression", energy)?.value;
     let friction = rate / contact.velocity * (energy / moment);
-    let friction = representable("friction coefficient", friction)?;
+    let force = 8.0 * (glass / solid.half_space_factor()) * moment;
+    limit(force, [friction; 2])
+}
+
+/// Force and coefficients of friction on line and half space, if they are numbers.
+fn limit(
+    normal_force: f64,
+    [line, half_space]: [f64; 2],
+) -> Result<ElasticLimitFriction, FrictionError> {
     Ok(ElasticLimitFriction {
-        normal_force: normal_force(solid, glass, moment)?,
-        line: friction,
-        half_space: friction,
+        line: representable("friction coefficient", line)?,
+        half_space,
+        normal_force: representable("normal force", normal_force)?,
     })
 }
 
-fn normal_force(
-    solid: &(impl Material + ?Sized),
-    modulus: f64,
-    moment: f64,
-) -> Result<f64, FrictionError> {
-    let force = 8.0 * (modulus / solid.half_space_factor()) * moment;
-    representable("normal force", force)
-}
-
-/// Radius and depth of a contact that the body can have.
-fn checked(
+/// Depth of a contact that the body can have.
+fn checked_depth(
     body: &(impl Axisymmetric + ?Sized),
     contact: ElasticContact,
-) -> Result<(f64, f64), FrictionError> {
+) -> Result<f64, FrictionError> {
     positive("velocity", contact.velocity)?;
     let radius = positive("contact_radius", contact.contact_radius)?;
     let depth = representable("indentation depth", body.checked_line_height(radius)?)?;
     // Refuses a line that turns down before.
     contact_radius(body, depth)?;
-    Ok((radius, depth))
-}
-
-fn positive_moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, FrictionError> {
-    Ok(accepted("contact moment", moment(body, radius))?.value)
-}
-
-/// ∫₀^a (d − h̃)² dx.
-fn squared_compression(
-    body: &(impl Axisymmetric + ?Sized),
-    radius: f64,
-    depth: f64,
-) -> Result<f64, FrictionError> {
-    let mut ends = ends_outside_apex(body, radius);
-    ends.insert(0, 0.0);
-    let sum = over_pieces(|x| (depth - body.line_height(x)).powi(2), &ends);
-    Ok(accepted("squared compression", sum)?.value)
+    Ok(depth)
 }

@@ -40,12 +40,10 @@ impl fmt::Display for DivergenceCause {
                 formatter,
                 "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
             ),
-            Self::VerticalEdge { radius } => {
-                write!(
-                    formatter,
-                    "the contact reaches a vertical edge at radius {radius}"
-                )
-            }
+            Self::VerticalEdge { radius } => write!(
+                formatter,
+                "the contact reaches a vertical edge at radius {radius}"
+            ),
         }
     }
 }
@@ -88,6 +86,15 @@ pub enum FrictionError {
         needed_depth: f64,
         /// What the leading edge offers, \[m].
         available_depth: f64,
+    },
+    /// The contact would reach the vertical edge with which the body ends, where the line is infinitely high.
+    #[error(
+        "the contact would reach the edge of the body at radius {radius} m (of a sphere: its equator): lower normal_force \
+         or indentation_depth, or check the unit of shear_modulus or viscosity"
+    )]
+    BeyondEdge {
+        /// Radius at which the body ends, \[m].
+        radius: f64,
     },
     /// A numerical integral or root did not reach the accuracy needed.
     #[error("{quantity} is {value} with an estimated error of {error}, which is too large")]

@@ -7,13 +7,15 @@
 //! So force enters only through its impulse, and any force F(t) ≥ 0 is allowed (Kürschner & Filippov 2012, Phys. Mesomech.
 //! 15, 270, for power profiles; Radok 1957 for the principle). Where the force vanishes, the body rests.
 
-use indenters::{Axisymmetric, PowerProfile, contact_radius};
+use std::f64::consts::PI;
+
+use indenters::{Axisymmetric, Cylinder, PowerProfile, contact_radius};
 use numerics::{Estimate, bracketed_root};
 use rheology::Viscous;
 
 use crate::FrictionError;
 use crate::error::{not_negative, positive, representable};
-use crate::pieces::{accepted, over_pieces};
+use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
 /// The contact of a body pressed into a half space without sliding.
@@ -68,8 +70,9 @@ pub fn power_indentation_after_impulse(
 ///
 /// # Errors
 /// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::Indenter`] when
-/// the line of the body turns downwards or ends inside the contact; [`FrictionError::NotConverged`] when the integral is
-/// known to less than ten digits.
+/// the line of the body turns downwards or ends inside the contact; [`FrictionError::BeyondEdge`] when the contact would
+/// reach a vertical edge, as the equator of a sphere; [`FrictionError::NotConverged`] when the integral is known to less
+/// than ten digits.
 pub fn indentation_after_impulse(
     body: &(impl Axisymmetric + ?Sized),
     material: &Viscous,
@@ -82,7 +85,7 @@ pub fn indentation_after_impulse(
     let Some(radius) = radius_of_moment(body, target)? else {
         return at_the_rim(body, target);
     };
-    accepted("contact moment", moment(body, radius))?;
+    known_moment(body, radius)?;
     let depth = representable("indentation depth", body.line_height(radius))?;
     // Refuses a line that turns down before.
     contact_radius(body, depth)?;
@@ -96,14 +99,14 @@ pub fn indentation_after_impulse(
 ///
 /// # Errors
 /// [`FrictionError::Indenter`] when the depth is out of its range or the line of the body turns downwards or ends before
-/// it; [`FrictionError::NotConverged`] when the integral is known to less than ten digits.
+/// it; [`FrictionError::BeyondEdge`] and [`FrictionError::NotConverged`] like [`indentation_after_impulse`].
 pub fn impulse_to_depth(
     body: &(impl Axisymmetric + ?Sized),
     material: &Viscous,
     depth: f64,
 ) -> Result<f64, FrictionError> {
     let radius = contact_radius(body, depth)?;
-    let moment = accepted("contact moment", moment(body, radius))?.value;
+    let moment = known_moment(body, radius)?;
     // Zero up to rounding except for a flat punch, which sinks with a constant contact.
     let beyond = radius * (depth - body.line_height(radius));
     representable("impulse", 8.0 * material.viscosity() * (moment + beyond))
@@ -124,21 +127,42 @@ pub fn time_to_depth(
     Ok(impulse_to_depth(body, material, depth)? / normal_force)
 }
 
+/// Half the width b of the contact of a cylinder \[m] in plane strain after an impulse per length ∫ F' dt ≥ 0 \[N s/m]:
+/// `π η b²/R = ∫ F' dt`.
+///
+/// This is the elastic contact `π G b²/R = F'` (Hertz 1881) with the viscosity in the place of the modulus, as long as the
+/// contact grows (Lee & Radok 1960). A depth does not exist: it grows with the logarithm of the length of the cylinder.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for an impulse that is negative or not finite; [`FrictionError::OutOfRange`] when
+/// the result overflows or underflows.
+pub fn cylinder_half_width_after_impulse(
+    cylinder: &Cylinder,
+    material: &Viscous,
+    impulse_per_length: f64,
+) -> Result<f64, FrictionError> {
+    if not_negative("impulse_per_length", impulse_per_length)? == 0.0 {
+        return Ok(0.0);
+    }
+    // Roots of the factors, because their product may overflow where b does not.
+    let roots = [impulse_per_length, cylinder.radius()].map(f64::sqrt);
+    let divisors = [PI, material.viscosity()].map(f64::sqrt);
+    let half_width = roots[0] / divisors[0] / divisors[1] * roots[1];
+    representable("half width", half_width)
+}
+
 /// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.
 ///
 /// With r = a cos ψ it is a² ∫ h'(a cos ψ) cos²ψ dψ, which needs neither the line nor a difference of heights.
-pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
+fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
     let integrand = |psi: f64| {
         let cosine = psi.cos();
         body.profile_slope(radius * cosine) * cosine * cosine
     };
-    let kinks = body.kinks().into_iter().map(|kink| kink.radius);
     let angle = |b: f64| ((radius - b) * (radius + b)).sqrt().atan2(b);
-    let inside = kinks.filter(|b| *b < radius);
-    // From the apex at ψ = π/2 to the rim at ψ = 0, then the other way round.
-    let mut angles: Vec<f64> = [0.0].into_iter().chain(inside).map(angle).collect();
-    angles.push(0.0);
-    angles.reverse();
+    // From the rim at ψ = 0 to the apex at ψ = π/2.
+    let radii = ends_outside_apex(body, radius).into_iter().rev();
+    let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = over_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
     Estimate {
@@ -147,28 +171,46 @@ pub(crate) fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estima
     }
 }
 
+/// The moment, if it is known well enough.
+pub(crate) fn known_moment(
+    body: &(impl Axisymmetric + ?Sized),
+    radius: f64,
+) -> Result<f64, FrictionError> {
+    let end = body.max_radius();
+    match accepted("contact moment", moment(body, radius)) {
+        Err(_) if end.is_finite() && body.line_height(end).is_infinite() => {
+            Err(FrictionError::BeyondEdge { radius: end })
+        }
+        moment => Ok(moment?.value),
+    }
+}
+
 /// The contact radius whose moment is `target`, or `None` when the whole body does not have as much.
 fn radius_of_moment(
     body: &(impl Axisymmetric + ?Sized),
     target: f64,
 ) -> Result<Option<f64>, FrictionError> {
-    let excess = |radius: f64| moment(body, radius).value - target;
     let end = body.max_radius();
-    if end.is_finite() {
-        // A body that never ends in height (the sphere) has an infinite moment at its end, whatever a sum gives there.
-        let endless = body.line_height(end).is_infinite();
-        let signed = |radius: f64| {
-            if endless && radius >= end {
-                return f64::INFINITY;
-            }
-            excess(radius)
-        };
-        if signed(end) < 0.0 {
-            return Ok(None);
+    // A body that never ends in height (the sphere) has an infinite moment at its end, whatever a sum gives there.
+    let endless = end.is_finite() && body.line_height(end).is_infinite();
+    let excess = |radius: f64| {
+        if endless && radius >= end {
+            return f64::INFINITY;
         }
-        return root(signed, [0.0, end]).map(Some);
-    }
-    root(excess, bracket(&excess)).map(Some)
+        moment(body, radius).value - target
+    };
+    let bracket = if end.is_infinite() {
+        bracket(&excess)
+    } else if excess(end) < 0.0 {
+        return Ok(None);
+    } else {
+        [0.0, end]
+    };
+    let radius = bracketed_root(excess, bracket).ok_or(FrictionError::OutOfRange {
+        quantity: "contact radius",
+        value: bracket[1],
+    })?;
+    Ok(Some(radius))
 }
 
 /// Two radii between which the moment passes its target. The search starts at 1 m, which stands for "anywhere".
@@ -184,13 +226,6 @@ fn bracket(excess: &impl Fn(f64) -> f64) -> [f64; 2] {
         lower /= STEP;
     }
     [lower, upper]
-}
-
-fn root(excess: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Result<f64, FrictionError> {
-    bracketed_root(excess, bracket).ok_or(FrictionError::OutOfRange {
-        quantity: "contact radius",
-        value: bracket[1],
-    })
 }
 
 /// Beyond the moment of the whole body only a flat punch goes on; any other one is not high enough.

@@ -41,18 +41,15 @@ mod elastic_limit;
 mod error;
 mod indentation;
 mod line;
-mod line_contact;
 mod pieces;
 mod power;
 mod scaling;
 mod sinking;
-mod slope_energy;
 mod stationary;
 mod superposition;
 mod transient;
 mod viscoelastic;
 mod wavy;
-mod wavy_surface;
 
 pub use axisymmetric::axisymmetric_sliding;
 pub use elastic_limit::{
@@ -60,11 +57,10 @@ pub use elastic_limit::{
 };
 pub use error::{DivergenceCause, FrictionError};
 pub use indentation::{
-    Indentation, impulse_to_depth, indentation_after_impulse, power_indentation_after_impulse,
-    time_to_depth,
+    Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
+    power_indentation_after_impulse, time_to_depth,
 };
 pub use line::line_sliding;
-pub use line_contact::cylinder_half_width_after_impulse;
 pub use power::power_sliding;
 pub use scaling::{half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
@@ -76,5 +72,6 @@ pub use transient::{
 pub use viscoelastic::{
     SlidingContact, ViscoelasticSliding, kelvin_voigt_sliding, maxwell_sliding,
 };
-pub use wavy::{FullContact, WavyLine, wavy_sliding};
-pub use wavy_surface::{SurfaceWave, WavySliding, wavy_surface_sliding};
+pub use wavy::{
+    FullContact, SurfaceWave, WavyLine, WavySliding, wavy_sliding, wavy_surface_sliding,
+};

@@ -1,5 +1,6 @@
 //! Integrals over several pieces, and the accuracy that is needed of them.
 
+use indenters::Axisymmetric;
 use numerics::{Estimate, integrate};
 
 use crate::FrictionError;
@@ -14,6 +15,13 @@ const ACCEPTED_ACCURACY: f64 = 1e-10;
 pub(crate) fn over_pieces(integrand: impl Fn(f64) -> f64, ends: &[f64]) -> Estimate {
     let piece = |ends: &[f64]| integrate(&integrand, [ends[0], ends[1]], REQUESTED_ACCURACY);
     ends.windows(2).map(piece).sum()
+}
+
+/// The kinks of a body inside the radius, and the radius.
+pub(crate) fn ends_outside_apex(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Vec<f64> {
+    let kinks = body.kinks().into_iter().map(|kink| kink.radius);
+    let inside = kinks.take_while(|kink| *kink < radius);
+    inside.chain([radius]).collect()
 }
 
 /// The integral, if its error is small enough.

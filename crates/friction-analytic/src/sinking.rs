@@ -34,8 +34,7 @@ pub fn sinking_velocity(
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
     let depth = depth_under_force(material, load)?;
-    let length = contact_length(contact)?;
-    let rise = rise(line, contact)?;
+    let Contact { length, rise } = Contact::of(line, contact)?;
     // F/(4 η) = D v.
     Ok(load.velocity() * ((depth - rise) / length))
 }
@@ -53,11 +52,8 @@ pub fn one_sided_sinking_velocity(
     load: &SlidingLoad,
 ) -> Result<f64, FrictionError> {
     let stationary_depth = depth_under_force(material, load)?;
-    let length = contact_length(contact)?;
-    let rise = rise(line, contact)?;
-    let front = contact
-        .last()
-        .map_or(f64::NAN, |[_, end]| line.height(*end));
+    let Contact { length, rise } = Contact::of(line, contact)?;
+    let front = contact.last().map_or(f64::NAN, |ends| line.height(ends[1]));
     let depth = representable("indentation depth", front - leading_edge(line)?.lowest)?;
     if (rise - depth).abs() > SAME_HEIGHT * depth {
         return Err(FrictionError::NotOneSided { depth, rise });
@@ -71,38 +67,42 @@ pub fn one_sided_sinking_velocity(
     Ok(load.velocity() * ((stationary_depth - depth) / length))
 }
 
-/// Sum of the lengths of intervals that follow one another.
-fn contact_length(contact: &[[f64; 2]]) -> Result<f64, FrictionError> {
-    let mut lower = f64::NEG_INFINITY;
-    for (index, [start, end]) in contact.iter().copied().enumerate() {
-        let in_order = start >= lower && end > start && start.is_finite() && end.is_finite();
-        if !in_order {
-            return Err(FrictionError::InvalidContact {
-                index,
-                lower,
-                start,
-                end,
-            });
-        }
-        lower = end;
-    }
-    representable(
-        "contact length",
-        contact.iter().map(|[start, end]| end - start).sum(),
-    )
+/// What a contact contributes to the balance of forces.
+struct Contact {
+    /// Sum of the lengths of its intervals.
+    length: f64,
+    /// Σ [h̃(β) − h̃(α)].
+    rise: f64,
 }
 
-/// Σ [h̃(β) − h̃(α)].
-fn rise(line: &(impl RigidLine + ?Sized), contact: &[[f64; 2]]) -> Result<f64, FrictionError> {
-    let value: f64 = contact
-        .iter()
-        .map(|[start, end]| line.height(*end) - line.height(*start))
-        .sum();
-    if value.is_finite() {
-        return Ok(value);
+impl Contact {
+    /// Of intervals that follow one another.
+    fn of(line: &(impl RigidLine + ?Sized), contact: &[[f64; 2]]) -> Result<Self, FrictionError> {
+        let mut lower = f64::NEG_INFINITY;
+        for (index, [start, end]) in contact.iter().copied().enumerate() {
+            let in_order = start >= lower && end > start && start.is_finite() && end.is_finite();
+            if !in_order {
+                return Err(FrictionError::InvalidContact {
+                    index,
+                    lower,
+                    start,
+                    end,
+                });
+            }
+            lower = end;
+        }
+        let sum = |of: &dyn Fn([f64; 2]) -> f64| contact.iter().map(|ends| of(*ends)).sum();
+        let rise = sum(&|[start, end]| line.height(end) - line.height(start));
+        if !f64::is_finite(rise) {
+            return Err(FrictionError::OutOfRange {
+                quantity: "rise of the contact",
+                value: rise,
+            });
+        }
+        let length = sum(&|[start, end]| end - start);
+        Ok(Self {
+            length: representable("contact length", length)?,
+            rise,
+        })
     }
-    Err(FrictionError::OutOfRange {
-        quantity: "rise of the contact",
-        value,
-    })
 }

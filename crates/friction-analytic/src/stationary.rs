@@ -5,6 +5,7 @@
 //! ```
 
 use indenters::{Control, SlidingLoad};
+use numerics::Estimate;
 use rheology::Viscous;
 
 use crate::FrictionError;
@@ -26,6 +27,22 @@ pub struct StationarySliding {
 }
 
 impl StationarySliding {
+    /// From ∫ h̃'² dx over the contact, (16); `ends` is what the rounding of its ends is multiplied with, whose integrand is
+    /// cut there.
+    pub(crate) fn of_energy(
+        depth: f64,
+        contact_line: Vec<[f64; 2]>,
+        energy: Estimate,
+        ends: f64,
+    ) -> Self {
+        Self {
+            indentation_depth: depth,
+            contact_line,
+            friction_coefficient: energy.value / depth,
+            error: (energy.error + 4.0 * f64::EPSILON * (energy.value + ends)) / depth,
+        }
+    }
+
     /// Length of the contact line, \[m].
     #[must_use]
     pub fn contact_length(&self) -> f64 {
@@ -66,15 +83,10 @@ pub(crate) fn depth_under_force(
 /// the quotient itself lies there.
 pub(crate) fn quotient(numerator: f64, [one, other]: [f64; 2]) -> f64 {
     // A numerator below one must not shrink first, one above must not grow first.
-    let first = if numerator < 1.0 {
-        one.min(other)
+    let [first, second] = if (numerator < 1.0) == (one < other) {
+        [one, other]
     } else {
-        one.max(other)
-    };
-    let second = if numerator < 1.0 {
-        one.max(other)
-    } else {
-        one.min(other)
+        [other, one]
     };
     numerator / first / second
 }

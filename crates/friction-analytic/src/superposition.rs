@@ -4,14 +4,11 @@
 //! h̃ = Σ h̃_i,  h̃_i = κ(p_i) c_i x^(p_i)        μ = 1/(d x_d) Σ_i Σ_j p_i p_j / (p_i + p_j − 1) h̃_i(x_d) h̃_j(x_d)
 //! ```
 
-use indenters::{
-    Axisymmetric, PowerProfile, PowerTerm, SlidingLoad, Superposition, contact_radius,
-};
+use indenters::{Axisymmetric, PowerProfile, PowerTerm, SlidingLoad, Superposition};
 use rheology::Viscous;
 
-use crate::axisymmetric::no_stationary_state;
+use crate::axisymmetric::radius_with_friction;
 use crate::error::representable;
-use crate::slope_energy::divergence_cause;
 use crate::stationary::checked_depth;
 use crate::{FrictionError, StationarySliding};
 
@@ -26,14 +23,7 @@ pub fn superposition_sliding(
     load: &SlidingLoad,
 ) -> Result<StationarySliding, FrictionError> {
     let depth = checked_depth(material, load)?;
-    let radius = contact_radius(profile, depth).map_err(no_stationary_state)?;
-    if let Some(cause) = divergence_cause(profile, radius, depth) {
-        return Err(FrictionError::FrictionDiverges {
-            cause,
-            indentation_depth: depth,
-            contact_length: radius,
-        });
-    }
+    let radius = radius_with_friction(profile, depth)?;
     let heights = line_heights(profile.terms(), radius)?;
     let mut sum = 0.0;
     let mut modulus = 0.0;

@@ -1,12 +1,19 @@
-//! A wavy line pressed fully into a foundation, on which it slides.
+//! Wavy lines and surfaces pressed fully into a foundation or a half space, over which they slide.
 //!
 //! ```text
 //! h̃ = g cos(k x)       q = 4 [G_∞ d + Re(G*(k v) g e^(i k x))]
 //! F_h per length = 2 k g² G''(k v),    full contact while G_∞ d ≥ |G*(k v)| g,    μ = (k g/2) sin δ at that limit
 //! ```
-//! d is the mean depth. The half space in full contact has the same friction coefficient at its own limit.
+//! d is the mean depth. On the half space, for ν = 1/2, with the same friction coefficient of one wave at its own limit,
+//!
+//! ```text
+//! h = Σ hᵢ cos(qᵢ · x + φᵢ)      pᵢ = 2 |G*(qᵢₓ v)| |qᵢ| hᵢ      τ_f = Σ G''(qᵢₓ v) qᵢₓ |qᵢ| hᵢ²
+//! ```
+//!
+//! The pressure leads every wave by the loss angle at its own frequency, and waves of different wave vector do not
+//! disturb each other; see Persson (2001), J. Chem. Phys. 115, 3840.
 
-use rheology::Material;
+use rheology::{ComplexModulus, Material};
 
 use crate::FrictionError;
 use crate::error::{positive, representable};
@@ -48,20 +55,105 @@ pub fn wavy_sliding(
     let amplitude = positive("amplitude", line.amplitude)?;
     let wave_number = std::f64::consts::TAU / positive("wavelength", line.wavelength)?;
     let frequency = positive("angular frequency", wave_number * line.velocity)?;
-    let relaxation = material.relaxation();
-    let out_of_range = |_| FrictionError::OutOfRange {
-        quantity: "angular frequency",
-        value: frequency,
-    };
-    let modulus = relaxation
-        .complex_modulus(frequency)
-        .map_err(out_of_range)?;
+    let modulus = complex_modulus(material, frequency)?;
     let size = modulus.storage.hypot(modulus.loss);
     let steepness = wave_number * amplitude;
     let loss = modulus.loss / material.half_space_factor();
     Ok(FullContact {
         friction_per_length: representable("friction", 2.0 * steepness * amplitude * loss)?,
-        least_depth: amplitude * (size / relaxation.equilibrium_modulus()),
+        least_depth: amplitude * (size / material.relaxation().equilibrium_modulus()),
         largest_friction_coefficient: 0.5 * steepness * (modulus.loss / size),
     })
+}
+
+fn complex_modulus(
+    material: &(impl Material + ?Sized),
+    frequency: f64,
+) -> Result<ComplexModulus, FrictionError> {
+    let out_of_range = |_| FrictionError::OutOfRange {
+        quantity: "angular frequency",
+        value: frequency,
+    };
+    let modulus = material.relaxation().complex_modulus(frequency);
+    modulus.map_err(out_of_range)
+}
+
+/// One wave hᵢ cos(qᵢ · x + φᵢ) of a surface; its phase plays no role for the friction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SurfaceWave {
+    /// Amplitude h, \[m].
+    pub amplitude: f64,
+    /// Wave vector q along and across the sliding direction, \[1/m].
+    pub wave_vector: [f64; 2],
+}
+
+/// Sliding of a wavy surface in full contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct WavySliding {
+    /// Friction force per area, \[Pa]; it does not depend on the pressure.
+    pub friction_stress: f64,
+    /// Mean pressure from which contact is full whatever the phases, \[Pa]: the sum of all amplitudes of the pressure, and
+    /// for a single wave the least pressure of full contact.
+    pub full_contact_pressure: f64,
+    /// Friction coefficient under that pressure.
+    pub friction_coefficient: f64,
+}
+
+/// Friction of a wavy surface in full contact, from the complex moduli at the angular frequencies of its waves.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] when an amplitude, the length of a wave vector or the velocity is not finite and
+/// greater than zero, when there is no wave, or when two have the same or opposite wave vectors (they are one wave);
+/// [`FrictionError::OutOfRange`] when a frequency, a pressure or the friction overflows or underflows, as on an elastic
+/// material.
+pub fn wavy_surface_sliding(
+    waves: &[SurfaceWave],
+    material: &(impl Material + ?Sized),
+    velocity: f64,
+) -> Result<WavySliding, FrictionError> {
+    positive("number of waves", waves.len() as f64)?;
+    positive("velocity", velocity)?;
+    refuse_repeated(waves)?;
+    let [mut stress, mut pressure] = [0.0; 2];
+    for wave in waves {
+        let amplitude = positive("amplitude", wave.amplitude)?;
+        let [along, across] = wave.wave_vector;
+        let wave_number = positive("length of a wave vector", along.hypot(across))?;
+        let modulus = complex_modulus(material, along.abs() * velocity)?;
+        let steepness = wave_number * amplitude / material.half_space_factor();
+        stress += modulus.loss * steepness * (along.abs() * amplitude);
+        pressure += 2.0 * modulus.storage.hypot(modulus.loss) * steepness;
+    }
+    let friction_stress = representable("friction", stress)?;
+    let full_contact_pressure = representable("pressure", pressure)?;
+    Ok(WavySliding {
+        friction_stress,
+        full_contact_pressure,
+        friction_coefficient: friction_stress / full_contact_pressure,
+    })
+}
+
+/// Waves with the same or opposite vectors interfere.
+fn refuse_repeated(waves: &[SurfaceWave]) -> Result<(), FrictionError> {
+    let direction = |wave: &SurfaceWave| {
+        let [along, across] = wave.wave_vector;
+        let is_reversed = along < 0.0 || along == 0.0 && across < 0.0;
+        let sign = if is_reversed { -1.0 } else { 1.0 };
+        // Adding 0 makes −0 the same as 0.
+        [along, across].map(|part| (sign * part + 0.0).to_bits())
+    };
+    let mut seen = std::collections::BTreeSet::new();
+    for wave in waves {
+        if !seen.insert(direction(wave)) {
+            return Err(FrictionError::InvalidParameter {
+                parameter: "wave vector",
+                value: wave.wave_vector[0],
+                allowed: "different from that of every other wave, and not its opposite: such waves add up to one",
+            });
+        }
+    }
+    Ok(())
 }

@@ -1,54 +1,234 @@
-use casebook::assert_matches;
-use friction_analytic::{ElasticContact, FrictionError, high_speed_friction, low_speed_friction};
-use indenters::{IndenterError, Sphere};
-use rheology::{StandardSolid, StandardSolidParameters};
+use casebook::{assert_matches, superposition};
+use friction_analytic::{
+    ElasticContact, FrictionError, SlidingContact, SurfaceWave, cone_depth_by_equation_15,
+    cylinder_half_width_after_impulse, high_speed_friction, impulse_to_depth,
+    indentation_after_impulse, kelvin_voigt_sliding, low_speed_friction,
+    power_indentation_after_impulse, power_sliding, sliding_distance_to_depth, stationary_depth,
+    time_to_depth, transient_sliding, wavy_surface_sliding,
+};
+use indenters::{Axisymmetric, Cylinder, IndenterError, PowerProfile, Sphere};
+use rheology::{KelvinVoigt, Prony};
+
+use crate::support::{material_and_load, power, prony, refused, viscous, with_depth};
+
+fn solid() -> Prony {
+    prony(1.0, 0.0, &[(2.0, 1.5)])
+}
 
 #[test]
-fn elastic_contacts_that_cannot_be_are_refused() {
-    let sphere = Sphere::new(1.0).unwrap();
-    let solid = StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: 1.0,
-        maxwell_modulus: 2.0,
-        viscosity: 3.0,
-    })
-    .unwrap();
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for (name, contact) in [
+fn numbers_that_are_negative_or_not_finite_are_named() {
+    let (material, load) = with_depth(0.1);
+    let cone = PowerProfile::cone(1.0).unwrap();
+    let cylinder = Cylinder::new(0.01).unwrap();
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let width = cylinder_half_width_after_impulse(&cylinder, &material, bad);
+        for (parameter, named) in [
             (
-                "velocity",
-                ElasticContact {
-                    contact_radius: 0.5,
-                    velocity: bad,
-                },
+                "impulse",
+                refused(power_indentation_after_impulse(&cone, &material, bad)),
             ),
             (
-                "contact_radius",
-                ElasticContact {
-                    contact_radius: bad,
-                    velocity: 1.0,
-                },
+                "impulse",
+                refused(indentation_after_impulse(&cone, &material, bad)),
+            ),
+            ("impulse_per_length", refused(width)),
+            (
+                "time",
+                refused(transient_sliding(&cone, &material, &load, bad)),
+            ),
+            (
+                "time",
+                refused(cone_depth_by_equation_15(&cone, &material, &load, bad)),
+            ),
+            (
+                "fraction",
+                refused(sliding_distance_to_depth(&cone, &material, &load, bad)),
             ),
         ] {
-            for result in [
-                low_speed_friction(&sphere, &solid, contact),
-                high_speed_friction(&sphere, &solid, contact),
-            ] {
-                let named = matches!(
-                    result,
-                    Err(FrictionError::InvalidParameter { parameter, .. }) if parameter == name
-                );
-                assert!(named, "{contact:?}: {result:?} instead of {name}");
-            }
+            assert_eq!(named, parameter, "refused value {bad}");
         }
     }
+    let whole = sliding_distance_to_depth(&cone, &material, &load, 1.0);
+    assert_eq!(
+        refused(whole),
+        "fraction",
+        "the whole depth is never reached"
+    );
+}
+
+#[test]
+fn numbers_that_must_be_positive_are_named() {
+    let material = viscous(1.0);
+    let [cone, sphere] = [
+        &PowerProfile::cone(1.0).unwrap() as &dyn Axisymmetric,
+        &Sphere::new(2.0).unwrap(),
+    ];
+    let wave = |amplitude: f64, wave_vector: [f64; 2]| {
+        let wave = SurfaceWave {
+            amplitude,
+            wave_vector,
+        };
+        refused(wavy_surface_sliding(&[wave], &solid(), 1.0))
+    };
+    let on_line = |front: f64, velocity: f64| {
+        let material = KelvinVoigt::new(1.0, 1.0).unwrap();
+        let contact = SlidingContact { front, velocity };
+        refused(kelvin_voigt_sliding(&power(1.0, 1.0), &material, contact))
+    };
+    let elastic = |contact_radius: f64, velocity: f64| {
+        let contact = ElasticContact {
+            contact_radius,
+            velocity,
+        };
+        let [slow, fast] = [
+            low_speed_friction(sphere, &solid(), contact),
+            high_speed_friction(sphere, &solid(), contact),
+        ]
+        .map(refused);
+        assert_eq!(slow, fast, "{contact:?}");
+        slow
+    };
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for (parameter, named) in [
+            ("depth", refused(impulse_to_depth(cone, &material, bad))),
+            (
+                "normal_force",
+                refused(time_to_depth(cone, &material, 1.0, bad)),
+            ),
+            ("velocity", elastic(0.5, bad)),
+            ("contact_radius", elastic(bad, 1.0)),
+            ("velocity", on_line(1.0, bad)),
+            ("front", on_line(bad, 1.0)),
+            ("amplitude", wave(bad, [1.0, 0.0])),
+        ] {
+            assert_eq!(named, parameter, "refused value {bad}");
+        }
+    }
+    for bad in [[0.0, 0.0], [f64::NAN, 1.0]] {
+        assert_eq!(wave(1.0, bad), "length of a wave vector", "{bad:?}");
+    }
+}
+
+#[test]
+fn waves_that_interfere_are_refused() {
+    let wave = |wave_vector: [f64; 2]| SurfaceWave {
+        amplitude: 1e-3,
+        wave_vector,
+    };
+    let good = wave([2.0, 0.0]);
+    let none = wavy_surface_sliding(&[], &solid(), 1.0);
+    assert_eq!(refused(none), "number of waves", "a plane");
+    for other in [[2.0, 0.0], [-2.0, -0.0]] {
+        let result = wavy_surface_sliding(&[good, wave(other)], &solid(), 1.0);
+        assert_eq!(refused(result), "wave vector", "{other:?} beside {good:?}");
+    }
+}
+
+#[test]
+fn results_beyond_the_numbers_are_refused() {
+    let cone = PowerProfile::cone(1.0).unwrap();
+    let [deep, flat] = [[1e300, 1e-300, 1.0], [1e-300, 1e300, 1.0]].map(|numbers| {
+        let (material, load) = material_and_load(numbers);
+        power_sliding(&cone, &material, &load).map(drop)
+    });
+    let (material, load) = with_depth(1.0);
+    let sharp = power_sliding(&power(1e-300, 0.6), &material, &load).map(drop);
+    let wave = SurfaceWave {
+        amplitude: 1e-3,
+        wave_vector: [2.0, 0.0],
+    };
+    let fast = wavy_surface_sliding(&[wave], &solid(), f64::MAX).map(drop);
+    for (named, result) in [
+        ("indentation depth", deep),
+        ("indentation depth", flat),
+        ("contact length", sharp),
+        ("angular frequency", fast),
+    ] {
+        assert_matches!(result, Err(FrictionError::OutOfRange { quantity, .. }) if quantity == named);
+    }
+}
+
+#[test]
+fn no_intermediate_product_overflows() {
+    for [force, eta, v] in [
+        [1e-200, 1e200, 1e-200],
+        [1e-200, 1e-200, 1e200],
+        [1e200, 1e-200, 1e200],
+        [1e200, 1e200, 1e-200],
+        [1e300, 1e300, 1e300],
+    ] {
+        let (material, load) = material_and_load([force, eta, v]);
+        let depth = stationary_depth(&material, &load);
+        let logarithm = force.log10() - eta.log10() - v.log10() - 4_f64.log10();
+        // The logarithm is rounded in its last place, that is to 1e-13.
+        assert!(
+            (depth.log10() - logarithm).abs() < 1e-12,
+            "F = {force:e}, η = {eta:e}, v = {v:e}: d = {depth:e} instead of 1e{logarithm}"
+        );
+    }
+}
+
+#[test]
+fn profiles_without_a_closed_form_are_refused() {
+    let (material, load) = with_depth(0.1);
+    for p in [0.5, 1.5, 2.000_000_1, 2.0, 3.0] {
+        let profile = power(1.0, p);
+        let contact = SlidingContact {
+            front: 1.0,
+            velocity: 1.0,
+        };
+        let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
+        let cone_only = cone_depth_by_equation_15(&profile, &material, &load, 1.0).map(drop);
+        let others = [
+            transient_sliding(&profile, &material, &load, 1.0).map(drop),
+            sliding_distance_to_depth(&profile, &material, &load, 0.5).map(drop),
+            kelvin_voigt_sliding(&profile, &foundation, contact).map(drop),
+        ];
+        let is_paraboloid = p.total_cmp(&2.0).is_eq();
+        for result in others
+            .into_iter()
+            .filter(|_| !is_paraboloid)
+            .chain([cone_only])
+        {
+            assert_matches!(
+                result,
+                Err(FrictionError::UnsupportedExponent { .. }),
+                "p = {p}"
+            );
+        }
+    }
+}
+
+#[test]
+fn contacts_beyond_the_body_are_refused() {
+    let material = viscous(1.0);
+    let sphere = Sphere::new(0.005).unwrap();
     let beyond = ElasticContact {
-        contact_radius: 1.0,
+        contact_radius: 0.005,
         velocity: 1.0,
     };
-    let result = low_speed_friction(&sphere, &solid, beyond);
+    let result = low_speed_friction(&sphere, &solid(), beyond);
     assert_matches!(
         result,
-        Err(FrictionError::Indenter(IndenterError::OutOfDomain { .. })),
-        " at the equator of the sphere"
+        Err(FrictionError::Indenter(IndenterError::OutOfDomain { .. }))
     );
+    for result in [
+        indentation_after_impulse(&sphere, &material, 1e3).map(drop),
+        impulse_to_depth(&sphere, &material, 1e3).map(drop),
+    ] {
+        assert_matches!(result, Err(FrictionError::BeyondEdge { radius }) if radius.total_cmp(&0.005).is_eq());
+        let message = result.unwrap_err().to_string();
+        for part in [
+            "radius 0.005 m",
+            "equator",
+            "lower normal_force",
+            "unit of shear_modulus",
+        ] {
+            assert!(message.contains(part), "no {part:?} in {message:?}");
+        }
+    }
+    // h̃ = (π/2) x − 2 x² falls from x = π/8 on, and so does its moment later.
+    let falling = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);
+    let result = indentation_after_impulse(&falling, &material, 1e6);
+    assert!(result.is_err(), "{result:?} of a body that turns downwards");
 }

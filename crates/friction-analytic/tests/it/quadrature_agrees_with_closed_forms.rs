@@ -1,17 +1,21 @@
-use casebook::{assert_close, assert_matches};
+use casebook::{assert_close, assert_matches, superposition};
 use friction_analytic::{
     FrictionError, StationarySliding, axisymmetric_sliding, power_sliding, superposition_sliding,
 };
-use indenters::{
-    Axisymmetric, IndenterError, PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition,
-};
+use indenters::{Axisymmetric, IndenterError, RoundTippedCone, Sphere, Superposition};
 use proptest::prelude::*;
 
-use crate::support::{Bare, fixed_cases, with_depth};
+use crate::support::{Bare, fixed_cases, power, with_depth};
 
 fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
     let (material, load) = with_depth(depth);
     axisymmetric_sliding(body, &material, &load).expect("the body has a stationary state")
+}
+
+/// A sum of powers slides as the double sum says.
+fn sum_up(sum: &Superposition, depth: f64) -> Result<StationarySliding, FrictionError> {
+    let (material, load) = with_depth(depth);
+    superposition_sliding(sum, &material, &load)
 }
 
 #[test]
@@ -77,8 +81,7 @@ fn quadrature_agrees_with_the_closed_form_for_every_exponent() {
             // The contact length is scale · 0.8 whatever the exponent.
             let depth = 0.1 * scale;
             let kappa = indenters::stretch(p).unwrap();
-            let c = depth / kappa * (0.8 * scale).powf(-p);
-            let profile = PowerProfile::new(c, p).unwrap();
+            let profile = power(depth / kappa * (0.8 * scale).powf(-p), p);
             let (material, load) = with_depth(depth);
             let exact = power_sliding(&profile, &material, &load).unwrap();
             let numerical = slide(&profile, depth);
@@ -102,68 +105,42 @@ fn quadrature_agrees_with_the_closed_form_for_every_exponent() {
 #[test]
 fn the_transform_by_quadrature_gives_the_same_friction() {
     for p in [0.75, 1.0, 1.5, 2.0, 6.0] {
-        let profile = PowerProfile::new(0.4, p).unwrap();
-        let with_form = slide(&profile, 0.1);
-        let bare = slide(&Bare(&profile), 0.1);
-        let what = format!("μ for p = {p}");
-        assert_close!(
-            bare.friction_coefficient => with_form.friction_coefficient,
-            within 1e-11; "{what}"
-        );
+        let profile = power(0.4, p);
+        let [bare, closed] = [slide(&Bare(&profile), 0.1), slide(&profile, 0.1)];
+        assert_close!(bare.friction_coefficient => closed.friction_coefficient, within 1e-11; "p = {p}");
     }
     let sphere = Sphere::new(2.0).unwrap();
-    let (with_form, bare) = (slide(&sphere, 0.1), slide(&Bare(&sphere), 0.1));
-    assert_close!(bare.friction_coefficient => with_form.friction_coefficient, within 1e-11);
+    let [bare, closed] = [slide(&Bare(&sphere), 0.1), slide(&sphere, 0.1)];
+    assert_close!(bare.friction_coefficient => closed.friction_coefficient, within 1e-11);
 }
 
 #[test]
 fn a_single_term_slides_like_its_power() {
     for p in [0.51, 0.75, 1.0, 2.0, 7.5, 64.0] {
-        let (c, depth) = (0.4, 0.1);
-        let (material, load) = with_depth(depth);
-        let power = power_sliding(&PowerProfile::new(c, p).unwrap(), &material, &load).unwrap();
-        let sum = Superposition::new(vec![PowerTerm {
-            coefficient: c,
-            exponent: p,
-        }])
-        .unwrap();
-        let sum = superposition_sliding(&sum, &material, &load).unwrap();
+        let (material, load) = with_depth(0.1);
+        let single = power_sliding(&power(0.4, p), &material, &load).unwrap();
+        let sum = sum_up(&superposition(&[(0.4, p)]), 0.1).unwrap();
         // c x^p is rounded in proportion to p.
         let tolerance = 1e-14 + 4.0 * f64::EPSILON * p;
-        assert_close!(
-            sum.friction_coefficient => power.friction_coefficient,
-            within tolerance; "μ, p = {p}"
-        );
-        assert_close!(sum.contact_length() => power.contact_length(), within 1e-14; "x_d, p = {p}");
+        assert_close!(sum.friction_coefficient => single.friction_coefficient, within tolerance; "p = {p}");
+        assert_close!(sum.contact_length() => single.contact_length(), within 1e-14; "p = {p}");
     }
 }
 
 #[test]
 fn a_sum_that_turns_downwards_is_refused() {
-    let terms = vec![
-        PowerTerm {
-            coefficient: 1.0,
-            exponent: 1.0,
-        },
-        PowerTerm {
-            coefficient: -1.0,
-            exponent: 2.0,
-        },
-    ];
-    let sum = Superposition::new(terms).unwrap();
     // h̃ = (π/2) x − 2 x² has its maximum π²/32 at π/8.
+    let sum = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);
     let limit = std::f64::consts::PI.powi(2) / 32.0;
-    let (material, load) = with_depth(limit * (1.0 + 1e-6));
-    let refused = superposition_sliding(&sum, &material, &load);
+    let refused = sum_up(&sum, limit * (1.0 + 1e-6));
     assert_matches!(
         refused,
         Err(FrictionError::Indenter(
             IndenterError::NonMonotoneLine { .. }
         ))
     );
-    let (material, load) = with_depth(0.9 * limit);
-    let closed = superposition_sliding(&sum, &material, &load).unwrap();
-    let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
+    let closed = sum_up(&sum, 0.9 * limit).unwrap();
+    let numerical = slide(&sum, 0.9 * limit);
     assert_close!(closed.friction_coefficient => numerical.friction_coefficient, within 1e-11);
 }
 
@@ -179,14 +156,11 @@ proptest! {
     ) {
         let scale = 10_f64.powf(log_scale);
         let exponents = [lowest, lowest + gaps[0], lowest + gaps[0] + gaps[1]];
-        let terms = coefficients.iter().zip(exponents).map(|(c, exponent)| PowerTerm {
-            coefficient: c * scale.powf(1.0 - exponent),
-            exponent,
-        });
-        let sum = Superposition::new(terms.collect()).unwrap();
-        let (material, load) = with_depth(0.3 * scale);
-        let closed = superposition_sliding(&sum, &material, &load).unwrap();
-        let numerical = axisymmetric_sliding(&sum, &material, &load).unwrap();
+        let terms = coefficients.iter().zip(exponents);
+        let terms: Vec<_> = terms.map(|(c, p)| (c * scale.powf(1.0 - p), p)).collect();
+        let sum = superposition(&terms);
+        let closed = sum_up(&sum, 0.3 * scale).unwrap();
+        let numerical = slide(&sum, 0.3 * scale);
         assert_close!(closed.friction_coefficient => numerical.friction_coefficient, within 1e-11);
         // Cauchy and Schwarz: the steepest use of a given depth is a constant slope.
         let smallest = closed.indentation_depth / closed.contact_length();

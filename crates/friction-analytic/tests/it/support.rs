@@ -1,9 +1,12 @@
 //! Loads, bodies and comparisons for the tests.
 
+use std::fmt::Debug;
+
 use casebook::Case;
-use indenters::{Axisymmetric, Kink, ProfilePoint, SlidingLoad};
+use friction_analytic::FrictionError;
+use indenters::{Axisymmetric, IndenterError, Kink, PowerProfile, ProfilePoint, SlidingLoad};
 use proptest::test_runner::{Config, RngSeed};
-use rheology::Viscous;
+use rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
 
 /// The material and load of a row with inputs `F`, `eta` and `v`.
 pub(crate) fn sliding(case: &Case) -> (Viscous, SlidingLoad) {
@@ -12,7 +15,7 @@ pub(crate) fn sliding(case: &Case) -> (Viscous, SlidingLoad) {
 
 pub(crate) fn material_and_load([force, eta, v]: [f64; 3]) -> (Viscous, SlidingLoad) {
     (
-        Viscous::new(eta).expect("the viscosity is legal"),
+        viscous(eta),
         SlidingLoad::new(force, v).expect("the load is legal"),
     )
 }
@@ -20,6 +23,51 @@ pub(crate) fn material_and_load([force, eta, v]: [f64; 3]) -> (Viscous, SlidingL
 /// Material and load with 4 η v = 1, whose stationary depth is the force, to the last bit.
 pub(crate) fn with_depth(depth: f64) -> (Viscous, SlidingLoad) {
     material_and_load([depth, 0.5, 0.5])
+}
+
+pub(crate) fn viscous(eta: f64) -> Viscous {
+    Viscous::new(eta).expect("the viscosity is legal")
+}
+
+pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
+    PowerProfile::new(coefficient, exponent).expect("a power")
+}
+
+/// A material of a spring, a dashpot and branches of modulus and relaxation time.
+pub(crate) fn prony(spring: f64, dashpot: f64, branches: &[(f64, f64)]) -> Prony {
+    let branches = branches
+        .iter()
+        .map(|&(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        });
+    let relaxation = RelaxationSpectrum::new(spring, dashpot, branches.collect());
+    Prony::new(relaxation.expect("a spectrum")).expect("a material")
+}
+
+/// Checks those of the numbers that the row expects.
+pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
+    let is_expected = |(name, _): &&(&str, f64)| case.expected(name).is_some();
+    let expected: Vec<_> = numbers.iter().filter(is_expected).collect();
+    assert!(
+        !expected.is_empty(),
+        "{} expects none of {numbers:?}",
+        case.id()
+    );
+    for (name, value) in expected {
+        case.check(name, *value);
+    }
+}
+
+/// The parameter that an error names.
+pub(crate) fn refused<T: Debug>(result: Result<T, FrictionError>) -> &'static str {
+    match result {
+        Err(
+            FrictionError::InvalidParameter { parameter, .. }
+            | FrictionError::Indenter(IndenterError::InvalidParameter { parameter, .. }),
+        ) => parameter,
+        other => panic!("{other:?} instead of a refused parameter"),
+    }
 }
 
 /// The same cases in every run, and no file left behind.

@@ -1,0 +1,158 @@
+//! Kelvin–Voigt and Maxwell foundations (casebook MDR-03, MDR-04), and waves in full contact with a foundation (FRI-06) and
+//! with a half space (VIS-03).
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use casebook::{Case, assert_close};
+use friction_analytic::{
+    SlidingContact, SurfaceWave, ViscoelasticSliding, WavyLine, kelvin_voigt_sliding,
+    maxwell_sliding, wavy_sliding, wavy_surface_sliding,
+};
+use indenters::PowerProfile;
+use rheology::{KelvinVoigt, Maxwell, Prony};
+
+use crate::support::{power, prony};
+
+/// The profile of the line s |x| or k x²/2, and the contact.
+fn scene(case: &Case) -> (PowerProfile, SlidingContact) {
+    let profile = if case.has_input("s") {
+        power(case.input("s") / FRAC_PI_2, 1.0)
+    } else {
+        power(0.5 * case.input("k"), 2.0)
+    };
+    let contact = SlidingContact {
+        front: case.input("x_r"),
+        velocity: case.input("v"),
+    };
+    (profile, contact)
+}
+
+fn check(case: &Case, state: &ViscoelasticSliding) {
+    case.check("x_l", state.contact[0]);
+    case.check("F", state.normal_force);
+    case.check("mu", state.friction_coefficient);
+    if case.expected("d").is_some() {
+        case.check("d", state.indentation_depth);
+    }
+}
+
+#[test]
+fn kelvin_voigt_foundations_match_the_casebook() {
+    for case in casebook::group("MDR-03") {
+        let material = KelvinVoigt::new(case.input("G"), case.input("eta")).unwrap();
+        let (profile, contact) = scene(&case);
+        check(
+            &case,
+            &kelvin_voigt_sliding(&profile, &material, contact).unwrap(),
+        );
+    }
+}
+
+/// The friction of the fastest rows is below the absolute tolerance of the group; it keeps its digits all the same.
+#[test]
+fn maxwell_foundations_match_the_casebook_without_cancellation() {
+    for case in casebook::group("MDR-04") {
+        let modulus = case.input("G");
+        let material = Maxwell::new(modulus, modulus * case.input("tau")).unwrap();
+        let (profile, contact) = scene(&case);
+        let state = maxwell_sliding(&profile, &material, contact).unwrap();
+        check(&case, &state);
+        let expected = case.expected("mu").unwrap();
+        assert_close!(state.friction_coefficient => expected, within 1e-10; "{}", case.id());
+    }
+}
+
+#[test]
+fn a_wavy_line_in_full_contact_matches_the_casebook() {
+    let material = prony(1e5, 0.0, &[(5e8, 1e-6), (2e7, 0.01), (3e5, 1e3)]);
+    for case in casebook::group("FRI-06") {
+        let line = WavyLine {
+            amplitude: case.input("g0"),
+            wavelength: case.input("wavelength"),
+            velocity: case.input("v"),
+        };
+        let state = wavy_sliding(line, &material).unwrap();
+        case.check("Fh_per_length", state.friction_per_length);
+        case.check("d_m_limit", state.least_depth);
+        case.check("mu_limit", state.largest_friction_coefficient);
+    }
+}
+
+/// The material of a row of VIS-03; some name it without its numbers.
+fn material(case: &Case) -> Prony {
+    if !case.has_input("Ge") {
+        return prony(2e5, 0.0, &[(1e6, 0.02)]);
+    }
+    let times = case.input_list("tau");
+    let branches: Vec<_> = case.input_list("G").into_iter().zip(times).collect();
+    prony(case.input("Ge"), case.input("eta"), &branches)
+}
+
+fn waves(case: &Case) -> Vec<SurfaceWave> {
+    let wave = |amplitude: f64, wave_vector: [f64; 2]| SurfaceWave {
+        amplitude,
+        wave_vector,
+    };
+    if case.has_input("nx") {
+        let unit = TAU / case.input("period");
+        let [amplitudes, along, across] = ["h", "nx", "ny"].map(|name| case.input_list(name));
+        let vectors = along
+            .into_iter()
+            .zip(across)
+            .map(|(x, y)| [unit * x, unit * y]);
+        return amplitudes
+            .into_iter()
+            .zip(vectors)
+            .map(|(h, q)| wave(h, q))
+            .collect();
+    }
+    let (amplitude, k) = (case.input("h0"), TAU / case.input("wavelength"));
+    if case.id().contains("egg-box") {
+        // cos kx cos ky is half the sum of two oblique waves.
+        return vec![
+            wave(0.5 * amplitude, [k, k]),
+            wave(0.5 * amplitude, [k, -k]),
+        ];
+    }
+    vec![wave(amplitude, [k, 0.0])]
+}
+
+#[test]
+fn waves_in_full_contact_with_a_half_space_match_the_casebook() {
+    for case in casebook::group("VIS-03") {
+        let state = wavy_surface_sliding(&waves(&case), &material(&case), case.input("v")).unwrap();
+        case.check("tau_f", state.friction_stress);
+        if case.expected("mu_at_limit").is_some() {
+            case.check("p_mean_min", state.full_contact_pressure);
+            case.check("mu_at_limit", state.friction_coefficient);
+        } else {
+            // The casebook samples the pressure, whose amplitudes need not meet.
+            let sampled = case.expected("p_mean_min").unwrap();
+            let pressure = state.full_contact_pressure;
+            assert!(
+                pressure >= sampled * (1.0 - 1e-3),
+                "{}: {pressure} below {sampled}",
+                case.id()
+            );
+        }
+    }
+}
+
+#[test]
+fn waves_across_the_motion_press_and_do_not_rub() {
+    let case = &casebook::group("VIS-03")[0];
+    let along = waves(case)[0];
+    let [k, _] = along.wave_vector;
+    let across = SurfaceWave {
+        wave_vector: [0.0, k],
+        ..along
+    };
+    let [alone, both] = [vec![along], vec![along, across]]
+        .map(|waves| wavy_surface_sliding(&waves, &material(case), case.input("v")).unwrap());
+    assert_close!(both.friction_stress => alone.friction_stress, within 0.0);
+    let [less, more] = [alone, both].map(|state| state.full_contact_pressure);
+    assert!(
+        more > less,
+        "a pressure of {more} instead of {less} without the wave across"
+    );
+}
