@@ -71,9 +71,7 @@ fn options_out_of_range_are_refused() {
         ("spacing along y", |grid, bad| grid.spacing[1] = bad),
         ("footprint along x", |grid, bad| grid.footprint.x[1] = bad),
         ("footprint along y", |grid, bad| grid.footprint.y[0] = -bad),
-        ("contact tolerance", |grid, bad| {
-            grid.contact.tolerance = bad
-        }),
+        ("contact tolerance", |to, bad| to.contact.tolerance = bad),
     ];
     let of_states: [Change<SteadyOptions>; 5] = [
         ("spacing along x", |grid, bad| grid.spacing[0] = bad),

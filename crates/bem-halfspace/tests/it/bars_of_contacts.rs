@@ -75,7 +75,8 @@ fn the_largest_pressure_has_a_bar_where_it_has_a_limit() {
         pressed.expect("a contact").peak_pressure
     };
     // F = (16/3) G √R d^(3/2), R = 1.
-    let expected = 1.5 * 16.0 * depth.powf(1.5) / (PI * radius * radius);
+    let force = 16.0 * depth.powf(1.5);
+    let expected = 1.5 * force / (PI * radius * radius);
     for accuracy in [Accuracy::Elements(16), Accuracy::Elements(50), 2e-3.into()] {
         let peak = pressed(&scene.body, accuracy).expect("a limit");
         assert_bar("pressed", peak, expected, 0.5);
@@ -83,6 +84,7 @@ fn the_largest_pressure_has_a_bar_where_it_has_a_limit() {
         let peak = sliding.peak_pressure.expect("a limit");
         assert_bar("sliding", peak, expected, 0.5);
         assert_bar("area", sliding.contact_area, PI * depth, 0.3);
+        assert_bar("force", sliding.normal_force, force, 0.2);
         let (ends, allowed) = (
             [sliding.finest.contact_x, sliding.finest.contact_y],
             sliding.contact_box_error,

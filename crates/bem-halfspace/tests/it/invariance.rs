@@ -102,11 +102,21 @@ fn results_are_invariant_under_a_change_of_units() {
         let [_, stress, time] = units;
         scene(three_elements(0.1 * stress, stress, 0.5 * time), units)
     };
-    let solvers: [(_, &Solver); 5] = [
+    let solvers: [(_, &Solver); 6] = [
         ("march on a dashpot", &|units| march(&dashpot(units), units)),
         ("march on a solid", &|units| march(&solid(units), units)),
         ("dashpot", &|units| stationary(&dashpot(units), units)),
         ("solid", &|units| stationary(&solid(units), units)),
+        ("at a depth", &|units| {
+            let load = at_depth(0.2 * units[0], 0.7 * units[0] / units[2]);
+            let scene = Scene {
+                load,
+                ..solid(units)
+            };
+            let mut numbers = stationary(&scene, units);
+            numbers.push(scene.steady_on_one_grid(7.0).normal_force / units[1] / units[0].powi(2));
+            numbers
+        }),
         ("plane strain", &line),
     ];
     for (name, solve) in solvers {

@@ -18,7 +18,6 @@ mod kernels;
 mod marches_in_front_of_a_mirror;
 mod mirrored_contact;
 mod nested_grids;
-mod normal_indentation;
 mod omissions;
 mod periodic_contact;
 mod sliding_converges;

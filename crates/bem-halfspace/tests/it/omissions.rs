@@ -3,139 +3,88 @@
 //! Both are the same discrete problem, so that answers differ by what the tolerance of 1e-11 leaves open only.
 
 use allocation_counter::measure;
-use bem_halfspace::slide::{March, MotionRow, PressureField, SlideOmission};
-use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding, steady_on_grid};
-use bem_halfspace::{GridOptions, SlidingLoad};
-use rheology::Material;
+use bem_halfspace::GridOptions;
+use bem_halfspace::slide::{March, MotionRow, SlideOmission};
+use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding};
+use rheology::{Material, Prony};
 
-use crate::support::{Scene, TIGHT, prony};
+use crate::support::{Scene, assert_all_close, assert_near, at_depth, prony, tight};
 
 const SAME: f64 = 1e-10;
 
-fn assert_same(name: &str, got: f64, [expected, scale]: [f64; 2]) {
-    assert!(
-        (got - expected).abs() <= SAME * scale.abs(),
-        "{name}: {got} instead of {expected}, on the scale {scale}"
-    );
+fn solid() -> Prony {
+    prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)])
 }
 
-/// Compares pressures where the smaller field is, relative to the mean pressure.
-fn assert_same_pressure(got: &PressureField, expected: &PressureField, mean: f64) {
-    assert_eq!(got.grid, expected.grid, "the box around the contact");
-    let pairs = got.pressure.iter().zip(&expected.pressure);
-    let largest = pairs.map(|(got, expected)| (got - expected).abs());
-    let largest = largest.fold(0.0, f64::max) / mean;
-    // A gap of 1e-11 of the depth scale over one element is about so much of the mean pressure.
-    assert!(
-        largest < 1e-8,
-        "pressures differ by {largest:e} of the mean"
-    );
+/// The unit scene on another material.
+fn unit<M: Material>(material: M) -> Scene<M> {
+    let Scene { body, load, .. } = Scene::unit(2.0);
+    Scene::new(body, material, load)
 }
 
-struct Stationary {
-    scene: Scene,
+/// The solution without the omitted work and with it, compared; and the bytes that both take and give back: the buffer
+/// that a thread keeps from its first factorisation is none of them.
+fn compare(
+    scene: &Scene<impl Material>,
     elements: f64,
-}
-
-impl Stationary {
-    fn options(&self) -> SteadyOptions {
-        let spacing = self.scene.contact_length() / self.elements;
-        let footprint = self.scene.options(self.elements).footprint;
-        SteadyOptions {
+    omission: SteadyOmission,
+) -> [(SteadySliding, f64); 2] {
+    let solved = [None, Some(omission)].map(|redundant_work| {
+        let options = SteadyOptions {
+            redundant_work,
             tolerance: 1e-11,
-            ..SteadyOptions::new([spacing, 0.5 * spacing], footprint)
-        }
+            ..scene.steady_options(elements)
+        };
+        let mut state = None;
+        let memory = measure(|| state = Some(scene.steady_on(&options)));
+        let bytes = memory.bytes_total as f64 - memory.bytes_current as f64;
+        (state.expect("a result"), bytes)
+    });
+    let [(expected, _), (got, _)] = &solved;
+    let friction = [got, expected].map(|state| state.friction_coefficient);
+    let allowed = SAME * expected.mean_slope;
+    assert_near(omission, friction[0], friction[1], allowed);
+    let numbers = |state: &SteadySliding| {
+        [
+            state.contact_area,
+            state.normal_force,
+            state.depth.reference_depth,
+        ]
+    };
+    assert_all_close(omission, numbers(got), numbers(expected), SAME);
+    // Where the smaller field is, relative to the mean pressure.
+    let mean = expected.normal_force / expected.contact_area;
+    let [got, expected] = [&got.pressure, &expected.pressure];
+    assert_eq!(got.grid, expected.grid, "the box around the contact");
+    for (got, expected) in got.pressure.iter().zip(&expected.pressure) {
+        // A gap of 1e-11 of the depth scale over one element is about so much of the mean pressure.
+        assert_near(omission, *got, *expected, 1e-8 * mean);
     }
-
-    /// The solution with the omission and without it, and the bytes that both take and give back: the buffer that a
-    /// thread keeps from its first factorisation is none of them.
-    fn solve(
-        &self,
-        material: &impl Material,
-        load: &SlidingLoad,
-        omission: SteadyOmission,
-    ) -> [(SteadySliding, f64); 2] {
-        [None, Some(omission)].map(|redundant_work| {
-            let options = SteadyOptions {
-                redundant_work,
-                ..self.options()
-            };
-            let mut state = None;
-            let memory = measure(|| {
-                state = Some(steady_on_grid(&self.scene.body, material, load, &options));
-            });
-            let bytes = memory.bytes_total as f64 - memory.bytes_current as f64;
-            (state.expect("a result").expect("a solution"), bytes)
-        })
-    }
-
-    fn check(
-        &self,
-        material: &impl Material,
-        load: &SlidingLoad,
-        omission: SteadyOmission,
-    ) -> [(SteadySliding, f64); 2] {
-        let solved = self.solve(material, load, omission);
-        let [(expected, _), (got, _)] = &solved;
-        let slope = expected.mean_slope;
-        assert_same(
-            "friction",
-            got.friction_coefficient,
-            [expected.friction_coefficient, slope],
-        );
-        for (name, got, expected) in [
-            ("area", got.contact_area, expected.contact_area),
-            ("force", got.normal_force, expected.normal_force),
-            (
-                "depth",
-                got.depth.reference_depth,
-                expected.depth.reference_depth,
-            ),
-        ] {
-            assert_same(name, got, [expected, expected]);
-        }
-        let mean = expected.normal_force / expected.contact_area;
-        assert_same_pressure(&got.pressure, &expected.pressure, mean);
-        solved
-    }
-}
-
-fn stationary(elements: f64) -> Stationary {
-    Stationary {
-        scene: Scene::unit(2.0),
-        elements,
-    }
+    solved
 }
 
 #[test]
 fn a_factorised_contact_is_that_of_the_iteration() {
-    let problem = stationary(6.0);
-    let solved = problem.check(
-        &problem.scene.material,
-        &problem.scene.load,
-        SteadyOmission::Transforms,
-    );
-    for ((state, _), expected) in solved.iter().zip([true, false]) {
-        assert_eq!(
-            state.is_factorised(),
-            expected,
-            "whether {} unknowns are factorised",
-            state.unknowns
-        );
+    let scene = Scene::unit(2.0);
+    let held = Scene {
+        load: at_depth(0.2, 0.7),
+        ..unit(solid())
+    };
+    for [(factorised, _), (iterated, _)] in [
+        compare(&scene, 6.0, SteadyOmission::Transforms),
+        compare(&held, 4.0, SteadyOmission::Transforms),
+    ] {
+        let kinds = [factorised, iterated].map(|state| state.is_factorised());
+        assert_eq!(kinds, [true, false], "whether equations are factorised");
     }
 }
 
 #[test]
 fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
-    let problem = stationary(24.0);
-    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let viscous = problem.check(
-        &problem.scene.material,
-        &problem.scene.load,
-        SteadyOmission::OutsideContact,
-    );
-    let solid = problem.check(&solid, &problem.scene.load, SteadyOmission::OutsideContact);
-    for [(in_box, bytes), (_, other_bytes)] in [viscous, solid] {
+    for [(in_box, bytes), (_, other_bytes)] in [
+        compare(&Scene::unit(2.0), 24.0, SteadyOmission::OutsideContact),
+        compare(&unit(solid()), 24.0, SteadyOmission::OutsideContact),
+    ] {
         assert!(!in_box.is_factorised(), "{} unknowns", in_box.unknowns);
         // Each contact is solved in a workspace as large as its box; the gaps outside take the footprint in both.
         assert!(
@@ -145,27 +94,12 @@ fn a_box_around_the_contact_has_the_answer_of_the_footprint() {
     }
 }
 
-#[test]
-fn at_a_depth_the_same_work_is_not_missed() {
-    let problem = stationary(4.0);
-    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let load = SlidingLoad::at_depth(0.2, problem.scene.load.velocity()).expect("a load");
-    let [(expected, _), (got, _)] = problem.check(&solid, &load, SteadyOmission::Transforms);
-    assert!(
-        expected.is_factorised() && !got.is_factorised(),
-        "factorised: {} after {}",
-        got.is_factorised(),
-        expected.is_factorised()
-    );
-}
-
 fn march(redundant_work: Option<SlideOmission>) -> (Vec<MotionRow>, u64) {
     let scene = Scene::unit(2.0);
     let load = scene.load_over(3.0);
     let options = GridOptions {
-        contact: TIGHT,
         redundant_work,
-        ..scene.options(8.0)
+        ..tight(scene.options(8.0))
     };
     let mut rows = Vec::new();
     let memory = measure(|| {
@@ -188,14 +122,10 @@ fn a_march_on_the_whole_footprint_makes_the_same_steps() {
         let (got, other_bytes) = march(Some(omission));
         assert_eq!(got.len(), expected.len(), "steps, {omission:?}");
         for (got, expected) in got.iter().zip(&expected) {
-            let place = format!("{omission:?} at {} m", expected.position);
-            assert_eq!(got.n_contact, expected.n_contact, "contact, {place}");
-            for (got, expected) in [
-                (got.tangential_force, expected.tangential_force),
-                (got.indentation_depth, expected.indentation_depth),
-            ] {
-                assert_same(&place, got, [expected, expected]);
-            }
+            let place = (omission, expected.position);
+            assert_eq!(got.n_contact, expected.n_contact, "contact, {place:?}");
+            let numbers = |row: &MotionRow| [row.tangential_force, row.indentation_depth];
+            assert_all_close(place, numbers(got), numbers(expected), SAME);
         }
         // Rows behind are in the memory anyway; what else differs are a few lists.
         assert_eq!(
