@@ -3,7 +3,7 @@
 use indenters::{RigidLine, SlidingLoad};
 use rheology::Material;
 
-use super::{MIN_CONTACT, SlideRow};
+use super::row::{MIN_CONTACT, SlideRow};
 use crate::MdrError;
 use crate::chain::Chain;
 use crate::compensated::CompensatedSum;

@@ -3,6 +3,7 @@
 mod march;
 mod memory;
 mod on_grid;
+mod row;
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, refine};
@@ -12,8 +13,9 @@ use crate::MdrError;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
 use memory::ahead;
-pub(crate) use on_grid::MIN_CONTACT;
-pub use on_grid::{SlideOptions, SlideRow, Transient, slide_on_grid};
+pub use on_grid::{SlideOptions, Transient, slide_on_grid};
+pub(crate) use row::MIN_CONTACT;
+pub use row::SlideRow;
 
 /// Elements along the contact after which a march is given up.
 const MOST_ELEMENTS: usize = 4096;
