@@ -3,6 +3,7 @@
 use std::fmt::{Debug, Display};
 
 use anyhow::Result;
+use serde::Serialize;
 
 /// Cases that differ in one parameter, or in one kind of input.
 pub(super) struct Family {
@@ -11,8 +12,14 @@ pub(super) struct Family {
     /// What differs from case to case.
     pub(super) parameter: &'static str,
     pub(super) cases: Vec<Case>,
-    /// Whether it is left out of a quick run.
-    pub(super) slow: bool,
+    pub(super) cost: Cost,
+}
+
+/// What a family costs; a quick run leaves the costly ones out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cost {
+    Cheap,
+    Costly,
 }
 
 /// One case of a family.
@@ -22,36 +29,58 @@ pub(super) struct Case {
     pub(super) run: Box<dyn Fn() -> Result<Finding> + Send + Sync>,
 }
 
-/// What a case came to.
-#[derive(Debug)]
-pub(super) enum Finding {
-    /// Numbers, beside those that are right.
-    Values(Vec<Comparison>),
-    /// A problem without a solution, beside the typed error that says so.
-    Refusal {
-        /// Pattern of the right error.
-        expected: &'static str,
-        /// The error, or the solution that should not be.
-        got: String,
-        right: bool,
-    },
+/// What a case is worth.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Verdict {
+    /// All numbers within their tolerances.
+    Accurate,
+    /// The typed error that is right.
+    Refused,
+    /// A number outside its tolerance, an error where there is a solution, a solution where there is none, a panic.
+    #[default]
+    Wrong,
+}
+
+impl Verdict {
+    fn provided(self, right: bool) -> Self {
+        if right { self } else { Self::Wrong }
+    }
+}
+
+/// A case in the table: what it came to, and, of [`judge`](super::judge), which one it is.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct Finding {
+    pub(super) family: &'static str,
+    pub(super) parameter: &'static str,
+    pub(super) value: String,
+    /// Of several numbers the one that is closest to its tolerance.
+    pub(super) quantity: String,
+    /// The right number, or the pattern of the right error.
+    pub(super) expected: String,
+    pub(super) got: String,
+    pub(super) deviation: Option<f64>,
+    pub(super) tolerance: Option<f64>,
+    pub(super) verdict: Verdict,
+    pub(super) seconds: f64,
 }
 
 /// A number beside the right one.
 #[derive(Debug, Clone)]
 pub(super) struct Comparison {
-    pub(super) quantity: String,
-    pub(super) got: f64,
-    pub(super) expected: f64,
+    quantity: String,
+    got: f64,
+    expected: f64,
     /// |got − expected| in units of this is the deviation.
-    pub(super) scale: f64,
+    scale: f64,
     /// Largest deviation that is accurate.
-    pub(super) tolerance: f64,
+    tolerance: f64,
 }
 
 impl Family {
     /// One case for each value of a parameter.
     pub(super) fn over<R>(
+        cost: Cost,
         name: &'static str,
         parameter: &'static str,
         values: impl IntoIterator<Item = f64>,
@@ -61,7 +90,11 @@ impl Family {
         R: Fn(f64) -> Result<Finding> + Copy + Send + Sync + 'static,
     {
         let case = |value: f64| Case::new(format!("{value:e}"), move || run(value));
-        Self::of(name, parameter, values.into_iter().map(case).collect())
+        let cases = values.into_iter().map(case).collect();
+        Self {
+            cost,
+            ..Self::of(name, parameter, cases)
+        }
     }
 
     pub(super) fn of(name: &'static str, parameter: &'static str, cases: Vec<Case>) -> Self {
@@ -69,23 +102,18 @@ impl Family {
             name,
             parameter,
             cases,
-            slow: false,
+            cost: Cost::Cheap,
         }
-    }
-
-    /// The same, left out of a quick run.
-    pub(super) fn slow(self) -> Self {
-        Self { slow: true, ..self }
     }
 }
 
 impl Case {
     pub(super) fn new(
-        value: impl Into<String>,
+        value: impl ToString,
         run: impl Fn() -> Result<Finding> + Send + Sync + 'static,
     ) -> Self {
         Self {
-            value: value.into(),
+            value: value.to_string(),
             run: Box::new(run),
         }
     }
@@ -107,33 +135,92 @@ impl Comparison {
     pub(super) fn in_units_of(self, scale: f64) -> Self {
         Self { scale, ..self }
     }
-}
 
-impl Finding {
-    /// The error that a problem must end in; see [`refused!`](super::refused).
-    pub(super) fn refusal<T: Debug, E: Display>(
-        result: std::result::Result<T, E>,
-        expected: &'static str,
-        is_right: impl Fn(&E) -> bool,
-    ) -> Self {
-        let (got, right) = match result {
-            // Enough of a solution that should not be to recognise it.
-            Ok(value) => (format!("{value:?}").chars().take(200).collect(), false),
-            Err(error) => (error.to_string(), is_right(&error)),
-        };
-        Self::Refusal {
-            expected,
-            got,
-            right,
+    fn deviation(&self) -> f64 {
+        let difference = (self.got - self.expected).abs();
+        if difference == 0.0 {
+            return 0.0;
+        }
+        difference / self.scale
+    }
+
+    /// Infinite for what is not a number.
+    fn part_of_tolerance(&self) -> f64 {
+        let part = part(self.deviation(), self.tolerance);
+        if part.is_nan() { f64::INFINITY } else { part }
+    }
+
+    fn finding(&self) -> Finding {
+        let deviation = self.deviation();
+        Finding {
+            quantity: self.quantity.clone(),
+            expected: format!("{:e}", self.expected),
+            got: format!("{:e}", self.got),
+            // NaN and infinity are no numbers of a table.
+            deviation: deviation.is_finite().then_some(deviation),
+            tolerance: Some(self.tolerance),
+            verdict: Verdict::Accurate.provided(deviation <= self.tolerance),
+            ..Finding::default()
         }
     }
 }
 
-/// A list of families, each as `name, parameter, values => function of the value;`.
+impl Finding {
+    /// The worst of several numbers.
+    pub(super) fn of(numbers: &[Comparison]) -> Self {
+        let part = Comparison::part_of_tolerance;
+        let worst = numbers
+            .iter()
+            .max_by(|one, other| part(one).total_cmp(&part(other)));
+        let nothing = || Self::wrong("a number", "nothing was compared".to_owned());
+        worst.map_or_else(nothing, Comparison::finding)
+    }
+
+    pub(super) fn wrong(expected: &str, got: String) -> Self {
+        let expected = expected.to_owned();
+        Self {
+            expected,
+            got,
+            ..Self::default()
+        }
+    }
+
+    /// The error that a problem must end in; see [`refused!`](super::refused).
+    pub(super) fn refusal<T: Debug, E: Display>(
+        result: std::result::Result<T, E>,
+        expected: &str,
+        is_right: impl Fn(&E) -> bool,
+    ) -> Self {
+        match result {
+            // Enough of a solution that should not be to recognise it.
+            Ok(value) => Self::wrong(expected, format!("{value:?}").chars().take(200).collect()),
+            Err(error) => Self {
+                verdict: Verdict::Refused.provided(is_right(&error)),
+                ..Self::wrong(expected, error.to_string())
+            },
+        }
+    }
+
+    /// Deviation as a part of what is allowed, where numbers were compared.
+    pub(super) fn part_of_tolerance(&self) -> Option<f64> {
+        Some(part(self.deviation?, self.tolerance?))
+    }
+}
+
+/// No deviation is within any tolerance, even none.
+fn part(deviation: f64, tolerance: f64) -> f64 {
+    if deviation == 0.0 {
+        return 0.0;
+    }
+    deviation / tolerance
+}
+
+/// A list of families, each as `cost name, parameter, values => function of the value;`.
 macro_rules! families {
-    ($($name:literal, $parameter:literal, $values:expr => $run:expr;)*) => {
-        vec![$($crate::evidence::stability::case::Family::over($name, $parameter, $values, $run)),*]
-    };
+    ($($cost:ident $name:literal, $parameter:literal, $values:expr => $run:expr;)*) => {{
+        use $crate::evidence::stability::case::{Cost, Family};
+        vec![$(Family::over(Cost::$cost, $name, $parameter, $values, $run)),*]
+    }};
 }
 
 /// A list of cases, each as `value of the parameter => finding;`.
@@ -143,7 +230,7 @@ macro_rules! cases {
     };
 }
 
-/// Numbers beside the right ones, within one relative tolerance: fields of two structs, or `name: got, expected`.
+/// Numbers beside the right ones, within one relative tolerance: fields of two structs, or `name => got, expected`.
 macro_rules! compare {
     ($got:expr, $expected:expr, within $tolerance:expr; $($field:ident),+) => {{
         let (got, expected, tolerance) = (&$got, &$expected, $tolerance);
@@ -152,7 +239,7 @@ macro_rules! compare {
     (within $tolerance:expr; $($name:expr => $got:expr, $expected:expr);+) => {{
         use $crate::evidence::stability::case::{Comparison, Finding};
         let tolerance = $tolerance;
-        Ok(Finding::Values(vec![$(Comparison::relative($name, $got, $expected, tolerance)),+]))
+        Ok(Finding::of(&[$(Comparison::relative($name, $got, $expected, tolerance)),+]))
     }};
 }
 

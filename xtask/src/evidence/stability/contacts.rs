@@ -8,26 +8,11 @@ use bem_halfspace::{
     solve_contact,
 };
 
-use super::case::{Case, Family, Finding, cases, compare, decades, families, refused};
+use super::case::{Case, Finding, cases, compare, refused};
 use super::direct_sum::conditions;
 
-const PATCHES: [f64; 8] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 2025.0, 4096.0];
-
-pub(super) fn families() -> Vec<Family> {
-    let mut families = families! {
-        "influence, far elements", "distance/edge", decades(0, 12, 1) => far;
-        "influence, slender elements", "Δy/Δx", decades(-12, 12, 1) => slender;
-        "contact, one element to a full box", "force", decades(-12, 12, 1) => any_force;
-        "contact, slender", "width/length", decades(-4, 4, 1) => slender_contact;
-        "contact, many patches", "patches", PATCHES => patches;
-        "contact, heights far above zero", "height/displacement", decades(0, 12, 1) => high_above;
-    };
-    families[5].cases.extend(unusual_heights());
-    families
-}
-
 /// Σ of 16 parts; far away also 1/r + h²/(24 r³) times the area, with an error of the order (h/r)⁴.
-fn far(distance: f64) -> Result<Finding> {
+pub(super) fn far(distance: f64) -> Result<Finding> {
     let whole = influence([distance, 0.0], [1.0, 1.0]);
     let part = |k: i32| {
         let [x, y] = [k / 4, k % 4].map(|k| 0.25 * (f64::from(k) - 1.5));
@@ -44,7 +29,7 @@ fn far(distance: f64) -> Result<Finding> {
 
 /// 2 b asinh(a/b) + 2 a asinh(b/a) in the middle of an element of edges a and b, a neighbour as the difference of
 /// longer elements.
-fn slender(aspect: f64) -> Result<Finding> {
+pub(super) fn slender(aspect: f64) -> Result<Finding> {
     let middle = |x: f64, y: f64| 2.0 * (y * (x / y).asinh() + x * (y / x).asinh());
     let neighbour = 0.5 * (middle(3.0, aspect) - middle(1.0, aspect));
     // The difference loses a digit or two where the elements are long.
@@ -53,12 +38,13 @@ fn slender(aspect: f64) -> Result<Finding> {
         "neighbour" => influence([1.0, 0.0], [1.0, aspect]), neighbour)
 }
 
-fn solved(
+/// A contact on a compliance of 1 1/Pa from a cold start, and whether its pressure solves it.
+fn to_tolerance(
     grid: &Grid,
     separation: &[f64],
     control: Control,
     options: &ContactOptions,
-) -> Result<Finding> {
+) -> Result<Finding, BemError> {
     let convolution = Convolution::new(grid);
     let mut state = ContactState::new(&convolution);
     let problem = ContactProblem {
@@ -69,12 +55,12 @@ fn solved(
     };
     let contact = solve_contact(&problem, &mut state, options)?;
     // What the option promises, and the rounding of two different sums.
-    Ok(conditions(
-        &problem,
-        &contact,
-        state.pressure(),
-        1.01 * options.tolerance,
-    ))
+    let tolerance = 1.01 * options.tolerance;
+    Ok(conditions(&problem, &contact, state.pressure(), tolerance))
+}
+
+fn solved(grid: &Grid, separation: &[f64], control: Control) -> Result<Finding, BemError> {
+    to_tolerance(grid, separation, control, &ContactOptions::default())
 }
 
 /// Heights over the elements of a grid around the origin.
@@ -87,26 +73,21 @@ fn heights(grid: &Grid, height: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 }
 
 /// A paraboloid with its tip over an element; small forces load that one, large ones the whole box.
-fn any_force(force: f64) -> Result<Finding> {
+pub(super) fn any_force(force: f64) -> Result<Finding> {
     let grid = Grid::new([33, 33], [1.0, 1.0])?;
     let separation = heights(&grid, |x, y| x * x + y * y);
-    solved(
-        &grid,
-        &separation,
-        Control::NormalForce(force),
-        &ContactOptions::default(),
-    )
+    Ok(solved(&grid, &separation, Control::NormalForce(force))?)
 }
 
-fn slender_contact(aspect: f64) -> Result<Finding> {
+pub(super) fn slender_contact(aspect: f64) -> Result<Finding> {
     let grid = Grid::new([48, 48], [1.0, aspect])?;
     let separation = heights(&grid, |x, y| x * x + (y / aspect).powi(2));
     let control = Control::IndentationDepth(300.0);
-    solved(&grid, &separation, control, &ContactOptions::default())
+    Ok(solved(&grid, &separation, control)?)
 }
 
 /// A carton of eggs of different heights, each of which touches.
-fn patches(count: f64) -> Result<Finding> {
+pub(super) fn patches(count: f64) -> Result<Finding> {
     let grid = Grid::new([128, 128], [1.0, 1.0])?;
     let waves = PI * count.sqrt() / 128.0;
     let separation = heights(&grid, |x, y| {
@@ -115,21 +96,22 @@ fn patches(count: f64) -> Result<Finding> {
         1.0 - (phase_x.sin() * phase_y.sin()).powi(2) + uneven
     });
     let control = Control::IndentationDepth(0.6);
-    solved(&grid, &separation, control, &ContactOptions::default())
+    Ok(solved(&grid, &separation, control)?)
 }
 
 /// Heights that are large beside what the pressure moves: rounding of the heights is all that can be seen of a gap.
-fn high_above(height: f64) -> Result<Finding> {
+pub(super) fn high_above(height: f64) -> Result<Finding> {
     let grid = Grid::new([17, 17], [1.0, 1.0])?;
     let separation = heights(&grid, |x, y| height + 0.01 * (x * x + y * y));
     let options = ContactOptions {
         tolerance: (64.0 * f64::EPSILON * height).clamp(1e-9, 1e-2),
         ..ContactOptions::default()
     };
-    solved(&grid, &separation, Control::NormalForce(10.0), &options)
+    let control = Control::NormalForce(10.0);
+    Ok(to_tolerance(&grid, &separation, control, &options)?)
 }
 
-fn unusual_heights() -> Vec<Case> {
+pub(super) fn unusual_heights() -> Vec<Case> {
     let corner = |height: f64| {
         let solved = with_corner(height, Control::NormalForce(1.0))?;
         refused!(solved => BemError::InvalidHeight { row: 0, column: 0, .. })
@@ -148,45 +130,32 @@ fn unusual_heights() -> Vec<Case> {
     }
 }
 
-fn no_body() -> Result<Finding> {
-    let grid = Grid::new([9, 9], [1.0, 1.0])?;
-    let solved = attempted(&grid, &[f64::INFINITY; 81], Control::NormalForce(1.0));
-    refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
-}
-
 /// A small contact with one corner of another height.
-fn with_corner(corner: f64, control: Control) -> Result<Result<(), BemError>> {
+fn with_corner(corner: f64, control: Control) -> Result<Result<Finding, BemError>> {
     let grid = Grid::new([5, 5], [1.0, 1.0])?;
     let mut separation = heights(&grid, |x, y| x * x + y * y);
     separation[0] = corner;
-    Ok(attempted(&grid, &separation, control))
-}
-
-fn attempted(grid: &Grid, separation: &[f64], control: Control) -> Result<(), BemError> {
-    let convolution = Convolution::new(grid);
-    let problem = ContactProblem {
-        convolution: &convolution,
-        separation,
-        compliance: 1.0,
-        control,
-    };
-    let mut state = ContactState::new(&convolution);
-    solve_contact(&problem, &mut state, &ContactOptions::default()).map(|_| ())
+    Ok(solved(&grid, &separation, control))
 }
 
 fn a_hole() -> Result<Finding> {
     let grid = Grid::new([9, 9], [1.0, 1.0])?;
-    let separation = heights(&grid, |x, y| {
+    let body = |x: f64, y: f64| {
         if x == 0.0 {
             f64::INFINITY
         } else {
             x * x + y * y
         }
-    });
-    solved(
+    };
+    Ok(solved(
         &grid,
-        &separation,
+        &heights(&grid, body),
         Control::NormalForce(40.0),
-        &ContactOptions::default(),
-    )
+    )?)
+}
+
+fn no_body() -> Result<Finding> {
+    let (grid, force) = (Grid::new([9, 9], [1.0, 1.0])?, Control::NormalForce(1.0));
+    let solved = solved(&grid, &[f64::INFINITY; 81], force);
+    refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
 }

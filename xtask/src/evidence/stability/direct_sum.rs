@@ -36,20 +36,17 @@ pub(super) fn conditions(
     let lowest = pressure.iter().copied().fold(0.0, f64::min);
     let area = problem.convolution.grid().element_area();
     let force = area * pressure.iter().sum::<f64>();
-    let prescribed = match problem.control {
-        Control::NormalForce(prescribed) => {
-            Comparison::relative("prescribed force", force, prescribed, 1e-12)
-        }
+    let (name, got, prescribed) = match problem.control {
+        Control::NormalForce(prescribed) => ("prescribed force", force, prescribed),
         Control::IndentationDepth(prescribed) => {
-            let depth = contact.indentation_depth;
-            Comparison::relative("prescribed depth", depth, prescribed, 1e-12)
+            ("prescribed depth", contact.indentation_depth, prescribed)
         }
     };
-    Finding::Values(vec![
+    Finding::of(&[
         Comparison::relative("gap", worst, 0.0, tolerance).in_units_of(largest),
         Comparison::relative("tension", lowest, 0.0, 0.0).in_units_of(1.0),
         Comparison::relative("force", force, contact.normal_force, 1e-12).in_units_of(force),
-        prescribed,
+        Comparison::relative(name, got, prescribed, 1e-12),
     ])
 }
 

@@ -8,170 +8,166 @@ use bem_halfspace::slide::{SlideRow, slide_on_grid};
 use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions};
 use friction_analytic::{
-    ElasticContact, ElasticLimitFriction, half_space_power_friction, high_speed_friction,
-    low_speed_friction,
+    ElasticContact, ElasticLimitFriction, FrictionError, half_space_power_friction,
+    high_speed_friction, low_speed_friction,
 };
-use indenters::{Control, PowerProfile, SlidingLoad, Surface};
-use rheology::{Elastic, KelvinVoigt, Material, Maxwell, Viscous};
+use indenters::{Control, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad, Surface};
+use numerics::Estimate;
+use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
-use super::case::{Case, Comparison, Family, Finding, compare, decades, families, refused};
-use super::rheology::{prony_over, solid};
+use super::case::{Comparison, Finding, compare, refused};
+use super::line::{Dashpot, dashpot, unit_dashpot};
+use super::materials::{prony_over, solid};
 
-/// Relative error asked of the stationary solver.
-const ASKED: f64 = 1e-2;
-/// Enough for all of these cases, and seconds at most.
-const MAX_UNKNOWNS: usize = 20_000;
-const EXPONENTS: [f64; 10] = [0.55, 0.6, 0.75, 0.9, 1.0, 1.5, 2.0, 4.0, 8.0, 16.0];
+/// Enough unknowns for all of these cases, and seconds at most.
+const OPTIONS: RefinementOptions = RefinementOptions {
+    relative_error: 1e-2,
+    aspect: 0.5,
+    max_unknowns: 40_000,
+};
 
-pub(super) fn families() -> Vec<Family> {
-    let gammas = || decades(-12, 3, 3);
-    let mut stationary = families! {
-        "half space, dashpot, stationary", "p", EXPONENTS => power_profile;
-        "half space, three elements, slow", "γ", gammas() => slow;
-        "half space, three elements, fast", "γ", gammas() => fast;
-        "half space, three elements, plateau", "γ", decades(-12, -8, 1) => plateau;
-        "half space, 16 branches over 15 decades", "vτ/a", decades(-12, 12, 2) => branches;
-        "half space, slender paraboloid", "width/length", [0.2, 0.5, 1.0, 2.0, 5.0, 10.0] => slender;
-    };
-    let powers = &mut stationary[0].cases;
-    powers.insert(0, Case::new("0.5", too_sharp));
-    powers.extend(
-        [100.0, 300.0, 1000.0]
-            .map(|exponent: f64| Case::new(exponent.to_string(), move || nearly_flat(exponent))),
-    );
-    let ratios = || decades(-12, 12, 1);
-    let limits = || decades(-12, -5, 1).chain(decades(5, 12, 1));
-    let in_time = families! {
-        "half space, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
-        "half space, pressed, Maxwell", "Δt/τ", ratios() => |ratio| pressed(&Maxwell::new(1.0, 1.0)?, ratio);
-        "half space, pressed, 16 branches", "Δt", ratios() => |ratio| pressed(&prony_over(15.0)?, ratio);
-        "half space, march on Maxwell", "Δt/τ", limits() => march_on_maxwell;
-        "half space, march on three elements", "Δt/τ", limits() => march_on_solid;
-    };
-    let stationary = stationary.into_iter().map(Family::slow);
-    stationary.chain(in_time).collect()
-}
-
-fn options(aspect: f64) -> RefinementOptions {
-    RefinementOptions {
-        relative_error: ASKED,
-        aspect,
-        max_unknowns: MAX_UNKNOWNS,
-    }
-}
-
-/// Friction under a load, within the error asked for and that of the right value.
+/// Friction within the error asked for, that of the right value, and a part of it.
 fn judged(
-    profile: &PowerProfile,
+    body: &dyn Surface,
     material: &dyn Material,
     load: &SlidingLoad,
-    [expected, error]: [f64; 2],
+    expected: Estimate,
+    part: f64,
 ) -> Result<Finding> {
-    let got = steady_refined(profile, material, load, &options(0.5))?;
-    let tolerance = ASKED + error / expected;
-    compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected)
+    let got = steady_refined(body, material, load, &OPTIONS)?;
+    let tolerance = OPTIONS.relative_error + expected.error / expected.value + part;
+    compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected.value)
 }
 
-fn on_dashpot() -> Result<(Viscous, SlidingLoad)> {
-    Ok((Viscous::new(50.0)?, SlidingLoad::new(2.0, 0.1)?))
+/// A body beside the table of s(p) for the power profile that it is nearly, from which its shape differs by `part`.
+pub(super) fn beside_table(
+    body: &dyn Surface,
+    profile: &PowerProfile,
+    Dashpot { material, load }: &Dashpot,
+    part: f64,
+) -> Result<Finding> {
+    let expected = half_space_power_friction(profile, material, load)?;
+    judged(body, material, load, expected, part)
+}
+
+/// The stationary state on a dashpot.
+pub(super) fn refined(body: &dyn Surface, on: &Dashpot) -> Result<SteadyEstimate, BemError> {
+    steady_refined(body, &on.material, &on.load, &OPTIONS)
 }
 
 /// The table of s(p), whose errors are far below what is asked here.
-fn power_profile(exponent: f64) -> Result<Finding> {
+pub(super) fn power_profile(exponent: f64) -> Result<Finding> {
     let profile = PowerProfile::new(0.4, exponent)?;
-    let (material, load) = on_dashpot()?;
-    let expected = half_space_power_friction(&profile, &material, &load)?;
-    judged(&profile, &material, &load, [expected.value, expected.error])
+    beside_table(&profile, &profile, &dashpot()?, 0.0)
 }
 
-fn too_sharp() -> Result<Finding> {
-    let profile = PowerProfile::new(0.4, 0.5)?;
-    let (material, load) = on_dashpot()?;
-    let got = steady_refined(&profile, &material, &load, &options(0.5));
+pub(super) fn any_slope(slope: f64) -> Result<Finding> {
+    let cone = PowerProfile::cone(slope)?;
+    beside_table(&cone, &cone, &unit_dashpot()?, 0.0)
+}
+
+/// Of the cone a part is missing that is as large as the end.
+pub(super) fn flat_end(end: f64) -> Result<Finding> {
+    let cone = PowerProfile::cone(1.0)?;
+    let body = FlatCone::new(end, 1.0)?;
+    beside_table(&body, &cone, &unit_dashpot()?, 10.0 * end)
+}
+
+/// A cone whose tip is much smaller than the contact, or a paraboloid whose cone begins far outside it.
+pub(super) fn round_tip(tip: f64) -> Result<Finding> {
+    let (profile, part) = if tip < 1.0 {
+        (PowerProfile::cone(1.0)?, 10.0 * tip)
+    } else {
+        (PowerProfile::paraboloid(0.5 / tip)?, 0.0)
+    };
+    let body = RoundTippedCone::new(tip, 1.0)?;
+    beside_table(&body, &profile, &unit_dashpot()?, part)
+}
+
+pub(super) fn too_sharp() -> Result<Finding> {
+    let got = refined(&PowerProfile::new(0.4, 0.5)?, &dashpot()?);
     refused!(got => BemError::InvalidParameter { parameter: "apex exponent", .. })
 }
 
 /// At its rim the body rises within a hundredth of its radius and less; the elements allowed are larger.
-fn nearly_flat(exponent: f64) -> Result<Finding> {
-    let profile = PowerProfile::new(0.4, exponent)?;
-    let (material, load) = on_dashpot()?;
+pub(super) fn nearly_flat(exponent: f64) -> Result<Finding> {
+    let Dashpot { material, load } = dashpot()?;
     let options = RefinementOptions {
         max_unknowns: 2000,
-        ..options(0.5)
+        ..OPTIONS
     };
+    let profile = PowerProfile::new(0.4, exponent)?;
     let got = steady_refined(&profile, &material, &load, &options);
     refused!(got => BemError::GridTooLarge { .. })
 }
 
-fn at_limit(
-    material: &dyn Material,
-    velocity: f64,
-    limit: ElasticLimitFriction,
-) -> Result<Finding> {
-    let load = SlidingLoad::new(limit.normal_force, velocity)?;
-    let profile = PowerProfile::paraboloid(0.1)?;
-    // The next order is the speed over that at which the limit ends, some 1e-4.
-    judged(
-        &profile,
-        material,
-        &load,
-        [limit.half_space, 1e-3 * limit.half_space],
-    )
-}
+type Limit = fn(
+    &PowerProfile,
+    &StandardSolid,
+    ElasticContact,
+) -> Result<ElasticLimitFriction, FrictionError>;
 
-const fn contact(velocity: f64) -> ElasticContact {
-    ElasticContact {
+/// The elastic limit of a three-element solid under a paraboloid, in contact to 1 m, at a speed.
+fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Finding> {
+    let (profile, solid) = (PowerProfile::paraboloid(0.1)?, solid(gamma)?);
+    let contact = ElasticContact {
         contact_radius: 1.0,
         velocity,
-    }
+    };
+    let limit = limit(&profile, &solid, contact)?;
+    let load = SlidingLoad::new(limit.normal_force, velocity)?;
+    // The next order is the speed over that at which the limit ends, some 1e-4.
+    let (value, error) = (limit.half_space, 1e-3 * limit.half_space);
+    judged(&profile, &solid, &load, Estimate { value, error }, 0.0)
 }
 
 /// Slow sliding, v τ (1 + γ)/γ = 1e-4 a: friction by the exact elastic limit.
-fn slow(gamma: f64) -> Result<Finding> {
-    let (body, solid) = (PowerProfile::paraboloid(0.1)?, solid(gamma)?);
+pub(super) fn slow(gamma: f64) -> Result<Finding> {
     let velocity = 1e-4 * gamma / (1.0 + gamma);
-    at_limit(
-        &solid,
-        velocity,
-        low_speed_friction(&body, &solid, contact(velocity))?,
-    )
+    at_limit(gamma, velocity, |body, solid, at| {
+        low_speed_friction(body, solid, at)
+    })
 }
 
 /// Fast sliding, v τ = 1e4 a.
-fn fast(gamma: f64) -> Result<Finding> {
-    let (body, solid) = (PowerProfile::paraboloid(0.1)?, solid(gamma)?);
-    at_limit(
-        &solid,
-        1e4,
-        high_speed_friction(&body, &solid, contact(1e4))?,
-    )
+pub(super) fn fast(gamma: f64) -> Result<Finding> {
+    at_limit(gamma, 1e4, |body, solid, at| {
+        high_speed_friction(body, solid, at)
+    })
 }
 
 /// Between the limits a solid with a soft spring is a dashpot, at v τ = 1e-5 a within γ/1e-5 and 1e-5.
-fn plateau(gamma: f64) -> Result<Finding> {
-    let (body, solid) = (PowerProfile::cone(0.1)?, solid(gamma)?);
+pub(super) fn plateau(gamma: f64) -> Result<Finding> {
+    let body = PowerProfile::cone(0.1)?;
     let velocity = 1e-5;
     // F = 4 η v a h̃(a)/a for a = 1.
     let load = SlidingLoad::new(0.4 * FRAC_PI_2 * velocity, velocity)?;
-    let expected = half_space_power_friction(&body, &Viscous::new(1.0)?, &load)?;
-    let error = expected.error + 1e-2 * expected.value;
-    judged(&body, &solid, &load, [expected.value, error])
+    let Estimate { value, error } = half_space_power_friction(&body, &Viscous::new(1.0)?, &load)?;
+    let error = error + 1e-2 * value;
+    judged(&body, &solid(gamma)?, &load, Estimate { value, error }, 0.0)
 }
 
-/// Two estimates on different elements agree within their error bars.
-fn agreeing(got: &SteadyEstimate, other: &SteadyEstimate) -> Result<Finding> {
-    let [got, other] = [got, other].map(|estimate| estimate.friction_coefficient);
+/// Two estimates on elements of two shapes agree within their error bars.
+fn agreeing(
+    body: &dyn Surface,
+    material: &dyn Material,
+    load: &SlidingLoad,
+    width: f64,
+) -> Result<Finding> {
+    let solve = |aspect| {
+        let options = RefinementOptions { aspect, ..OPTIONS };
+        Ok::<_, BemError>(steady_refined(body, material, load, &options)?.friction_coefficient)
+    };
+    let (got, other) = (solve(0.5 * width)?, solve(width)?);
     let tolerance = (got.error + other.error) / other.value;
     compare!(within tolerance; "friction coefficient" => got.value, other.value)
 }
 
-/// Every speed meets some of the branches; the same by elements of another shape.
-fn branches(velocity: f64) -> Result<Finding> {
+/// Every speed meets some of the branches.
+pub(super) fn branches(velocity: f64) -> Result<Finding> {
     let body = PowerProfile::paraboloid(0.1)?;
-    let material = prony_over(15.0)?;
     let load = SlidingLoad::new(1.0, velocity)?;
-    let solve = |aspect| steady_refined(&body, &material, &load, &options(aspect));
-    agreeing(&solve(0.5)?, &solve(1.0)?)
+    agreeing(&body, &prony_over(15.0)?, &load, 1.0)
 }
 
 /// h = x² + (y/r)² on the elements of a grid that is as slender as the body.
@@ -197,18 +193,16 @@ impl Surface for SlenderParaboloid {
     }
 }
 
-/// Under this force the contact is about as long as one, however wide; the same by elements of another shape.
-fn slender(aspect: f64) -> Result<Finding> {
-    let surface = SlenderParaboloid { aspect };
-    let material = Viscous::new(1.0)?;
+/// Under this force the contact is about as long as one, however wide.
+pub(super) fn slender(aspect: f64) -> Result<Finding> {
     let load = SlidingLoad::new(aspect.max(1.0), 1.0)?;
-    let solve = |shape: f64| steady_refined(&surface, &material, &load, &options(shape * aspect));
-    agreeing(&solve(0.5)?, &solve(1.0)?)
+    let body = SlenderParaboloid { aspect };
+    agreeing(&body, &Viscous::new(1.0)?, &load, aspect)
 }
 
 /// Under a constant force any number of steps of any length ends where one elastic step of compliance J(t) does, on the
 /// same elements.
-fn pressed(material: &dyn Material, step: f64) -> Result<Finding> {
+pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Finding> {
     let body = PowerProfile::paraboloid(0.1)?;
     let times = [step, 2.0 * step, 3.0 * step];
     let options = GridOptions::new([0.1; 2], Footprint::square(2.0));
@@ -228,9 +222,8 @@ fn marched(material: &dyn Material, time_step: f64, force: f64) -> Result<SlideR
     let body = PowerProfile::paraboloid(0.1)?;
     let options = GridOptions::new([0.1; 2], Footprint::square(3.0));
     let load = SlidingLoad::new(force, 0.1 / time_step)?.after(1.5)?;
-    Ok(slide_on_grid(&body, material, &load, &options)?
-        .last()
-        .clone())
+    let march = slide_on_grid(&body, material, &load, &options)?;
+    Ok(march.last().clone())
 }
 
 /// A march beside one on the simpler material that is left in the limit of the ratio Δt/τ.
@@ -244,25 +237,17 @@ fn beside_limit(
     let limit = marched(limit, ratio, force)?;
     // Part by which a limit is missed after some fifteen steps, and contacts solved to 1e-9.
     let tolerance = 1e2 * ratio.min(1.0 / ratio) + 1e-6;
-    // Friction is a part of the slope 2 c a, with c = 0.1 and a about one.
-    let [depths, frictions] = [
-        [got.indentation_depth, limit.indentation_depth],
-        [got.friction_coefficient, limit.friction_coefficient],
-    ];
-    Ok(Finding::Values(vec![
-        Comparison::relative("depth", depths[0], depths[1], tolerance),
-        Comparison::relative(
-            "friction coefficient",
-            frictions[0],
-            frictions[1],
-            tolerance,
-        )
-        .in_units_of(0.2),
+    let compare = |name, got, limit| Comparison::relative(name, got, limit, tolerance);
+    let friction = [got.friction_coefficient, limit.friction_coefficient];
+    Ok(Finding::of(&[
+        compare("depth", got.indentation_depth, limit.indentation_depth),
+        // Friction is a part of the slope 2 c a, with c = 0.1 and a about one.
+        compare("friction coefficient", friction[0], friction[1]).in_units_of(0.2),
     ]))
 }
 
 /// A spring in the short run, a dashpot in the long one.
-fn march_on_maxwell(ratio: f64) -> Result<Finding> {
+pub(super) fn march_on_maxwell(ratio: f64) -> Result<Finding> {
     let material = Maxwell::new(1.0, 1.0)?;
     if ratio < 1.0 {
         beside_limit(&material, &Elastic::new(1.0)?, ratio, 1.0)
@@ -272,7 +257,7 @@ fn march_on_maxwell(ratio: f64) -> Result<Finding> {
 }
 
 /// The stiff spring in the short run, the soft one in the long one.
-fn march_on_solid(ratio: f64) -> Result<Finding> {
+pub(super) fn march_on_solid(ratio: f64) -> Result<Finding> {
     let modulus = if ratio < 1.0 { 1.1 } else { 0.1 };
     beside_limit(&solid(0.1)?, &Elastic::new(modulus)?, ratio, modulus)
 }

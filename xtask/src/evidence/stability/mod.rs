@@ -5,13 +5,13 @@ mod case;
 mod cone_on_solid;
 mod contacts;
 mod direct_sum;
+mod families;
 mod half_space;
 mod judge;
 mod line;
+mod materials;
 mod range;
 mod refusals;
-mod rheology;
-mod shapes;
 mod units;
 
 use anyhow::Result;
@@ -20,8 +20,7 @@ use viscofriction_plot::{Cell, Colour, ColourScale, Figure, Matrix, MatrixRow};
 
 use super::{Report, Table};
 use crate::output::{WrongInput, markdown_table};
-use case::Family;
-use judge::{Row, Verdict};
+use case::{Case, Cost, Family, Finding, Verdict};
 
 /// Which cases.
 #[derive(Debug, Default, Args)]
@@ -38,17 +37,12 @@ const DARKEST: f64 = -6.0;
 
 /// Runs all cases; a quick run takes every third case of the cheap families.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let rows = judge::judge(&chosen(options, quick)?);
-    let of_one_family =
-        |one: &Row, other: &Row| one.family == other.family && one.parameter == other.parameter;
-    let families: Vec<&[Row]> = rows.chunk_by(of_one_family).collect();
+    let rows = judge::judge(&chosen(options, quick)?)?;
+    let key = |row: &Finding| (row.family, row.parameter);
+    let families: Vec<&[Finding]> = rows.chunk_by(|one, other| key(one) == key(other)).collect();
     let wrong: Vec<String> = rows.iter().filter_map(complaint).collect();
-    let failure = format!(
-        "{} of {} cases are wrong\n{}",
-        wrong.len(),
-        rows.len(),
-        wrong.join("\n")
-    );
+    let (bad, all, which) = (wrong.len(), rows.len(), wrong.join("\n"));
+    let failure = format!("{bad} of {all} cases are wrong\n{which}");
     Ok(Report {
         name: "stability",
         tables: vec![Table::new("stability", &rows)?],
@@ -59,12 +53,9 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 }
 
 /// What is wrong with a case.
-fn complaint(row: &Row) -> Option<String> {
-    let Row { expected, got, .. } = row;
-    let text = format!(
-        "{}: expected {expected}, got {got}",
-        name(row.family, row.parameter, &row.value)
-    );
+fn complaint(row: &Finding) -> Option<String> {
+    let name = name(row.family, row.parameter, &row.value);
+    let text = format!("{name}: expected {}, got {}", row.expected, row.got);
     (row.verdict == Verdict::Wrong).then_some(text)
 }
 
@@ -74,23 +65,19 @@ fn name(family: &str, parameter: &str, value: &str) -> String {
 
 /// The families that are asked for.
 fn chosen(options: &Options, quick: bool) -> Result<Vec<Family>> {
-    let mut families = families();
+    let mut families = families::all();
     if quick {
-        families.retain(|family| !family.slow);
+        families.retain(|family| family.cost == Cost::Cheap);
         for family in &mut families {
             let cases = std::mem::take(&mut family.cases);
             family.cases = cases.into_iter().step_by(QUICK).collect();
         }
     }
     if let Some(text) = &options.only {
-        for Family {
-            name: family,
-            parameter,
-            cases,
-            ..
-        } in &mut families
-        {
-            cases.retain(|case| name(family, parameter, &case.value).contains(text.as_str()));
+        for family in &mut families {
+            let of = |case: &Case| name(family.name, family.parameter, &case.value);
+            let cases = std::mem::take(&mut family.cases).into_iter();
+            family.cases = cases.filter(|case| of(case).contains(text)).collect();
         }
         families.retain(|family| !family.cases.is_empty());
         if families.is_empty() {
@@ -100,33 +87,17 @@ fn chosen(options: &Options, quick: bool) -> Result<Vec<Family>> {
     Ok(families)
 }
 
-fn families() -> Vec<Family> {
-    [
-        rheology::families(),
-        shapes::families(),
-        line::families(),
-        contacts::families(),
-        half_space::families(),
-        range::families(),
-        units::families(),
-        refusals::families(),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
-fn count(rows: &[Row], verdict: Verdict) -> usize {
+fn count(rows: &[Finding], verdict: Verdict) -> usize {
     rows.iter().filter(|row| row.verdict == verdict).count()
 }
 
 /// One line per family.
-fn summary(families: &[&[Row]]) -> String {
+fn summary(families: &[&[Finding]]) -> String {
     let header = "family|parameter|cases|accurate|refused|wrong|largest deviation/tolerance|s";
     let lines = families.iter().map(|rows| {
         let largest = rows
             .iter()
-            .filter_map(Row::part_of_tolerance)
+            .filter_map(Finding::part_of_tolerance)
             .reduce(f64::max);
         let seconds: f64 = rows.iter().map(|row| row.seconds).sum();
         [
@@ -144,7 +115,7 @@ fn summary(families: &[&[Row]]) -> String {
 }
 
 /// The cases as a heat map: one row per family, one cell per case.
-fn picture(families: &[&[Row]], rows: &[Row]) -> Figure {
+fn picture(families: &[&[Finding]], rows: &[Finding]) -> Figure {
     let [accurate, refused, wrong] =
         [Verdict::Accurate, Verdict::Refused, Verdict::Wrong].map(|verdict| count(rows, verdict));
     Figure::single(Matrix {
@@ -164,7 +135,7 @@ fn picture(families: &[&[Row]], rows: &[Row]) -> Figure {
     })
 }
 
-fn matrix_row(rows: &[Row]) -> MatrixRow {
+fn matrix_row(rows: &[Finding]) -> MatrixRow {
     let [first, last] = [&rows[0], &rows[rows.len() - 1]];
     let numbers = [first, last].map(|row| row.value.parse::<f64>());
     let note = if numbers.iter().all(Result::is_ok) {
@@ -179,7 +150,7 @@ fn matrix_row(rows: &[Row]) -> MatrixRow {
     }
 }
 
-fn cell(row: &Row) -> Cell {
+fn cell(row: &Finding) -> Cell {
     match row.verdict {
         Verdict::Refused => Cell::Plain(Colour::Grey),
         Verdict::Wrong => Cell::Plain(Colour::Red),

@@ -2,13 +2,14 @@
 
 use anyhow::Result;
 use bem_halfspace::BemError;
-use bem_halfspace::steady::{RefinementOptions, steady_refined};
-use friction_analytic::{FrictionError, half_space_power_friction, power_sliding};
-use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
-use mdr_core::{MdrError, SlideOptions, slide_on_grid, steady};
+use friction_analytic::{FrictionError, power_sliding};
+use indenters::{PowerProfile, SlidingLoad};
+use mdr_core::MdrError;
 use rheology::Viscous;
 
-use super::case::{Case, Family, Finding, compare, decades, refused};
+use super::case::{Case, Cost, Family, Finding, compare, decades, refused};
+use super::half_space::{beside_table, refined};
+use super::line::{self, Dashpot, marched, state};
 
 /// A paraboloid on a dashpot; all four numbers are one unless a case changes one of them.
 #[derive(Debug, Clone, Copy)]
@@ -38,37 +39,42 @@ enum Expected {
     Refusal,
 }
 
+/// The parameters that are changed one at a time.
+const PARAMETERS: [(&str, Change); 4] = [
+    ("force / N", |force| Scene { force, ..UNIT }),
+    ("speed / (m/s)", |velocity| Scene { velocity, ..UNIT }),
+    ("viscosity / (Pa s)", |viscosity| Scene {
+        viscosity,
+        ..UNIT
+    }),
+    ("curvature · m", |curvature| Scene { curvature, ..UNIT }),
+];
+/// A force that leaves a depth with fewer digits than others have, which the solvers on the line refuse, and one at
+/// which the march has no room.
+const ENDS: [f64; 2] = [1e-310, 1.7e308];
+
 pub(super) fn families() -> Vec<Family> {
-    // The parameters that are changed one at a time.
-    let parameters: [(&'static str, Change); 4] = [
-        ("force / N", |force| Scene { force, ..UNIT }),
-        ("speed / (m/s)", |velocity| Scene { velocity, ..UNIT }),
-        ("viscosity / (Pa s)", |viscosity| Scene {
-            viscosity,
-            ..UNIT
-        }),
-        ("curvature · m", |curvature| Scene { curvature, ..UNIT }),
-    ];
     let mut families = Vec::new();
-    for (name, method, step) in [
-        ("line, stationary, paraboloid", line as Method, 1),
-        ("line, march, paraboloid", march, 3),
-        ("half space, stationary, paraboloid", half_space, 3),
-    ] {
-        for (parameter, scene) in parameters {
+    let methods: [(_, Method, _, _); 3] = [
+        ("line, stationary, paraboloid", line, 1, Cost::Cheap),
+        ("line, march, paraboloid", march, 3, Cost::Cheap),
+        (
+            "half space, stationary, paraboloid",
+            half_space,
+            3,
+            Cost::Costly,
+        ),
+    ];
+    for (name, method, step, cost) in methods {
+        families.extend(PARAMETERS.map(|(parameter, scene)| {
             let run = move |value| method(scene(value), Expected::Solution);
-            let family = Family::over(name, parameter, decades(-12, 12, step), run);
-            let slow = name.starts_with("half space");
-            families.push(Family { slow, ..family });
-        }
+            Family::over(cost, name, parameter, decades(-12, 12, step), run)
+        }));
     }
-    // 1e-310 N leaves a depth with fewer digits than others have, which the solvers on the line refuse; the march also
-    // has no room at 1.7e308 N.
-    let (denormal, largest) = (1e-310, 1.7e308);
     families.extend([
         ends_of_numbers("theorem, ends of numbers", theorem, &[]),
-        ends_of_numbers("line, ends of numbers", line, &[denormal]),
-        ends_of_numbers("line, march, ends of numbers", march, &[denormal, largest]),
+        ends_of_numbers("line, ends of numbers", line, &ENDS[..1]),
+        ends_of_numbers("line, march, ends of numbers", march, &ENDS),
         ends_of_numbers("half space, ends of numbers", half_space, &[]),
     ]);
     families
@@ -94,12 +100,15 @@ fn ends_of_numbers(name: &'static str, method: Method, refused: &[f64]) -> Famil
 }
 
 impl Scene {
-    fn problem(self) -> Result<(PowerProfile, Viscous, SlidingLoad)> {
-        Ok((
-            PowerProfile::paraboloid(self.curvature)?,
-            Viscous::new(self.viscosity)?,
-            SlidingLoad::new(self.force, self.velocity)?,
-        ))
+    fn profile(self) -> Result<PowerProfile> {
+        Ok(PowerProfile::paraboloid(self.curvature)?)
+    }
+
+    fn dashpot(self) -> Result<Dashpot> {
+        Ok(Dashpot {
+            material: Viscous::new(self.viscosity)?,
+            load: SlidingLoad::new(self.force, self.velocity)?,
+        })
     }
 
     /// Eqs. (12) and (22) as the paper prints them, in an order that neither overflows nor underflows.
@@ -114,8 +123,8 @@ impl Scene {
 }
 
 fn theorem(scene: Scene, expected: Expected) -> Result<Finding> {
-    let (profile, material, load) = scene.problem()?;
-    let got = power_sliding(&profile, &material, &load);
+    let Dashpot { material, load } = scene.dashpot()?;
+    let got = power_sliding(&scene.profile()?, &material, &load);
     if expected == Expected::Refusal {
         return refused!(got => FrictionError::OutOfRange { .. });
     }
@@ -124,28 +133,21 @@ fn theorem(scene: Scene, expected: Expected) -> Result<Finding> {
 }
 
 fn line(scene: Scene, expected: Expected) -> Result<Finding> {
-    let (profile, material, load) = scene.problem()?;
-    let got = steady(&EquivalentLine(&profile), &material, &load, ASKED_OF_LINE);
+    let Dashpot { material, load } = scene.dashpot()?;
+    let got = state(&scene.profile()?, &material, &load);
     if expected == Expected::Refusal {
         return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
     }
     let got = got?;
-    scene.compared(
-        got.indentation_depth.value,
-        got.friction_coefficient.value,
-        ASKED_OF_LINE,
-    )
+    let [depth, friction] = [got.indentation_depth, got.friction_coefficient];
+    scene.compared(depth.value, friction.value, line::ASKED)
 }
 
 const ELEMENTS: usize = 100;
-/// Relative error asked of the stationary state of the line.
-const ASKED_OF_LINE: f64 = 1e-8;
 
 fn march(scene: Scene, expected: Expected) -> Result<Finding> {
-    let (profile, material, load) = scene.problem()?;
-    let line = EquivalentLine(&profile);
-    let got = SlideOptions::with_elements(ELEMENTS, &line, &material, &load)
-        .and_then(|options| slide_on_grid(&line, &material, &load, &options));
+    let Dashpot { material, load } = scene.dashpot()?;
+    let got = marched(&scene.profile()?, &material, &load, ELEMENTS);
     if expected == Expected::Refusal {
         return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
     }
@@ -155,19 +157,11 @@ fn march(scene: Scene, expected: Expected) -> Result<Finding> {
     scene.compared(got.indentation_depth, got.friction_coefficient, tolerance)
 }
 
-const ASKED: RefinementOptions = RefinementOptions {
-    relative_error: 1e-2,
-    aspect: 0.5,
-    max_unknowns: 40_000,
-};
-
 fn half_space(scene: Scene, expected: Expected) -> Result<Finding> {
-    let (profile, material, load) = scene.problem()?;
-    let got = steady_refined(&profile, &material, &load, &ASKED);
+    let (profile, dashpot) = (scene.profile()?, scene.dashpot()?);
     if expected == Expected::Refusal {
+        let got = refined(&profile, &dashpot);
         return refused!(got => BemError::InvalidParameter { .. });
     }
-    let tabulated = half_space_power_friction(&profile, &material, &load)?;
-    let tolerance = ASKED.relative_error + tabulated.error / tabulated.value;
-    compare!(within tolerance; "friction coefficient" => got?.friction_coefficient.value, tabulated.value)
+    beside_table(&profile, &profile, &dashpot, 0.0)
 }

@@ -14,6 +14,9 @@ use super::case::{Case, Comparison, Family, Finding, power_of_ten};
 /// Dimensionless numbers of a method.
 type Numbers = Vec<(&'static str, f64)>;
 
+/// A method, which solves the scene in other units.
+type Method = fn(Units) -> Result<Numbers>;
+
 /// How many of the new units are one of the old.
 #[derive(Debug, Clone, Copy)]
 struct Units {
@@ -21,9 +24,6 @@ struct Units {
     time: f64,
     force: f64,
 }
-
-/// Another unit of one kind.
-type Change = fn(f64) -> Units;
 
 const SI: Units = Units {
     length: 1.0,
@@ -35,32 +35,41 @@ const SI: Units = Units {
 const TOLERANCE: f64 = 1e-9;
 
 pub(super) fn families() -> Vec<Family> {
-    vec![
-        other_units("units: theorems", theorems),
-        other_units("units: line, stationary", line_stationary),
-        other_units("units: line, march", line_march),
-        other_units("units: line, pressed", line_pressed),
-        other_units("units: half space, stationary", half_space_stationary),
-        other_units("units: half space, march", half_space_march),
-        other_units("units: half space, pressed", half_space_pressed),
-    ]
+    let methods: [(&str, Method); 7] = [
+        ("units: theorems", theorems),
+        ("units: line, stationary", line_stationary),
+        ("units: line, march", line_march),
+        ("units: line, pressed", line_pressed),
+        ("units: half space, stationary", half_space_stationary),
+        ("units: half space, march", half_space_march),
+        ("units: half space, pressed", half_space_pressed),
+    ];
+    methods
+        .map(|(name, method)| Family::of(name, "unit, 1e-12 … 1e12", cases(method)))
+        .into()
 }
 
-fn other_units(name: &'static str, method: fn(Units) -> Result<Numbers>) -> Family {
-    let changes: [(&str, Change); 3] = [
-        ("length", |length| Units { length, ..SI }),
-        ("time", |time| Units { time, ..SI }),
-        ("force", |force| Units { force, ..SI }),
-    ];
+fn cases(method: Method) -> Vec<Case> {
     let mut cases = Vec::new();
-    for (unit, change) in changes {
+    for unit in ["length", "time", "force"] {
         for exponent in [-12, -8, -4, -1, 1, 4, 8, 12] {
-            let units = change(power_of_ten(exponent));
+            let [length, time, force] = ["length", "time", "force"].map(|kind| {
+                if kind == unit {
+                    power_of_ten(exponent)
+                } else {
+                    1.0
+                }
+            });
+            let units = Units {
+                length,
+                time,
+                force,
+            };
             let run = move || same(&method(units)?, &method(SI)?);
             cases.push(Case::new(format!("{unit} 1e{exponent}"), run));
         }
     }
-    Family::of(name, "unit, 1e-12 … 1e12", cases)
+    cases
 }
 
 fn same(got: &Numbers, expected: &Numbers) -> Result<Finding> {
@@ -68,7 +77,7 @@ fn same(got: &Numbers, expected: &Numbers) -> Result<Finding> {
     let comparisons = pairs.map(|((quantity, got), (_, expected))| {
         Comparison::relative(quantity, *got, *expected, TOLERANCE)
     });
-    Ok(Finding::Values(comparisons.collect()))
+    Ok(Finding::of(&comparisons.collect::<Vec<_>>()))
 }
 
 impl Units {

@@ -6,46 +6,35 @@ use rheology::{
     Springpot, StandardSolid, StandardSolidParameters,
 };
 
-use super::case::{Comparison, Family, Finding, compare, decades, families};
+use super::case::{Comparison, Finding, compare};
 
 /// A few roundings.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
-const EXPONENTS: [f64; 9] = [0.01, 0.05, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 0.99];
 
-pub(super) fn families() -> Vec<Family> {
-    families! {
-        "creep of Kelvin–Voigt in steps", "Δt/λ", decades(-12, 12, 1) => creep_steps;
-        "relaxation of Maxwell in steps", "Δt/τ", decades(-12, 12, 1) => relaxation_steps;
-        "spectra of 16 branches", "decades of τ", (1..=15).map(f64::from) => many_branches;
-        "two branches of nearly one τ", "difference", decades(-15, -1, 1) => close_branches;
-        "three-element solid", "γ", decades(-12, 3, 1) => three_elements;
-        "springpot as Prony series", "exponent", EXPONENTS => springpot;
-    }
+/// The response to two steps of a length, of which the first is held over the second.
+fn two_steps(step: &ExponentialStep, first: f64) -> (f64, f64) {
+    let mut state = vec![0.0; step.n_fields()];
+    step.advance_at(first, &mut state);
+    (step.response(), step.history_at(&state))
 }
 
 /// Two steps from rest under constant load are J(2Δt) w, and one step is J(Δt) w.
-fn creep_steps(ratio: f64) -> Result<Finding> {
+pub(super) fn creep_steps(ratio: f64) -> Result<Finding> {
     let material = KelvinVoigt::new(1.0, 1.0)?;
-    let step = ExponentialStep::creep(&material.creep(), ratio)?;
-    let mut state = vec![0.0; step.n_fields()];
-    step.advance_at(1.0, &mut state);
-    let second = step.response() + step.history_at(&state);
+    let (response, history) = two_steps(&ExponentialStep::creep(&material.creep(), ratio)?, 1.0);
     let exact = |time: f64| -(-time).exp_m1();
     compare!(within ROUNDING;
-        "first step" => step.response(), exact(ratio);
-        "second step" => second, exact(2.0 * ratio))
+        "first step" => response, exact(ratio);
+        "second step" => response + history, exact(2.0 * ratio))
 }
 
 /// A ramp u = t over one step, held over a second: φ(x), then φ(x) e^(−x), times the strain of the first.
-fn relaxation_steps(ratio: f64) -> Result<Finding> {
-    let material = Maxwell::new(1.0, 1.0)?;
-    let step = ExponentialStep::relaxation(&material.relaxation(), ratio)?;
-    let mut state = vec![0.0; step.n_fields()];
-    step.advance_at(ratio, &mut state);
-    let held = step.history_at(&state);
+pub(super) fn relaxation_steps(ratio: f64) -> Result<Finding> {
+    let relaxation = Maxwell::new(1.0, 1.0)?.relaxation();
+    let (response, held) = two_steps(&ExponentialStep::relaxation(&relaxation, ratio)?, ratio);
     let ramp = -(-ratio).exp_m1();
     compare!(within ROUNDING;
-        "ramp" => step.response() * ratio, ramp;
+        "ramp" => response * ratio, ramp;
         "held" => held, ramp * (-ratio).exp())
 }
 
@@ -59,14 +48,14 @@ pub(super) fn prony_over(n_decades: f64) -> Result<Prony> {
     Ok(Prony::new(RelaxationSpectrum::new(0.1, 0.0, branches)?)?)
 }
 
-fn many_branches(n_decades: f64) -> Result<Finding> {
+pub(super) fn many_branches(n_decades: f64) -> Result<Finding> {
     reciprocal_spectra(&prony_over(n_decades)?.relaxation())
 }
 
 /// The same two branches whether they are told apart or not: 1/(1 + ε) and 1 have nearly the moduli of one branch.
 ///
 /// Times closer than one part in 10⁸ become one, which moves a modulus by the square of that.
-fn close_branches(difference: f64) -> Result<Finding> {
+pub(super) fn close_branches(difference: f64) -> Result<Finding> {
     let branches = [1.0, 1.0 + difference].map(|relaxation_time| RelaxationBranch {
         modulus: 1.0,
         relaxation_time,
@@ -86,14 +75,13 @@ fn reciprocal_spectra(relaxation: &RelaxationSpectrum) -> Result<Finding> {
         // (G' + iG'')(J' − iJ'') = 1
         let real = stiff.storage * soft.storage + stiff.loss * soft.loss;
         let imaginary = stiff.loss * soft.storage - stiff.storage * soft.loss;
-        for (quantity, got, expected) in
-            [("real part", real, 1.0), ("imaginary part", imaginary, 0.0)]
-        {
-            comparisons
-                .push(Comparison::relative(quantity, got, expected, 1e-13).in_units_of(size));
-        }
+        let compare = |quantity, got, expected| {
+            Comparison::relative(quantity, got, expected, 1e-13).in_units_of(size)
+        };
+        comparisons.push(compare("real part", real, 1.0));
+        comparisons.push(compare("imaginary part", imaginary, 0.0));
     }
-    Ok(Finding::Values(comparisons))
+    Ok(Finding::of(&comparisons))
 }
 
 /// The solid of the paper's Fig. 1 with G₂ = 1 Pa and τ = 1 s.
@@ -107,7 +95,7 @@ pub(super) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
 
 /// Retardation time (1 + γ)/γ, compliance 1/(γ (1 + γ)), largest loss tangent 1/(2 √(γ (1 + γ))), J(1) by Taylor where
 /// the spring hardly acts.
-fn three_elements(gamma: f64) -> Result<Finding> {
+pub(super) fn three_elements(gamma: f64) -> Result<Finding> {
     let solid = solid(gamma)?;
     let creep = solid.creep();
     let element = creep.elements()[0];
@@ -123,7 +111,7 @@ fn three_elements(gamma: f64) -> Result<Finding> {
 
 /// The series promises its error in a band of eight decades; between the samples that it was fitted to it may exceed it
 /// by little.
-fn springpot(exponent: f64) -> Result<Finding> {
+pub(super) fn springpot(exponent: f64) -> Result<Finding> {
     let element = Springpot::new(1.0, exponent)?;
     let expansion = element.expand([1e-4, 1e4], 1e-6)?;
     let mut comparisons = Vec::new();
@@ -131,14 +119,12 @@ fn springpot(exponent: f64) -> Result<Finding> {
         let omega = 10_f64.powf(0.1 * f64::from(step));
         let exact = element.complex_modulus(omega)?;
         let series = expansion.spectrum.complex_modulus(omega)?;
-        for (quantity, got, expected) in [
-            ("storage modulus", series.storage, exact.storage),
-            ("loss modulus", series.loss, exact.loss),
-        ] {
-            let size = exact.storage.hypot(exact.loss);
-            comparisons
-                .push(Comparison::relative(quantity, got, expected, 1.01e-6).in_units_of(size));
-        }
+        let size = exact.storage.hypot(exact.loss);
+        let compare = |quantity, got, expected| {
+            Comparison::relative(quantity, got, expected, 1.01e-6).in_units_of(size)
+        };
+        comparisons.push(compare("storage modulus", series.storage, exact.storage));
+        comparisons.push(compare("loss modulus", series.loss, exact.loss));
     }
-    Ok(Finding::Values(comparisons))
+    Ok(Finding::of(&comparisons))
 }
