@@ -11,7 +11,7 @@ use crate::support::{Evidence, Row, number};
 /// One quick run for all tests.
 fn evidence() -> &'static Evidence {
     static RUN: OnceLock<Evidence> = OnceLock::new();
-    RUN.get_or_init(|| Evidence::quick("speed-range", &["speed-range"]))
+    RUN.get_or_init(|| Evidence::quick("speed-range", "speed-range"))
 }
 
 /// The rows of one profile, by rising speed.
@@ -69,25 +69,26 @@ fn friction_vanishes_at_both_ends_as_the_elastic_limits_say() {
         });
         let solid = solid.expect("a solid");
         let rows = curve(exponent);
-        for (row, slow) in [(&rows[0], true), (&rows[10], false)] {
-            let contact = ElasticContact {
-                contact_radius: 1.0,
-                velocity: number(row, "speed"),
-            };
-            let limit = if slow {
-                low_speed_friction(&body, &solid, contact)
-            } else {
-                high_speed_friction(&body, &solid, contact)
-            };
+        let contact = |row| ElasticContact {
+            contact_radius: 1.0,
+            velocity: number(row, "speed"),
+        };
+        for (row, limit) in [
+            (
+                &rows[0],
+                low_speed_friction(&body, &solid, contact(&rows[0])),
+            ),
+            (
+                &rows[10],
+                high_speed_friction(&body, &solid, contact(&rows[10])),
+            ),
+        ] {
             let limit = limit.expect("an elastic limit");
             let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
+            let bar = number(row, "half_space_error");
             for (column, expected, bar) in [
                 ("line", limit.line, 0.0),
-                (
-                    "half_space",
-                    limit.half_space,
-                    number(row, "half_space_error"),
-                ),
+                ("half_space", limit.half_space, bar),
                 ("normal_force", limit.normal_force, 0.0),
             ] {
                 let allowed = bar + 4e-3 * expected;
@@ -104,10 +105,12 @@ fn friction_has_one_maximum_over_the_speed() {
     for exponent in [1.0, 2.0] {
         let rows = curve(exponent);
         for (column, bar) in [("line", "line_error"), ("half_space", "half_space_error")] {
-            let values: Vec<f64> = rows.iter().map(|row| number(row, column)).collect();
-            let bars: Vec<f64> = rows.iter().map(|row| number(row, bar)).collect();
-            let top =
-                (0..values.len()).max_by(|one, other| values[*one].total_cmp(&values[*other]));
+            let [values, bars] = [column, bar].map(|column| {
+                let numbers = rows.iter().map(|row| number(row, column));
+                numbers.collect::<Vec<f64>>()
+            });
+            let steps = 0..values.len();
+            let top = steps.max_by(|one, other| values[*one].total_cmp(&values[*other]));
             let top = top.expect("a largest value");
             for step in 1..values.len() {
                 let rise = values[step] - values[step - 1];
@@ -131,11 +134,9 @@ fn the_viscous_law_holds_between_its_borders() {
     for row in &map {
         let [friction, predicted] = ["line", "predicted_line"].map(|column| number(row, column));
         assert!(predicted >= friction * (1.0 - 1e-6), "{row:?}");
-        let border = borders.iter().find(|border| {
-            border["model"] == "line"
-                && ["exponent", "stiffness_ratio"].map(|column| &border[column])
-                    == ["exponent", "stiffness_ratio"].map(|column| &row[column])
-        });
+        let key = |row: &Row| ["exponent", "stiffness_ratio"].map(|column| row[column].clone());
+        let mut borders = borders.iter().filter(|border| border["model"] == "line");
+        let border = borders.find(|border| key(border) == key(row));
         let border = border.expect("a border for each stiffness ratio");
         let right = predicted <= 1.1 * friction;
         let between = !border["lowest_speed"].is_empty()

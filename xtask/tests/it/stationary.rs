@@ -4,19 +4,14 @@ use crate::support::{Evidence, number};
 
 #[test]
 fn error_bars_are_compared_with_finer_solutions() {
-    let evidence = Evidence::quick("error-bars", &["stationary", "--table", "error-bars"]);
+    let evidence = Evidence::quick("error-bars", "stationary --table error-bars");
     let rows = evidence.rows("error_bars");
     let printed = &evidence.printed;
     assert_eq!(rows.len(), 12, "four bodies, three shapes of elements");
     for row in &rows {
-        let [friction, bar, reference, error, deviation] = [
-            "friction",
-            "error_bar",
-            "reference_friction",
-            "reference_error",
-            "deviation",
-        ]
-        .map(|column| number(row, column));
+        let number = |column| number(row, column);
+        let [friction, reference] = ["friction", "reference_friction"].map(number);
+        let [bar, error, deviation] = ["error_bar", "reference_error", "deviation"].map(number);
         assert!(
             ((friction - reference).abs() - deviation).abs() <= 1e-12 && bar > 0.0,
             "{row:?}"
@@ -24,7 +19,7 @@ fn error_bars_are_compared_with_finer_solutions() {
         let holds = deviation <= bar + error;
         assert_eq!(row["holds"], holds.to_string(), "{row:?}");
         assert!(
-            error < number(row, "relative_error_asked") * reference,
+            error < number("relative_error_asked") * reference,
             "the reference is finer: {row:?}"
         );
     }
@@ -40,14 +35,12 @@ fn error_bars_are_compared_with_finer_solutions() {
 
 #[test]
 fn growth_and_speed_are_measured_with_their_errors() {
-    let tables = ["stationary", "--table", "growth", "--table", "speed"];
-    let evidence = Evidence::quick("growth-and-speed", &tables);
+    let line = "stationary --table growth --table speed";
+    let evidence = Evidence::quick("growth-and-speed", line);
     let growth = evidence.rows("growth");
     let printed = &evidence.printed;
-    let elements: Vec<f64> = growth
-        .iter()
-        .map(|row| number(row, "elements_in_contact"))
-        .collect();
+    let elements = growth.iter().map(|row| number(row, "elements_in_contact"));
+    let elements: Vec<f64> = elements.collect();
     // The area of the contact is known to one or two per cent on the grid that the spacings follow from.
     let close = |got: f64, asked: f64| (got / asked - 1.0).abs() < 0.06;
     assert!(

@@ -13,8 +13,13 @@ pub(crate) fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// The command, run with arguments that blanks separate.
+pub(crate) fn xtask(line: &str) -> Output {
+    run(line.split(' '))
+}
+
 /// The command, run.
-pub(crate) fn xtask(arguments: &[&str]) -> Output {
+pub(crate) fn run<'a>(arguments: impl IntoIterator<Item = &'a str>) -> Output {
     let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
         .args(arguments)
         .output();
@@ -33,13 +38,6 @@ pub(crate) fn argument(path: &Path) -> &str {
 /// A row of a table, by the names of its columns.
 pub(crate) type Row = HashMap<String, String>;
 
-/// The rows of a CSV file.
-pub(crate) fn rows(path: &Path) -> Vec<Row> {
-    let mut reader = csv::Reader::from_path(path).expect("a table");
-    let rows = reader.deserialize().collect::<Result<_, _>>();
-    rows.expect("rows of the table")
-}
-
 /// A number that must be there and finite.
 pub(crate) fn number(row: &Row, column: &str) -> f64 {
     let value = row[column].parse::<f64>().ok();
@@ -55,13 +53,13 @@ pub(crate) struct Evidence {
 }
 
 impl Evidence {
-    /// Runs an experiment with its options into an empty folder of this name.
-    pub(crate) fn quick(name: &str, arguments: &[&str]) -> Self {
+    /// Runs an experiment with its options, separated by blanks, into an empty folder of this name.
+    pub(crate) fn quick(name: &str, line: &str) -> Self {
         let folder = folder(name);
-        let common = ["--quick", "--out", argument(&folder)];
-        let output = xtask(&[&["evidence"], arguments, &common[..]].concat());
+        let common = ["evidence", "--quick", "--out", argument(&folder)];
+        let output = run(common.into_iter().chain(line.split(' ')));
         let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
+        assert_eq!(output.status.code(), Some(0), "{line}: {message}");
         Self {
             printed: text(&output.stdout),
             folder,
@@ -70,7 +68,10 @@ impl Evidence {
 
     /// The rows of one of its tables.
     pub(crate) fn rows(&self, table: &str) -> Vec<Row> {
-        rows(&self.folder.join(table).with_extension("csv"))
+        let path = self.folder.join(table).with_extension("csv");
+        let mut reader = csv::Reader::from_path(path).expect("a table");
+        let rows = reader.deserialize().collect::<Result<_, _>>();
+        rows.expect("rows of the table")
     }
 
     /// Demands pictures that are more than a frame.

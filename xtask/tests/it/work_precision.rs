@@ -7,7 +7,7 @@ use crate::support::{Evidence, Row, number};
 /// One quick run for all tests.
 fn evidence() -> &'static Evidence {
     static RUN: OnceLock<Evidence> = OnceLock::new();
-    RUN.get_or_init(|| Evidence::quick("work-precision", &["work-precision"]))
+    RUN.get_or_init(|| Evidence::quick("work-precision", "work-precision"))
 }
 
 fn key(row: &Row) -> [&str; 3] {
@@ -74,13 +74,10 @@ fn errors_fall_with_the_resolution_or_are_those_asked_for() {
 #[test]
 fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
     let fits = evidence().rows("work_precision_orders");
-    let orders: Vec<(&Row, f64)> = fits
-        .iter()
-        .filter(|fit| !fit["order"].is_empty())
-        .map(|fit| (fit, number(fit, "order")))
-        .collect();
-    assert!(orders.len() >= 5, "orders of {fits:?}");
-    for (fit, order) in orders {
+    let fitted: Vec<&Row> = fits.iter().filter(|fit| !fit["order"].is_empty()).collect();
+    assert!(fitted.len() >= 5, "orders of {fits:?}");
+    for fit in fitted {
+        let order = number(fit, "order");
         let [low, high] = match key(fit) {
             [_, _, "mdr-transient"] => [1.9, 2.1],
             ["Hertz", ..] => [1.7, 2.4],
