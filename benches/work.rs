@@ -14,7 +14,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
-use benches::{ContactScene, rough_heights};
+use benches::{ContactScene, deviation, rough_heights};
 
 /// Why there is no timing.
 type Failure = Box<dyn Error + Send + Sync>;
@@ -203,11 +203,4 @@ fn on_threads<R: Send>(threads: usize, work: impl FnOnce() -> R + Send) -> Resul
 #[cfg(not(feature = "rayon"))]
 fn on_threads<R>(_: usize, work: impl FnOnce() -> R) -> Result<R, Failure> {
     Ok(work())
-}
-
-/// Relative difference in the mean square.
-fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
-    let pairs = actual.iter().zip(expected);
-    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
 }

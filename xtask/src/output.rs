@@ -34,6 +34,12 @@ pub(crate) fn markdown_table<R: Into<Row>>(
     table
 }
 
+/// Makes the folder that `--out` names.
+pub(crate) fn make_folder(out: &Path) -> Result<(), WrongInput> {
+    let problem = |error| WrongInput(format!("--out {} cannot be made: {error}", out.display()));
+    fs::create_dir_all(out).map_err(problem)
+}
+
 /// Writes a file under another name and then renames it, so that an interruption leaves the old file or the new one.
 pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
     let mut part = path.as_os_str().to_owned();
@@ -58,6 +64,11 @@ pub(crate) fn write_drawing(folder: &Path, name: &str, drawing: &Drawing) -> Res
     let path = |extension: &str| folder.join(format!("{name}.{extension}"));
     write_atomically(&path("svg"), drawing.svg.as_bytes())?;
     write_atomically(&path("png"), &png)
+}
+
+/// Points of a curve, one for each row of a table.
+pub(crate) fn points<R>(rows: &[R], x: impl Fn(&R) -> f64, y: impl Fn(&R) -> f64) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [x(row), y(row)]).collect()
 }
 
 /// CSV with a header line; numbers read back to the same f64.

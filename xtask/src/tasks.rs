@@ -2,20 +2,16 @@
 
 use std::time::Duration;
 
+use anyhow::Result;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 
 /// Runs a task for every item on all threads; results are in the order of the items.
-pub(crate) fn in_parallel<T, R, C>(
+pub(crate) fn in_parallel<T: Sync, R: Send>(
     task: &'static str,
     items: &[T],
-    run: impl Fn(&T) -> R + Sync + Send,
-) -> C
-where
-    T: Sync,
-    R: Send,
-    C: FromParallelIterator<R>,
-{
+    run: impl Fn(&T) -> Result<R> + Sync + Send,
+) -> Result<Vec<R>> {
     let bar = bar(task, items.len());
     let results = items.par_iter().with_max_len(1).map(run);
     let results = results.inspect(|_| bar.inc(1)).collect();
@@ -24,10 +20,11 @@ where
 }
 
 /// Runs a task for one item after the other, so that each can be timed.
-pub(crate) fn in_turn<T, R, C>(task: &'static str, items: &[T], run: impl FnMut(&T) -> R) -> C
-where
-    C: FromIterator<R>,
-{
+pub(crate) fn in_turn<T, R>(
+    task: &'static str,
+    items: &[T],
+    run: impl FnMut(&T) -> Result<R>,
+) -> Result<Vec<R>> {
     let bar = bar(task, items.len());
     let results = items.iter().map(run).inspect(|_| bar.inc(1)).collect();
     bar.finish_and_clear();

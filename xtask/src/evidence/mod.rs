@@ -14,10 +14,10 @@ mod work_precision;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use clap::{Args, Subcommand};
 
-use crate::output::{WrongInput, print_line};
+use crate::output::{make_folder, print_line};
 use report::{Report, Table};
 
 /// Which experiment, how much of it, and where the results go.
@@ -60,8 +60,7 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
         out,
         quick,
     } = options;
-    std::fs::create_dir_all(&out)
-        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
+    make_folder(&out)?;
     let mut failures = Vec::new();
     for experiment in experiment.map_or_else(Experiment::all, |one| vec![one]) {
         let start = Instant::now();
@@ -72,10 +71,8 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
         print_line(&format!("{} in {seconds:.1} s", page.display()))?;
         failures.extend(report.failure);
     }
-    if failures.is_empty() {
-        return Ok(());
-    }
-    bail!("{}", failures.join("\n"))
+    ensure!(failures.is_empty(), "{}", failures.join("\n"));
+    Ok(())
 }
 
 impl Experiment {

@@ -1,11 +1,8 @@
 //! A scene file, solved by one method after the other, and the reference that they are compared with.
 
-use std::path::Path;
-
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow};
 use viscofriction::Estimate;
-use viscofriction::WrongInput;
-use viscofriction::scene::{Accuracy, Method, Model, Scene, scene_file};
+use viscofriction::scene::{Accuracy, Method, Model, Scene};
 use viscofriction::solve::{Problem, choose, solve};
 
 /// A method of one model, and how accurate its result is to be.
@@ -35,12 +32,16 @@ pub(super) struct Reference {
 }
 
 impl Request {
-    pub(super) const fn to_error(model: Model, method: Method, relative_error: f64) -> Self {
+    pub(super) const fn new(model: Model, method: Method, accuracy: Accuracy) -> Self {
         Self {
             model,
             method,
-            accuracy: Accuracy::RelativeError(relative_error),
+            accuracy,
         }
+    }
+
+    pub(super) const fn to_error(model: Model, method: Method, relative_error: f64) -> Self {
+        Self::new(model, method, Accuracy::RelativeError(relative_error))
     }
 
     pub(super) fn is_by_elements(&self) -> bool {
@@ -58,7 +59,7 @@ impl Request {
     /// The scene as this method has to solve it; where nothing slides both models are the same.
     fn problem(&self, scene: &Scene) -> Result<Problem> {
         let of_method = self.method.model().filter(|_| presses(scene));
-        let mut problem = problem(scene)?;
+        let mut problem = Problem::try_from(scene)?;
         problem.method = Some(self.method);
         problem.model = of_method.unwrap_or(self.model);
         problem.accuracy = self.accuracy;
@@ -100,17 +101,6 @@ impl Request {
     }
 }
 
-/// The scene of a text.
-pub(super) fn parsed(text: &str) -> Result<Scene> {
-    Ok(scene_file(text.parse()?)?)
-}
-
-/// The problem of a scene that names no files.
-pub(super) fn problem(scene: &Scene) -> Result<Problem> {
-    let no_files = |path: &Path| Err(WrongInput(format!("{}: no file is read", path.display())));
-    Ok(Problem::new(scene, Path::new(""), no_files)?)
-}
-
 /// Whether nothing slides.
 pub(super) fn presses(scene: &Scene) -> bool {
     scene.load.velocity <= 0.0
@@ -122,17 +112,14 @@ pub(super) fn first_reached(scene: &Scene, model: Model, errors: &[f64]) -> Resu
         Model::Line => Method::MdrSteady,
         Model::HalfSpace => Method::BemSteady,
     };
-    let mut failure = None;
+    let mut result = Err(anyhow!("no error was asked for"));
     for &error in errors {
-        match Request::to_error(model, method, error).reference(scene, ROUNDING) {
-            Ok(reference) => return Ok(reference),
-            Err(error) => failure = Some(error),
+        result = Request::to_error(model, method, error).reference(scene, ROUNDING);
+        if result.is_ok() {
+            break;
         }
     }
-    match failure {
-        Some(failure) => Err(failure),
-        None => bail!("no error was asked for"),
-    }
+    result
 }
 
 /// Rounding of closed forms.

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, ensure};
 use serde::Serialize;
 
-use crate::figures::friction_over_speed::{self, Indenter, SPEEDS};
-use crate::figures::{factors, loss_tangent, scaling_function, stationary};
+use crate::figures::factors::{self, FILE, Row};
+use crate::figures::friction_over_speed::{self, CONE, Indenter, PARABOLOID, SPEEDS};
+use crate::figures::{loss_tangent, scaling_function, stationary};
 use crate::output::{read_csv, to_csv};
 
 /// Closed forms differ by rounding only.
@@ -30,24 +31,14 @@ enum Tolerance {
 }
 
 pub(crate) fn check() -> Result<()> {
-    let mut compared = compare(
-        loss_tangent::FILE,
-        None,
-        &loss_tangent::compute()?,
-        |_, _| CLOSED_FORM,
-    )?;
-    for indenter in [Indenter::Cone, Indenter::Paraboloid] {
-        compared += check_friction(indenter)?;
-    }
-    compared += check_factors()?;
-    compared += compare(
-        scaling_function::FILE,
-        None,
-        &scaling_function::compute()?,
-        |_, _| CLOSED_FORM,
-    )?;
-    compared += scaling_function::check_against_the_half_space()?;
-    compared += check_outlines()?;
+    let (tangents, function) = (loss_tangent::compute()?, scaling_function::compute()?);
+    let compared = compare(loss_tangent::FILE, None, &tangents, |_, _| CLOSED_FORM)?
+        + check_friction(&CONE)?
+        + check_friction(&PARABOLOID)?
+        + check_factors()?
+        + compare(scaling_function::FILE, None, &function, |_, _| CLOSED_FORM)?
+        + scaling_function::check_against_the_half_space()?
+        + check_outlines()?;
     println!("docs/figures: {compared} recomputed numbers agree");
     Ok(())
 }
@@ -73,12 +64,10 @@ fn compare<R: Serialize>(
     ensure!(*old.headers()? == columns, "{file}: other columns");
     let mut rows = old.records().collect::<Result<Vec<_>, _>>()?;
     if let Some(chosen) = chosen {
-        let row = |&row: &usize| {
-            rows.get(row)
-                .cloned()
-                .with_context(|| format!("{file}: {} rows", rows.len()))
-        };
-        rows = chosen.iter().map(row).collect::<Result<_>>()?;
+        let count = rows.len();
+        let row = |&row: &usize| rows.get(row).cloned();
+        let rows_of = chosen.iter().map(row).collect::<Option<_>>();
+        rows = rows_of.with_context(|| format!("{file}: {count} rows"))?;
     }
     let count = rows.len();
     ensure!(count == recomputed.len(), "{file}: {count} rows");
@@ -109,32 +98,29 @@ fn compare<R: Serialize>(
 }
 
 /// The slowest, a middle and the fastest speed; the factor is that of the committed table.
-fn check_friction(indenter: Indenter) -> Result<usize> {
+fn check_friction(indenter: &Indenter) -> Result<usize> {
     let factors = committed_factors()?;
-    let same = |row: &&factors::Row| row.exponent.total_cmp(&indenter.exponent()).is_eq();
-    let factor = factors
-        .iter()
-        .find(same)
-        .context("a factor of the indenter")?
-        .converged;
+    let factor = of_exponent(&factors, indenter.exponent).context("a factor of the indenter")?;
     let speeds = [0, SPEEDS / 2, SPEEDS - 1];
-    let rows = speeds.map(|speed| friction_over_speed::row(indenter, speed, factor));
-    let rows = rows.into_iter().collect::<Result<Vec<_>>>()?;
+    let row = |speed| friction_over_speed::row(indenter, speed, factor.converged);
+    let rows = speeds.into_iter().map(row).collect::<Result<Vec<_>>>()?;
     let chosen = speeds.map(|speed| speed as usize);
-    compare(
-        indenter.file(),
-        Some(&chosen),
-        &rows,
-        |column, _| match column {
-            "half_space" | "half_space_plain" => SIMULATION,
-            "half_space_distance_error" | "drift" => Tolerance::Any,
-            _ => CLOSED_FORM,
-        },
-    )
+    let tolerance = |column: &str, _: &_| match column {
+        "half_space" | "half_space_plain" => SIMULATION,
+        "half_space_distance_error" | "drift" => Tolerance::Any,
+        _ => CLOSED_FORM,
+    };
+    compare(indenter.file, Some(&chosen), &rows, tolerance)
 }
 
-fn committed_factors() -> Result<Vec<factors::Row>> {
-    read_csv(&committed(factors::FILE))
+fn committed_factors() -> Result<Vec<Row>> {
+    read_csv(&committed(FILE))
+}
+
+fn of_exponent(factors: &[Row], exponent: f64) -> Option<&Row> {
+    factors
+        .iter()
+        .find(|row| row.exponent.total_cmp(&exponent).is_eq())
 }
 
 /// The whole table: the simulation, its biases, which are differences of numbers of the order of one, and the converged
@@ -144,21 +130,18 @@ fn check_factors() -> Result<usize> {
     let new = factors::compute()?;
     for row in &new {
         let off = (row.plain - row.paper).abs();
+        let Row { plain, paper, .. } = row;
         ensure!(
             off <= PAPER_TOLERANCE,
-            "{}: the plain simulation gives {}, the paper {}, off by {off}, allowed {PAPER_TOLERANCE}",
-            factors::FILE,
-            row.plain,
-            row.paper
+            "{FILE}: the plain simulation gives {plain}, the paper {paper}, off by {off}, allowed {PAPER_TOLERANCE}"
         );
     }
-    compare(factors::FILE, None, &new, |column, row| match column {
+    compare(FILE, None, &new, |column, row| match column {
         "exponent" | "paper" | "plain_elements" | "plain_lengths" => CLOSED_FORM,
         "plain" => SIMULATION,
         "time_level_bias" | "distance_bias" => Tolerance::Absolute(1e-6),
         "converged" | "grid_bias" => {
-            let same = |old: &&factors::Row| old.exponent.total_cmp(&row.exponent).is_eq();
-            Tolerance::Absolute(errors.iter().find(same).map_or(0.0, |old| old.error))
+            Tolerance::Absolute(of_exponent(&errors, row.exponent).map_or(0.0, |old| old.error))
         }
         "error" => ERROR_BAR,
         _ => Tolerance::Any,

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 
-use crate::scaling::{ScalingFactor, scaling_factor};
+use crate::scaling::{MAX_UNKNOWNS, ScalingFactor, scaling_factor};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
@@ -43,7 +43,8 @@ pub(super) struct Row {
 
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
-        row(exponent, paper, scaling_factor(exponent, RELATIVE_ERROR)?)
+        let factor = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?;
+        row(exponent, paper, factor)
     })
 }
 

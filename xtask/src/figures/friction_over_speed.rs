@@ -1,7 +1,7 @@
 //! Figs. 7 and 8: friction over sliding speed by theory, chain and half space.
 
 use anyhow::Result;
-use indenters::{PowerProfile, SlidingLoad};
+use indenters::{IndenterError, PowerProfile, SlidingLoad};
 use rheology::Viscous;
 use serde::{Deserialize, Serialize};
 
@@ -23,36 +23,28 @@ pub(super) const SLIDING_LENGTHS: f64 = 32.0;
 const MIN_ELEMENTS: f64 = 12.0;
 const DRIFT_TOLERANCE: f64 = 0.03;
 
-/// The indenters of the two figures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Indenter {
-    Cone,
-    Paraboloid,
-}
-
-impl Indenter {
-    pub(super) const fn file(self) -> &'static str {
-        match self {
-            Self::Cone => "fig7_cone.csv",
-            Self::Paraboloid => "fig8_paraboloid.csv",
-        }
-    }
-
+/// The indenter of a figure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Indenter {
+    name: &'static str,
+    pub(super) file: &'static str,
     /// Exponent p of the profile.
-    pub(super) const fn exponent(self) -> f64 {
-        match self {
-            Self::Cone => 1.0,
-            Self::Paraboloid => 2.0,
-        }
-    }
-
-    fn body(self) -> Result<PowerProfile> {
-        Ok(match self {
-            Self::Cone => PowerProfile::cone(CONE_SLOPE)?,
-            Self::Paraboloid => PowerProfile::paraboloid(CURVATURE)?,
-        })
-    }
+    pub(super) exponent: f64,
+    body: fn() -> Result<PowerProfile, IndenterError>,
 }
+
+pub(super) const CONE: Indenter = Indenter {
+    name: "Fig. 7, cone",
+    file: "fig7_cone.csv",
+    exponent: 1.0,
+    body: || PowerProfile::cone(CONE_SLOPE),
+};
+pub(super) const PARABOLOID: Indenter = Indenter {
+    name: "Fig. 8, paraboloid",
+    file: "fig8_paraboloid.csv",
+    exponent: 2.0,
+    body: || PowerProfile::paraboloid(CURVATURE),
+};
 
 /// One speed. Units stand in the names where there is one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -76,23 +68,18 @@ pub(super) struct Row {
 }
 
 /// Computes every speed anew; similarity is not used.
-pub(super) fn compute(indenter: Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
-    let name = if indenter == Indenter::Cone {
-        "Fig. 7, cone"
-    } else {
-        "Fig. 8, paraboloid"
-    };
+pub(super) fn compute(indenter: &Indenter, factor: &factors::Row) -> Result<Vec<Row>> {
     let speeds: Vec<u32> = (0..SPEEDS).collect();
-    in_parallel(name, &speeds, |&speed| {
+    in_parallel(indenter.name, &speeds, |&speed| {
         row(indenter, speed, factor.converged)
     })
 }
 
 /// The row of one speed, counted from the slowest.
-pub(super) fn row(indenter: Indenter, speed: u32, factor: f64) -> Result<Row> {
+pub(super) fn row(indenter: &Indenter, speed: u32, factor: f64) -> Result<Row> {
     let velocity = 10.0_f64.powf(f64::from(speed) / 6.0 - 3.0);
     let scene = Scene {
-        body: indenter.body()?,
+        body: (indenter.body)()?,
         material: Viscous::new(VISCOSITY)?,
         load: SlidingLoad::new(NORMAL_FORCE, velocity)?,
     };
@@ -121,9 +108,6 @@ pub(super) fn row(indenter: Indenter, speed: u32, factor: f64) -> Result<Row> {
 /// the same one.
 fn spacing(contact_length: f64) -> f64 {
     let millimetre = 1e-3;
-    millimetre
-        * (contact_length / MIN_ELEMENTS / millimetre)
-            .log2()
-            .floor()
-            .exp2()
+    let steps = (contact_length / MIN_ELEMENTS / millimetre).log2().floor();
+    millimetre * steps.exp2()
 }

@@ -15,8 +15,9 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::output::{WrongInput, to_csv, write_atomically, write_drawing};
-use friction_over_speed::Indenter;
+use crate::output::{make_folder, to_csv, write_atomically, write_drawing};
+use crate::scaling::Node;
+use friction_over_speed::{CONE, PARABOLOID};
 
 pub(crate) use check::check;
 use pictures::Picture;
@@ -29,20 +30,19 @@ struct Data {
     paraboloid: Vec<friction_over_speed::Row>,
     factors: Vec<factors::Row>,
     approach: [approach::Approach; 2],
-    scaling_function: Vec<scaling_function::Row>,
+    scaling_function: Vec<Node>,
     contacts: Vec<stationary::Contact>,
 }
 
 /// Computes all figures and writes data, pictures and report into `out`.
 pub(crate) fn reproduce(out: &Path) -> Result<()> {
-    std::fs::create_dir_all(out)
-        .map_err(|error| WrongInput(format!("--out {} cannot be made: {error}", out.display())))?;
+    make_folder(out)?;
     let start = std::time::Instant::now();
     let factors = factors::compute()?;
     let data = Data {
         loss_tangent: loss_tangent::compute()?,
-        cone: friction_over_speed::compute(Indenter::Cone, &factors[0])?,
-        paraboloid: friction_over_speed::compute(Indenter::Paraboloid, &factors[1])?,
+        cone: friction_over_speed::compute(&CONE, &factors[0])?,
+        paraboloid: friction_over_speed::compute(&PARABOLOID, &factors[1])?,
         approach: [
             approach::compute(&factors[0])?,
             approach::compute(&factors[1])?,
@@ -56,15 +56,10 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
     for Picture { name, drawing, .. } in &pictures {
         write_drawing(out, name, drawing)?;
     }
-    write_atomically(
-        &out.join("report.html"),
-        report::html(&data, &pictures)?.as_bytes(),
-    )?;
-    println!(
-        "{} written in {:.1} s",
-        out.join("report.html").display(),
-        start.elapsed().as_secs_f64()
-    );
+    let page = out.join("report.html");
+    write_atomically(&page, report::html(&data, &pictures)?.as_bytes())?;
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{} written in {seconds:.1} s", page.display());
     Ok(())
 }
 
@@ -72,8 +67,8 @@ fn write_data(data: &Data, out: &Path) -> Result<()> {
     let outlines = data.contacts.iter().flat_map(|contact| &contact.outline);
     for (name, table) in [
         (loss_tangent::FILE, to_csv(&data.loss_tangent)?),
-        (Indenter::Cone.file(), to_csv(&data.cone)?),
-        (Indenter::Paraboloid.file(), to_csv(&data.paraboloid)?),
+        (CONE.file, to_csv(&data.cone)?),
+        (PARABOLOID.file, to_csv(&data.paraboloid)?),
         (factors::FILE, to_csv(&data.factors)?),
         (scaling_function::FILE, to_csv(&data.scaling_function)?),
         (

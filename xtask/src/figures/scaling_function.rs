@@ -1,11 +1,11 @@
 //! The function s(p) that the paper does not give, from the table of `friction-analytic`.
 
 use anyhow::{Result, ensure};
-use friction_analytic::scaling_factor;
-use serde::{Deserialize, Serialize};
+use friction_analytic::scaling_factor as tabulated;
 
 use crate::figures::factors::PAPER;
-use crate::scaling::scaling_factor as solve;
+use crate::output::points;
+use crate::scaling::{MAX_UNKNOWNS, Node, scaling_factor};
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
@@ -15,7 +15,7 @@ pub(super) const FILE: &str = "scaling_function.csv";
 const ROWS: u32 = 181;
 const ORDERS: [f64; 2] = [0.003, 127.0];
 /// Exponents that the check solves anew, with the relative error asked for.
-pub(super) const SOLVED_ANEW: [(f64, f64); 5] = [
+const SOLVED_ANEW: [(f64, f64); 5] = [
     (0.7, 2e-3),
     (0.9, 2e-3),
     (1.5, 5e-4),
@@ -23,16 +23,8 @@ pub(super) const SOLVED_ANEW: [(f64, f64); 5] = [
     (6.0, 2e-3),
 ];
 
-/// One value of the function.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Row {
-    pub(super) exponent: f64,
-    pub(super) scaling_factor: f64,
-    pub(super) error: f64,
-}
-
-pub(super) fn compute() -> Result<Vec<Row>> {
-    (0..ROWS).map(|index| row(exponent(index))).collect()
+pub(super) fn compute() -> Result<Vec<Node>> {
+    (0..ROWS).map(|index| node(exponent(index))).collect()
 }
 
 fn exponent(index: u32) -> f64 {
@@ -40,9 +32,9 @@ fn exponent(index: u32) -> f64 {
     0.5 + 0.5 * ORDERS[0] * (ORDERS[1] / ORDERS[0]).powf(fraction)
 }
 
-fn row(exponent: f64) -> Result<Row> {
-    let factor = scaling_factor(exponent)?;
-    Ok(Row {
+fn node(exponent: f64) -> Result<Node> {
+    let factor = tabulated(exponent)?;
+    Ok(Node {
         exponent,
         scaling_factor: factor.value,
         error: factor.error,
@@ -52,13 +44,14 @@ fn row(exponent: f64) -> Result<Row> {
 /// Solves some exponents on the half space and compares with the table, within the bars of both.
 pub(super) fn check_against_the_half_space() -> Result<usize> {
     for (exponent, relative_error) in SOLVED_ANEW {
-        let (tabulated, solved) = (row(exponent)?, solve(exponent, relative_error)?);
-        let difference = (tabulated.scaling_factor - solved.value).abs();
+        let tabulated = tabulated(exponent)?;
+        let solved = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
+        let difference = (tabulated.value - solved.value).abs();
         let allowed = tabulated.error + solved.error;
         ensure!(
             difference <= allowed,
             "s({exponent}): {} in the table, {} ± {:e} solved anew, off by {difference:e}, allowed {allowed:e}",
-            tabulated.scaling_factor,
+            tabulated.value,
             solved.value,
             solved.error
         );
@@ -67,10 +60,11 @@ pub(super) fn check_against_the_half_space() -> Result<usize> {
 }
 
 /// The function above, its relative error below.
-pub(super) fn figure(rows: &[Row]) -> Figure {
-    let points =
-        |value: fn(&Row) -> f64| rows.iter().map(|row| [row.exponent, value(row)]).collect();
-    let blue = |points| Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+pub(super) fn figure(rows: &[Node]) -> Figure {
+    let curve = |value: fn(&Node) -> f64| {
+        let points = points(rows, |row| row.exponent, value);
+        Series::line(points, Line::thick(Dash::Solid), Colour::Blue)
+    };
     let paper = PAPER.map(|(p, s)| [p, s]).to_vec();
     let paper = Series::markers(paper, Marker::filled(Shape::Plus), Colour::Red);
     let chart = |y, series| Chart {
@@ -83,13 +77,13 @@ pub(super) fn figure(rows: &[Row]) -> Figure {
     let function = chart(
         Axis::linear("scaling factor s(p)", [0.0, 0.8]),
         vec![
-            blue(points(|row| row.scaling_factor)).labelled("boundary elements, converged"),
+            curve(|row| row.scaling_factor).labelled("boundary elements, converged"),
             paper.labelled("paper, p = 1 and 2"),
         ],
     );
     let errors = chart(
         Axis::log10("relative error bar", [1e-6, 1e-3]),
-        vec![blue(points(|row| row.error / row.scaling_factor))],
+        vec![curve(|row| row.error / row.scaling_factor)],
     );
     Figure {
         panels: vec![Panel::from(function), Panel::from(errors)],
@@ -97,7 +91,7 @@ pub(super) fn figure(rows: &[Row]) -> Figure {
     }
 }
 
-pub(super) fn caption(rows: &[Row]) -> String {
+pub(super) fn caption(rows: &[Node]) -> String {
     let highest = rows
         .iter()
         .max_by(|one, other| one.scaling_factor.total_cmp(&other.scaling_factor));

@@ -62,12 +62,10 @@ impl Contact {
 
 /// The contacts of all profiles.
 pub(super) fn compute() -> Result<Vec<Contact>> {
-    in_parallel("stationary contacts", &PROFILES, |&profile| {
-        contact(profile)
-    })
+    in_parallel("stationary contacts", &PROFILES, contact)
 }
 
-fn contact((exponent, elements): (f64, usize)) -> Result<Contact> {
+fn contact(&(exponent, elements): &(f64, usize)) -> Result<Contact> {
     let scene = Scene::unit(exponent)?;
     let contact_length = scene.theory()?.contact_length();
     let spacing = contact_length / elements as f64;
@@ -112,7 +110,7 @@ mod tests {
     fn contact_is_on_the_front_half_with_a_loaded_front_and_an_unloaded_rear() {
         let mut lengths = Vec::new();
         for (exponent, elements) in [(1.0, 30), (2.0, 40), (4.0, 60), (16.0, 150)] {
-            let contact = contact((exponent, elements)).expect("a contact");
+            let contact = contact(&(exponent, elements)).expect("a contact");
             let rows = &contact.outline;
             let last = rows.len() - 1;
             for (column, row) in rows.iter().enumerate() {

@@ -10,8 +10,8 @@ use serde::Serialize;
 
 use crate::output::{WrongInput, markdown_table, to_csv};
 use crate::tasks::in_parallel;
-pub(crate) use converged::{ScalingFactor, scaling_factor, scaling_factor_within};
-pub(crate) use table::generate as generate_table;
+pub(crate) use converged::{MAX_UNKNOWNS, ScalingFactor, scaling_factor};
+pub(crate) use table::{Node, generate as generate_table};
 
 /// How the factors are printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -38,10 +38,9 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
         exponents
     };
     validate(exponents, relative_error)?;
-    let rows: Result<Vec<Row>> = in_parallel("scaling factors", exponents, |&exponent| {
+    let rows = in_parallel("scaling factors", exponents, |&exponent| {
         timed(exponent, relative_error)
-    });
-    let rows = rows?;
+    })?;
     match format {
         Format::Table => println!("{}", table(&rows)),
         Format::Csv => print!("{}", to_csv(&rows)?),
@@ -51,36 +50,29 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
 }
 
 fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
-    if let Some(p) = exponents.iter().find(|p| !(p.is_finite() && **p > 0.5)) {
-        let why =
-            "for p <= 1/2 the friction integral of the one-dimensional model diverges at the apex";
-        return Err(WrongInput(format!(
-            "--exponent must be finite and above 1/2, but is {p}: {why}"
-        )));
-    }
-    if !(1e-6..=0.1).contains(&relative_error) {
-        let range = "between 1e-6 and 0.1";
-        return Err(WrongInput(format!(
-            "--relative-error must be {range}, but is {relative_error}"
-        )));
-    }
-    Ok(())
+    let outside = exponents.iter().find(|p| !(p.is_finite() && **p > 0.5));
+    let problem = if let Some(p) = outside {
+        format!(
+            "--exponent must be finite and above 1/2, but is {p}: \
+             for p <= 1/2 the friction integral of the one-dimensional model diverges at the apex"
+        )
+    } else if !(1e-6..=0.1).contains(&relative_error) {
+        format!("--relative-error must be between 1e-6 and 0.1, but is {relative_error}")
+    } else {
+        return Ok(());
+    };
+    Err(WrongInput(problem))
 }
 
 fn timed(exponent: f64, relative_error: f64) -> Result<Row> {
     let start = std::time::Instant::now();
-    let ScalingFactor {
-        value,
-        error,
-        unknowns,
-    } = scaling_factor(exponent, relative_error)?;
-    let seconds = start.elapsed().as_secs_f64();
+    let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
     Ok(Row {
         exponent,
-        scaling_factor: value,
-        error,
-        unknowns,
-        seconds,
+        scaling_factor: factor.value,
+        error: factor.error,
+        unknowns: factor.unknowns,
+        seconds: start.elapsed().as_secs_f64(),
     })
 }
 

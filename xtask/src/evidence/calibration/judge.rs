@@ -6,17 +6,21 @@ use viscofriction::scene::{Method, Model};
 
 use super::reference::{of_closed_form, reference};
 use super::requests::Requests;
-use super::scenes::Scene;
+use super::scenes::{Label, Scene};
 use crate::evidence::request::{Reference, Request, presses};
+
+/// A scene, a method, and one bar.
+pub(super) type Row = (Label, Name, Bar);
+
+/// What the table calls a method.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct Name {
+    pub(super) method: String,
+}
 
 /// One bar; all errors are absolute.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Row {
-    scene: usize,
-    indenter: String,
-    material: String,
-    load: String,
-    pub(super) method: String,
+pub(super) struct Bar {
     /// Unit of `asked`.
     asked_kind: &'static str,
     asked: f64,
@@ -34,7 +38,7 @@ pub(super) struct Row {
     pub(super) solver: Method,
 }
 
-impl Row {
+impl Bar {
     /// Whether the reference is much more exact than the bar says of the result.
     pub(super) fn is_sharply_judged(&self) -> bool {
         self.reference_error <= SHARP * self.error_bar
@@ -54,13 +58,11 @@ impl Row {
 const SHARP: f64 = 1.0 / 3.0;
 
 /// A result or a reference that could not be computed.
+pub(super) type Refusal = (Label, Name, Reason);
+
+/// Why it could not.
 #[derive(Debug, Clone, Default, Serialize)]
-pub(super) struct Refusal {
-    scene: usize,
-    indenter: String,
-    material: String,
-    load: String,
-    pub(super) method: String,
+pub(super) struct Reason {
     reason: String,
 }
 
@@ -92,10 +94,7 @@ pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
         ..Judged::default()
     };
     for model in [Model::Line, Model::HalfSpace] {
-        let of_model = requests
-            .made
-            .iter()
-            .filter(|request| request.model == model);
+        let of_model = requests.made.iter().filter(|made| made.model == model);
         let errors = of_model.clone().filter(|request| !request.is_by_elements());
         let least = errors.map(Request::number).fold(1e-2, f64::min);
         let mut offered = Vec::new();
@@ -108,8 +107,8 @@ pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
             .into_iter()
             .partition(|request| request.method == Method::Analytic);
         if !closed.is_empty() {
-            let reference = of_closed_form(scene, model, least);
-            if let Some(reference) = reference.transpose() {
+            let reference = of_closed_form(scene, model, least).transpose();
+            if let Some(reference) = reference {
                 judged.add(scene, &closed, &reference);
             }
         }
@@ -123,34 +122,27 @@ pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
 impl Judged {
     fn add(&mut self, scene: &Scene, requests: &[&Request], reference: &Result<Reference>) {
         for request in requests {
-            let row = match reference {
-                Ok(reference) => row(scene, request, reference),
+            let bar = match reference {
+                Ok(reference) => bar(scene, request, reference),
                 Err(error) => Err(anyhow!("no reference: {error:#}")),
             };
-            match row {
-                Ok(row) => self.rows.push(row),
-                Err(error) => self.refusals.push(Refusal {
-                    scene: scene.number,
-                    indenter: scene.indenter.clone(),
-                    material: scene.material.clone(),
-                    load: scene.load.clone(),
-                    method: name(request, scene),
-                    reason: format!("{error:#}"),
-                }),
+            let (label, method) = (scene.label.clone(), name(request, scene));
+            match bar {
+                Ok(bar) => self.rows.push((label, Name { method }, bar)),
+                Err(error) => {
+                    let reason = format!("{error:#}");
+                    let refusal = (label, Name { method }, Reason { reason });
+                    self.refusals.push(refusal);
+                }
             }
         }
     }
 }
 
-fn row(scene: &Scene, request: &Request, reference: &Reference) -> Result<Row> {
+fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
     let solved = request.solve(&scene.file)?;
     let deviation = (solved.value - reference.value).abs();
-    Ok(Row {
-        scene: scene.number,
-        indenter: scene.indenter.clone(),
-        material: scene.material.clone(),
-        load: scene.load.clone(),
-        method: name(request, scene),
+    Ok(Bar {
         asked_kind: if request.is_by_elements() {
             "elements"
         } else {

@@ -19,7 +19,7 @@ use crate::meter::median;
 use crate::output::{WrongInput, markdown_table};
 use crate::random::Random;
 use crate::tasks::in_parallel;
-use judge::{Judged, Row, judge};
+use judge::{Bar, Judged, Row, judge};
 use requests::{FULL, QUICK, Requests};
 
 /// Which scenes.
@@ -60,17 +60,16 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         return Err(WrongInput(problem).into());
     }
     let mut random = Random::new(options.seed);
-    let scenes: Result<Vec<_>> = (1..=count)
-        .map(|number| {
-            let scene = scenes::scene(number, &mut random)?;
-            let requests = Requests::new(&mut random, &scene, &extent);
-            Ok((scene, requests))
-        })
-        .collect();
-    let judged: Result<Vec<Judged>> = in_parallel("calibration", &scenes?, |(scene, requests)| {
+    let mut scenes = Vec::new();
+    for number in 1..=count {
+        let scene = scenes::scene(number, &mut random)?;
+        let requests = Requests::new(&mut random, &scene, &extent);
+        scenes.push((scene, requests));
+    }
+    let judged = in_parallel("calibration", &scenes, |(scene, requests)| {
         judge(scene, requests)
-    });
-    let judged = Judged::merged(judged?);
+    })?;
+    let judged = Judged::merged(judged);
     Ok(Report {
         name: "calibration",
         tables: vec![
@@ -85,34 +84,34 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 
 /// One line per method: how many bars hold, and how wide they are.
 fn table(judged: &Judged) -> comfy_table::Table {
-    let mut methods: BTreeMap<&str, Vec<&Row>> = BTreeMap::new();
-    for row in &judged.rows {
-        methods.entry(&row.method).or_default().push(row);
+    let mut methods: BTreeMap<&str, Vec<&Bar>> = BTreeMap::new();
+    for (_, name, bar) in &judged.rows {
+        methods.entry(&name.method).or_default().push(bar);
     }
     let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
-    let lines = methods.into_iter().map(|(method, rows)| {
+    let lines = methods.into_iter().map(|(method, bars)| {
         let refused = judged.refusals.iter();
-        let refused = refused.filter(|refusal| refusal.method == method).count();
-        line(method, &rows, refused)
+        let refused = refused.filter(|(_, name, _)| name.method == method).count();
+        line(method, &bars, refused)
     });
-    let all: Vec<&Row> = judged.rows.iter().collect();
+    let all: Vec<&Bar> = judged.rows.iter().map(|(_, _, bar)| bar).collect();
     markdown_table(
         header.split('|'),
         lines.chain([line("all", &all, judged.refusals.len())]),
     )
 }
 
-fn line(method: &str, rows: &[&Row], refused: usize) -> [String; 8] {
-    let held = rows.iter().filter(|row| row.holds).count();
-    let sharp: Vec<_> = rows.iter().filter(|row| row.is_sharply_judged()).collect();
-    let held_alone = sharp.iter().filter(|row| row.holds_alone).count();
-    let parts: Vec<f64> = rows.iter().map(|row| row.part_of_bar()).collect();
+fn line(method: &str, bars: &[&Bar], refused: usize) -> [String; 8] {
+    let held = bars.iter().filter(|bar| bar.holds).count();
+    let sharp: Vec<_> = bars.iter().filter(|bar| bar.is_sharply_judged()).collect();
+    let held_alone = sharp.iter().filter(|bar| bar.holds_alone).count();
+    let parts: Vec<f64> = bars.iter().map(|bar| bar.part_of_bar()).collect();
     let worst = parts.iter().copied().reduce(f64::max);
     let middle = (!parts.is_empty()).then(|| 1.0 / median(parts));
     [
         method.to_owned(),
-        rows.len().to_string(),
-        percentage(held, rows.len()),
+        bars.len().to_string(),
+        percentage(held, bars.len()),
         sharp.len().to_string(),
         percentage(held_alone, sharp.len()),
         middle.map_or_else(String::new, short),
@@ -169,9 +168,8 @@ fn figure(rows: &[Row]) -> Figure {
     let methods = STYLES.into_iter().filter_map(|(method, shape, colour)| {
         let points = points.iter().filter(|(of, _)| *of == method);
         let points: Vec<[f64; 2]> = points.map(|(_, point)| *point).collect();
-        let is_drawn = !points.is_empty();
         let series = Series::markers(points, Marker::open(shape), colour);
-        is_drawn.then(|| series.labelled(method.name()))
+        (!series.points.is_empty()).then(|| series.labelled(method.name()))
     });
     let ends = x.range.map(|end| [end; 2]).to_vec();
     let diagonal = Series::line(ends, Line::thin(Dash::Solid), Colour::Black);
@@ -186,11 +184,11 @@ fn figure(rows: &[Row]) -> Figure {
 }
 
 /// Relative bar and deviation; an elastic body has no friction to which they could be related.
-fn point(row: &Row) -> Option<(Method, [f64; 2])> {
-    let value = row.reference.abs();
-    let point = [row.error_bar, row.deviation].map(|error| (error / value).max(FLOOR));
-    let drawn = value > row.error_bar && point.iter().all(|error| error.is_finite());
-    drawn.then_some((row.solver, point))
+fn point((_, _, bar): &Row) -> Option<(Method, [f64; 2])> {
+    let value = bar.reference.abs();
+    let point = [bar.error_bar, bar.deviation].map(|error| (error / value).max(FLOOR));
+    let drawn = value > bar.error_bar && point.iter().all(|error| error.is_finite());
+    drawn.then_some((bar.solver, point))
 }
 
 #[cfg(test)]

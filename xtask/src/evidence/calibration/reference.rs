@@ -5,10 +5,10 @@ use bem_halfspace::BemError;
 use friction_analytic::power_indentation_after_impulse;
 use rheology::Viscous;
 use viscofriction::scene::{self, Control, Method, Model};
-use viscofriction::solve::{Body, Revolution, SolveError};
+use viscofriction::solve::{Body, Problem, Revolution, SolveError};
 
 use super::scenes::Scene;
-use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses, problem};
+use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
 /// Relative errors of the line; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
@@ -70,7 +70,7 @@ fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
 
 /// The closed form of powers beside the quadrature that solves any body.
 fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
-    let problem = problem(scene)?;
+    let problem = Problem::try_from(scene)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =
         (&problem.body, problem.motion.control())
     else {

@@ -77,7 +77,7 @@ impl Requests {
         }
         let why_not = if scene.file.solve.sliding_distance.is_some() {
             Some(NO_REFERENCE)
-        } else if !scene.number.is_multiple_of(extent.half_space_every) {
+        } else if !scene.label.number.is_multiple_of(extent.half_space_every) {
             Some(EXPENSIVE)
         } else {
             scene.has_edge().then_some(SLOW_EDGE)
@@ -136,11 +136,7 @@ fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Reques
 }
 
 fn of_model(model: Model, asked: &[(Method, Accuracy)]) -> Vec<Request> {
-    let request = |&(method, accuracy): &(Method, Accuracy)| Request {
-        model,
-        method,
-        accuracy,
-    };
+    let request = |&(method, accuracy): &_| Request::new(model, method, accuracy);
     asked.iter().map(request).collect()
 }
 

@@ -2,21 +2,27 @@
 
 use anyhow::{Result, bail};
 use indenters::Axisymmetric;
+use serde::Serialize;
 use viscofriction::scene::{self, Indenter, MaterialTable};
-use viscofriction::solve::Body;
+use viscofriction::solve::{Body, Problem};
 
-use crate::evidence::request::{parsed, problem};
 use crate::random::Random;
 
-/// A scene; its parts are inline tables of a scene file.
+/// A scene.
 #[derive(Debug)]
 pub(super) struct Scene {
-    pub(super) number: usize,
-    pub(super) indenter: String,
-    pub(super) material: String,
-    pub(super) load: String,
-    /// The same, read.
+    pub(super) label: Label,
     pub(super) file: scene::Scene,
+}
+
+/// Its number and its parts, which are inline tables of a scene file.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct Label {
+    #[serde(rename = "scene")]
+    pub(super) number: usize,
+    indenter: String,
+    material: String,
+    load: String,
 }
 
 /// What is done with the body.
@@ -28,14 +34,18 @@ enum Motion {
     Stationary,
 }
 
-const MOTIONS: [Motion; 6] = [
-    Motion::Pressed,
-    Motion::FromFirstTouch,
-    Motion::Stationary,
-    Motion::Stationary,
-    Motion::Stationary,
-    Motion::Stationary,
-];
+/// Two of three scenes are stationary.
+const MOTIONS: [Motion; 6] = {
+    use Motion::{FromFirstTouch, Pressed, Stationary};
+    [
+        Pressed,
+        FromFirstTouch,
+        Stationary,
+        Stationary,
+        Stationary,
+        Stationary,
+    ]
+};
 /// Bodies whose motion from first touch is known.
 const KNOWN_FROM_FIRST_TOUCH: [&str; 2] = ["cone", "paraboloid"];
 const BODIES: [&str; 11] = [
@@ -96,11 +106,13 @@ pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
     let parts = format!("indenter = {indenter}\nmaterial = {material}\n");
     let load = sample.load(motion, &parts)?;
     Ok(Scene {
-        number,
-        file: parsed(&format!("{parts}{load}\n"))?,
-        indenter,
-        material,
-        load,
+        file: format!("{parts}{load}\n").parse()?,
+        label: Label {
+            number,
+            indenter,
+            material,
+            load,
+        },
     })
 }
 
@@ -135,16 +147,14 @@ impl Sample<'_> {
                 let [low, high] = exponents.map(|p| power_term(p, length));
                 format!("superposition = {{ terms = [{{ {low} }}, {{ {high} }}] }}")
             }
-            "truncated-paraboloid" => {
-                let radius = 0.3 * random.decades(0.5) * length;
-                let curvature = random.decades(0.5) / length;
-                format!("{kind} = {{ radius = {radius:?}, curvature = {curvature:?} }}")
-            }
-            // Cones with a tip.
+            // Cones with a tip and worn paraboloids.
             _ => {
                 let radius = 0.3 * random.decades(0.5) * length;
-                let slope = 0.5 * random.decades(0.5);
-                format!("{kind} = {{ radius = {radius:?}, slope = {slope:?} }}")
+                let (key, value) = match kind {
+                    "truncated-paraboloid" => ("curvature", random.decades(0.5) / length),
+                    _ => ("slope", 0.5 * random.decades(0.5)),
+                };
+                format!("{kind} = {{ radius = {radius:?}, {key} = {value:?} }}")
             }
         }
     }
@@ -221,7 +231,7 @@ fn power_term(exponent: f64, length: f64) -> String {
 
 /// D = h(a) = 2 (1 − ν) F J(t)/(4 a); at least a tenth of the contact where the end is flat.
 fn force_and_depth(scene: &str, contact: f64, time: f64) -> Result<[f64; 2]> {
-    let problem = problem(&parsed(scene)?)?;
+    let problem = Problem::try_from(&scene.parse::<scene::Scene>()?)?;
     let Body::Revolution(body) = &problem.body else {
         bail!("all random bodies are bodies of revolution");
     };

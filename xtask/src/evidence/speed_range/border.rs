@@ -3,9 +3,10 @@
 use anyhow::{Context, Result, bail};
 use numerics::{Estimate, bracketed_root};
 use serde::Serialize;
+use viscofriction::scene::Model;
 
 use super::sliding::LINE_ERROR;
-use super::{Model, Prediction, plateau};
+use super::{Law, MODELS, Prediction, plateau};
 use crate::tasks::in_parallel;
 
 /// Largest |prediction/friction − 1| that is right.
@@ -34,19 +35,11 @@ pub(super) struct Row {
 
 /// The ranges of all rows of the map; `error` is the relative one that the half space has on them.
 pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
-    let key = |at: &Prediction| [at.exponent, at.stiffness_ratio].map(f64::to_bits);
+    let key = |(at, _): &Prediction| [at.exponent, at.stiffness_ratio].map(f64::to_bits);
     let speeds = map.chunk_by(|one, other| key(one) == key(other));
-    let scans: Vec<Scan> = speeds
-        .flat_map(|speeds| {
-            Model::BOTH.map(|model| Scan {
-                model,
-                speeds,
-                error,
-            })
-        })
-        .collect();
-    let rows: Result<Vec<Row>> = in_parallel("border of the viscous law", &scans, Scan::row);
-    let mut rows = rows?;
+    let both = |speeds| MODELS.map(|model| Scan { model, speeds });
+    let scans: Vec<Scan> = speeds.flat_map(both).collect();
+    let mut rows = in_parallel("border of the viscous law", &scans, |scan| scan.row(error))?;
     rows.sort_by(|one, other| {
         let model = |row: &Row| row.model == Model::HalfSpace;
         let exponents = one.exponent.total_cmp(&other.exponent);
@@ -59,34 +52,26 @@ pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
 struct Scan<'a> {
     model: Model,
     speeds: &'a [Prediction],
-    error: f64,
 }
 
 impl Scan<'_> {
-    fn row(&self) -> Result<Row> {
-        let first = &self.speeds[0];
-        let right = |at: &Prediction| at.deviation(self.model) <= ALLOWED;
-        let lowest = self.speeds.iter().position(right);
-        let lowest = lowest
-            .map(|at| self.crossing(at.checked_sub(1), at))
-            .transpose()?;
-        let highest = self.speeds.iter().rposition(right);
-        let highest = highest
-            .map(|at| self.crossing(Some(at), at + 1))
-            .transpose()?;
+    fn row(&self, error: f64) -> Result<Row> {
+        let (first, _) = &self.speeds[0];
+        let deviations = self.speeds.iter().map(|(_, law)| law.deviation(self.model));
+        let right = |deviation: f64| deviation <= ALLOWED;
+        let lowest = deviations.clone().position(right);
+        let lowest = lowest.map(|at| self.crossing(at.checked_sub(1), at, error));
+        let highest = deviations.clone().rposition(right);
+        let highest = highest.map(|at| self.crossing(Some(at), at + 1, error));
+        let (lowest, highest) = (lowest.transpose()?, highest.transpose()?);
         let loss_tangent = |speed: Estimate| -> Result<Estimate> {
-            let at = |speed: f64| first.sliding().at_speed(speed).loss_tangent();
+            let at = |speed: f64| first.at_speed(speed).loss_tangent();
             let value = at(speed.value)?;
             let error = (at(speed.value + speed.error)? - value).abs();
             Ok(Estimate { value, error })
         };
-        let [low, high] = [lowest, highest].map(|speed| speed.map(loss_tangent).transpose());
-        let (low, high) = (low?, high?);
-        let smallest = self
-            .speeds
-            .iter()
-            .map(|at| at.deviation(self.model))
-            .fold(f64::INFINITY, f64::min);
+        let low = lowest.map(loss_tangent).transpose()?;
+        let high = highest.map(loss_tangent).transpose()?;
         Ok(Row {
             exponent: first.exponent,
             model: self.model,
@@ -99,30 +84,25 @@ impl Scan<'_> {
             loss_tangent_at_lowest_error: low.map(|tangent| tangent.error),
             loss_tangent_at_highest: high.map(|tangent| tangent.value),
             loss_tangent_at_highest_error: high.map(|tangent| tangent.error),
-            smallest_deviation: smallest,
+            smallest_deviation: deviations.fold(f64::INFINITY, f64::min),
             smallest_deviation_error: match self.model {
                 Model::Line => LINE_ERROR,
-                Model::HalfSpace => self.error,
+                Model::HalfSpace => error,
             },
         })
     }
 
     /// The speed at which the deviation is the one allowed, between two neighbours on the map.
-    fn crossing(&self, low: Option<usize>, high: usize) -> Result<Estimate> {
+    fn crossing(&self, low: Option<usize>, high: usize, error: f64) -> Result<Estimate> {
         let (Some(low), Some(high)) = (low, self.speeds.get(high)) else {
-            bail!(
-                "the viscous law is right up to the edge of the map: {:?}",
-                self.speeds[0]
-            );
+            let (first, _) = self.speeds[0];
+            bail!("the viscous law is right up to the edge of the map: {first:?}");
         };
-        let border = Border {
-            model: self.model,
-            low: self.speeds[low].clone(),
-            high: high.clone(),
-        };
+        let (model, low, high) = (self.model, self.speeds[low].clone(), high.clone());
+        let border = Border { model, low, high };
         match self.model {
             Model::Line => Ok(border.between()?.with_error(LINE_ERROR)),
-            Model::HalfSpace => border.of_half_space(self.error / 3.0),
+            Model::HalfSpace => border.of_half_space(error / 3.0),
         }
     }
 }
@@ -158,13 +138,14 @@ impl Border {
         let Crossing { speed, slope } = self.between()?;
         let mut border = Estimate::exact(speed);
         for _ in 0..2 {
-            let at = Prediction::of(self.low.sliding().at_speed(border.value), relative_error)?;
-            let error = at.half_space_error / at.half_space;
-            let right = |at: &Prediction| at.deviation(self.model) <= ALLOWED;
-            if right(&at) == right(&self.low) {
-                self.low = at;
+            let sliding = self.low.0.at_speed(border.value);
+            let law = Law::of(sliding, relative_error)?;
+            let error = law.half_space_error / law.half_space;
+            let right = |law: &Law| law.deviation(self.model) <= ALLOWED;
+            if right(&law) == right(&self.low.1) {
+                self.low = (sliding, law);
             } else {
-                self.high = at;
+                self.high = (sliding, law);
             }
             // The slope is that between speeds that are far from each other.
             let speed = self.between()?.speed;
@@ -180,15 +161,16 @@ impl Border {
     /// The speed at which the deviation is the one allowed, if friction is that of the line, solved anew, times the ratio
     /// of the two models, interpolated.
     fn between(&self) -> Result<Crossing> {
-        let plateau = plateau(self.low.exponent)?;
-        let [low, high] = [&self.low, &self.high].map(|at| match self.model {
+        let plateau = plateau(self.low.0.exponent)?;
+        let [low, high] = [&self.low.1, &self.high.1].map(|law| match self.model {
             Model::Line => plateau,
-            Model::HalfSpace => at.half_space / at.line,
+            Model::HalfSpace => law.half_space / law.line,
         });
+        let [first, last] = [self.low.0.speed, self.high.0.speed];
         let excess = |logarithm: f64| {
-            let place = (logarithm - self.low.speed.ln()) / (self.high.speed / self.low.speed).ln();
+            let place = (logarithm - first.ln()) / (last / first).ln();
             let ratio = low + place * (high - low);
-            let at = self.low.sliding().at_speed(logarithm.exp());
+            let at = self.low.0.at_speed(logarithm.exp());
             let quotient = at
                 .line()
                 .and_then(|(line, force)| Ok(at.viscous_law(force)? / line.value));
@@ -196,7 +178,7 @@ impl Border {
                 (quotient * plateau / ratio - 1.0).abs() - ALLOWED
             })
         };
-        let ends = [self.low.speed.ln(), self.high.speed.ln()];
+        let ends = [first.ln(), last.ln()];
         let root = bracketed_root(excess, ends);
         let root = root.context("a border between two speeds of the map")?;
         Ok(Crossing {

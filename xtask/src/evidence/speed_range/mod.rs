@@ -8,6 +8,7 @@ mod sliding;
 use anyhow::Result;
 use friction_analytic::scaling_factor;
 use serde::Serialize;
+use viscofriction::scene::Model;
 
 use super::{Report, Table};
 use crate::tasks::in_parallel;
@@ -24,15 +25,15 @@ struct Decades {
     per_decade: i32,
 }
 
-const fn decades(first: i32, last: i32, per_decade: i32) -> Decades {
-    Decades {
-        first,
-        last,
-        per_decade,
-    }
-}
-
 impl Decades {
+    const fn new(first: i32, last: i32, per_decade: i32) -> Self {
+        Self {
+            first,
+            last,
+            per_decade,
+        }
+    }
+
     fn values(self) -> impl Iterator<Item = f64> {
         (self.first * self.per_decade..=self.last * self.per_decade)
             .map(move |step| 10_f64.powf(f64::from(step) / f64::from(self.per_decade)))
@@ -52,30 +53,28 @@ struct Extent {
 
 const FULL: Extent = Extent {
     curve_ratios: &[1e-6, 1e-4, 1e-2],
-    curve_speeds: decades(-9, 3, 5),
+    curve_speeds: Decades::new(-9, 3, 5),
     curve_error: 3e-3,
-    map_ratios: decades(-6, 0, 2),
-    map_speeds: decades(-8, 2, 4),
+    map_ratios: Decades::new(-6, 0, 2),
+    map_speeds: Decades::new(-8, 2, 4),
     map_error: 1e-2,
 };
 
 const QUICK: Extent = Extent {
     curve_ratios: &[1e-4],
-    curve_speeds: decades(-7, 3, 1),
+    curve_speeds: Decades::new(-7, 3, 1),
     curve_error: 2e-2,
-    map_ratios: decades(-3, -1, 1),
-    map_speeds: decades(-4, 1, 1),
+    map_ratios: Decades::new(-3, -1, 1),
+    map_speeds: Decades::new(-4, 1, 1),
     map_error: 3e-2,
 };
 
-/// Friction at one speed, in units of the mean slope d/a; errors are absolute.
+/// A contact and its friction.
+type Point = (Sliding, Friction);
+
+/// Friction in units of the mean slope d/a; errors are absolute.
 #[derive(Debug, Clone, Serialize)]
-struct Point {
-    exponent: f64,
-    /// γ = G₁/G₂.
-    stiffness_ratio: f64,
-    /// vτ/a.
-    speed: f64,
+struct Friction {
     /// F_N/(G₂ a d).
     normal_force: f64,
     line: f64,
@@ -87,12 +86,12 @@ struct Point {
     ratio_error: f64,
 }
 
+/// A contact, and its friction beside that of the viscous law.
+type Prediction = (Sliding, Law);
+
 /// Friction and what the viscous law of the same loss modulus predicts of it.
 #[derive(Debug, Clone, Serialize)]
-struct Prediction {
-    exponent: f64,
-    stiffness_ratio: f64,
-    speed: f64,
+struct Law {
     loss_tangent: f64,
     line: f64,
     /// By (12) and (16).
@@ -107,14 +106,13 @@ struct Prediction {
 pub(super) fn report(quick: bool) -> Result<Report> {
     let extent = if quick { QUICK } else { FULL };
     let problems = problems(extent.curve_ratios.iter().copied(), extent.curve_speeds);
-    let curves: Result<Vec<Point>> = in_parallel("friction over speed", &problems, |sliding| {
-        Point::of(*sliding, extent.curve_error)
-    });
+    let curves = in_parallel("friction over speed", &problems, |&at| {
+        Ok((at, Friction::of(at, extent.curve_error)?))
+    })?;
     let problems = self::problems(extent.map_ratios.values(), extent.map_speeds);
-    let map: Result<Vec<Prediction>> = in_parallel("viscous law", &problems, |sliding| {
-        Prediction::of(*sliding, extent.map_error)
-    });
-    let (curves, map) = (curves?, map?);
+    let map = in_parallel("viscous law", &problems, |&at| {
+        Ok((at, Law::of(at, extent.map_error)?))
+    })?;
     let borders = border::find(&map, extent.map_error)?;
     let border = Table::new("validity_border", &borders)?;
     Ok(Report {
@@ -150,15 +148,12 @@ fn problems(ratios: impl Iterator<Item = f64>, speeds: Decades) -> Vec<Sliding> 
     problems
 }
 
-impl Point {
+impl Friction {
     fn of(sliding: Sliding, relative_error: f64) -> Result<Self> {
         let (line, normal_force) = sliding.line()?;
         let half_space = sliding.half_space(normal_force, relative_error)?;
         let ratio = half_space.value / line.value;
         Ok(Self {
-            exponent: sliding.exponent,
-            stiffness_ratio: sliding.stiffness_ratio,
-            speed: sliding.speed,
             normal_force,
             line: line.value,
             line_error: line.error,
@@ -170,29 +165,18 @@ impl Point {
     }
 }
 
-impl Prediction {
+impl Law {
     fn of(sliding: Sliding, relative_error: f64) -> Result<Self> {
-        let point = Point::of(sliding, relative_error)?;
-        let predicted_line = sliding.viscous_law(point.normal_force)?;
+        let friction = Friction::of(sliding, relative_error)?;
+        let predicted_line = sliding.viscous_law(friction.normal_force)?;
         Ok(Self {
-            exponent: point.exponent,
-            stiffness_ratio: point.stiffness_ratio,
-            speed: point.speed,
             loss_tangent: sliding.loss_tangent()?,
-            line: point.line,
+            line: friction.line,
             predicted_line,
-            half_space: point.half_space,
-            half_space_error: point.half_space_error,
-            predicted_half_space: plateau(point.exponent)? * predicted_line,
+            half_space: friction.half_space,
+            half_space_error: friction.half_space_error,
+            predicted_half_space: plateau(sliding.exponent)? * predicted_line,
         })
-    }
-
-    const fn sliding(&self) -> Sliding {
-        Sliding {
-            exponent: self.exponent,
-            stiffness_ratio: self.stiffness_ratio,
-            speed: self.speed,
-        }
     }
 
     /// |prediction/friction − 1|.
@@ -210,24 +194,7 @@ impl Prediction {
     }
 }
 
-/// Which friction is predicted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum Model {
-    Line,
-    HalfSpace,
-}
-
-impl Model {
-    const BOTH: [Self; 2] = [Self::Line, Self::HalfSpace];
-
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Line => "line",
-            Self::HalfSpace => "half space",
-        }
-    }
-}
+const MODELS: [Model; 2] = [Model::Line, Model::HalfSpace];
 
 /// s_p, the plateau between 1/2 and 1.
 fn plateau(exponent: f64) -> Result<f64> {

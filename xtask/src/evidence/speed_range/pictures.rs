@@ -8,7 +8,8 @@ use viscofriction_plot::{
 };
 
 use super::sliding::solid;
-use super::{Decades, EXPONENTS, Extent, Model, Point, Prediction, border, plateau};
+use super::{Decades, EXPONENTS, Extent, Friction, MODELS, Point, Prediction, border, plateau};
+use crate::output::points;
 
 /// Colours of the stiffness ratios.
 const COLOURS: [Colour; 3] = [Colour::Blue, Colour::Green, Colour::Red];
@@ -47,15 +48,19 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    fn values(&self, value: fn(&Point) -> f64) -> Vec<[f64; 2]> {
-        let points = self.points.iter();
-        points.map(|point| [point.speed, value(point)]).collect()
+    fn values(&self, value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
+        points(
+            &self.points,
+            |(at, _)| at.speed,
+            |(_, friction)| value(friction),
+        )
     }
 
     /// Circles with error bars.
-    fn circles(&self, value: fn(&Point) -> f64, error: fn(&Point) -> f64) -> Series {
+    fn circles(&self, value: fn(&Friction) -> f64, error: fn(&Friction) -> f64) -> Series {
+        let errors = self.points.iter().map(|(_, friction)| error(friction));
         Series {
-            errors: Some(self.points.iter().map(|point| error(point)).collect()),
+            errors: Some(errors.collect()),
             ..Series::markers(self.values(value), Marker::open(Shape::Circle), self.colour)
         }
     }
@@ -67,7 +72,7 @@ fn curves<'a>(points: &'a [Point], exponent: f64, extent: &Extent) -> Vec<Curve<
     let curve = |(&ratio, colour): (&f64, Colour)| Curve {
         points: points
             .iter()
-            .filter(|point| same(point.exponent, exponent) && same(point.stiffness_ratio, ratio))
+            .filter(|(at, _)| same(at.exponent, exponent) && same(at.stiffness_ratio, ratio))
             .collect(),
         colour,
         label: format!("γ = {ratio:e}"),
@@ -78,26 +83,19 @@ fn curves<'a>(points: &'a [Point], exponent: f64, extent: &Extent) -> Vec<Curve<
 /// Friction over speed, one panel per profile.
 pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
     let panel = |exponent: f64| {
-        let lowest = points.iter().filter(|point| same(point.exponent, exponent));
-        let lowest = lowest
-            .map(|point| point.half_space.min(point.line))
-            .fold(1.0, f64::min);
-        let lowest = 10_f64.powf(lowest.log10().floor());
-        let mut chart = chart(
-            exponent,
-            extent,
-            Axis::log10("friction μ / mean slope", [lowest, 10.0]),
-        );
+        let of_profile = points.iter().filter(|(at, _)| same(at.exponent, exponent));
+        let lowest = of_profile.map(|(_, friction)| friction.half_space.min(friction.line));
+        let lowest = 10_f64.powf(lowest.fold(1.0, f64::min).log10().floor());
+        let y = Axis::log10("friction μ / mean slope", [lowest, 10.0]);
+        let mut chart = chart(exponent, extent, y);
         for curve in curves(points, exponent, extent) {
-            let values = curve.values(|point| point.line);
+            let values = curve.values(|at| at.line);
             let line = Series::line(values, Line::thick(Dash::Solid), curve.colour);
-            let circles = curve.circles(|point| point.half_space, |point| point.half_space_error);
-            chart
-                .series
-                .push(line.labelled(format!("{}, line", curve.label)));
-            chart
-                .series
-                .push(circles.labelled(format!("{}, half space", curve.label)));
+            let circles = curve.circles(|at| at.half_space, |at| at.half_space_error);
+            chart.series.extend([
+                line.labelled(format!("{}, line", curve.label)),
+                circles.labelled(format!("{}, half space", curve.label)),
+            ]);
         }
         chart.into()
     };
@@ -110,11 +108,8 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
 /// The ratio of half space and line over speed, one panel per profile.
 pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
     let panel = |exponent: f64| {
-        let mut chart = chart(
-            exponent,
-            extent,
-            Axis::linear("friction of half space / line", RATIOS),
-        );
+        let y = Axis::linear("friction of half space / line", RATIOS);
+        let mut chart = chart(exponent, extent, y);
         let level = |value: f64| {
             let points = range(extent.curve_speeds).map(|speed| [speed, value]);
             Series::line(points.to_vec(), Line::thin(Dash::Dashed), Colour::Black)
@@ -122,10 +117,9 @@ pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
         let viscous = level(plateau(exponent)?).labelled("1/2, viscous s, 1");
         chart.series.extend([level(0.5), viscous, level(1.0)]);
         for curve in curves(points, exponent, extent) {
-            let circles = curve.circles(|point| point.ratio, |point| point.ratio_error);
             let series = Series {
                 line: Some(Line::thin(Dash::Solid)),
-                ..circles
+                ..curve.circles(|at| at.ratio, |at| at.ratio_error)
             };
             chart.series.push(series.labelled(curve.label));
         }
@@ -147,20 +141,18 @@ pub(super) fn validity(
     let window = window(extent)?;
     let mut panels = Vec::new();
     for exponent in EXPONENTS {
-        for model in Model::BOTH {
-            let quotients = map
-                .iter()
-                .filter(|at| same(at.exponent, exponent))
-                .map(|at| {
-                    let [friction, predicted] = at.pair(model);
-                    friction / predicted
-                });
+        let of_profile = map.iter().filter(|(at, _)| same(at.exponent, exponent));
+        for model in MODELS {
+            let quotients = of_profile.clone().map(|(_, law)| {
+                let [friction, predicted] = law.pair(model);
+                friction / predicted
+            });
             let highest = quotients.clone().fold(1.0, f64::max);
-            let borders = borders
-                .iter()
-                .filter(|row| same(row.exponent, exponent) && row.model == model);
+            let borders = borders.iter();
+            let borders = borders.filter(|at| same(at.exponent, exponent) && at.model == model);
+            let model = model.name().replace('-', " ");
             let map = Map {
-                title: Some(format!("{}, {}", name(exponent), model.name())),
+                title: Some(format!("{}, {model}", name(exponent))),
                 x: map_axis("log₁₀ (vτ/a)", extent.map_speeds),
                 y: map_axis("log₁₀ γ", extent.map_ratios),
                 columns: extent.map_speeds.values().count(),
@@ -190,14 +182,11 @@ fn map_axis(label: &str, decades: Decades) -> Axis {
 
 /// Up along the lowest speeds and down along the highest.
 fn outline<'a>(borders: impl Iterator<Item = &'a border::Row>) -> Option<Series> {
-    let (mut points, mut back) = (Vec::new(), Vec::new());
-    for row in borders {
-        if let Some((lowest, highest)) = row.lowest_speed.zip(row.highest_speed) {
-            points.push([lowest.log10(), row.stiffness_ratio.log10()]);
-            back.push([highest.log10(), row.stiffness_ratio.log10()]);
-        }
-    }
-    points.extend(back.into_iter().rev());
+    let ends = borders.filter_map(|row| {
+        let (lowest, highest) = row.lowest_speed.zip(row.highest_speed)?;
+        Some((row.stiffness_ratio, [lowest, highest]))
+    });
+    let points = around(ends);
     let line = Line::thick(Dash::Solid);
     (points.len() > 1).then(|| Series::line(points, line, Colour::Black))
 }
@@ -206,14 +195,21 @@ fn outline<'a>(borders: impl Iterator<Item = &'a border::Row>) -> Option<Series>
 fn window(extent: &Extent) -> Result<Series> {
     let lowest = 10_f64.powi(extent.map_ratios.first);
     let steps = StandardSolid::LARGEST_VISCOUS_RATIO / lowest;
-    let (mut points, mut back) = (Vec::new(), Vec::new());
-    for step in 0..WINDOW_STEPS {
+    let ends = (0..WINDOW_STEPS).map(|step| {
         let ratio = lowest * steps.powf(f64::from(step) / f64::from(WINDOW_STEPS));
         let window = solid(ratio)?.viscous_window();
-        let [left, right] = window.context("tan δ > 1 below the largest ratio")?;
-        points.push([left.log10(), ratio.log10()]);
-        back.push([right.log10(), ratio.log10()]);
-    }
-    points.extend(back.into_iter().rev());
+        Ok((ratio, window.context("tan δ > 1 below the largest ratio")?))
+    });
+    let points = around(ends.collect::<Result<Vec<_>>>()?);
     Ok(Series::line(points, Line::thick(Dash::Dashed), Colour::Red))
+}
+
+/// Stiffness ratios with a lowest and a highest speed each: points up along the lowest and down along the highest, in
+/// logarithms.
+fn around(ends: impl IntoIterator<Item = (f64, [f64; 2])>) -> Vec<[f64; 2]> {
+    let side =
+        |end: usize| move |(ratio, ends): &(f64, [f64; 2])| [ends[end], *ratio].map(f64::log10);
+    let ends: Vec<_> = ends.into_iter().collect();
+    let up = ends.iter().map(side(0));
+    up.chain(ends.iter().rev().map(side(1))).collect()
 }

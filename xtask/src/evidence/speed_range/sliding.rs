@@ -14,14 +14,15 @@
 //! ```
 
 use anyhow::{Context, Result};
-use bem_halfspace::steady::{RefinementOptions, steady_refined};
+use bem_halfspace::steady::steady_refined;
 use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
 use mdr_core::steady;
 use numerics::{Estimate, bracketed_root};
 use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
+use serde::Serialize;
 
-use crate::scene::as_far_as_reached;
+use crate::scene::{as_far_as_reached, refined_to};
 
 /// Relative error asked of the line.
 pub(super) const LINE_ERROR: f64 = 1e-6;
@@ -29,7 +30,7 @@ pub(super) const LINE_ERROR: f64 = 1e-6;
 const LENGTHS: [f64; 2] = [1e-8, 1e12];
 
 /// One contact, by its three numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Sliding {
     /// Exponent p of the profile.
     pub(super) exponent: f64,
@@ -74,13 +75,14 @@ impl Sliding {
 
     /// Friction of the half space under a force; what was reached has an honest bar, if a wider one.
     pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Estimate> {
-        let options = RefinementOptions {
-            relative_error,
-            ..RefinementOptions::default()
-        };
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
-        let reached = as_far_as_reached(steady_refined(&body, &solid, &load, &options));
+        let reached = as_far_as_reached(steady_refined(
+            &body,
+            &solid,
+            &load,
+            &refined_to(relative_error, 0.5),
+        ));
         let reached = reached.with_context(|| format!("the half space of {self:?}"))?;
         Ok(reached.friction)
     }

@@ -4,16 +4,15 @@ use anyhow::{Context, Result};
 use bem_halfspace::BemError;
 use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
 use indenters::{
-    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, SlidingLoad,
-    Sphere, Superposition, Surface, TruncatedParaboloid,
+    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, PowerTerm, RoundTippedCone, Sphere,
+    Superposition, Surface, TruncatedParaboloid,
 };
 use numerics::Estimate;
-use rheology::Viscous;
 use serde::Serialize;
 
 use super::Table;
 use crate::meter::{measure as metered, median};
-use crate::scene::{Reached, as_far_as_reached};
+use crate::scene::{Reached, Scene, as_far_as_reached, refined_to};
 use crate::tasks::in_turn;
 
 /// Exponents of the power profiles.
@@ -56,7 +55,7 @@ struct Case {
 
 impl Case {
     fn new(name: impl Into<String>, body: impl Axisymmetric + Surface + 'static) -> Result<Self> {
-        let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
+        let Scene { material, load, .. } = Scene::unit(1.0)?;
         Ok(Self {
             name: name.into(),
             exponent: None,
@@ -88,10 +87,8 @@ impl Case {
 
     /// Power profiles, and bodies whose shape depends on the load.
     fn all() -> Result<Vec<Self>> {
-        let mut cases: Vec<Self> = EXPONENTS
-            .into_iter()
-            .map(Self::power)
-            .collect::<Result<_>>()?;
+        let powers = EXPONENTS.into_iter().map(Self::power);
+        let mut cases = powers.collect::<Result<Vec<_>>>()?;
         cases.extend([
             Self::new("sphere, radius 5", Sphere::new(5.0)?)?,
             Self::new("sphere, radius 2", Sphere::new(2.0)?)?,
@@ -130,13 +127,9 @@ impl Case {
     fn rows(&self) -> Result<Vec<Row>> {
         let is_crescent = self.exponent.is_some_and(|p| p >= CRESCENT);
         let aspect = if is_crescent { 1.0 } else { 0.5 };
-        let reference = self
-            .solve(self.finer * self.relative_error, aspect)?
-            .friction;
-        ASPECTS
-            .into_iter()
-            .map(|aspect| self.row(aspect, reference))
-            .collect()
+        let reference = self.solve(self.finer * self.relative_error, aspect)?;
+        let row = |aspect| self.row(aspect, reference.friction);
+        ASPECTS.into_iter().map(row).collect()
     }
 
     fn row(&self, aspect: f64, reference: Estimate) -> Result<Row> {
@@ -163,11 +156,7 @@ impl Case {
     }
 
     fn solve(&self, relative_error: f64, aspect: f64) -> Result<Reached> {
-        let options = RefinementOptions {
-            relative_error,
-            aspect,
-            ..RefinementOptions::default()
-        };
+        let options = refined_to(relative_error, aspect);
         let friction = as_far_as_reached((self.solve)(&options));
         friction.with_context(|| format!("{}, {options:?}", self.name))
     }
@@ -199,8 +188,7 @@ struct Row {
 /// Judges the bars of all bodies, or of a few.
 pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
     let cases = if quick { Case::quick() } else { Case::all() };
-    let rows: Result<Vec<Vec<Row>>> = in_turn("error bars", &cases?, Case::rows);
-    let rows = rows?.concat();
+    let rows = in_turn("error bars", &cases?, Case::rows)?.concat();
     Ok((Table::new("error_bars", &rows)?, summary(&rows)?))
 }
 

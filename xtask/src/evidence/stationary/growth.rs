@@ -7,7 +7,8 @@ use serde::Serialize;
 use super::Table;
 use crate::evidence::fit::exponent;
 use crate::meter::{measure as metered, peak_memory};
-use crate::scene::Scene;
+use crate::output::points;
+use crate::scene::{Scene, refined_to};
 use crate::tasks::in_turn;
 
 /// Elements in contact on the smallest grid.
@@ -41,10 +42,8 @@ struct Row {
 /// Grids from the smallest to the largest, √10 times as many elements each.
 pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
     let scene = Scene::unit(2.0)?;
-    let limit = scene
-        .friction(REFERENCE_ERROR, ASPECT)?
-        .friction_coefficient
-        .value;
+    let limit = scene.friction(&refined_to(REFERENCE_ERROR, ASPECT))?;
+    let limit = limit.friction_coefficient.value;
     let solve = |spacing: f64| -> Result<SteadySliding> {
         scene.on_one_grid([spacing, ASPECT * spacing], [0.0; 2], TOLERANCE)
     };
@@ -54,7 +53,7 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
     let sizes: Vec<f64> = std::iter::successors(Some(SMALLEST), |size| Some(size * ratio))
         .take_while(|size| *size < 1.01 * largest)
         .collect();
-    let rows: Result<Vec<Row>> = in_turn("growth", &sizes, |size| {
+    let rows = in_turn("growth", &sizes, |size| {
         let (solution, cost) = metered(|| solve((area / (size * ASPECT)).sqrt()));
         let solution = solution.with_context(|| format!("{size:.0} elements in contact"))?;
         let [dx, dy] = solution.pressure.grid.spacing();
@@ -68,8 +67,7 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
             residual: solution.residual,
             relative_deviation: solution.friction_coefficient / limit - 1.0,
         })
-    });
-    let rows = rows?;
+    })?;
     let table = Table::new("growth", &rows)?;
     let summary = format!("{}\n{}", table.markdown(COLUMNS)?, growth(&rows));
     Ok((table, summary))
@@ -87,10 +85,8 @@ const COLUMNS: &[&str] = &[
 ];
 
 fn growth(rows: &[Row]) -> String {
-    let points = rows
-        .iter()
-        .map(|row| [row.elements_in_contact, row.processor_seconds]);
-    let mut points: Vec<[f64; 2]> = points.collect();
+    let elements = |row: &Row| row.elements_in_contact;
+    let mut points = points(rows, elements, |row| row.processor_seconds);
     if points.iter().filter(|point| point[0] > FITTED_FROM).count() > 1 {
         points.retain(|point| point[0] > FITTED_FROM);
     }

@@ -47,15 +47,12 @@ const QUICK_LARGEST: f64 = 4e3;
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let largest = if quick {
-        QUICK_LARGEST
-    } else {
-        options.largest
-    };
-    if !(2e3..=1e7).contains(&options.largest) {
-        let (range, given) = ("between 2e3 and 1e7", options.largest);
-        return Err(WrongInput(format!("--largest must be {range}, but is {given}")).into());
+    let asked = options.largest;
+    if !(2e3..=1e7).contains(&asked) {
+        let problem = format!("--largest must be between 2e3 and 1e7, but is {asked}");
+        return Err(WrongInput(problem).into());
     }
+    let largest = if quick { QUICK_LARGEST } else { asked };
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
     // Growth comes first, because the memory that it reports is the largest that the process has had.
     for part in [Part::Growth, Part::Speed, Part::ErrorBars] {

@@ -10,34 +10,33 @@ use serde::Serialize;
 
 use super::Table;
 use crate::meter::{Cost, measure as metered, measure_median};
-use crate::scene::Scene;
+use crate::scene::{Scene, refined_to};
 use crate::tasks::in_turn;
 
-/// Who solves a problem.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Solver {
-    Stationary,
-    OneGrid,
-    March,
-}
+/// Who solves a problem to a relative error, by name.
+type Solver = (&'static str, fn(&Scene, f64) -> Result<(Row, Cost)>);
 
 /// A solver, the exponent of the profile, and the relative error asked for.
 type Run = (Solver, f64, f64);
 
+const STATIONARY: Solver = ("stationary", stationary);
+const ONE_GRID: Solver = ("stationary, one grid", single_grid);
+const MARCH: Solver = ("march in time", march);
+
 const RUNS: [Run; 7] = [
-    (Solver::Stationary, 1.0, 1e-3),
-    (Solver::Stationary, 1.0, 1e-4),
-    (Solver::Stationary, 2.0, 1e-3),
-    (Solver::Stationary, 2.0, 1e-4),
-    (Solver::Stationary, 1.5, 1e-5),
-    (Solver::OneGrid, 2.0, 1e-3),
-    (Solver::March, 2.0, 1e-3),
+    (STATIONARY, 1.0, 1e-3),
+    (STATIONARY, 1.0, 1e-4),
+    (STATIONARY, 2.0, 1e-3),
+    (STATIONARY, 2.0, 1e-4),
+    (STATIONARY, 1.5, 1e-5),
+    (ONE_GRID, 2.0, 1e-3),
+    (MARCH, 2.0, 1e-3),
 ];
 const QUICK_RUNS: [Run; 4] = [
-    (Solver::Stationary, 2.0, 1e-2),
-    (Solver::Stationary, 2.0, 1e-3),
-    (Solver::OneGrid, 2.0, 1e-2),
-    (Solver::March, 2.0, 1e-2),
+    (STATIONARY, 2.0, 1e-2),
+    (STATIONARY, 2.0, 1e-3),
+    (ONE_GRID, 2.0, 1e-2),
+    (MARCH, 2.0, 1e-2),
 ];
 /// Part of the error that may come from the distance; the rest is for the grid.
 const DISTANCE_PART: f64 = 0.25;
@@ -73,23 +72,17 @@ struct Row {
 /// Runs of the stationary solver, then it on a single grid and the march in time for the paraboloid.
 pub(super) fn measure(quick: bool) -> Result<(Table, String)> {
     let runs = if quick { &QUICK_RUNS[..] } else { &RUNS };
-    let rows: Result<Vec<Row>> = in_turn("speed", runs, row);
-    let mut rows = rows?;
+    let mut rows = in_turn("speed", runs, row)?;
     compare(&mut rows);
     let table = Table::new("speed", &rows)?;
     let summary = format!("{}\n{}", table.markdown(COLUMNS)?, ratios(&rows));
     Ok((table, summary))
 }
 
-fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
-    let scene = Scene::unit(exponent)?;
-    let (row, cost) = match solver {
-        Solver::Stationary => stationary(&scene, relative_error)?,
-        Solver::OneGrid => single_grid(&scene, relative_error)?,
-        Solver::March => march(&scene, relative_error)?,
-    };
+fn row(&((solver, solve), exponent, relative_error): &Run) -> Result<Row> {
+    let (row, cost) = solve(&Scene::unit(exponent)?, relative_error)?;
     Ok(Row {
-        solver: solver.name(),
+        solver,
         exponent,
         relative_error_asked: relative_error,
         seconds: cost.seconds,
@@ -98,28 +91,16 @@ fn row(&(solver, exponent, relative_error): &Run) -> Result<Row> {
     })
 }
 
-impl Solver {
-    const fn name(self) -> &'static str {
-        match self {
-            Self::Stationary => "stationary",
-            Self::OneGrid => "stationary, one grid",
-            Self::March => "march in time",
-        }
-    }
-}
-
 /// Fills in the deviations.
 fn compare(rows: &mut [Row]) {
     let all = rows.to_vec();
     for row in rows {
         let same = all.iter().filter(|other| {
-            other.exponent.total_cmp(&row.exponent).is_eq()
-                && other.solver == Solver::Stationary.name()
+            let exponents = other.exponent.total_cmp(&row.exponent);
+            exponents.is_eq() && other.solver == STATIONARY.0
         });
-        let best = same.min_by(|one, other| {
-            one.relative_error_asked
-                .total_cmp(&other.relative_error_asked)
-        });
+        let asked = |row: &Row| row.relative_error_asked;
+        let best = same.min_by(|one, other| asked(one).total_cmp(&asked(other)));
         row.deviation = best
             .filter(|best| best.relative_error_asked < row.relative_error_asked)
             .map(|best| (row.friction / best.friction - 1.0).abs());
@@ -127,7 +108,7 @@ fn compare(rows: &mut [Row]) {
 }
 
 fn stationary(scene: &Scene, relative_error: f64) -> Result<(Row, Cost)> {
-    let (estimate, cost) = measure_median(|| scene.friction(relative_error, 0.5))?;
+    let (estimate, cost) = measure_median(|| scene.friction(&refined_to(relative_error, 0.5)))?;
     let last = estimate.refinements.last().context("no refinement")?;
     let friction = estimate.friction_coefficient;
     let row = Row {
@@ -193,7 +174,7 @@ struct Spacing {
 
 /// The coarsest spacing of a refinement with square elements at which mean and scatter of single grids are exact enough.
 fn spacing(scene: &Scene, relative_error: f64) -> Result<Spacing> {
-    let estimate = scene.friction(0.1 * relative_error, 1.0)?;
+    let estimate = scene.friction(&refined_to(0.1 * relative_error, 1.0))?;
     let limit = estimate.friction_coefficient.value;
     // A coarse grid that is exact by accident is not taken: all finer ones must be exact enough too.
     let refinements = estimate.refinements.iter().rev().map(|refinement| {

@@ -14,7 +14,7 @@ use super::{Report, Table};
 use crate::output::markdown_table;
 use crate::tasks::in_turn;
 use scenes::{QUICK_SCENES, SCENES, Scene};
-use series::{Outcome, Row, Series, series_of};
+use series::{Row, Series, series_of};
 
 /// How much is measured.
 #[derive(Debug)]
@@ -56,31 +56,23 @@ const PRINTED: [(f64, &str); 5] = [
 /// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let extent = if quick { QUICK } else { FULL };
-    let planned: Result<Vec<Outcome<Series>>> = in_turn("references", extent.scenes, |scene| {
-        series_of(scene, extent.runs)
+    let mut refused = Vec::new();
+    let planned = in_turn("references", extent.scenes, |scene| {
+        series_of(scene, extent.runs, &mut refused)
     });
-    let (mut series, mut refused) = (Vec::new(), Vec::new());
-    for planned in planned? {
-        series.extend(planned.done);
-        refused.extend(planned.refused);
-    }
+    let mut series: Vec<Series> = planned?.into_iter().flatten().collect();
     series.push(contacts::hertz(extent.edges));
     series.push(contacts::rough(extent.rough_edge)?);
     // On one thread processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let measure = |series: &Series| series.measure(extent.timed_once);
-    let measured: Vec<Outcome<Row>> =
-        pool.install(|| in_turn("work and precision", &series, measure));
-    refused.extend(measured.iter().flat_map(|series| series.refused.clone()));
-    let refused: String = refused
+    let measure = |series: &Series| Ok(series.measure(extent.timed_once, &mut refused));
+    let measured = pool.install(|| in_turn("work and precision", &series, measure))?;
+    let refused: Vec<String> = refused
         .iter()
         .map(|refused| format!("\nrefused: {refused}"))
         .collect();
-    let fits: Vec<Fit> = measured
-        .iter()
-        .filter_map(|series| Fit::of(&series.done))
-        .collect();
-    let rows: Vec<&Row> = measured.iter().flat_map(|series| &series.done).collect();
+    let fits: Vec<Fit> = measured.iter().filter_map(|rows| Fit::of(rows)).collect();
+    let rows: Vec<&Row> = measured.iter().flatten().collect();
     let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
     Ok(Report {
         name: "work_precision",
@@ -92,7 +84,7 @@ pub(super) fn report(quick: bool) -> Result<Report> {
             ("work_precision_sliding", picture::figure(&sliding)),
             ("work_precision_at_rest", picture::figure(&at_rest)),
         ],
-        summary: format!("{}{refused}", table(&measured)),
+        summary: format!("{}{}", table(&measured), refused.concat()),
         failure: None,
     })
 }
@@ -144,11 +136,11 @@ impl Fit {
 }
 
 /// Order, exponent of cost, and the time to an error: one row per series, one column per error.
-fn table(measured: &[Outcome<Row>]) -> comfy_table::Table {
+fn table(measured: &[Vec<Row>]) -> comfy_table::Table {
     let header = ["scene", "model", "method", "over", "order", "cost exponent"];
     let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
     let rows = measured.iter().filter_map(|series| {
-        let fit = Fit::of(&series.done)?;
+        let fit = Fit::of(series)?;
         let cells = [
             fit.scene.to_owned(),
             fit.model.to_owned(),
@@ -157,7 +149,7 @@ fn table(measured: &[Outcome<Row>]) -> comfy_table::Table {
             exponent(fit.order, fit.order_error),
             exponent(fit.cost_exponent, fit.cost_exponent_error),
         ];
-        let times = PRINTED.map(|(error, _)| time_to(&series.done, error));
+        let times = PRINTED.map(|(error, _)| time_to(series, error));
         Some(cells.into_iter().chain(times).collect::<Vec<_>>())
     });
     markdown_table(header, rows)

@@ -32,15 +32,13 @@ fn point(row: &Row) -> [f64; 2] {
 }
 
 fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
-    let title = rows
-        .first()
-        .map(|row| format!("{}: {}", row.scene, row.quantity));
+    let title = |row: &&Row| format!("{}: {}", row.scene, row.quantity);
     let runs = rows.chunk_by(|one, other| label(one) == label(other));
     let mut series: Vec<Series> = runs.filter_map(curve).collect();
     let models = rows.chunk_by(|one, other| one.model == other.model);
     series.extend(models.filter_map(|rows| floor(rows, x)));
     Chart {
-        title,
+        title: rows.first().map(title),
         x: x.clone(),
         y: y.clone(),
         legend: LegendPlace::Below,

@@ -13,7 +13,7 @@ const LONGEST: f64 = 4.0;
 /// Elements along the shortest wave.
 const SHORTEST: f64 = 8.0;
 
-/// Periodic self-affine heights over `n` × `n` elements of a side of length 1, with the root of the mean square slope 1.
+/// A periodic self-affine body over `n` × `n` elements of a side of length 1, with the root of the mean square slope 1.
 ///
 /// White noise of fixed seed, whose waves are weighted with `q^(−1−H)` from the longest to the shortest.
 pub(super) fn self_affine(n: usize) -> Vec<f64> {
@@ -39,7 +39,7 @@ pub(super) fn self_affine(n: usize) -> Vec<f64> {
     planner.plan_fft_inverse(n).process(&mut field);
     // The transforms are not normalised, and by Parseval's theorem the slope has their factor too.
     let scale = 1.0 / square_slope.sqrt();
-    field.iter().map(|value| value.re * scale).collect()
+    field.iter().map(|value| -(value.re * scale)).collect()
 }
 
 fn transpose(field: &mut [Complex<f64>], n: usize) {

@@ -84,17 +84,11 @@ pub(super) fn requests(presses: bool) -> Vec<(Model, Vec<Vec<Request>>)> {
 }
 
 fn errors(model: Model, method: Method, errors: &[f64]) -> Vec<Request> {
-    let errors = errors.iter();
-    errors
-        .map(|&error| Request::to_error(model, method, error))
-        .collect()
+    let request = |&error| Request::to_error(model, method, error);
+    errors.iter().map(request).collect()
 }
 
 fn elements(model: Model, method: Method, counts: &[usize]) -> Vec<Request> {
-    let request = |&count: &usize| Request {
-        model,
-        method,
-        accuracy: Accuracy::Elements(count),
-    };
+    let request = |&count| Request::new(model, method, Accuracy::Elements(count));
     counts.iter().map(request).collect()
 }

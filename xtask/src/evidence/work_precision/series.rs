@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use anyhow::Result;
+use benches::deviation;
 use serde::Serialize;
 use viscofriction::scene::{self, Method, Model};
 
 use super::scenes::{Scene, requests};
-use crate::evidence::request::{Reference, Request, first_reached, parsed, presses};
-use crate::meter::{measure, measure_median};
+use crate::evidence::request::{Reference, Request, first_reached, presses};
+use crate::meter::{Cost, measure, measure_median};
 
 /// What is compared where something slides, and where nothing does.
 pub(super) const FRICTION: &str = "friction coefficient";
@@ -74,22 +75,6 @@ pub(super) struct Row {
     pub(super) solver: Option<Method>,
 }
 
-/// What is to be measured, or was, and what cannot be.
-#[derive(Debug)]
-pub(super) struct Outcome<T> {
-    pub(super) done: Vec<T>,
-    pub(super) refused: Vec<String>,
-}
-
-impl<T> Default for Outcome<T> {
-    fn default() -> Self {
-        Self {
-            done: Vec::new(),
-            refused: Vec::new(),
-        }
-    }
-}
-
 impl Row {
     /// Whether the error comes from the resolution, and not from rounding or from the reference.
     pub(super) fn is_resolved(&self) -> bool {
@@ -119,28 +104,28 @@ impl Row {
 }
 
 /// The series of a scene, each with at most `runs` runs; a model whose reference is not reached is refused.
-pub(super) fn series_of(scene: &Scene, runs: usize) -> Result<Outcome<Series>> {
-    let mut file = parsed(scene.text)?;
+pub(super) fn series_of(
+    scene: &Scene,
+    runs: usize,
+    refused: &mut Vec<String>,
+) -> Result<Vec<Series>> {
+    let mut file: scene::Scene = scene.text.parse()?;
     file.load.velocity = scene.velocity.unwrap_or(file.load.velocity);
     let file = Arc::new(file);
-    let mut planned = Outcome::default();
+    let mut planned = Vec::new();
     for (model, methods) in requests(presses(&file)) {
         let reference = match reference(&file, model, &methods[0][0]) {
             Ok(reference) => reference,
             Err(error) => {
                 let (name, model) = (scene.name, model.name());
-                planned
-                    .refused
-                    .push(format!("{name}, reference of the {model}: {error:#}"));
+                refused.push(format!("{name}, reference of the {model}: {error:#}"));
                 continue;
             }
         };
         for mut requests in methods {
             requests.truncate(runs);
             if requests[0].is_offered(&file)? {
-                planned
-                    .done
-                    .push(series(scene.name, &file, &requests, &reference));
+                planned.push(series(scene.name, &file, &requests, &reference));
             }
         }
     }
@@ -155,10 +140,11 @@ fn reference(scene: &scene::Scene, model: Model, closed_form: &Request) -> Resul
     if may_be_closed && closed_form.is_offered(scene)? {
         return closed_form.reference(scene, CLOSED_ROUNDING);
     }
-    match model {
-        Model::Line => first_reached(scene, model, &LINE_REFERENCE),
-        Model::HalfSpace => first_reached(scene, model, &HALF_SPACE_REFERENCE),
-    }
+    let errors = match model {
+        Model::Line => &LINE_REFERENCE[..],
+        Model::HalfSpace => &HALF_SPACE_REFERENCE,
+    };
+    first_reached(scene, model, errors)
 }
 
 fn series(
@@ -199,17 +185,10 @@ fn series(
     }
 }
 
-/// Relative difference in the mean square.
-pub(super) fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
-    let pairs = actual.iter().zip(expected);
-    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
-}
-
 impl Series {
     /// Times all runs, each by the median of several or, for no more than a hint, once.
-    pub(super) fn measure(&self, once: bool) -> Outcome<Row> {
-        let mut measured = Outcome::default();
+    pub(super) fn measure(&self, once: bool, refused: &mut Vec<String>) -> Vec<Row> {
+        let mut measured = Vec::new();
         for run in &self.runs {
             let timed = if once {
                 let (found, cost) = measure(&run.solve);
@@ -218,30 +197,34 @@ impl Series {
                 measure_median(&run.solve)
             };
             match timed {
-                Ok((found, cost)) => measured.done.push(Row {
-                    scene: self.scene,
-                    model: self.model.name(),
-                    quantity: self.quantity,
-                    method: self.name(),
-                    resolution_kind: run.kind,
-                    resolution: run.resolution,
-                    unknowns: found.unknowns,
-                    error: found.error,
-                    error_bar: found.error_bar,
-                    reference: self.reference.clone(),
-                    reference_error: self.reference_error,
-                    seconds: cost.seconds,
-                    processor_seconds: cost.processor_seconds,
-                    solver: self.method,
-                }),
+                Ok((found, cost)) => measured.push(self.row(run, found, cost)),
                 Err(error) => {
                     let number = run.resolution.unwrap_or_default();
                     let what = format!("{}, {}, {} {number}", self.scene, self.name(), run.kind);
-                    measured.refused.push(format!("{what}: {error:#}"));
+                    refused.push(format!("{what}: {error:#}"));
                 }
             }
         }
         measured
+    }
+
+    fn row(&self, run: &Run, found: Found, cost: Cost) -> Row {
+        Row {
+            scene: self.scene,
+            model: self.model.name(),
+            quantity: self.quantity,
+            method: self.name(),
+            resolution_kind: run.kind,
+            resolution: run.resolution,
+            unknowns: found.unknowns,
+            error: found.error,
+            error_bar: found.error_bar,
+            reference: self.reference.clone(),
+            reference_error: self.reference_error,
+            seconds: cost.seconds,
+            processor_seconds: cost.processor_seconds,
+            solver: self.method,
+        }
     }
 
     /// The stationary half space may be asked for an error or given its elements.
