@@ -5,7 +5,6 @@
 
 mod input;
 mod material;
-mod meter;
 mod output;
 mod progress;
 mod run;

@@ -5,6 +5,7 @@ use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use comfy_table::Table;
 use serde::Serialize;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
@@ -45,6 +46,14 @@ pub(crate) fn to_csv(
         writer.serialize(row)?;
     }
     Ok(writer.into_inner()?)
+}
+
+/// A table in Markdown with this header.
+pub(crate) fn markdown(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
+    table.set_header(header.to_vec());
+    table
 }
 
 /// A picture as SVG and as PNG.
@@ -95,25 +104,24 @@ impl OutputFile {
     /// Writes the file under another name and then gives it its own, so that an interruption leaves the old one or the
     /// new one. A file that is replaced keeps its permissions.
     pub(crate) fn write(&self, contents: &[u8]) -> Result<()> {
-        self.try_write(contents)
-            .with_context(|| format!("writing {}", self.path.display()))
-    }
-
-    fn try_write(&self, contents: &[u8]) -> Result<()> {
-        let folder = folder_of(&self.path);
-        fs::create_dir_all(folder)?;
-        let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
-        part.write_all(contents)?;
-        if let Some(permissions) = &self.permissions {
-            part.as_file().set_permissions(permissions.clone())?;
-        }
-        if self.overwrite {
-            part.persist(&self.path)?;
-        } else {
+        let write = || -> std::io::Result<()> {
+            let folder = folder_of(&self.path);
+            fs::create_dir_all(folder)?;
+            let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
+            part.write_all(contents)?;
+            if let Some(permissions) = &self.permissions {
+                part.as_file().set_permissions(permissions.clone())?;
+            }
             // Somebody else may have written it meanwhile.
-            part.persist_noclobber(&self.path)?;
-        }
-        Ok(())
+            let persisted = if self.overwrite {
+                part.persist(&self.path)
+            } else {
+                part.persist_noclobber(&self.path)
+            };
+            persisted?;
+            Ok(())
+        };
+        write().with_context(|| format!("writing {}", self.path.display()))
     }
 }
 
@@ -194,35 +202,34 @@ pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
 #[derive(Debug)]
 pub(crate) struct OutputFolder {
     path: PathBuf,
-    files: Vec<(String, OutputFile)>,
+    overwrite: bool,
     _lock: Option<File>,
 }
 
 impl OutputFolder {
-    /// A folder that was made, or is there without any of the files that may be written.
+    /// A folder that was made, or is there without any of the files that may be written, named between spaces.
     ///
     /// # Errors
     /// [`WrongInput`] as of [`OutputFile::new`] and [`lock`], before anything is computed.
-    pub(crate) fn new(path: &Path, overwrite: bool, names: &[&str]) -> Result<Self, WrongInput> {
+    pub(crate) fn new(path: &Path, overwrite: bool, names: &str) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         if path.exists() && !path.is_dir() {
             return Err(wrong("a folder is needed"));
         }
-        let file = |name: &&str| {
-            let file = OutputFile::new(&path.join(name), overwrite)?;
-            Ok(((*name).to_owned(), file))
-        };
-        let files = names.iter().map(file).collect::<Result<_, _>>()?;
+        let names: Vec<&str> = names.split(' ').collect();
+        for name in &names {
+            OutputFile::new(&path.join(name), overwrite)?;
+        }
         fs::create_dir_all(path).map_err(|error| wrong(&error.to_string()))?;
         // Not every system opens folders.
         let folder = File::open(path).ok();
         if let Some(folder) = &folder {
             lock(folder, path)?;
-            remove_parts(path, names);
+            remove_parts(path, &names);
         }
         Ok(Self {
             path: path.to_owned(),
-            files,
+            overwrite,
             _lock: folder,
         })
     }
@@ -231,11 +238,9 @@ impl OutputFolder {
         &self.path
     }
 
-    /// Writes one of the files that were announced.
+    /// Writes one of the files.
     pub(crate) fn write(&self, name: &str, contents: &[u8]) -> Result<()> {
-        let file = self.files.iter().find(|(known, _)| known == name);
-        let (_, file) = file.with_context(|| format!("{name} was not announced"))?;
-        file.write(contents)
+        OutputFile::new(&self.path.join(name), self.overwrite)?.write(contents)
     }
 
     /// Draws a picture as SVG and as PNG.

@@ -7,74 +7,72 @@ use std::f64::consts::TAU;
 pub(super) enum Quantity {
     Frequency,
     Time,
-    Storage(Deformation),
-    Loss(Deformation),
-    Relaxation(Deformation),
+    Storage,
+    Loss,
+    Relaxation,
     Temperature,
     /// Number of the isotherm.
     Set,
-}
-
-/// How the sample was deformed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Deformation {
-    /// E
-    Tension,
-    /// G
-    Shear,
-}
-
-/// The names that stand for a quantity.
-pub(super) fn quantity(name: &str) -> Option<Quantity> {
-    use Deformation::{Shear, Tension};
-    let name = name
-        .replace(['′', '’'], "'")
-        .replace(['″', '”', '"'], "''")
-        .replace([' ', '_', '-'], "");
-    Some(match name.as_str() {
-        "f" | "freq" | "frequency" | "Frequency" | "ω" | "omega" | "w" | "angularfrequency" => {
-            Quantity::Frequency
-        }
-        "t" | "time" | "Time" => Quantity::Time,
-        "E'" | "Estor" | "Estorage" => Quantity::Storage(Tension),
-        "G'" | "Gstor" | "Gstorage" => Quantity::Storage(Shear),
-        "E''" | "Eloss" => Quantity::Loss(Tension),
-        "G''" | "Gloss" => Quantity::Loss(Shear),
-        "E" | "E(t)" | "Erelax" => Quantity::Relaxation(Tension),
-        "G" | "G(t)" | "Grelax" => Quantity::Relaxation(Shear),
-        "T" | "temperature" | "Temperature" => Quantity::Temperature,
-        "set" | "Set" => Quantity::Set,
-        _ => return None,
-    })
 }
 
 /// All names, for messages.
 pub(super) const NAMES: &str =
     "f or ω with E' and E'' (or G' and G''), or t with E_relax (or G_relax), and perhaps T and Set";
 
+const ALL: [Quantity; 7] = [
+    Quantity::Frequency,
+    Quantity::Time,
+    Quantity::Storage,
+    Quantity::Loss,
+    Quantity::Relaxation,
+    Quantity::Temperature,
+    Quantity::Set,
+];
+
 impl Quantity {
-    /// The factor that turns a number in this unit into SI (temperatures stay as they are), when the quantity has the
-    /// unit.
-    pub(super) fn factor(self, unit: &str) -> Option<f64> {
-        let units: &[(&str, f64)] = match self {
-            Self::Frequency => &FREQUENCIES,
-            Self::Time => &TIMES,
-            Self::Storage(_) | Self::Loss(_) | Self::Relaxation(_) => &MODULI,
-            Self::Temperature => &TEMPERATURES,
-            Self::Set => &[("-", 1.0), ("", 1.0), ("1", 1.0)],
-        };
-        let known = units.iter().find(|(name, _)| *name == unit);
-        known.map(|(_, factor)| *factor)
+    /// The quantity that a name stands for; moduli in tension begin with E, and those in shear with G.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        let name = name
+            .replace(['′', '’'], "'")
+            .replace(['″', '”', '"'], "''")
+            .replace([' ', '_', '-'], "");
+        let is_named = |quantity: &Self| quantity.names().split(' ').any(|known| known == name);
+        ALL.into_iter().find(is_named)
     }
 
-    /// The units that a quantity has, for messages.
-    pub(super) const fn units(self) -> &'static str {
+    const fn names(self) -> &'static str {
         match self {
-            Self::Frequency => "Hz, mHz, kHz or rad/s",
-            Self::Time => "s, ms, min or h",
-            Self::Storage(_) | Self::Loss(_) | Self::Relaxation(_) => "Pa, kPa, MPa or GPa",
-            Self::Temperature => "C or K",
-            Self::Set => "-",
+            Self::Frequency => "f freq frequency Frequency ω omega w angularfrequency",
+            Self::Time => "t time Time",
+            Self::Storage => "E' Estor Estorage G' Gstor Gstorage",
+            Self::Loss => "E'' Eloss G'' Gloss",
+            Self::Relaxation => "E E(t) Erelax G G(t) Grelax",
+            Self::Temperature => "T temperature Temperature",
+            Self::Set => "set Set",
+        }
+    }
+
+    /// The usual names, for messages.
+    pub(super) const fn usual(self) -> &'static str {
+        match self {
+            Self::Frequency => "f or ω",
+            Self::Time => "t",
+            Self::Storage => "E' or G'",
+            Self::Loss => "E'' or G''",
+            Self::Relaxation => "E_relax or G_relax",
+            Self::Temperature => "T",
+            Self::Set => "Set",
+        }
+    }
+
+    /// Units and the factors that turn a number into SI; temperatures stay as they are.
+    pub(super) const fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Self::Frequency => &FREQUENCIES,
+            Self::Time => &[("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0)],
+            Self::Storage | Self::Loss | Self::Relaxation => &MODULI,
+            Self::Temperature => &[("C", 1.0), ("°C", 1.0), ("K", 1.0)],
+            Self::Set => &[("-", 1.0), ("", 1.0), ("1", 1.0)],
         }
     }
 }
@@ -86,6 +84,4 @@ const FREQUENCIES: [(&str, f64); 5] = [
     ("rad/s", 1.0),
     ("1/s", 1.0),
 ];
-const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e-3), ("min", 60.0), ("h", 3600.0)];
 const MODULI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
-const TEMPERATURES: [(&str, f64); 3] = [("C", 1.0), ("°C", 1.0), ("K", 1.0)];

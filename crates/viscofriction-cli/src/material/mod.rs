@@ -13,15 +13,14 @@ use anyhow::Result;
 use clap::Args;
 use rheology::RheologyError;
 use rheology::fit::{
-    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, RelaxationPoint, identify,
+    Control, Ending, Identification, IdentifyOptions, MasterCurve, MeasuredCurve, ModulusPoint,
+    RelaxationPoint, identify,
 };
-
 use viscofriction::WrongInput;
 
 use crate::input::read_input;
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
-use shifting::Shifted;
 use table::{Measurements, Table};
 
 /// Arguments of the command.
@@ -80,36 +79,53 @@ pub(crate) struct FitMaterial {
 
 /// Reads the table, fits it, and writes the material and its picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
+    let contents = read_input(&options.data)?;
     let shear_per_tension = shear_per_tension(options.poisson_ratio)?;
-    let table = Table::read(
-        &options.data,
-        &read_input(&options.data)?,
-        shear_per_tension,
-    )?;
-    let shifted = shifting::shifted(&table, options)?;
-    let curve = curve(&table, &shifted, &options.data)?;
+    let table = Table::read(&options.data, &contents, shear_per_tension)?;
+    let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
+    let (points, master) = joined(table, options).map_err(wrong)?;
+    let curve = points.curve().map_err(wrong)?;
     let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &output_files::NAMES));
+    let out = out.map(|out| OutputFolder::new(out, options.overwrite, output_files::NAMES));
     let out = out.transpose()?;
     let bar = progress::spinner(format!("fitting {}", options.data.display()));
     let found = identify(&curve, &options.identification()).map_err(wrong_option);
-    if !found.as_ref().is_ok_and(swapped::is_good) {
-        swapped::check(&table, &shifted, options.ending())?;
+    if let Points::Oscillation(points) = &points
+        && !found.as_ref().is_ok_and(swapped::is_good)
+    {
+        swapped::check(points, options.ending())?;
     }
     bar.finish_and_clear();
-    let found = found?;
     let fitted = Fitted {
         options,
-        shifted,
-        found,
+        points,
+        master,
+        found: found?,
     };
-    match &out {
-        Some(out) => {
-            output_files::write(&table, &fitted, out)?;
-            print_line(&fitted.summary())?;
-            print_line(&format!("written into {}", out.path().display()))
+    let Some(out) = &out else {
+        return print_text(&output_files::material(&fitted));
+    };
+    output_files::write(&fitted, out)?;
+    print_line(&fitted.summary())?;
+    print_line(&format!("written into {}", out.path().display()))
+}
+
+/// The points of one curve, and of several isotherms their master curve.
+fn joined(
+    table: Table,
+    options: &FitMaterial,
+) -> Result<(Points, Option<MasterCurve>), RheologyError> {
+    match table.measurements {
+        Measurements::Relaxation(points) => Ok((Points::Relaxation(points), None)),
+        Measurements::Oscillation(mut isotherms) if isotherms.len() == 1 => {
+            let points = isotherms.remove(0).points;
+            Ok((Points::Oscillation(points), None))
         }
-        None => print_text(&output_files::material(&fitted)?),
+        Measurements::Oscillation(isotherms) => {
+            let master = shifting::master_curve(&isotherms, table.celsius, options)?;
+            let points = Points::Oscillation(master.points.clone());
+            Ok((points, Some(master)))
+        }
     }
 }
 
@@ -121,8 +137,24 @@ pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput
 /// What the command found.
 struct Fitted<'a> {
     options: &'a FitMaterial,
-    shifted: Option<Shifted>,
+    points: Points,
+    master: Option<MasterCurve>,
     found: Identification,
+}
+
+/// What is fitted.
+enum Points {
+    Oscillation(Vec<ModulusPoint>),
+    Relaxation(Vec<RelaxationPoint>),
+}
+
+impl Points {
+    fn curve(&self) -> Result<MeasuredCurve, RheologyError> {
+        match self {
+            Self::Oscillation(points) => MeasuredCurve::oscillation(points.clone()),
+            Self::Relaxation(points) => MeasuredCurve::relaxation(points.clone()),
+        }
+    }
 }
 
 impl FitMaterial {
@@ -173,23 +205,6 @@ fn shear_per_tension(poisson_ratio: f64) -> Result<f64, WrongInput> {
         )));
     }
     Ok(0.5 / (1.0 + poisson_ratio))
-}
-
-fn curve(table: &Table, shifted: &Option<Shifted>, file: &Path) -> Result<MeasuredCurve> {
-    let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", file.display()));
-    if let Some(shifted) = shifted {
-        return Ok(shifted.master.curve.clone());
-    }
-    match &table.measurements {
-        Measurements::Oscillation(rows) => {
-            let points = rows.iter().map(|row| row.point).collect();
-            Ok(MeasuredCurve::oscillation(points).map_err(wrong)?)
-        }
-        Measurements::Relaxation(rows) => {
-            let points: Vec<RelaxationPoint> = rows.iter().map(|row| row.point).collect();
-            Ok(MeasuredCurve::relaxation(points).map_err(wrong)?)
-        }
-    }
 }
 
 /// An option that the library refuses is the user's; that a fit does not converge is not.

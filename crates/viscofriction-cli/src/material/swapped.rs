@@ -5,9 +5,6 @@ use rheology::fit::{
     Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, identify,
 };
 
-use super::shifting::Shifted;
-use super::table::{Measurements, Table};
-
 /// A larger error of the modulus than this is that of no relaxing material.
 const BAD: f64 = 0.2;
 /// Swapped columns fit so much better; a curve that is only noisy fits neither way.
@@ -19,18 +16,12 @@ pub(super) fn is_good(found: &Identification) -> bool {
 }
 
 /// Refuses moduli that fit a relaxing material when they are swapped, and only then.
-pub(super) fn check(table: &Table, shifted: &Option<Shifted>, ending: Ending) -> Result<()> {
-    let points = match (shifted, &table.measurements) {
-        (Some(shifted), _) => shifted.master.points.clone(),
-        (None, Measurements::Oscillation(rows)) => rows.iter().map(|row| row.point).collect(),
-        (None, Measurements::Relaxation(_)) => return Ok(()),
-    };
+pub(super) fn check(points: &[ModulusPoint], ending: Ending) -> Result<()> {
     let swap = |point: &ModulusPoint| ModulusPoint {
         storage: point.loss,
         loss: point.storage,
         ..*point
     };
-    let swapped = points.iter().map(swap).collect();
     // Whatever number of branches was asked for: a few of them may fit badly on purpose.
     let options = IdentifyOptions {
         ending,
@@ -40,10 +31,11 @@ pub(super) fn check(table: &Table, shifted: &Option<Shifted>, ending: Ending) ->
         let found = identify(&MeasuredCurve::oscillation(points).ok()?, &options).ok()?;
         Some(found.rms_relative_error)
     };
-    let (Some(given), Some(swapped)) = (error(points), error(swapped)) else {
-        return Ok(());
-    };
-    if given > BAD && swapped < given / BETTER {
+    let swapped = points.iter().map(swap).collect();
+    if let Some((given, swapped)) = error(points.to_vec()).zip(error(swapped))
+        && given > BAD
+        && swapped < given / BETTER
+    {
         bail!(
             "storage and loss modulus seem to be swapped: as they are, the best fit is off by {:.0} %, and {:.0} % the \
              other way round; exchange the names of their columns",

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use csv::StringRecord;
-use rheology::fit::{ModulusPoint, RelaxationPoint};
-
-use super::columns::{Deformation, NAMES, Quantity, quantity};
+use rheology::fit::{Isotherm, ModulusPoint, RelaxationPoint};
 use viscofriction::{WrongInput, line_of_record};
+
+use super::columns::{NAMES, Quantity};
 
 /// A whole table, in SI and in shear.
 #[derive(Debug)]
@@ -16,20 +16,10 @@ pub(super) struct Table {
     pub(super) celsius: bool,
 }
 
-/// The rows of a table.
 #[derive(Debug)]
 pub(super) enum Measurements {
-    Oscillation(Vec<Row<ModulusPoint>>),
-    Relaxation(Vec<Row<RelaxationPoint>>),
-}
-
-/// One measurement.
-#[derive(Debug)]
-pub(super) struct Row<P> {
-    pub(super) point: P,
-    pub(super) temperature: Option<f64>,
-    /// Whether it is the first of an isotherm.
-    pub(super) starts_isotherm: bool,
+    Oscillation(Vec<Isotherm>),
+    Relaxation(Vec<RelaxationPoint>),
 }
 
 /// Within an isotherm the temperature may drift by this much, \[K].
@@ -42,215 +32,196 @@ impl Table {
         contents: &[u8],
         shear_per_tension: f64,
     ) -> Result<Self, WrongInput> {
-        let wrong = |error: csv::Error| {
-            let line = line_of_record(contents, error.position());
-            WrongInput(format!("{}, line {line}: {error}", file.display()))
+        let wrong = |line: usize, problem: &str| {
+            WrongInput(format!("{}, line {line}: {problem}", file.display()))
         };
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .trim(csv::Trim::All)
             .from_reader(contents);
-        let records: Vec<StringRecord> =
-            reader.records().collect::<Result<_, _>>().map_err(wrong)?;
-        let head = Head::read((file, contents), &records, shear_per_tension)?;
-        let rows = records.get(2..).unwrap_or_default();
-        if rows.len() < 2 {
-            return Err(WrongInput(format!(
-                "{}, line {}: at least 2 measurements are needed after the lines of names and units, but there are {}",
-                file.display(),
-                records.last().map_or(1, |last| head.line(last)),
-                rows.len()
-            )));
+        let records: Result<Vec<StringRecord>, csv::Error> = reader.records().collect();
+        let records = records.map_err(|error| {
+            let line = line_of_record(contents, error.position());
+            wrong(line, &error.to_string())
+        })?;
+        let [names, units, rows @ ..] = &records[..] else {
+            return Err(wrong(1, "a line of names and a line of units are needed"));
+        };
+        let mut head = Head {
+            file,
+            contents,
+            names,
+            columns: Vec::new(),
+        };
+        for (place, name) in names.iter().enumerate() {
+            if let Some(quantity) = Quantity::of(name) {
+                let column = head.column(quantity, place, units, shear_per_tension)?;
+                head.columns.push(column);
+            }
         }
-        head.rows(rows)
+        if rows.len() < 2 {
+            let n_rows = rows.len();
+            return Err(wrong(
+                records.last().map_or(1, |last| head.line(last)),
+                &format!(
+                    "at least 2 measurements are needed after the lines of names and units, but there are {n_rows}"
+                ),
+            ));
+        }
+        let is_celsius = |column: &Column| units.get(column.place) != Some("K");
+        Ok(Self {
+            celsius: head.find(Quantity::Temperature).is_some_and(is_celsius),
+            measurements: head.measurements(rows)?,
+        })
     }
 }
 
-/// Where the quantities stand, and their factors to SI.
+/// Where the quantities stand.
 struct Head<'a> {
     file: &'a Path,
     contents: &'a [u8],
     names: &'a StringRecord,
     columns: Vec<Column>,
-    celsius: bool,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 struct Column {
     quantity: Quantity,
+    is_tension: bool,
     place: usize,
+    /// To SI and to shear.
     factor: f64,
 }
 
-impl<'a> Head<'a> {
-    fn read(
-        (file, contents): (&'a Path, &'a [u8]),
-        records: &'a [StringRecord],
-        shear_per_tension: f64,
-    ) -> Result<Self, WrongInput> {
-        let (Some(names), Some(units)) = (records.first(), records.get(1)) else {
-            return Err(WrongInput(format!(
-                "{}, line 1: a line of names and a line of units are needed",
-                file.display()
-            )));
-        };
-        let mut head = Self {
-            file,
-            contents,
-            names,
-            columns: Vec::new(),
-            celsius: false,
-        };
-        for (place, name) in names.iter().enumerate() {
-            if let Some(quantity) = quantity(name) {
-                head.add(quantity, place, units)?;
-            }
-        }
-        for column in &mut head.columns {
-            if column.quantity.deformation() == Some(Deformation::Tension) {
-                column.factor *= shear_per_tension;
-            }
-        }
-        Ok(head)
-    }
+/// Rows of one temperature.
+struct Group {
+    line: usize,
+    temperatures: Vec<f64>,
+    set: Option<f64>,
+    /// Of each row what is increased, and the moduli.
+    rows: Vec<Vec<f64>>,
+}
 
-    fn add(
-        &mut self,
+impl Head<'_> {
+    fn column(
+        &self,
         quantity: Quantity,
         place: usize,
         units: &StringRecord,
-    ) -> Result<(), WrongInput> {
-        if self
-            .columns
-            .iter()
-            .any(|column| column.quantity == quantity)
-        {
-            return Err(self.wrong(self.names, place, "a quantity once", &self.names[place]));
+        shear_per_tension: f64,
+    ) -> Result<Column, WrongInput> {
+        let name = &self.names[place];
+        if self.find(quantity).is_some() {
+            let once = "a quantity once, in tension (E) or in shear (G)";
+            return Err(self.wrong(self.names, place, once));
         }
         let unit = units.get(place).unwrap_or_default();
-        let Some(factor) = quantity.factor(unit) else {
-            let expected = format!("the unit of {}: {}", &self.names[place], quantity.units());
-            return Err(self.wrong(units, place, &expected, unit));
+        let Some((_, factor)) = quantity.units().iter().find(|(known, _)| *known == unit) else {
+            let known: Vec<&str> = quantity.units().iter().map(|(unit, _)| *unit).collect();
+            let expected = format!("the unit of {name}: {}", known.join(", "));
+            return Err(self.wrong(units, place, &expected));
         };
-        self.celsius |= quantity == Quantity::Temperature && unit != "K";
-        self.columns.push(Column {
+        let is_tension = name.starts_with('E');
+        Ok(Column {
             quantity,
+            is_tension,
             place,
-            factor,
-        });
-        Ok(())
-    }
-
-    fn rows(&self, records: &[StringRecord]) -> Result<Table, WrongInput> {
-        let measurements = if self.find(Quantity::Time).is_some() {
-            let time = self.needed(Quantity::Time)?;
-            let modulus = self.one_of(Quantity::Relaxation)?;
-            let point = |record: &StringRecord| {
-                Ok(RelaxationPoint {
-                    time: self.positive(record, time)?,
-                    modulus: self.positive(record, modulus)?,
-                })
-            };
-            Measurements::Relaxation(self.isotherms(records, time, point)?)
-        } else {
-            let frequency = self.needed(Quantity::Frequency)?;
-            let storage = self.one_of(Quantity::Storage)?;
-            let loss = self.one_of(Quantity::Loss)?;
-            self.same_deformation(storage, loss)?;
-            let point = |record: &StringRecord| {
-                Ok(ModulusPoint {
-                    angular_frequency: self.positive(record, frequency)?,
-                    storage: self.positive(record, storage)?,
-                    loss: self.positive(record, loss)?,
-                })
-            };
-            Measurements::Oscillation(self.isotherms(records, frequency, point)?)
-        };
-        Ok(Table {
-            measurements,
-            celsius: self.celsius,
+            factor: factor * if is_tension { shear_per_tension } else { 1.0 },
         })
     }
 
-    /// Reads all rows and finds where a new isotherm begins; within one the `running` quantity must increase.
-    fn isotherms<P>(
+    fn measurements(&self, records: &[StringRecord]) -> Result<Measurements, WrongInput> {
+        if self.find(Quantity::Time).is_some() {
+            let groups = self.groups(records, &[Quantity::Time, Quantity::Relaxation])?;
+            if let Some(second) = groups.get(1) {
+                return Err(WrongInput(format!(
+                    "{}, line {}: relaxation at several temperatures is not shifted: give a master curve",
+                    self.file.display(),
+                    second.line
+                )));
+            }
+            let point = |row: Vec<f64>| RelaxationPoint {
+                time: row[0],
+                modulus: row[1],
+            };
+            let rows = groups.into_iter().flat_map(|group| group.rows);
+            return Ok(Measurements::Relaxation(rows.map(point).collect()));
+        }
+        let quantities = [Quantity::Frequency, Quantity::Storage, Quantity::Loss];
+        let [_, storage, loss] = quantities.map(|quantity| self.find(quantity));
+        if let (Some(storage), Some(loss)) = (storage, loss)
+            && storage.is_tension != loss.is_tension
+        {
+            let expected = format!("a loss modulus to go with {}", &self.names[storage.place]);
+            return Err(self.wrong(self.names, loss.place, &expected));
+        }
+        let point = |row: Vec<f64>| ModulusPoint {
+            angular_frequency: row[0],
+            storage: row[1],
+            loss: row[2],
+        };
+        let isotherm = |group: Group| Isotherm {
+            temperature: group.temperatures.iter().sum::<f64>() / group.rows.len() as f64,
+            points: group.rows.into_iter().map(point).collect(),
+        };
+        let groups = self.groups(records, &quantities)?;
+        Ok(Measurements::Oscillation(
+            groups.into_iter().map(isotherm).collect(),
+        ))
+    }
+
+    /// The numbers of these quantities in all rows, by isotherms; within one the first quantity must increase.
+    fn groups(
         &self,
         records: &[StringRecord],
-        running: Column,
-        point: impl Fn(&StringRecord) -> Result<P, WrongInput>,
-    ) -> Result<Vec<Row<P>>, WrongInput> {
-        let mut rows = Vec::with_capacity(records.len());
-        let mut last: Option<Last> = None;
-        for record in records {
-            let point = point(record)?;
-            let now = Last {
-                value: self.positive(record, running)?,
-                temperature: self.optional(record, Quantity::Temperature)?,
-                set: self.optional(record, Quantity::Set)?,
+        quantities: &[Quantity],
+    ) -> Result<Vec<Group>, WrongInput> {
+        let needed = |quantity: &Quantity| {
+            let missing = || {
+                let what = quantity.usual();
+                WrongInput(format!(
+                    "{}, line 1: there must be a column {what}; the names are {NAMES}",
+                    self.file.display()
+                ))
             };
-            let starts_isotherm = last
-                .as_ref()
-                .is_none_or(|last| now.starts_isotherm_after(last));
-            if let Some(last) = last
-                .as_ref()
-                .filter(|last| !starts_isotherm && now.value <= last.value)
-            {
-                let before = last.value / running.factor;
-                let expected = format!("more than in the line before, {before}");
-                return Err(self.wrong(record, running.place, &expected, &record[running.place]));
+            self.find(*quantity).ok_or_else(missing)
+        };
+        let columns: Vec<&Column> = quantities.iter().map(needed).collect::<Result<_, _>>()?;
+        let mut groups: Vec<Group> = Vec::new();
+        for record in records {
+            let numbers = columns.iter().map(|column| self.positive(record, column));
+            let row: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+            let temperature = self.optional(record, Quantity::Temperature)?;
+            let set = self.optional(record, Quantity::Set)?;
+            match groups.last_mut() {
+                Some(group) if group.has(temperature, set) => {
+                    let before = group.rows.last().map_or(0.0, |last| last[0]);
+                    if row[0] <= before {
+                        let before = before / columns[0].factor;
+                        let expected = format!("more than in the line before, {before}");
+                        return Err(self.wrong(record, columns[0].place, &expected));
+                    }
+                    group.temperatures.extend(temperature);
+                    group.rows.push(row);
+                }
+                _ => groups.push(Group {
+                    line: self.line(record),
+                    temperatures: temperature.into_iter().collect(),
+                    set,
+                    rows: vec![row],
+                }),
             }
-            rows.push(Row {
-                point,
-                temperature: now.temperature,
-                starts_isotherm,
-            });
-            let first_temperature = last
-                .filter(|_| !starts_isotherm)
-                .and_then(|last| last.temperature);
-            last = Some(Last {
-                temperature: first_temperature.or(now.temperature),
-                ..now
-            });
         }
-        Ok(rows)
+        Ok(groups)
     }
 
-    fn find(&self, quantity: Quantity) -> Option<Column> {
-        self.columns
-            .iter()
-            .copied()
-            .find(|column| column.quantity == quantity)
+    fn find(&self, quantity: Quantity) -> Option<&Column> {
+        let mut columns = self.columns.iter();
+        columns.find(|column| column.quantity == quantity)
     }
 
-    fn needed(&self, quantity: Quantity) -> Result<Column, WrongInput> {
-        self.find(quantity).ok_or_else(|| self.missing(quantity))
-    }
-
-    /// The column of a modulus, in tension or in shear.
-    fn one_of(&self, quantity: fn(Deformation) -> Quantity) -> Result<Column, WrongInput> {
-        let both = [Deformation::Tension, Deformation::Shear].map(|d| self.find(quantity(d)));
-        match both {
-            [Some(tension), Some(_)] => Err(self.wrong(
-                self.names,
-                tension.place,
-                "either moduli in tension (E) or in shear (G)",
-                &self.names[tension.place],
-            )),
-            [Some(column), None] | [None, Some(column)] => Ok(column),
-            [None, None] => Err(self.missing(quantity(Deformation::Shear))),
-        }
-    }
-
-    fn same_deformation(&self, storage: Column, loss: Column) -> Result<(), WrongInput> {
-        if storage.quantity.deformation() == loss.quantity.deformation() {
-            return Ok(());
-        }
-        let expected = format!("a loss modulus to go with {}", &self.names[storage.place]);
-        Err(self.wrong(self.names, loss.place, &expected, &self.names[loss.place]))
-    }
-
-    fn positive(&self, record: &StringRecord, column: Column) -> Result<f64, WrongInput> {
+    fn positive(&self, record: &StringRecord, column: &Column) -> Result<f64, WrongInput> {
         let number = self.number(record, column)?;
         let in_si = number * column.factor;
         if in_si > 0.0 && in_si.is_finite() {
@@ -261,7 +232,7 @@ impl<'a> Head<'a> {
         } else {
             "a number greater than 0"
         };
-        Err(self.wrong(record, column.place, expected, &record[column.place]))
+        Err(self.wrong(record, column.place, expected))
     }
 
     fn optional(
@@ -269,41 +240,24 @@ impl<'a> Head<'a> {
         record: &StringRecord,
         quantity: Quantity,
     ) -> Result<Option<f64>, WrongInput> {
-        self.find(quantity)
-            .map(|column| self.number(record, column))
-            .transpose()
+        let column = self.find(quantity);
+        column.map(|column| self.number(record, column)).transpose()
     }
 
-    fn number(&self, record: &StringRecord, column: Column) -> Result<f64, WrongInput> {
-        let cell = record.get(column.place).unwrap_or_default();
-        let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-        number.ok_or_else(|| self.wrong(record, column.place, "a finite number", cell))
+    fn number(&self, record: &StringRecord, column: &Column) -> Result<f64, WrongInput> {
+        let number = record.get(column.place).and_then(|cell| cell.parse().ok());
+        let number = number.filter(|number: &f64| number.is_finite());
+        number.ok_or_else(|| self.wrong(record, column.place, "a finite number"))
     }
 
-    fn missing(&self, quantity: Quantity) -> WrongInput {
-        let what = match quantity {
-            Quantity::Frequency => "f or ω",
-            Quantity::Storage(_) => "E' or G'",
-            Quantity::Loss(_) => "E'' or G''",
-            Quantity::Relaxation(_) => "E_relax or G_relax",
-            Quantity::Time => "t",
-            Quantity::Temperature => "T",
-            Quantity::Set => "Set",
-        };
-        WrongInput(format!(
-            "{}, line 1: there must be a column {what}; the names are {NAMES}",
-            self.file.display()
-        ))
-    }
-
-    fn wrong(&self, record: &StringRecord, place: usize, expected: &str, got: &str) -> WrongInput {
+    fn wrong(&self, record: &StringRecord, place: usize, expected: &str) -> WrongInput {
         let line = self.line(record);
         let name = self.names.get(place).unwrap_or_default();
         WrongInput(format!(
             "{}, line {line}, column {} ({name}): expected {expected}, but found '{}'",
             self.file.display(),
             place + 1,
-            shown(got)
+            shown(record.get(place).unwrap_or_default())
         ))
     }
 
@@ -312,42 +266,22 @@ impl<'a> Head<'a> {
     }
 }
 
+impl Group {
+    /// Whether a row of this temperature and number is of the isotherm.
+    fn has(&self, temperature: Option<f64>, set: Option<f64>) -> bool {
+        match (set, self.set, temperature, self.temperatures.first()) {
+            (Some(set), Some(own), ..) => set.total_cmp(&own).is_eq(),
+            (.., Some(temperature), Some(first)) => (temperature - first).abs() <= DRIFT,
+            _ => true,
+        }
+    }
+}
+
 /// A cell as a part of one line; a quote that is never closed makes the rest of the file one cell.
 fn shown(cell: &str) -> String {
-    match cell
-        .char_indices()
-        .find(|(at, character)| *at >= 40 || character.is_control())
-    {
+    let is_end = |(at, character): &(usize, char)| *at >= 40 || character.is_control();
+    match cell.char_indices().find(is_end) {
         Some((end, _)) => format!("{}…", &cell[..end]),
         None => cell.to_owned(),
-    }
-}
-
-/// What the rows so far say about the isotherm that the next one may belong to.
-struct Last {
-    value: f64,
-    /// Of the first row of the isotherm.
-    temperature: Option<f64>,
-    set: Option<f64>,
-}
-
-impl Last {
-    fn starts_isotherm_after(&self, last: &Self) -> bool {
-        match (self.set, last.set, self.temperature, last.temperature) {
-            (Some(set), Some(before), ..) => set.total_cmp(&before).is_ne(),
-            (.., Some(temperature), Some(first)) => (temperature - first).abs() > DRIFT,
-            _ => false,
-        }
-    }
-}
-
-impl Quantity {
-    const fn deformation(self) -> Option<Deformation> {
-        match self {
-            Self::Storage(deformation)
-            | Self::Loss(deformation)
-            | Self::Relaxation(deformation) => Some(deformation),
-            Self::Frequency | Self::Time | Self::Temperature | Self::Set => None,
-        }
     }
 }

@@ -2,32 +2,16 @@
 
 use anyhow::Result;
 use viscofriction::npy::to_npy;
-use viscofriction::solve::Answer;
+use viscofriction::solve::{Answer, HistoryRow};
 
 use super::{Timed, pictures};
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
-pub(super) const NAMES: [&str; 18] = [
-    "result.json",
-    "pressure.csv",
-    "pressure.npy",
-    "pressure.svg",
-    "pressure.png",
-    "line_load.csv",
-    "line_load.npy",
-    "line_load.svg",
-    "line_load.png",
-    "line_pressure.csv",
-    "line_pressure.npy",
-    "line_pressure.svg",
-    "line_pressure.png",
-    "pressure_x.npy",
-    "pressure_y.npy",
-    "history.csv",
-    "history.svg",
-    "history.png",
-];
+pub(super) const NAMES: &str = "result.json history.csv history.svg history.png \
+    pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
+    line_load.csv line_load.npy line_load.svg line_load.png \
+    line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
 
 /// Writes what the answer has; result.json comes last: with it the others are there.
 pub(super) fn write(timed: &Timed<'_>, out: &OutputFolder) -> Result<()> {
@@ -44,57 +28,37 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
         return Ok(());
     };
     let [rows, columns] = field.grid.shape();
-    let place =
-        |axis: usize, index: usize| field.origin[axis] + index as f64 * field.grid.spacing()[axis];
-    let row = |(index, pressure): (usize, &f64)| {
-        [
-            place(0, index / columns),
-            place(1, index % columns),
-            *pressure,
-        ]
-    };
-    let table = field.pressure.iter().enumerate().map(row);
+    let [x, y] = [0, 1].map(|axis| {
+        let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
+        let place = |index: usize| origin + index as f64 * spacing;
+        let places = (0..field.grid.shape()[axis]).map(place);
+        places.collect::<Vec<f64>>()
+    });
+    let pressures = field.pressure.iter().enumerate();
+    let table =
+        pressures.map(|(index, pressure)| [x[index / columns], y[index % columns], *pressure]);
     let names = ["x_m", "y_m", "pressure_pa"];
     out.write("pressure.csv", &to_csv(&names, table)?)?;
-    let pressure = to_npy(&field.pressure, &[rows, columns]);
-    out.write("pressure.npy", &pressure)?;
-    for (axis, (name, length)) in [("pressure_x.npy", rows), ("pressure_y.npy", columns)]
-        .into_iter()
-        .enumerate()
-    {
-        let places: Vec<f64> = (0..length).map(|index| place(axis, index)).collect();
-        out.write(name, &to_npy(&places, &[length]))?;
-    }
+    out.write("pressure.npy", &to_npy(&field.pressure, &[rows, columns]))?;
+    out.write("pressure_x.npy", &to_npy(&x, &[rows]))?;
+    out.write("pressure_y.npy", &to_npy(&y, &[columns]))?;
     out.draw("pressure", &pictures::pressure(field)?)
 }
 
-/// What is known along a line: the name of its files, and its quantity in tables and on axes.
+/// What is known along a line: the name of its files, its column in tables, and its label on axes.
 fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
-    let fields = &answer.fields;
-    for (name, column, label, points) in [
-        (
-            "line_load",
-            "load_n_per_m",
-            "load per length [N/m]",
-            &fields.line_load,
-        ),
-        (
-            "line_pressure",
-            "pressure_pa",
-            "pressure [Pa]",
-            &fields.line_pressure,
-        ),
-    ] {
+    let (load, pressure) = (&answer.fields.line_load, &answer.fields.line_pressure);
+    let load = ("line_load", "load_n_per_m", "load per length [N/m]", load);
+    let pressure = ("line_pressure", "pressure_pa", "pressure [Pa]", pressure);
+    for (name, column, label, points) in [load, pressure] {
         if points.is_empty() {
             continue;
         }
         out.write(&format!("{name}.csv"), &to_csv(&["x_m", column], points)?)?;
         let array = to_npy(&points.concat(), &[points.len(), 2]);
         out.write(&format!("{name}.npy"), &array)?;
-        out.draw(
-            name,
-            &pictures::curve("position x [m]", label, points.clone()),
-        )?;
+        let figure = pictures::curve("position x [m]", label, points.clone());
+        out.draw(name, &figure)?;
     }
     Ok(())
 }
@@ -105,5 +69,8 @@ fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
         return Ok(());
     }
     out.write("history.csv", &to_csv(&[], rows)?)?;
-    out.draw("history", &pictures::history(rows))
+    let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
+    let points = rows.iter().map(point).collect();
+    let figure = pictures::curve("sliding distance [m]", "friction coefficient", points);
+    out.draw("history", &figure)
 }

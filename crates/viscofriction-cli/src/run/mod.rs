@@ -3,7 +3,6 @@
 mod explain;
 mod files;
 mod pictures;
-mod savings;
 mod table;
 
 use std::path::PathBuf;
@@ -92,7 +91,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let (problem, method) = problem_of(&source, options.method.map(Method::from), read_input)?;
     let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, options.overwrite, &files::NAMES));
+    let out = out.map(|out| OutputFolder::new(out, options.overwrite, files::NAMES));
     let out = out.transpose()?;
     let bar = progress::spinner(format!("{} by {}", source.path().display(), method.name()));
     let started = Instant::now();

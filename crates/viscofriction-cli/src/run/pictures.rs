@@ -2,7 +2,6 @@
 
 use anyhow::{Context, Result};
 use viscofriction::PressureField;
-use viscofriction::solve::HistoryRow;
 use viscofriction_plot::{
     Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Proportions, Series,
 };
@@ -16,10 +15,10 @@ pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
         Axis::linear(label, [origin - 0.5 * spacing, last])
     };
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
-    let lowest = loaded.clone().copied().reduce(f64::min);
-    let highest = loaded.copied().reduce(f64::max);
-    let range = lowest.zip(highest).context("nothing is loaded")?;
-    let [lowest, highest] = [range.0.log10(), range.1.log10()];
+    let logarithms = loaded.map(|pressure| pressure.log10());
+    let lowest = logarithms.clone().reduce(f64::min);
+    let highest = logarithms.reduce(f64::max);
+    let (lowest, highest) = lowest.zip(highest).context("nothing is loaded")?;
     // The field is stored with y fastest, a map with x fastest.
     let value = |index: usize| {
         let pressure = field.pressure[(index % rows) * columns + index / rows];
@@ -38,16 +37,6 @@ pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
         overlays: Vec::new(),
         proportions: Proportions::True,
     }))
-}
-
-/// The friction coefficient from first touch on.
-pub(super) fn history(rows: &[HistoryRow]) -> Figure {
-    let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
-    curve(
-        "sliding distance [m]",
-        "friction coefficient",
-        rows.iter().map(point).collect(),
-    )
 }
 
 /// One quantity over another.

@@ -5,11 +5,11 @@ use viscofriction::scene::Model;
 use viscofriction::solve::Answer;
 use viscofriction::{ErrorParts, Estimate};
 
+use crate::output::markdown;
+
 /// One row per quantity, with its error and unit.
 pub(super) fn table(answer: &Answer) -> Table {
-    let mut table = Table::new();
-    table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(["quantity", "value", "error", "unit"]);
+    let mut table = markdown(&["quantity", "value", "error", "unit"]);
     let [force, area] = if answer.is_per_length {
         ["N/m", "m²/m"]
     } else {

@@ -7,38 +7,33 @@ use anyhow::{Result, bail};
 use viscofriction::WrongInput;
 use viscofriction::sweep::Row;
 
-use super::file::{RowTable, read};
+use super::file::RowTable;
 use super::picture::PictureFiles;
 use super::wrong_row;
+use crate::input::read_input;
 use crate::output::{OutputFile, print_text, say};
 
 /// Joins files of one sweep, in the order of the points, and says which points none of them has.
 pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> Result<()> {
-    let pictures = out
-        .map(|out| PictureFiles::new(out, overwrite))
-        .transpose()?;
-    let out = out.map(|out| OutputFile::new(out, overwrite)).transpose()?;
+    let files = out.map(|out| {
+        let pictures = PictureFiles::new(out, overwrite)?;
+        Ok::<_, WrongInput>((OutputFile::new(out, overwrite)?, pictures))
+    });
+    let files = files.transpose()?;
     let table = joined(paths)?;
-    match (&out, &pictures) {
-        (Some(out), Some(pictures)) => {
-            out.write(table.text()?.as_bytes())?;
-            pictures.draw(&table)?;
-            let n_rows = table.rows.len();
-            say(&format!("{n_rows} points in {}", out.path().display()));
-        }
-        _ => print_text(&table.text()?)?,
+    if let Some((out, pictures)) = files {
+        out.write(table.text()?.as_bytes())?;
+        pictures.draw(&table)?;
+        let n_rows = table.rows.len();
+        say(&format!("{n_rows} points in {}", out.path().display()));
+    } else {
+        print_text(&table.text()?)?;
     }
     let points = table.rows.first();
     let points = points.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
-    let missing: Vec<String> = (0..points.unwrap_or(0))
-        .filter(|point| {
-            table
-                .rows
-                .binary_search_by_key(point, |row| row.point)
-                .is_err()
-        })
-        .map(|point| (point + 1).to_string())
-        .collect();
+    let has = |point: usize| table.rows.binary_search_by_key(&point, |row| row.point);
+    let missing = (0..points.unwrap_or(0)).filter(|point| has(*point).is_err());
+    let missing: Vec<String> = missing.map(|point| (point + 1).to_string()).collect();
     if !missing.is_empty() {
         bail!("no file has the points {}", missing.join(", "));
     }
@@ -49,18 +44,17 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
 fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     let mut header = Vec::new();
-    let mut sweep: Option<String> = None;
     for path in paths {
-        let table = read(path)?;
+        let table = RowTable::new(path, &read_input(path)?)?;
         if header.is_empty() {
-            header.clone_from(&table.header);
-        }
-        if table.header != header {
+            header = table.header;
+        } else if table.header != header {
             let problem = "the columns are not those of the first file";
             return Err(wrong_row(path, 1, problem));
         }
         for (index, row) in table.rows.into_iter().enumerate() {
-            let same = *sweep.get_or_insert_with(|| row.fields[0].clone()) == row.fields[0];
+            let first = rows.values().next();
+            let same = first.is_none_or(|first| first.fields[0] == row.fields[0]);
             let other = rows.get(&row.point).is_some_and(|known| *known != row);
             if !same || other {
                 let problem = "the row is of another sweep than the first file";
@@ -69,8 +63,6 @@ fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
             rows.insert(row.point, row);
         }
     }
-    Ok(RowTable {
-        header,
-        rows: rows.into_values().collect(),
-    })
+    let rows = rows.into_values().collect();
+    Ok(RowTable { header, rows })
 }

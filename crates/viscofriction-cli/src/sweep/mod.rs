@@ -115,7 +115,8 @@ fn into_file(
             (open()?, pictures)
         }
     };
-    points.retain(|point| !file.has(*point));
+    let there = file.points();
+    points.retain(|point| !there.contains(point));
     compute(plan, &points, threads, |row| file.append(row))?;
     let table = file.finish()?;
     pictures.draw(&table)?;
@@ -166,7 +167,7 @@ fn compute(
 
 /// Checks what would be a file of rows.
 pub(crate) fn check_rows(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
-    file::row_table(file, contents).map(|_| ())
+    file::RowTable::new(file, contents).map(|_| ())
 }
 
 /// Wrong input in a file of rows.

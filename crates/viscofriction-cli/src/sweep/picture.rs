@@ -123,20 +123,21 @@ type Column<'a> = (&'a str, &'a [Option<f64>]);
 fn chart((key, over): Column<'_>, (label, values): Column<'_>, errors: &[Option<f64>]) -> Figure {
     let points = over.iter().zip(values).zip(errors);
     let points = points.filter_map(|((x, y), error)| Some(([(*x)?, (*y)?], error.unwrap_or(0.0))));
-    let (mut points, mut errors): (Vec<[f64; 2]>, Vec<f64>) = points.unzip();
+    let mut points: Vec<([f64; 2], f64)> = points.collect();
+    // Points of shards and of several threads come in any order.
+    points.sort_by(|(one, _), (other, _)| one[0].total_cmp(&other[0]));
+    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = points.into_iter().unzip();
     let ends = points.iter().zip(&errors);
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
     let y = Axis::linear(label, around(ends));
     let places = sorted(points.iter().map(|point| point[0]));
-    let x = match spacing(&places) {
-        Spacing::Factor => Axis::decades(key, places.iter().copied()),
-        Spacing::Step | Spacing::Irregular => Axis::linear(key, ends_of(&places)),
+    let [first, last] = ends_of(&places);
+    let is_wide = first > 0.0 && last / first >= WIDE;
+    let x = if !is_arithmetic(&places) && (is_geometric(&places) || is_wide) {
+        Axis::decades(key, places.iter().copied())
+    } else {
+        Axis::linear(key, [first, last])
     };
-    // Points of shards and of several threads come in any order.
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_by(|one, other| points[*one][0].total_cmp(&points[*other][0]));
-    points = order.iter().map(|index| points[*index]).collect();
-    errors = order.iter().map(|index| errors[*index]).collect();
     let markers = Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue);
     Figure::single(Chart {
         title: None,
@@ -158,8 +159,8 @@ fn map(keys: [&(&str, Vec<Option<f64>>); 2], (label, values): Column<'_>) -> Res
         let place = |axis: usize| {
             let value = keys[axis].1[index]?;
             places[axis]
-                .iter()
-                .position(|other| other.total_cmp(&value).is_eq())
+                .binary_search_by(|other| other.total_cmp(&value))
+                .ok()
         };
         if let Some((column, row)) = place(0).zip(place(1)) {
             field[row * columns + column] = *value;
@@ -188,36 +189,19 @@ fn cells(key: &str, places: &[f64]) -> Result<Axis> {
         bail!("{key} has only one value");
     };
     let steps = (places.len() - 1) as f64;
-    match spacing(places) {
-        Spacing::Step => {
-            let half = 0.5 * (last - first) / steps;
-            Ok(Axis::linear(key, [first - half, last + half]))
-        }
-        Spacing::Factor if is_geometric(places) => {
-            let half = (last / first).powf(0.5 / steps);
-            Ok(Axis::log10(key, [first / half, last * half]))
-        }
-        _ => bail!("the values of {key} are neither an equal step nor an equal factor apart"),
-    }
-}
-
-/// How values follow each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Spacing {
-    Step,
-    Factor,
-    Irregular,
-}
-
-fn spacing(places: &[f64]) -> Spacing {
-    let wide = matches!((places.first(), places.last()), (Some(first), Some(last)) if *first > 0.0 && last / first >= WIDE);
-    if is_equal(places.windows(2).map(|pair| pair[1] - pair[0])) {
-        Spacing::Step
-    } else if is_geometric(places) || wide {
-        Spacing::Factor
+    if is_arithmetic(places) {
+        let half = 0.5 * (last - first) / steps;
+        Ok(Axis::linear(key, [first - half, last + half]))
+    } else if is_geometric(places) {
+        let half = (last / first).powf(0.5 / steps);
+        Ok(Axis::log10(key, [first / half, last * half]))
     } else {
-        Spacing::Irregular
+        bail!("the values of {key} are neither an equal step nor an equal factor apart")
     }
+}
+
+fn is_arithmetic(places: &[f64]) -> bool {
+    is_equal(places.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
 fn is_geometric(places: &[f64]) -> bool {

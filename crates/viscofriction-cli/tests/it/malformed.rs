@@ -167,13 +167,15 @@ f,E',E''\nHz,MPa,MPa\n0,10,1\n2,11,1\n | line 3, column 1 (f) | expected a numbe
 f,E',E''\nHz,MPa,MPa\n1,10,nan\n2,11,1\n | line 3, column 3 (E'') | expected a finite number, but found 'nan'
 f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11\n | line 4, column 3 (E'') | expected a finite number, but found ''
 f,E',E''\nHz,MPa,MPa\n1,ten,1\n2,11,1\n | line 3, column 2 (E') | expected a finite number, but found 'ten'
-f,E',E''\n1,10,1\n2,11,1\n | line 2, column 1 (f) | expected the unit of f: Hz, mHz, kHz or rad/s, but found '1'
-f,E',E''\nHz,MPa,psi\n1,10,1\n2,11,1\n | line 2, column 3 (E'') | expected the unit of E'': Pa, kPa, MPa or GPa, but found 'psi'
+f,E',E''\n1,10,1\n2,11,1\n | line 2, column 1 (f) | expected the unit of f: Hz, mHz, kHz, rad/s, 1/s, but found '1'
+f,E',E''\nHz,MPa,psi\n1,10,1\n2,11,1\n | line 2, column 3 (E'') | expected the unit of E'': Pa, kPa, MPa, GPa, but found 'psi'
 f,E''\nHz,MPa\n1,1\n2,1\n | line 1 | there must be a column E' or G'
 f,E'\nHz,MPa\n1,1\n2,1\n | line 1 | there must be a column E'' or G''
 E',E''\nMPa,MPa\n1,1\n2,1\n | line 1 | there must be a column f or ω
 f,E',G''\nHz,MPa,MPa\n1,1,1\n2,1,1\n | line 1, column 3 (G'') | expected a loss modulus to go with E', but found 'G'''
 f,E',E'',E'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n | line 1, column 4 (E') | expected a quantity once
+f,E',E'',G'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n | line 1, column 4 (G') | expected a quantity once, in tension (E) or in shear (G)
+t,E_relax,T\ns,MPa,C\n1,10,20\n2,9,20\n1,8,40\n | line 5 | relaxation at several temperatures is not shifted
 f,E',E''\nHz,MPa,MPa\n1,10,1\n | line 3 | at least 2 measurements are needed after the lines of names and units, but there are 1
  | line 1 | a line of names and a line of units are needed
 "#;
