@@ -29,7 +29,8 @@ pub(crate) struct ElementHeights {
     pub(crate) ceiling: f64,
     anchor: f64,
     anchor_index: usize,
-    spacing: f64,
+    /// Spacing of the elements, \[m].
+    pub(crate) spacing: f64,
 }
 
 impl ElementHeights {

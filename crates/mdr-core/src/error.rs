@@ -20,35 +20,11 @@ pub enum MdrError {
         /// The values it may take.
         allowed: &'static str,
     },
-    /// Two lists that belong together have different lengths.
-    #[error("{first} has {first_length} entries but {second} has {second_length}")]
-    LengthMismatch {
-        /// Name of the first list.
-        first: &'static str,
-        /// Its length.
-        first_length: usize,
-        /// Name of the second list.
-        second: &'static str,
-        /// Its length.
-        second_length: usize,
-    },
     /// A list has no entries.
     #[error("{list} must have at least one entry")]
     Empty {
         /// Name of the list.
         list: &'static str,
-    },
-    /// An element of the chain has a height or displacement that is not a number, or no element has a finite one.
-    #[error("{quantity} of element {element} must be {allowed}, but is {value}")]
-    InvalidElement {
-        /// Name of the quantity.
-        quantity: &'static str,
-        /// Index of the element, counted from 0 at the rear.
-        element: usize,
-        /// The refused value, \[m].
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
     },
     /// The line has no usable height where it is needed: not a number, −∞, or no body at its candidate lowest point.
     #[error("the line must have a height at position {position}, but has {value}")]
@@ -210,6 +186,24 @@ pub enum MdrError {
     /// The material refuses a step in time.
     #[error(transparent)]
     Material(#[from] RheologyError),
+}
+
+/// The fewest elements that the last contact must have.
+const MIN_CONTACT: usize = 3;
+
+/// Refuses a contact of too few elements.
+///
+/// # Errors
+/// [`MdrError::TooCoarse`] for fewer than [`MIN_CONTACT`].
+pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrError> {
+    if n_contact >= MIN_CONTACT {
+        return Ok(());
+    }
+    Err(MdrError::TooCoarse {
+        n_contact,
+        needed: MIN_CONTACT,
+        spacing,
+    })
 }
 
 /// Checks that `value` is finite and greater than zero.

@@ -38,7 +38,6 @@ mod press;
 mod slide;
 mod steady;
 
-pub use contact::{Contact, Element, Instant};
 pub use error::MdrError;
 pub use indent::{
     IndentOptions, IndentRow, IndentStep, Indentation, indent, indent_history, indent_on_grid,

@@ -15,8 +15,7 @@ use rheology::{ExponentialStep, Material};
 use crate::MdrError;
 use crate::chain::Chain;
 use crate::element_heights::ElementHeights;
-use crate::error::{finite, not_negative, positive};
-use crate::slide::MIN_CONTACT;
+use crate::error::{enough_elements, finite, not_negative, positive};
 
 /// Numerics of normal indentation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,23 +93,16 @@ pub fn indent_history(
     positive("spacing", spacing)?;
     check(steps)?;
     let line = elements(line, material, steps, spacing)?;
-    let mut press = Press {
-        chain: Chain::new(material, line.heights.len(), spacing, steps[0].time)?,
-        line,
-        spacing,
-        time: 0.0,
-        depth: 0.0,
-    };
-    let rows = steps.iter().map(|step| press.advance(step));
-    let rows: Vec<IndentRow> = rows.collect::<Result<_, _>>()?;
-    let largest = rows.iter().map(|row| row.n_contact).max().unwrap_or(0);
-    if largest < MIN_CONTACT {
-        return Err(MdrError::TooCoarse {
-            n_contact: largest,
-            needed: MIN_CONTACT,
-            spacing,
-        });
+    let mut chain = Chain::new(line, material, steps[0].time)?;
+    let mut time = 0.0;
+    let mut rows = Vec::with_capacity(steps.len());
+    for step in steps {
+        chain.set_time_step(step.time - time)?;
+        time = step.time;
+        rows.push(advance(&mut chain, step)?);
     }
+    let largest = rows.iter().map(|row| row.n_contact).max().unwrap_or(0);
+    enough_elements(largest, spacing)?;
     Ok(rows)
 }
 
@@ -157,52 +149,20 @@ fn elements(
     Ok(sampled)
 }
 
-/// A line being pressed into a chain.
-struct Press {
-    line: ElementHeights,
-    chain: Chain,
-    spacing: f64,
-    time: f64,
-    depth: f64,
-}
-
-impl Press {
-    fn advance(&mut self, step: &IndentStep) -> Result<IndentRow, MdrError> {
-        self.chain.set_time_step(step.time - self.time)?;
-        self.time = step.time;
-        self.chain.relax();
-        let instant = self.chain.instant(&self.line.heights);
-        let contact = match step.control {
-            Control::NormalForce(force) => instant.solve(force, self.depth),
-            Control::IndentationDepth(depth) => instant.contact_at_depth(depth)?,
-        };
-        self.depth = finite("indentation depth", contact.indentation_depth, self.time)?;
-        let mut loaded = Vec::with_capacity(contact.n_contact);
-        self.chain
-            .load(&self.line.heights, self.depth, |element, _| {
-                loaded.push(element);
-            });
-        self.check_ends(&loaded)?;
-        let ends = loaded.first().zip(loaded.last());
-        Ok(IndentRow {
-            time: self.time,
-            indentation_depth: self.depth,
-            normal_force: contact.normal_force,
-            contact: ends.map(|(rear, front)| [*rear, *front].map(|e| self.line.position(e))),
-            n_contact: loaded.len(),
-            contact_length: loaded.len() as f64 * self.spacing,
-        })
+fn advance(chain: &mut Chain, step: &IndentStep) -> Result<IndentRow, MdrError> {
+    let contact = chain.press(step.control, step.time, |_, _| ())?;
+    let last = chain.line.heights.len() - 1;
+    let mut ends = contact.ends.into_iter().flatten();
+    if let Some(end) = ends.find(|end| *end == 0 || *end == last) {
+        return Err(chain.reaches_edge(end, step.time));
     }
-
-    fn check_ends(&self, loaded: &[usize]) -> Result<(), MdrError> {
-        let last = self.line.heights.len() - 1;
-        match loaded.iter().find(|end| **end == 0 || **end == last) {
-            None => Ok(()),
-            Some(end) => Err(MdrError::ContactReachesEdge {
-                position: self.line.position(*end),
-                indentation_depth: self.depth,
-                time: self.time,
-            }),
-        }
-    }
+    let position = |end| chain.line.position(end);
+    Ok(IndentRow {
+        time: step.time,
+        indentation_depth: contact.indentation_depth,
+        normal_force: contact.normal_force,
+        contact: contact.ends.map(|ends| ends.map(position)),
+        n_contact: contact.n_contact,
+        contact_length: contact.n_contact as f64 * chain.line.spacing,
+    })
 }

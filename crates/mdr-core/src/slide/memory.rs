@@ -16,6 +16,7 @@ use rheology::{
 };
 
 use crate::MdrError;
+use crate::chain::is_elastic;
 
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.
 pub(super) fn ahead(
@@ -24,8 +25,7 @@ pub(super) fn ahead(
 ) -> Result<Option<Compressible>, MdrError> {
     let creep = material.creep();
     let at_once = creep.instantaneous_compliance();
-    let forgets = creep.elements().is_empty() && creep.fluidity() == 0.0;
-    if forgets || at_once == 0.0 {
+    if is_elastic(&creep) || at_once == 0.0 {
         return Ok(None);
     }
     let share = at_once / ExponentialStep::creep(&creep, time_step)?.response();

@@ -10,11 +10,11 @@ use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, refine};
 use rheology::Material;
 
 use crate::MdrError;
+use crate::chain::is_elastic;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
 use memory::ahead;
 pub use on_grid::{SlideOptions, Transient, slide_on_grid};
-pub(crate) use row::MIN_CONTACT;
 pub use row::SlideRow;
 
 /// Elements along the contact after which a march is given up.
@@ -171,7 +171,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         }
         [
             Quantity {
-                rounding: if self.is_elastic() {
+                rounding: if is_elastic(&self.material.creep()) {
                     0.0
                 } else {
                     ROUNDING * slope
@@ -187,11 +187,6 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         ]
     }
 
-    fn is_elastic(&self) -> bool {
-        self.material.relaxation().branches().is_empty()
-            && self.material.relaxation().viscosity() == 0.0
-    }
-
     /// What all resolutions have in common: the step in time, the distance that is left, and a front that no element
     /// resolves.
     fn other_errors(&self, march: &March) -> Result<[ErrorParts; 4], MdrError> {
@@ -202,7 +197,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             truncation: rest.and_then(|errors| errors[quantity]),
             ..ErrorParts::NONE
         });
-        if has_steep_kinks(self.line) && !self.is_elastic() {
+        if has_steep_kinks(self.line) && !is_elastic(&self.material.creep()) {
             let unresolved = march.transient.unresolved;
             parts[0].discretisation = Some(unresolved.friction_coefficient);
             parts[1].discretisation = Some(unresolved.indentation_depth);

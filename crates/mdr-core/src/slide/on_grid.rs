@@ -15,11 +15,11 @@
 use indenters::{RigidLine, SlidingLoad};
 use rheology::{ExponentialStep, Material};
 
-use super::march::{Advance, March, Stepped, Unresolved};
-use super::row::{MIN_CONTACT, SlideRow};
+use super::march::{March, Stepped, Unresolved};
+use super::row::SlideRow;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
-use crate::error::{finite, fraction, positive};
+use crate::error::{enough_elements, finite, fraction, positive};
 use crate::steady::Problem;
 
 /// Numerics of sliding.
@@ -65,13 +65,7 @@ impl SlideOptions {
         let problem = Problem::new(line, material, load.velocity())?;
         let length = problem.contact_span(load.control())?;
         let mut spacing = length / elements.max(1) as f64;
-        if elements < MIN_CONTACT {
-            return Err(MdrError::TooCoarse {
-                n_contact: elements,
-                needed: MIN_CONTACT,
-                spacing,
-            });
-        }
+        enough_elements(elements, spacing)?;
         if let Some(distance) = load.sliding_distance() {
             spacing = distance / (distance / spacing).ceil().max(1.0);
         }
@@ -128,7 +122,7 @@ pub fn slide_on_grid(
     let mut elements = first_elements(line, material, load, options.spacing)?;
     loop {
         let ceiling = elements.ceiling;
-        let march = March::from_first_touch(line, elements, material, load, options.spacing)?;
+        let march = March::from_first_touch(line, elements, material, load)?;
         match march_on(march, load, options)? {
             Some(transient) => return Ok(transient),
             None => elements = ElementHeights::below(line, options.spacing, 2.0 * ceiling)?,
@@ -150,13 +144,13 @@ fn march_on(
         distance + 0.5 * options.spacing
     });
     while march.next_sliding_distance() <= farthest {
-        let Advance::Stepped(step) = march.advance()? else {
+        let Some(step) = march.advance()? else {
             return Ok(None);
         };
         steps.push(step);
         drift = relative_change(&steps);
         if drift <= options.drift_tolerance {
-            check_contact(&step.row, options.spacing)?;
+            enough_elements(step.row.n_contact, options.spacing)?;
             break;
         }
     }
@@ -175,17 +169,6 @@ fn march_on(
             rows,
         }),
     }
-}
-
-fn check_contact(row: &SlideRow, spacing: f64) -> Result<(), MdrError> {
-    if row.n_contact >= MIN_CONTACT {
-        return Ok(());
-    }
-    Err(MdrError::TooCoarse {
-        n_contact: row.n_contact,
-        needed: MIN_CONTACT,
-        spacing,
-    })
 }
 
 /// Elements up to the depth that a flowing material has at least, or that the first step can displace.

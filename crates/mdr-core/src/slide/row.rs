@@ -1,8 +1,5 @@
 //! One step of a march.
 
-/// The fewest elements that the last contact must have.
-pub(crate) const MIN_CONTACT: usize = 3;
-
 /// The state at the end of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

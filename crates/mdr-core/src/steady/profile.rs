@@ -53,11 +53,9 @@ pub(super) struct Profile {
 /// A stretch over which the line only rises or only falls.
 #[derive(Debug)]
 pub(super) struct Piece {
-    /// Heights above the anchor, in depths.
-    heights: Polynomial,
-    degree: usize,
-    /// Positions of the front and the rear end, \[m].
-    ends: [f64; 2],
+    /// The compression it imposes when the lowest point of the line is one depth deep; while the pieces are made, relative to
+    /// that of the anchor.
+    pub(super) segment: Segment,
     /// Size of the first terms that are left out, in depths.
     pub(super) tail: f64,
     /// Whether it is as short as a piece can be and still not resolved.
@@ -71,7 +69,7 @@ impl Profile {
         resolution: Resolution,
     ) -> Result<Self, MdrError> {
         let builder = Builder {
-            height: |x| Ok((checked_height(line, x)? - range.anchor_height) / resolution.depth),
+            drop: |x| Ok((range.anchor_height - checked_height(line, x)?) / resolution.depth),
             interpolation: Interpolation::new(),
             length: range.ends[1] - range.ends[0],
             resolution,
@@ -85,71 +83,63 @@ impl Profile {
         for ends in breaks.windows(2) {
             builder.resolve([ends[0], ends[1]], &mut pieces)?;
         }
-        let ends = |piece: &Piece| start_value(&piece.heights).min(end_value(&piece.heights));
-        let lowest = pieces.iter().map(ends).fold(0.0, f64::min);
+        let ends = |piece: &Piece| start_value(piece.terms()).max(end_value(piece.terms()));
+        let lowest = -pieces.iter().map(ends).fold(0.0, f64::max);
+        for piece in &mut pieces {
+            piece.segment.displacements[0] += lowest + 1.0;
+        }
         Ok(Self {
             pieces,
             lowest,
             interpolation: builder.interpolation,
         })
     }
-}
 
-impl Profile {
     /// From its front to its rear, \[m].
     pub(super) fn length(&self) -> f64 {
         let ends = self.pieces.first().zip(self.pieces.last());
-        ends.map_or(0.0, |(front, rear)| front.ends[0] - rear.ends[1])
+        ends.map_or(0.0, |(front, rear)| {
+            front.segment.ends[0] - rear.segment.ends[1]
+        })
     }
 }
 
 impl Piece {
-    /// The compression it imposes when the lowest point is one depth deep.
-    pub(super) fn segment(&self, lowest: f64) -> Segment {
-        let mut displacements = self.heights.map(|height| -height);
-        displacements[0] += lowest + 1.0;
-        Segment {
-            displacements,
-            degree: self.degree,
-            ends: self.ends,
-            length: self.ends[0] - self.ends[1],
-            rounding: 0.0,
-        }
-    }
-
-    pub(super) fn rear(&self) -> f64 {
-        self.ends[1]
+    fn terms(&self) -> &Polynomial {
+        &self.segment.displacements
     }
 
     fn position(&self, t: f64) -> f64 {
-        let [front, rear] = self.ends;
-        (0.5 * (front * (1.0 - t) + rear * (1.0 + t))).clamp(rear, front)
+        let [front, rear] = self.segment.ends;
+        self.segment.position(t).clamp(rear, front)
     }
 
-    fn length(&self) -> f64 {
-        self.ends[0] - self.ends[1]
+    /// Sum of the moduli of all terms but the mean, in depths.
+    fn rise(&self) -> f64 {
+        self.terms()[1..].iter().map(|c| c.abs()).sum()
     }
 
     /// Whether what is left out is what rounding does to heights and, where the line is steep, to positions.
     ///
     /// Halving such a piece leaves out no less: next to a flat end pieces would be halved as often as there are numbers.
     fn is_rounding(&self) -> bool {
-        let rise: f64 = self.heights[1..].iter().map(|c| c.abs()).sum();
-        let farthest = self.ends[0].abs().max(self.ends[1].abs());
-        let moved = rise * (farthest / self.length());
-        self.tail <= NOISE * f64::EPSILON * (self.heights[0].abs() + rise + moved)
+        let Segment { ends, length, .. } = self.segment;
+        let rise = self.rise();
+        let moved = rise * (ends[0].abs().max(ends[1].abs()) / length);
+        self.tail <= NOISE * f64::EPSILON * (self.terms()[0].abs() + rise + moved)
     }
 
     /// Where the line turns inside the piece.
     fn turning_point(&self) -> Option<f64> {
-        let monotone: f64 = (2..=self.degree)
-            .map(|k| (k * (k + 1) / 2) as f64 * self.heights[k].abs())
+        let (terms, degree) = (self.terms(), self.segment.degree);
+        let monotone: f64 = (2..=degree)
+            .map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs())
             .sum();
-        if self.heights[1].abs() >= monotone {
+        if terms[1].abs() >= monotone {
             return None;
         }
-        let slopes = derivative(&self.heights);
-        let slope = |t: f64| value(&slopes[..self.degree.max(1)], t);
+        let slopes = derivative(terms);
+        let slope = |t: f64| value(&slopes[..degree.max(1)], t);
         let sample = |k: usize| (2 * k + 1) as f64 / SLOPE_SAMPLES as f64 - 1.0;
         (1..SLOPE_SAMPLES)
             .map(|k| [sample(k - 1), sample(k)])
@@ -158,14 +148,15 @@ impl Piece {
     }
 }
 
-struct Builder<H> {
-    height: H,
+struct Builder<D> {
+    /// How far the line lies below the anchor, in depths.
+    drop: D,
     interpolation: Interpolation,
     length: f64,
     resolution: Resolution,
 }
 
-impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
+impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     /// Adds the pieces between two positions, from the front to the rear.
     fn resolve(&self, ends: [f64; 2], pieces: &mut Vec<Piece>) -> Result<(), MdrError> {
         let mut waiting = vec![ends];
@@ -174,7 +165,7 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
             let middle = ends[0].midpoint(ends[1]);
             let farthest = ends[0].abs().max(ends[1].abs());
             let smallest = (SMALLEST * farthest).max(f64::MIN_POSITIVE);
-            let indivisible = piece.length() <= smallest || ends.contains(&middle);
+            let indivisible = piece.segment.length <= smallest || ends.contains(&middle);
             if piece.is_rounding() || self.is_resolved(&piece)? {
                 self.split_at_turning_point(piece, pieces)?;
             } else if indivisible {
@@ -205,11 +196,11 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
         pieces: &mut Vec<Piece>,
     ) -> Result<(), MdrError> {
         let turn = piece.turning_point().map(|t| piece.position(t));
-        match turn.filter(|x| !piece.ends.contains(x)) {
+        match turn.filter(|x| !piece.segment.ends.contains(x)) {
             None => pieces.push(piece),
             Some(turn) => {
-                pieces.push(self.piece([piece.ends[0], turn])?);
-                pieces.push(self.piece([turn, piece.ends[1]])?);
+                pieces.push(self.piece([piece.segment.ends[0], turn])?);
+                pieces.push(self.piece([turn, piece.segment.ends[1]])?);
             }
         }
         Ok(())
@@ -217,18 +208,22 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
 
     fn piece(&self, ends: [f64; 2]) -> Result<Piece, MdrError> {
         let mut piece = Piece {
-            heights: [0.0; DEGREE + 1],
-            degree: DEGREE,
-            ends,
+            segment: Segment {
+                displacements: [0.0; DEGREE + 1],
+                degree: DEGREE,
+                ends,
+                length: ends[0] - ends[1],
+                rounding: 0.0,
+            },
             tail: 0.0,
             singular: false,
         };
-        let height = |t: f64| (self.height)(piece.position(t)).unwrap_or(f64::NAN);
-        piece.heights = self.interpolation.of(height);
-        if !piece.heights.iter().all(|c| c.is_finite()) {
+        let drop = |t: f64| (self.drop)(piece.position(t)).unwrap_or(f64::NAN);
+        piece.segment.displacements = self.interpolation.of(drop);
+        if !piece.terms().iter().all(|c| c.is_finite()) {
             return Err(self.bad_height(&piece));
         }
-        piece.tail = remainder(&piece.heights);
+        piece.tail = remainder(piece.terms());
         piece.trim();
         Ok(piece)
     }
@@ -237,10 +232,13 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
     fn bad_height(&self, piece: &Piece) -> MdrError {
         for k in 0..=2 * DEGREE {
             let position = piece.position(k as f64 / DEGREE as f64 - 1.0);
-            match (self.height)(position) {
+            match (self.drop)(position) {
                 Err(error) => return error,
-                Ok(value) if !value.is_finite() => {
-                    return MdrError::InvalidHeight { position, value };
+                Ok(drop) if !drop.is_finite() => {
+                    return MdrError::InvalidHeight {
+                        position,
+                        value: -drop,
+                    };
                 }
                 Ok(_) => {}
             }
@@ -257,23 +255,23 @@ impl<H: Fn(f64) -> Result<f64, MdrError>> Builder<H> {
             tolerance,
             ..
         } = self.resolution;
-        let rise: f64 = piece.heights[1..].iter().map(|c| c.abs()).sum();
+        let (rise, length) = (piece.rise(), piece.segment.length);
         // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
-        let steep = piece.length() > SHORT * shortest_length
+        let steep = length > SHORT * shortest_length
             && piece.tail > tolerance * rise
-            && piece.tail * rise * (self.length / piece.length()) > tolerance;
+            && piece.tail * rise * (self.length / length) > tolerance;
         Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
     }
 
     /// Whether the line is where the polynomial says it is, between the nodes as well.
     fn agrees(&self, piece: &Piece) -> Result<bool, MdrError> {
-        let share = STATIONS * piece.length() / self.length;
+        let share = STATIONS * piece.segment.length / self.length;
         // An irrational stride does not fall into step with a periodic line.
         const STRIDE: f64 = 0.618_033_988_749_894_9;
         let mut station = 1.0;
         while station <= share.ceil() {
             let t = 2.0 * (station * STRIDE).fract() - 1.0;
-            let difference = (self.height)(piece.position(t))? - value(&piece.heights, t);
+            let difference = (self.drop)(piece.position(t))? - value(piece.terms(), t);
             let close = difference.abs() <= 8.0 * self.resolution.tolerance;
             if !close {
                 return Ok(false);
@@ -304,22 +302,27 @@ const LEAST_DECAY: f64 = 0.25;
 impl Piece {
     /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.
     fn straightened(mut self) -> Self {
-        let [front, rear] = [start_value(&self.heights), end_value(&self.heights)];
-        self.heights = [0.0; DEGREE + 1];
-        self.heights[0] = front.midpoint(rear);
-        self.heights[1] = 0.5 * (rear - front);
-        self.degree = 1;
+        let [front, rear] = [start_value(self.terms()), end_value(self.terms())];
+        self.segment.displacements = [0.0; DEGREE + 1];
+        self.segment.displacements[0] = front.midpoint(rear);
+        self.segment.displacements[1] = 0.5 * (rear - front);
+        self.segment.degree = 1;
         self.singular = true;
         self
     }
 
     /// Drops the terms that are rounding.
     fn trim(&mut self) {
-        let largest = self.heights.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let Segment {
+            displacements,
+            degree,
+            ..
+        } = &mut self.segment;
+        let largest = displacements.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         let noise = 2.0 * f64::EPSILON * largest;
-        while self.degree > 0 && self.heights[self.degree].abs() <= noise {
-            self.heights[self.degree] = 0.0;
-            self.degree -= 1;
+        while *degree > 0 && displacements[*degree].abs() <= noise {
+            displacements[*degree] = 0.0;
+            *degree -= 1;
         }
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn sweep(
         surface: Surface::Free(Recovery::untouched()),
     };
     for piece in &profile.pieces {
-        let whole = piece.segment(profile.lowest);
+        let whole = &piece.segment;
         let mut start = -1.0;
         while start < 1.0 {
             let segment = whole.part(&profile.interpolation, [start, 1.0]);
@@ -91,7 +91,7 @@ impl March<'_> {
             Surface::Free(recovery) => self.recover(recovery, segment),
             Surface::Loaded { stresses, fresh } => {
                 if piece.singular && self.foundation.has_dashpot() {
-                    self.sums.too_steep.get_or_insert(piece.rear());
+                    self.sums.too_steep.get_or_insert(piece.segment.ends[1]);
                 }
                 let passage = self.foundation.pass(segment, &stresses);
                 match release(&passage, self.foundation.has_dashpot() && !fresh) {
@@ -223,15 +223,14 @@ impl March<'_> {
         if let Surface::Loaded { stresses, .. } = &self.surface {
             let last = self.profile.pieces.last();
             if let Some(piece) = last {
-                let segment = piece.segment(self.profile.lowest);
                 let stresses = stresses.clone();
-                let end = segment.end();
+                let end = piece.segment.end();
                 let end = if end.abs() < LEFT_BY_ROUNDING {
                     self.strain(end)
                 } else {
                     end
                 };
-                self.close(end, &stresses, segment.ends[1]);
+                self.close(end, &stresses, piece.segment.ends[1]);
             }
         }
         Ok(self.sums)

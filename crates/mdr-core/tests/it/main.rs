@@ -2,7 +2,6 @@
 
 mod any_scene_keeps_the_invariants;
 mod bad_input_is_refused;
-mod contact_balances_the_force;
 mod cusps_and_kinks;
 mod edges_and_bars;
 mod friction_converges_to_the_theorem;

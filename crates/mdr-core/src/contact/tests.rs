@@ -1,0 +1,106 @@
+//! One instant: the forces are compressive, act only on touched elements, and balance the normal force to rounding.
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::*;
+
+fn instant<'a>(heights: &'a [f64], displacements: &'a [f64]) -> Instant<'a> {
+    Instant {
+        heights,
+        displacements,
+        element: Element::new(0.1, 1.0).expect("an element"),
+    }
+}
+
+/// Casebook EXT-02.
+#[test]
+fn single_element_is_four_times_modulus_and_spacing() {
+    for case in casebook::group("EXT-02") {
+        if case.id().contains("MDR single element") {
+            let element = Element::new(case.input("dx"), 1.0 / case.input("G"));
+            let element = element.expect("an element");
+            let instant = Instant {
+                element,
+                ..instant(&[0.0], &[0.0])
+            };
+            let force = element.force(instant.level(case.input("d")).compression);
+            case.check("F", force);
+            let depth = instant.solve(force, f64::NEG_INFINITY).depth;
+            assert!((depth - case.input("d")).abs() < 1e-15, "depth {depth}");
+        } else if case.id().contains("force exactly zero") {
+            let level = instant(&[0.0], &[0.0]).solve(case.input("F"), f64::NEG_INFINITY);
+            case.check("d", level.depth);
+            case.check("contact_cells", level.n_below as f64);
+        }
+    }
+}
+
+/// 0.4 N per metre of compression: 1 N compress the two elements that are no holes by 2.5 in sum.
+#[test]
+fn holes_are_never_in_contact() {
+    let heights = [f64::INFINITY, 0.0, f64::INFINITY, 0.5];
+    let level = instant(&heights, &[0.0; 4]).solve(1.0, f64::NEG_INFINITY);
+    assert!(
+        (level.depth - 1.5).abs() < 1e-15 && level.n_below == 2,
+        "{level:?} instead of depth 1.5 on two elements"
+    );
+}
+
+/// The depth by sorting: the first k elements in the order of touch carry the load when the next is not reached.
+fn depth_by_sorting(touch_depths: &[f64], needed: f64) -> f64 {
+    let mut sorted = touch_depths.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut sum = 0.0;
+    for (index, touch) in sorted.iter().enumerate() {
+        sum += touch;
+        let depth = (needed + sum) / (index + 1) as f64;
+        if sorted.get(index + 1).is_none_or(|next| depth <= *next) {
+            return depth;
+        }
+    }
+    f64::NAN
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 512,
+        rng_seed: RngSeed::Fixed(2014),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn any_chain_is_in_balance(
+        elements in prop::collection::vec((0.0..1.0_f64, -0.5..0.5_f64), 1..200),
+        exponents in (-6.0..3.0_f64, 0.0..60.0_f64),
+    ) {
+        // Touch depths over many decades make the contacts of Newton's steps shrink slowly.
+        let spread = |x: f64| 2.0_f64.powf(-exponents.1 * x);
+        let heights: Vec<f64> = elements.iter().map(|(height, _)| spread(*height)).collect();
+        let displacements: Vec<f64> = elements.iter().map(|(_, u)| 1e-3 * u).collect();
+        let touch: Vec<f64> = heights.iter().zip(&displacements).map(|(h, u)| h + u).collect();
+        let force = 10.0_f64.powf(exponents.0);
+        let instant = instant(&heights, &displacements);
+        let Level { depth, n_below, compression } = instant.solve(force, f64::NEG_INFINITY);
+        let below = touch.iter().filter(|t| **t < depth);
+        prop_assert_eq!(n_below, below.clone().count(), "complementarity: loaded below the depth");
+
+        // The depth is a number with ε relative rounding, times the stiffness of the contact.
+        let n = n_below as f64;
+        let element = instant.element;
+        let scale = below.clone().fold(depth.abs(), |a, t| a.max(t.abs()));
+        let rounding = element.force(2.0 * n * f64::EPSILON * scale) + 2.0 * f64::EPSILON * force;
+        let carried = element.force(compression);
+        prop_assert!((carried - force).abs() <= rounding, "{carried} for {force}");
+        let sum: f64 = below.map(|t| element.force(depth - t)).sum();
+        prop_assert!((sum - force).abs() <= rounding * (1.0 + n), "sum {sum} for {force}");
+
+        let expected = depth_by_sorting(&touch, element.compression(force));
+        // The sum of n sorted numbers by the oracle rounds n times.
+        prop_assert!(
+            (depth - expected).abs() <= 4.0 * n * f64::EPSILON * scale.max(expected.abs()),
+            "depth {depth} instead of {expected}"
+        );
+    }
+}
