@@ -1,7 +1,7 @@
 //! How deep a steel ball sinks into a viscous floor, and how long it takes to a given depth.
 #![expect(clippy::print_stdout, reason = "an example shows what it found")]
 
-use friction_analytic::{indentation_after_impulse, time_to_depth};
+use friction_analytic::{impulse_to_depth, indentation_after_impulse};
 use indenters::Sphere;
 use rheology::Viscous;
 
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     let depth = 1e-4;
-    let time = time_to_depth(&ball, &pitch, depth, force)?;
+    let time = impulse_to_depth(&ball, &pitch, depth)? / force;
     let contact = indentation_after_impulse(&ball, &pitch, force * time)?;
     let reached = contact.indentation_depth;
     assert!(

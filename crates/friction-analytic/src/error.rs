@@ -1,21 +1,23 @@
 //! Why friction, depth or a contact cannot be given.
 
-use std::fmt;
-
 use indenters::IndenterError;
 use thiserror::Error;
 
 /// Why the friction integral has no finite value.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum DivergenceCause {
     /// The profile rises from its apex like `r^exponent` with an exponent of at most 1/2.
+    #[error("the profile rises from its apex with exponent {exponent}, more than 0.5 is needed")]
     ApexExponent {
         /// The exponent.
         exponent: f64,
     },
     /// The slope of the profile jumps upwards inside the contact; the line behind it is as steep as the inverse root
     /// of the distance, and the integral diverges like a logarithm.
+    #[error(
+        "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
+    )]
     SlopeJump {
         /// Where it jumps, \[m].
         radius: f64,
@@ -23,29 +25,11 @@ pub enum DivergenceCause {
         jump: f64,
     },
     /// The contact reaches a vertical edge.
+    #[error("the contact reaches a vertical edge at radius {radius}")]
     VerticalEdge {
         /// Radius of the edge, \[m].
         radius: f64,
     },
-}
-
-impl fmt::Display for DivergenceCause {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ApexExponent { exponent } => write!(
-                formatter,
-                "the profile rises from its apex with exponent {exponent}, more than 0.5 is needed"
-            ),
-            Self::SlopeJump { radius, jump } => write!(
-                formatter,
-                "the slope of the profile jumps upwards by {jump} at radius {radius}, inside the contact"
-            ),
-            Self::VerticalEdge { radius } => write!(
-                formatter,
-                "the contact reaches a vertical edge at radius {radius}"
-            ),
-        }
-    }
 }
 
 /// Why friction, depth or sinking velocity cannot be given.

@@ -14,7 +14,7 @@ use numerics::{Estimate, bracketed_root};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::{not_negative, positive, representable};
+use crate::error::{not_negative, representable};
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
@@ -95,7 +95,7 @@ pub fn indentation_after_impulse(
     })
 }
 
-/// Impulse ∫ F_N dt \[N s] that presses a body to an indentation `depth` > 0 \[m].
+/// Impulse ∫ F_N dt \[N s] that presses a body to an indentation `depth` > 0 \[m]; over a constant force, the time.
 ///
 /// # Errors
 /// [`FrictionError::Indenter`] when the depth is out of its range or the line of the body turns downwards or ends before
@@ -110,21 +110,6 @@ pub fn impulse_to_depth(
     // Zero up to rounding except for a flat punch, which sinks with a constant contact.
     let beyond = radius * (depth - body.line_height(radius));
     representable("impulse", 8.0 * material.viscosity() * (moment + beyond))
-}
-
-/// Time \[s] in which a constant `normal_force` \[N] presses a body to an indentation `depth` > 0 \[m].
-///
-/// # Errors
-/// [`FrictionError::InvalidParameter`] for a force that is not finite and greater than zero; otherwise like
-/// [`impulse_to_depth`].
-pub fn time_to_depth(
-    body: &(impl Axisymmetric + ?Sized),
-    material: &Viscous,
-    depth: f64,
-    normal_force: f64,
-) -> Result<f64, FrictionError> {
-    let normal_force = positive("normal_force", normal_force)?;
-    Ok(impulse_to_depth(body, material, depth)? / normal_force)
 }
 
 /// Half the width b of the contact of a cylinder \[m] in plane strain after an impulse per length ∫ F' dt ≥ 0 \[N s/m]:

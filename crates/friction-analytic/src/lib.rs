@@ -58,7 +58,7 @@ pub use elastic_limit::{
 pub use error::{DivergenceCause, FrictionError};
 pub use indentation::{
     Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
-    power_indentation_after_impulse, time_to_depth,
+    power_indentation_after_impulse,
 };
 pub use line::line_sliding;
 pub use power::power_sliding;

@@ -9,36 +9,7 @@ use crate::forward::forward;
 /// Only height and gradient have to be given; all bodies of this crate are surfaces, and
 /// [`surface_of_revolution!`](crate::surface_of_revolution) makes an own [`Axisymmetric`] body one.
 ///
-/// ```
-/// use indenters::{PowerProfile, Surface};
-///
-/// /// A paraboloid that is flatter across the direction of motion.
-/// struct Ellipse {
-///     curvatures: [f64; 2],
-/// }
-///
-/// impl Surface for Ellipse {
-///     fn height(&self, [x, y]: [f64; 2]) -> f64 {
-///         self.curvatures[0] * x * x + self.curvatures[1] * y * y
-///     }
-///
-///     fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-///         [2.0 * self.curvatures[0] * x, 2.0 * self.curvatures[1] * y]
-///     }
-///
-///     fn mirrors(&self) -> [bool; 2] {
-///         [true; 2]
-///     }
-/// }
-///
-/// # fn main() -> Result<(), indenters::IndenterError> {
-/// let ellipse = Ellipse { curvatures: [0.5, 0.25] };
-/// let paraboloid = PowerProfile::paraboloid(0.5)?;
-/// assert_eq!(ellipse.gradient([0.3, 0.4]), [0.3, 0.2]);
-/// assert!((paraboloid.gradient([0.3, 0.4])[1] - 0.4).abs() < 1e-15);
-/// # Ok(())
-/// # }
-/// ```
+/// The example `custom_surface.rs` of this crate is a surface of its own.
 pub trait Surface: Send + Sync {
     /// Height h(x, y) above the lowest point, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
     fn height(&self, position: [f64; 2]) -> f64;

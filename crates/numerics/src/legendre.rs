@@ -61,6 +61,7 @@ pub fn lobatto_rule(n_points: usize) -> LobattoRule {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_abs_diff_eq;
 
     #[test]
     fn a_rule_integrates_products_of_its_polynomials_exactly() {
@@ -72,10 +73,7 @@ mod tests {
                 let products = values.iter().zip(&weights).map(|(p, w)| w * p[i] * p[k]);
                 let actual: f64 = products.sum();
                 let expected = if i == k { 1.0 / (k as f64 + 0.5) } else { 0.0 };
-                assert!(
-                    (actual - expected).abs() < 1e-14,
-                    "degrees {i} and {k}: {actual} instead of {expected}"
-                );
+                assert_abs_diff_eq!(actual, expected, epsilon = 1e-14);
             }
         }
     }
@@ -93,10 +91,8 @@ mod tests {
             (1.0, 0.1),
         ];
         for ((node, weight), (t, w)) in nodes.iter().zip(&weights).zip(expected) {
-            assert!(
-                (node - t).abs() < 2e-16 && (weight - w).abs() < 2e-16,
-                "{node}, {weight} instead of {t}, {w}"
-            );
+            assert_abs_diff_eq!(*node, t, epsilon = 2e-16);
+            assert_abs_diff_eq!(*weight, w, epsilon = 2e-16);
         }
     }
 }

@@ -30,7 +30,9 @@ pub fn integrate_from_ends(
     let mut previous = half_width * step * sums.signed;
     let mut error = f64::INFINITY;
     for halving in 0..MAX_HALVINGS {
-        sums.add(node_sums(&integrand, interval, [0.5 * step, step]));
+        let between = node_sums(&integrand, interval, [0.5 * step, step]);
+        sums.signed += between.signed;
+        sums.modulus += between.modulus;
         step *= 0.5;
         let value = half_width * step * sums.signed;
         error = (value - previous).abs();
@@ -66,13 +68,6 @@ pub fn integrate(
 struct NodeSums {
     signed: f64,
     modulus: f64,
-}
-
-impl NodeSums {
-    fn add(&mut self, other: Self) {
-        self.signed += other.signed;
-        self.modulus += other.modulus;
-    }
 }
 
 /// Weighted sum of the integrand over the nodes t = ±(first + k step).
@@ -113,25 +108,20 @@ fn node_sums(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use approx::assert_relative_eq;
 
     #[test]
     fn a_singular_end_costs_no_accuracy() {
         let integral = integrate(|x| x.powf(-0.9), [0.0, 2.0], 1e-13);
         let exact = 10.0 * 2.0_f64.powf(0.1);
-        assert!(
-            (integral.value / exact - 1.0).abs() < 1e-12,
-            "{integral:?} instead of {exact}"
-        );
+        assert_relative_eq!(integral.value, exact, max_relative = 1e-12);
     }
 
     #[test]
     fn a_smooth_integrand_reaches_rounding() {
         let integral = integrate(f64::exp, [-1.0, 3.0], 1e-14);
         let exact = 3.0_f64.exp() - (-1.0_f64).exp();
-        assert!(
-            (integral.value / exact - 1.0).abs() < 1e-14,
-            "{integral:?} instead of {exact}"
-        );
+        assert_relative_eq!(integral.value, exact, max_relative = 1e-14);
     }
 
     #[test]

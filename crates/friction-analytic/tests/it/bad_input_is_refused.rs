@@ -4,12 +4,12 @@ use friction_analytic::{
     cylinder_half_width_after_impulse, high_speed_friction, impulse_to_depth,
     indentation_after_impulse, kelvin_voigt_sliding, low_speed_friction,
     power_indentation_after_impulse, power_sliding, sliding_distance_to_depth, stationary_depth,
-    time_to_depth, transient_sliding, wavy_surface_sliding,
+    transient_sliding, wavy_surface_sliding,
 };
-use indenters::{Axisymmetric, Cylinder, IndenterError, PowerProfile, Sphere};
+use indenters::{Cylinder, IndenterError, Sphere};
 use rheology::{KelvinVoigt, Prony};
 
-use crate::support::{material_and_load, power, prony, refused, viscous, with_depth};
+use crate::support::{assert_refused, material_and_load, power, prony, viscous, with_depth};
 
 fn solid() -> Prony {
     prony(1.0, 0.0, &[(2.0, 1.5)])
@@ -17,96 +17,67 @@ fn solid() -> Prony {
 
 #[test]
 fn numbers_that_are_negative_or_not_finite_are_named() {
-    let (material, load) = with_depth(0.1);
-    let cone = PowerProfile::cone(1.0).unwrap();
+    let ((material, load), cone) = (with_depth(0.1), power(1.0, 1.0));
     let cylinder = Cylinder::new(0.01).unwrap();
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_refused(
+            "impulse",
+            power_indentation_after_impulse(&cone, &material, bad),
+        );
+        assert_refused("impulse", indentation_after_impulse(&cone, &material, bad));
         let width = cylinder_half_width_after_impulse(&cylinder, &material, bad);
-        for (parameter, named) in [
-            (
-                "impulse",
-                refused(power_indentation_after_impulse(&cone, &material, bad)),
-            ),
-            (
-                "impulse",
-                refused(indentation_after_impulse(&cone, &material, bad)),
-            ),
-            ("impulse_per_length", refused(width)),
-            (
-                "time",
-                refused(transient_sliding(&cone, &material, &load, bad)),
-            ),
-            (
-                "time",
-                refused(cone_depth_by_equation_15(&cone, &material, &load, bad)),
-            ),
-            (
-                "fraction",
-                refused(sliding_distance_to_depth(&cone, &material, &load, bad)),
-            ),
-        ] {
-            assert_eq!(named, parameter, "refused value {bad}");
+        assert_refused("impulse_per_length", width);
+        assert_refused("time", transient_sliding(&cone, &material, &load, bad));
+        assert_refused(
+            "time",
+            cone_depth_by_equation_15(&cone, &material, &load, bad),
+        );
+        for fraction in [bad, 1.0] {
+            let distance = sliding_distance_to_depth(&cone, &material, &load, fraction);
+            assert_refused("fraction", distance);
         }
     }
-    let whole = sliding_distance_to_depth(&cone, &material, &load, 1.0);
-    assert_eq!(
-        refused(whole),
-        "fraction",
-        "the whole depth is never reached"
-    );
 }
 
 #[test]
 fn numbers_that_must_be_positive_are_named() {
-    let material = viscous(1.0);
-    let [cone, sphere] = [
-        &PowerProfile::cone(1.0).unwrap() as &dyn Axisymmetric,
-        &Sphere::new(2.0).unwrap(),
-    ];
-    let wave = |amplitude: f64, wave_vector: [f64; 2]| {
+    let wave = |name: &str, amplitude: f64, wave_vector: [f64; 2]| {
         let wave = SurfaceWave {
             amplitude,
             wave_vector,
         };
-        refused(wavy_surface_sliding(&[wave], &solid(), 1.0))
+        assert_refused(name, wavy_surface_sliding(&[wave], &solid(), 1.0));
     };
-    let on_line = |front: f64, velocity: f64| {
-        let material = KelvinVoigt::new(1.0, 1.0).unwrap();
-        let contact = SlidingContact { front, velocity };
-        refused(kelvin_voigt_sliding(&power(1.0, 1.0), &material, contact))
+    let contact = |name: &str, front: f64, velocity: f64| {
+        let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
+        let on_line = SlidingContact { front, velocity };
+        assert_refused(
+            name,
+            kelvin_voigt_sliding(&power(1.0, 1.0), &foundation, on_line),
+        );
     };
-    let elastic = |contact_radius: f64, velocity: f64| {
+    let elastic = |name: &str, contact_radius: f64, velocity: f64| {
         let contact = ElasticContact {
             contact_radius,
             velocity,
         };
-        let [slow, fast] = [
-            low_speed_friction(sphere, &solid(), contact),
-            high_speed_friction(sphere, &solid(), contact),
-        ]
-        .map(refused);
-        assert_eq!(slow, fast, "{contact:?}");
-        slow
+        let sphere = Sphere::new(2.0).unwrap();
+        assert_refused(name, low_speed_friction(&sphere, &solid(), contact));
+        assert_refused(name, high_speed_friction(&sphere, &solid(), contact));
     };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        for (parameter, named) in [
-            ("depth", refused(impulse_to_depth(cone, &material, bad))),
-            (
-                "normal_force",
-                refused(time_to_depth(cone, &material, 1.0, bad)),
-            ),
-            ("velocity", elastic(0.5, bad)),
-            ("contact_radius", elastic(bad, 1.0)),
-            ("velocity", on_line(1.0, bad)),
-            ("front", on_line(bad, 1.0)),
-            ("amplitude", wave(bad, [1.0, 0.0])),
-        ] {
-            assert_eq!(named, parameter, "refused value {bad}");
-        }
+        assert_refused(
+            "depth",
+            impulse_to_depth(&power(1.0, 1.0), &viscous(1.0), bad),
+        );
+        elastic("velocity", 0.5, bad);
+        elastic("contact_radius", bad, 1.0);
+        contact("velocity", 1.0, bad);
+        contact("front", bad, 1.0);
+        wave("amplitude", bad, [1.0, 0.0]);
     }
-    for bad in [[0.0, 0.0], [f64::NAN, 1.0]] {
-        assert_eq!(wave(1.0, bad), "length of a wave vector", "{bad:?}");
-    }
+    wave("length of a wave vector", 1.0, [0.0, 0.0]);
+    wave("length of a wave vector", 1.0, [f64::NAN, 1.0]);
 }
 
 #[test]
@@ -115,21 +86,18 @@ fn waves_that_interfere_are_refused() {
         amplitude: 1e-3,
         wave_vector,
     };
-    let good = wave([2.0, 0.0]);
-    let none = wavy_surface_sliding(&[], &solid(), 1.0);
-    assert_eq!(refused(none), "number of waves", "a plane");
+    let slide = |waves: &[SurfaceWave]| wavy_surface_sliding(waves, &solid(), 1.0);
+    assert_refused("number of waves", slide(&[]));
     for other in [[2.0, 0.0], [-2.0, -0.0]] {
-        let result = wavy_surface_sliding(&[good, wave(other)], &solid(), 1.0);
-        assert_eq!(refused(result), "wave vector", "{other:?} beside {good:?}");
+        assert_refused("wave vector", slide(&[wave([2.0, 0.0]), wave(other)]));
     }
 }
 
 #[test]
 fn results_beyond_the_numbers_are_refused() {
-    let cone = PowerProfile::cone(1.0).unwrap();
     let [deep, flat] = [[1e300, 1e-300, 1.0], [1e-300, 1e300, 1.0]].map(|numbers| {
         let (material, load) = material_and_load(numbers);
-        power_sliding(&cone, &material, &load).map(drop)
+        power_sliding(&power(1.0, 1.0), &material, &load).map(drop)
     });
     let (material, load) = with_depth(1.0);
     let sharp = power_sliding(&power(1e-300, 0.6), &material, &load).map(drop);
@@ -171,25 +139,22 @@ fn no_intermediate_product_overflows() {
 #[test]
 fn profiles_without_a_closed_form_are_refused() {
     let (material, load) = with_depth(0.1);
-    for p in [0.5, 1.5, 2.000_000_1, 2.0, 3.0] {
+    let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
+    let contact = SlidingContact {
+        front: 1.0,
+        velocity: 1.0,
+    };
+    for p in [0.5, 1.5, 2.000_000_1, 3.0, 2.0] {
         let profile = power(1.0, p);
-        let contact = SlidingContact {
-            front: 1.0,
-            velocity: 1.0,
-        };
-        let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
-        let cone_only = cone_depth_by_equation_15(&profile, &material, &load, 1.0).map(drop);
-        let others = [
+        let results = [
+            cone_depth_by_equation_15(&profile, &material, &load, 1.0).map(drop),
             transient_sliding(&profile, &material, &load, 1.0).map(drop),
             sliding_distance_to_depth(&profile, &material, &load, 0.5).map(drop),
             kelvin_voigt_sliding(&profile, &foundation, contact).map(drop),
         ];
-        let is_paraboloid = p.total_cmp(&2.0).is_eq();
-        for result in others
-            .into_iter()
-            .filter(|_| !is_paraboloid)
-            .chain([cone_only])
-        {
+        // For a paraboloid only Eq. (15) has no closed form.
+        let refused = if (p - 2.0_f64).abs() > 0.0 { 4 } else { 1 };
+        for result in results.into_iter().take(refused) {
             assert_matches!(
                 result,
                 Err(FrictionError::UnsupportedExponent { .. }),

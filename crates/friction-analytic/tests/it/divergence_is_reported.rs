@@ -6,7 +6,7 @@ use friction_analytic::{
     power_sliding, superposition_sliding,
 };
 use indenters::{
-    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Kink, ProfilePoint, contact_radius,
+    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Kink, PiecewiseLinearProfile, contact_radius,
 };
 
 use crate::support::{power, with_depth};
@@ -23,6 +23,13 @@ fn divergence(
             contact_length,
         }) if cause == expected => [indentation_depth, contact_length],
         other => panic!("{other:?} instead of friction that is infinite because {expected}"),
+    }
+}
+
+fn jump_at(kink: Kink) -> DivergenceCause {
+    DivergenceCause::SlopeJump {
+        radius: kink.radius,
+        jump: kink.slope_jump,
     }
 }
 
@@ -47,11 +54,7 @@ fn a_slope_jump_diverges_like_a_logarithm() {
         let (material, load) = with_depth(expected);
         let result = axisymmetric_sliding(&body, &material, &load);
         let kink = body.kinks()[0];
-        let jump = DivergenceCause::SlopeJump {
-            radius: kink.radius,
-            jump: kink.slope_jump,
-        };
-        let [depth, length] = divergence(result, jump);
+        let [depth, length] = divergence(result, jump_at(kink));
         assert_close!(depth => expected, within 1e-15; "{}", case.id());
         assert_close!(length => contact_radius(&body, expected).unwrap(), within 1e-15);
         let [coarse, fine] =
@@ -62,51 +65,16 @@ fn a_slope_jump_diverges_like_a_logarithm() {
 
 #[test]
 fn a_contact_that_ends_at_the_jump_has_friction() {
-    let body = SteepeningCone {
-        slope: 0.3,
-        kink: 0.5,
-        jump: 0.1,
-    };
+    let body = PiecewiseLinearProfile::new(vec![0.0, 0.5, 2.5], vec![0.0, 0.15, 0.95]).unwrap();
     let slide = |part: f64| {
         let (material, load) = with_depth(FRAC_PI_2 * 0.3 * 0.5 * part);
         axisymmetric_sliding(&body, &material, &load)
     };
     let state = slide(1.0 - 1e-9).unwrap();
     assert_close!(state.friction_coefficient => FRAC_PI_2 * 0.3, within 1e-11);
-    let jump = DivergenceCause::SlopeJump {
-        radius: 0.5,
-        jump: 0.1,
-    };
-    divergence(slide(1.0 + 1e-9), jump);
-}
-
-/// A cone that gets steeper at a radius.
-struct SteepeningCone {
-    slope: f64,
-    kink: f64,
-    jump: f64,
-}
-
-impl Axisymmetric for SteepeningCone {
-    fn profile(&self, radius: f64) -> ProfilePoint {
-        let jump = if radius > self.kink { self.jump } else { 0.0 };
-        ProfilePoint {
-            height: self.slope * radius + jump * (radius - self.kink),
-            slope: self.slope + jump,
-            curvature: 0.0,
-        }
-    }
-
-    fn profile_exponent(&self) -> f64 {
-        1.0
-    }
-
-    fn kinks(&self) -> Vec<Kink> {
-        vec![Kink {
-            radius: self.kink,
-            slope_jump: self.jump,
-        }]
-    }
+    let kink = body.kinks()[0];
+    assert_close!(kink.slope_jump => 0.1, within 1e-14);
+    divergence(slide(1.0 + 1e-7), jump_at(kink));
 }
 
 #[test]

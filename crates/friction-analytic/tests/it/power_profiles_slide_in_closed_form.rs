@@ -69,46 +69,6 @@ fn the_unit_system_does_not_matter() {
     }
 }
 
-#[test]
-fn friction_collapses_onto_one_number_per_exponent() {
-    for case in casebook::group("BEM-07") {
-        if case.expected("mu_mdr").is_none() {
-            continue;
-        }
-        let (c, p) = (case.input("c"), case.input("p"));
-        let (material, load) = sliding(&case);
-        let mu = power_sliding(&power(c, p), &material, &load)
-            .unwrap()
-            .friction_coefficient;
-        case.check("mu_mdr", mu);
-        let length = case.input("F") / (case.input("eta") * case.input("v"));
-        case.check(
-            "collapsed",
-            mu / (c.powf(p.recip()) * length.powf(1.0 - p.recip())),
-        );
-    }
-}
-
-/// (21) and (22) as the paper prints them.
-#[test]
-fn cone_and_paraboloid_follow_equations_21_and_22() {
-    use std::f64::consts::{FRAC_PI_2, PI};
-    let (force, eta, v, c) = (2.0, 50.0, 0.1, 0.4);
-    let (material, load) = material_and_load([force, eta, v]);
-    let length = force / (eta * v);
-    let cone = (1.0, FRAC_PI_2 * c, length / (2.0 * PI * c));
-    let paraboloid = (
-        2.0,
-        2.0 / 3.0 * (2.0 * c * length).sqrt(),
-        (length / (8.0 * c)).sqrt(),
-    );
-    for (p, mu, front) in [cone, paraboloid] {
-        let state = power_sliding(&power(c, p), &material, &load).unwrap();
-        assert_close!(state.friction_coefficient => mu, within 2e-15; "p = {p}");
-        assert_close!(state.contact_line[0][1] => front, within 2e-15; "p = {p}");
-    }
-}
-
 proptest! {
     #![proptest_config(fixed_cases(256))]
 

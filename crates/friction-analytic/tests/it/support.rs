@@ -59,14 +59,14 @@ pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
     }
 }
 
-/// The parameter that an error names.
-pub(crate) fn refused<T: Debug>(result: Result<T, FrictionError>) -> &'static str {
+/// Asserts that an error names a parameter.
+pub(crate) fn assert_refused<T: Debug>(name: &str, result: Result<T, FrictionError>) {
     match result {
         Err(
             FrictionError::InvalidParameter { parameter, .. }
             | FrictionError::Indenter(IndenterError::InvalidParameter { parameter, .. }),
-        ) => parameter,
-        other => panic!("{other:?} instead of a refused parameter"),
+        ) => assert_eq!(parameter, name, "the refused parameter"),
+        other => panic!("{other:?} instead of a refused {name}"),
     }
 }
 

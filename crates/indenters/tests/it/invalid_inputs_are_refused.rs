@@ -1,3 +1,5 @@
+use std::fmt::Debug;
+
 use casebook::assert_matches;
 use indenters::{
     AnalyticLine, Axisymmetric, Cylinder, FlatCone, FlatPunch, Hyperboloid, IndenterError,
@@ -8,7 +10,7 @@ use indenters::{
 
 const BAD: [f64; 6] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-fn assert_names<T: std::fmt::Debug>(result: Result<T, IndenterError>, name: &str, bad: f64) {
+fn assert_names<T: Debug>(result: Result<T, IndenterError>, name: &str, bad: f64) {
     match result {
         Err(IndenterError::InvalidParameter {
             parameter, value, ..
@@ -17,6 +19,29 @@ fn assert_names<T: std::fmt::Debug>(result: Result<T, IndenterError>, name: &str
             assert_eq!(value.to_bits(), bad.to_bits(), "value named for {name}");
         }
         other => panic!("{name} = {bad}: {other:?}"),
+    }
+}
+
+/// An entry that does not increase from the 1 before it is named.
+fn assert_not_increasing<T: Debug>(
+    result: Result<T, IndenterError>,
+    list: &str,
+    entry: (usize, f64),
+) {
+    match result {
+        Err(IndenterError::NotIncreasing {
+            list: name,
+            index,
+            value,
+            previous,
+        }) => {
+            assert_eq!(
+                (name, (index, value), previous),
+                (list, entry, 1.0),
+                "what is named"
+            );
+        }
+        other => panic!("{list} with the entry {entry:?}: {other:?}"),
     }
 }
 
@@ -59,31 +84,30 @@ fn questions_are_checked_too() {
 
 #[test]
 fn superpositions_need_a_body() {
-    let term = |coefficient, exponent| PowerTerm {
-        coefficient,
-        exponent,
+    let new = |second: (f64, f64)| {
+        let terms = [(1.0, 2.0), second].map(|(coefficient, exponent)| PowerTerm {
+            coefficient,
+            exponent,
+        });
+        Superposition::new(terms.to_vec())
     };
-    assert_eq!(
-        Superposition::new(Vec::new()),
+    let none = Superposition::new(Vec::new());
+    assert_matches!(
+        none,
         Err(IndenterError::TooFew {
             list: "terms",
             needed: 1,
             length: 0
-        }),
-        "no term"
+        })
     );
     for bad in BAD {
-        let exponent = Superposition::new(vec![term(1.0, 1.0), term(1.0, bad)]);
-        assert_names(exponent, "exponent", bad);
+        assert_names(new((1.0, bad)), "exponent", bad);
     }
     for bad in [0.0, -0.0, f64::NAN, f64::INFINITY] {
-        let coefficient = Superposition::new(vec![term(1.0, 1.0), term(bad, 2.0)]);
-        assert_names(coefficient, "coefficient", bad);
+        assert_names(new((bad, 1.0)), "coefficient", bad);
     }
-    let apex_downwards = Superposition::new(vec![term(1.0, 2.0), term(-1.0, 1.0)]);
-    assert_names(apex_downwards, "coefficient of the lowest exponent", -1.0);
-    let repeated = Superposition::new(vec![term(1.0, 2.0), term(3.0, 2.0)]);
-    assert_names(repeated, "exponent", 2.0);
+    assert_names(new((-1.0, 1.0)), "coefficient of the lowest exponent", -1.0);
+    assert_names(new((3.0, 2.0)), "exponent", 2.0);
 }
 
 /// EXT-01 rows 17, 18, 19.
@@ -99,28 +123,20 @@ fn tables_are_checked_row_by_row() {
             assert_names(new(vec![0.0, 1.0], vec![0.0, bad]), "heights", bad);
             assert_names(new(vec![0.0, bad], vec![0.0, 1.0]), list, bad);
         }
-        let mismatch = IndenterError::LengthMismatch {
-            first: list,
-            first_length: 2,
-            second: "heights",
-            second_length: 1,
-        };
-        assert_eq!(new(vec![0.0, 1.0], vec![0.0]), Err(mismatch), "lengths");
-        let short = IndenterError::TooFew {
-            list,
-            needed: 2,
-            length: 1,
-        };
-        assert_eq!(new(vec![0.0], vec![0.0]), Err(short), "one row");
-        for value in [1.0, 0.5] {
-            let stuck = IndenterError::NotIncreasing {
-                list,
-                index: 2,
-                value,
-                previous: 1.0,
-            };
-            let result = new(vec![0.0, 1.0, value], vec![0.0; 3]);
-            assert_eq!(result, Err(stuck), "{list} ending with 1, {value}");
+        let mismatch = new(vec![0.0, 1.0], vec![0.0]);
+        assert_matches!(
+            mismatch,
+            Err(IndenterError::LengthMismatch { first, first_length: 2, second: "heights", second_length: 1 })
+                if first == list
+        );
+        let short = new(vec![0.0], vec![0.0]);
+        assert_matches!(
+            short,
+            Err(IndenterError::TooFew { list: name, needed: 2, length: 1 }) if name == list
+        );
+        for last in [1.0, 0.5] {
+            let stuck = new(vec![0.0, 1.0, last], vec![0.0; 3]);
+            assert_not_increasing(stuck, list, (2, last));
         }
     }
 }
@@ -138,14 +154,19 @@ fn a_profile_table_starts_at_the_apex() {
 #[test]
 fn the_sphere_ends_at_its_equator() {
     let sphere = Sphere::new(1.0).unwrap();
-    for radius in [1.0, 1.5, -0.1] {
+    let lower = 0.0;
+    for position in [1.0, 1.5, -0.1] {
+        let upper = 1.0;
         let expected = IndenterError::OutOfDomain {
-            position: radius,
-            lower: 0.0,
-            upper: 1.0,
+            position,
+            lower,
+            upper,
         };
-        let actual = sphere.checked_height(radius);
-        assert_eq!(actual, Err(expected), "height at {radius}");
+        assert_eq!(
+            sphere.checked_height(position),
+            Err(expected),
+            "height at {position}"
+        );
     }
     assert!(
         sphere.checked_height(f64::NAN).is_err() && sphere.checked_line_height(1.0).is_err(),
@@ -161,34 +182,17 @@ fn lines_need_a_finite_domain_and_finite_heights() {
         assert_names(on([bad, 0.0]), "end of the domain", bad);
     }
     for upper in [1.0, 0.5] {
-        let expected = IndenterError::NotIncreasing {
-            list: "domain",
-            index: 1,
-            value: upper,
-            previous: 1.0,
-        };
-        assert_eq!(
-            on([1.0, upper]).map(|_| ()),
-            Err(expected),
-            "[1, {upper}] is empty"
-        );
+        assert_not_increasing(on([1.0, upper]), "domain", (1, upper));
     }
     let endless = AnalyticLine::new(f64::ln, f64::recip, [0.0, 1.0]);
     assert_names(endless, "height of the line", f64::NEG_INFINITY);
-    let gap = AnalyticLine::new(
-        |x| if (0.4..0.6).contains(&x) { f64::NAN } else { x },
-        |_| 1.0,
-        [0.0, 1.0],
-    );
-    let result = leading_edge(&gap.unwrap());
-    assert_matches!(result, Err(IndenterError::InvalidParameter { value, .. }) if value.is_nan());
+    let gap = |x: f64| if (0.4..0.6).contains(&x) { f64::NAN } else { x };
+    let gap = AnalyticLine::new(gap, |_| 1.0, [0.0, 1.0]).unwrap();
+    assert_names(leading_edge(&gap), "height of the line", f64::NAN);
     // Finite at both ends, with a pole at the turning point 1/2.
-    let pole = AnalyticLine::new(
-        |x| 1.0 / (x - 0.5).powi(2),
-        |x| if x < 0.5 { 1.0 } else { -1.0 },
-        [0.0, 1.0],
-    );
-    let result = leading_edge(&pole.unwrap());
+    let slope = |x: f64| if x < 0.5 { 1.0 } else { -1.0 };
+    let pole = AnalyticLine::new(|x| 1.0 / (x - 0.5).powi(2), slope, [0.0, 1.0]).unwrap();
+    let result = leading_edge(&pole);
     assert_matches!(
         result,
         Err(IndenterError::InvalidParameter {

@@ -105,41 +105,6 @@ fn separate_points_agree_with_the_casebook() {
     }
 }
 
-/// Heights over 0, 1, 2, …, and the intervals of the leading edge.
-#[test]
-fn tables_of_heights_have_their_edges() {
-    let rows: [(&str, &[f64], &[f64]); 3] = [
-        (
-            "of a plateau only the right end belongs",
-            &[0.0, 1.0, 1.0, 1.0, 2.0],
-            &[0.0, 1.0, 3.0, 4.0],
-        ),
-        (
-            "a flank that starts at a later minimum is hidden",
-            &[0.0, 1.0, 2.0, 1.0, 3.0],
-            &[0.0, 1.0, 3.0, 4.0],
-        ),
-        (
-            "a falling line has an edge of one point",
-            &[5.0, 4.0, 3.0],
-            &[2.0, 2.0],
-        ),
-    ];
-    for (claim, heights, expected) in rows {
-        let positions: Vec<f64> = (0..heights.len()).map(|i| i as f64).collect();
-        let line = sampled(&positions, heights);
-        let edge = leading_edge(&line).unwrap();
-        assert_ends(&edge.intervals, expected, 0.0, claim);
-        let (available, depth) = (edge.available_depth(), 4.0);
-        let expected = IndenterError::NotHighEnough { available, depth };
-        assert_eq!(
-            contact_line(&line, depth),
-            Err(expected),
-            "{claim}: it carries no such depth"
-        );
-    }
-}
-
 #[test]
 fn at_a_vertex_the_slope_looks_forward() {
     let line = sampled(&[0.0, 1.0, 3.0], &[0.0, 2.0, 1.0]);
