@@ -105,8 +105,9 @@ pub(crate) fn as_far_as_reached(
             friction: estimate.friction_coefficient,
             unknowns: estimate.refinements.last().map(|last| last.unknowns),
         }),
-        Err(BemError::FrictionNotReached {
-            friction_coefficient: value,
+        Err(BemError::NotReached {
+            quantity: "friction coefficient",
+            value,
             error,
             ..
         }) => Ok(Reached {

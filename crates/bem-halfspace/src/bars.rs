@@ -81,9 +81,15 @@ impl Quantities {
 }
 
 /// Places of some quantities in an array of them.
-const FRICTION: usize = 0;
-const FORCE: usize = 1;
+pub(crate) const FRICTION: usize = 0;
+pub(crate) const FORCE: usize = 1;
 const DEPTH: usize = 2;
+/// Their names, in errors.
+pub(crate) const NAMES: [&str; 3] = [
+    "friction coefficient",
+    "normal force [N]",
+    "indentation depth [m]",
+];
 
 /// The quantity that a refinement drives to the error asked for, beside the normal force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,31 +178,12 @@ pub(crate) fn resolve<S, O>(
 }
 
 impl From<NotReached> for BemError {
-    /// The quantities that drive a refinement, by their place in quantities.
     fn from(reached: NotReached) -> Self {
-        let NotReached {
-            quantity,
-            value,
-            error,
-            asked: relative_error,
-            ..
-        } = reached;
-        match quantity {
-            FRICTION => Self::FrictionNotReached {
-                friction_coefficient: value,
-                error,
-                relative_error,
-            },
-            FORCE => Self::ForceNotReached {
-                normal_force: value,
-                error,
-                relative_error,
-            },
-            _ => Self::DepthNotReached {
-                indentation_depth: value,
-                error,
-                relative_error,
-            },
+        Self::NotReached {
+            quantity: NAMES[reached.quantity],
+            value: reached.value,
+            error: reached.error,
+            relative_error: reached.asked,
         }
     }
 }

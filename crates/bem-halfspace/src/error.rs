@@ -138,28 +138,16 @@ pub enum BemError {
         /// Relative error asked for.
         relative_error: f64,
     },
-    /// The friction coefficient was not reached to the error asked for.
+    /// A quantity was not reached to the error asked for.
     #[error(
-        "the friction coefficient was not reached to the relative error {relative_error:e}: it is \
-         {friction_coefficient} with an error of {error:e}"
+        "the {quantity} was not reached to the relative error {relative_error:e}: it is {value} with an error of {error:e}"
     )]
-    FrictionNotReached {
+    NotReached {
+        /// Name of the quantity, and its unit.
+        quantity: &'static str,
         /// Best value reached.
-        friction_coefficient: f64,
+        value: f64,
         /// Its absolute error.
-        error: f64,
-        /// Relative error asked for.
-        relative_error: f64,
-    },
-    /// The normal force at a depth was not reached to the error asked for.
-    #[error(
-        "the normal force was not reached to the relative error {relative_error:e}: it is {normal_force} N with an error \
-         of {error:e} N"
-    )]
-    ForceNotReached {
-        /// Best value reached, \[N].
-        normal_force: f64,
-        /// Its absolute error, \[N].
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
@@ -199,19 +187,6 @@ pub enum BemError {
         "a material that flows never comes to rest under a load: press it for a duration with `indent`"
     )]
     NoEquilibrium,
-    /// The depth was not reached to the error asked for.
-    #[error(
-        "the indentation depth was not reached to the relative error {relative_error:e}: it is {indentation_depth} m with \
-         an error of {error:e} m"
-    )]
-    DepthNotReached {
-        /// Best value reached, \[m].
-        indentation_depth: f64,
-        /// Its absolute error, \[m].
-        error: f64,
-        /// Relative error asked for.
-        relative_error: f64,
-    },
     /// The rigid body refuses.
     #[error(transparent)]
     Indenter(#[from] IndenterError),

@@ -52,7 +52,7 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// force, whichever is not given; or with a number of elements along the contact, about, and whatever error that has.
 ///
 /// # Errors
-/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::DepthNotReached`] and [`BemError::ForceNotReached`]
+/// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
 pub fn press(
     surface: &(impl Surface + ?Sized),

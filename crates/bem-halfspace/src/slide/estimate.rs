@@ -30,8 +30,7 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// the sliding distance of the load, or without one until the state is stationary.
 ///
 /// # Errors
-/// [`BemError::FrictionNotReached`], [`BemError::ForceNotReached`] and, where nothing is dissipated,
-/// [`BemError::DepthNotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
 /// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
 /// [`slide_on_grid`](super::slide_on_grid).
 pub fn slide(

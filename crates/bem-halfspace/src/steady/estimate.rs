@@ -24,7 +24,7 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 /// A sliding distance of the load changes nothing but the depth of a material that flows.
 ///
 /// # Errors
-/// [`BemError::FrictionNotReached`] and [`BemError::ForceNotReached`] with what was reached on the finest grid allowed;
+/// [`BemError::NotReached`] with what was reached on the finest grid allowed;
 /// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
 /// friction is infinite, or a surface that is low everywhere; and the errors of [`steady_on_grid`](super::steady_on_grid).

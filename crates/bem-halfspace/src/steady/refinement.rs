@@ -9,7 +9,7 @@
 use indenters::Surface;
 use numerics::{ErrorParts, Estimate};
 
-use crate::bars;
+use crate::bars::{self, FORCE, FRICTION, NAMES};
 use crate::error::{below_one, positive};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::steady::extrapolation::extrapolate;
@@ -188,16 +188,15 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
 }
 
 fn not_reached(friction: Estimate, force: Estimate, relative_error: f64) -> BemError {
-    if force.is_within(relative_error) {
-        return BemError::FrictionNotReached {
-            friction_coefficient: friction.value,
-            error: friction.error,
-            relative_error,
-        };
-    }
-    BemError::ForceNotReached {
-        normal_force: force.value,
-        error: force.error,
+    let (quantity, Estimate { value, error }) = if force.is_within(relative_error) {
+        (NAMES[FRICTION], friction)
+    } else {
+        (NAMES[FORCE], force)
+    };
+    BemError::NotReached {
+        quantity,
+        value,
+        error,
         relative_error,
     }
 }

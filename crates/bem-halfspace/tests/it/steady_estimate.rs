@@ -122,21 +122,21 @@ fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usiz
         },
     };
     let result = steady_refined(&scene.body, &scene.material, &scene.load, &options);
-    let (name, value, error) = match result {
-        Err(BemError::FrictionNotReached {
-            friction_coefficient,
-            error,
-            ..
-        }) => ("friction", friction_coefficient, error),
-        Err(BemError::ForceNotReached {
-            normal_force,
-            error,
-            ..
-        }) => ("force", normal_force, error),
-        other => panic!("{other:?} with {max_unknowns} unknowns"),
+    let Err(BemError::NotReached {
+        quantity,
+        value,
+        error,
+        ..
+    }) = result
+    else {
+        panic!("{result:?} with {max_unknowns} unknowns");
     };
     let at_depth = matches!(scene.load.control(), Control::IndentationDepth(_));
-    assert_eq!(name == "force", at_depth, "what was not reached");
+    assert_eq!(
+        quantity == "normal force [N]",
+        at_depth,
+        "what was not reached"
+    );
     assert!(error > relative_error * value, "{value} ± {error}");
     Estimate { value, error }
 }

@@ -54,12 +54,13 @@ fn numerical(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {
 fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
     first_reached(scene, Model::HalfSpace, &[error]).or_else(|failure| {
         match failure.downcast_ref() {
-            Some(&SolveError::HalfSpace(BemError::FrictionNotReached {
-                friction_coefficient,
+            Some(&SolveError::HalfSpace(BemError::NotReached {
+                quantity: "friction coefficient",
+                value,
                 error,
                 ..
             })) => Ok(Reference {
-                value: friction_coefficient,
+                value,
                 error,
                 source: "bem-steady, as far as it came".to_owned(),
             }),

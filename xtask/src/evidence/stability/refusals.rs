@@ -168,7 +168,7 @@ fn error_not_reached() -> Result<Finding> {
         max_unknowns: 1000,
     };
     let state = steady_refined(&cone, &material, &load, &options);
-    refused!(state => BemError::FrictionNotReached { .. })
+    refused!(state => BemError::NotReached { .. })
 }
 
 fn pressed_line(spacing: f64) -> Result<Result<(), MdrError>> {
