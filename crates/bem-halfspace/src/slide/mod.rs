@@ -13,7 +13,6 @@
 mod estimate;
 mod stationary;
 mod transient;
-mod until_stationary;
 
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
@@ -21,9 +20,8 @@ use rheology::Material;
 pub use crate::stepping::{March, MarchState, Motion, MotionRow, SlideOmission};
 use crate::{BemError, GridOptions};
 pub use estimate::{SlideEstimate, slide};
-pub use stationary::StationaryFriction;
+pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
 pub use transient::{PressureField, SlideRow, Transient};
-pub use until_stationary::{StationaryOptions, StationarySlide, slide_to_stationary};
 
 /// Presses `surface` into an undeformed half space under a constant force or at a constant depth and slides it from first
 /// touch over the sliding distance of the load, on one grid.
