@@ -31,14 +31,14 @@ pub struct Convolution {
     /// Of the elements, or of those in front of the mirrors.
     grid: Grid,
     /// About which pressure and result are their own images along x and y, at the rear of the grid.
-    mirrors: [Mirror; 2],
-    surroundings: Surroundings,
+    pub(crate) mirrors: [Mirror; 2],
+    pub(crate) surroundings: Surroundings,
     transform: PlaneTransform,
     /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
     /// in; not a slice, into which it would have to be copied.
     spectrum: Arc<Vec<f64>>,
     /// Displacement of an element under its own unit load, [m].
-    self_influence: f64,
+    pub(crate) self_influence: f64,
 }
 
 /// Buffers that a convolution overwrites; one per caller, made by [`Convolution::workspace`].
@@ -112,7 +112,7 @@ impl Convolution {
         Self {
             grid: self.grid.folded(mirrors),
             mirrors,
-            transform: PlaneTransform::folded(self.transform.padded(), mirrors),
+            transform: PlaneTransform::folded(self.transform.padded, mirrors),
             spectrum: Arc::clone(&self.spectrum),
             ..*self
         }
@@ -133,18 +133,6 @@ impl Convolution {
     #[must_use]
     pub const fn grid(&self) -> &Grid {
         &self.grid
-    }
-
-    pub(crate) const fn mirrors(&self) -> [Mirror; 2] {
-        self.mirrors
-    }
-
-    pub(crate) const fn surroundings(&self) -> Surroundings {
-        self.surroundings
-    }
-
-    pub(crate) const fn self_influence(&self) -> f64 {
-        self.self_influence
     }
 
     /// Buffers for [`apply`](Self::apply). With the feature `rayon`, for the threads of the current pool.
@@ -221,10 +209,10 @@ mod tests {
     /// Halves the loads of elements through which mirrors pass.
     fn halve_at_mirrors(loads: &mut [f64], folded: &Convolution) {
         let [rows, columns] = folded.grid().shape();
-        if folded.mirrors()[0] == Mirror::Centre {
+        if folded.mirrors[0] == Mirror::Centre {
             (0..columns).for_each(|column| loads[column] *= 0.5);
         }
-        if folded.mirrors()[1] == Mirror::Centre {
+        if folded.mirrors[1] == Mirror::Centre {
             (0..rows).for_each(|row| loads[row * columns] *= 0.5);
         }
     }

@@ -12,7 +12,7 @@ impl Convolution {
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
         let [unit_x, unit_y] = self.wave_numbers();
         let normalisation = self.transform.normalisation();
-        let length = self.transform.padded()[0] / 2 + 1;
+        let length = self.transform.padded[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);
         for_each_row(&mut spectrum, length, |column, values| {
             let q_y = column as f64 * unit_y;
@@ -25,9 +25,8 @@ impl Convolution {
 
     /// Wave numbers of the longest waves along x and y, \[rad/m].
     fn wave_numbers(&self) -> [f64; 2] {
-        [0, 1].map(|axis| {
-            2.0 * PI / (self.transform.padded()[axis] as f64 * self.grid.spacing()[axis])
-        })
+        [0, 1]
+            .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
     /// Spectrum of waves on an infinite half space, without their mean.
@@ -54,8 +53,8 @@ impl Convolution {
 
     /// Value of the kernel at the origin.
     pub(super) fn sum_of_spectrum(&self) -> f64 {
-        let length = self.transform.padded()[0] / 2 + 1;
-        let [twice_x, twice_y] = self.transform.padded().map(|n| n.div_ceil(2));
+        let length = self.transform.padded[0] / 2 + 1;
+        let [twice_x, twice_y] = self.transform.padded.map(|n| n.div_ceil(2));
         let weight = |index: usize, twice: usize| {
             if (1..twice).contains(&index) {
                 2.0
@@ -78,7 +77,7 @@ impl Convolution {
     /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
         let rows = self.transformed_kernel_rows();
-        let length = self.transform.padded()[0] / 2 + 1;
+        let length = self.transform.padded[0] / 2 + 1;
         let mut spectrum = copies(0.0, self.transform.n_columns() * length);
         for_each_row(&mut spectrum, 2 * length, |pair, spectrum| {
             let mut values = self.kernel_columns(&rows, 2 * pair);
@@ -90,7 +89,7 @@ impl Convolution {
 
     /// A column of the transformed kernel as real parts and the next, if there is one, as imaginary parts.
     fn kernel_columns(&self, rows: &[f64], column: usize) -> Vec<Complex<f64>> {
-        let period = self.transform.padded()[0];
+        let period = self.transform.padded[0];
         let mut values = vec![ZERO; period];
         for (row, transformed) in rows.chunks_exact(self.transform.n_columns()).enumerate() {
             let second = transformed.get(column + 1).copied();
@@ -103,7 +102,7 @@ impl Convolution {
 
     fn separate(&self, values: &[Complex<f64>], spectrum: &mut [f64]) {
         let normalisation = self.transform.normalisation();
-        let (first, second) = spectrum.split_at_mut(self.transform.padded()[0] / 2 + 1);
+        let (first, second) = spectrum.split_at_mut(self.transform.padded[0] / 2 + 1);
         for (spectrum, value) in first.iter_mut().zip(values) {
             *spectrum = value.re * normalisation;
         }
@@ -129,7 +128,7 @@ impl Convolution {
 
     fn kernel_row(&self, row: usize) -> Vec<f64> {
         let [dx, dy] = self.grid.spacing();
-        let period = self.transform.padded()[1];
+        let period = self.transform.padded[1];
         let mut values = vec![0.0; period];
         for column in 0..self.grid.shape()[1] {
             let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);

@@ -26,7 +26,6 @@ use std::sync::Arc;
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
-use crate::plane_transform::ZERO;
 use crate::plane_transform::rows::forward_real;
 use crate::plane_transform::workspace::Buffers;
 
@@ -39,13 +38,6 @@ pub(super) struct Cosines {
     plan: Arc<dyn RealToComplex<f64>>,
     /// sin(πn/L) for n = 0 … L/2; none where the period is transformed.
     sines: Option<Vec<f64>>,
-}
-
-/// Buffers of the sums.
-#[derive(Debug, Clone, Default)]
-pub(super) struct CosineBuffers {
-    reals: Vec<f64>,
-    coefficients: Vec<Complex<f64>>,
 }
 
 impl Cosines {
@@ -69,29 +61,20 @@ impl Cosines {
         1 + self.sines.as_ref().map_or(transformed / 2, |_| transformed)
     }
 
-    pub(super) fn scratch_len(&self) -> usize {
-        self.plan.get_scratch_len()
-    }
-
-    pub(super) fn buffers(&self) -> CosineBuffers {
-        CosineBuffers {
-            reals: vec![0.0; self.plan.len()],
-            coefficients: vec![ZERO; self.plan.len() / 2 + 1],
-        }
+    /// The transform that finds them.
+    pub(super) fn plan(&self) -> &dyn RealToComplex<f64> {
+        &*self.plan
     }
 
     /// Replaces f_0 … f_L by F_0 … F_L in the row of the buffers.
     pub(super) fn apply(&self, buffers: &mut Buffers) {
         let Buffers {
             row: numbers,
-            cosines,
+            folded: reals,
+            half_row: coefficients,
             scratch,
             ..
         } = buffers;
-        let CosineBuffers {
-            reals,
-            coefficients,
-        } = cosines;
         if let Some(sines) = &self.sines {
             let mean = numbers[0] - numbers[reals.len()];
             fold(sines, numbers, reals);

@@ -13,9 +13,9 @@ use crate::plane_transform::{about_centre, about_edge};
 pub(super) struct ColumnTransform {
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
-    mirror: Mirror,
+    pub(super) mirror: Mirror,
     /// Of [`about_edge`]; empty without a mirror there.
-    turns: Vec<Complex<f64>>,
+    pub(super) turns: Vec<Complex<f64>>,
 }
 
 impl ColumnTransform {
@@ -40,14 +40,6 @@ impl ColumnTransform {
             Mirror::None | Mirror::Edge => self.forward.len(),
             Mirror::Centre => self.forward.len() / 2 + 1,
         }
-    }
-
-    pub(super) const fn mirror(&self) -> Mirror {
-        self.mirror
-    }
-
-    pub(super) fn turns(&self) -> &[Complex<f64>] {
-        &self.turns
     }
 
     pub(super) fn scratch_len(&self) -> usize {

@@ -27,11 +27,11 @@ impl PlaneTransform {
         } else {
             [factors(column); 2]
         };
-        match self.columns.mirror() {
+        match self.columns.mirror {
             Mirror::None if pairs => multiply_pair(both, values),
             Mirror::None => multiply_whole(both[0], values),
             Mirror::Centre => multiply_parts(both, values),
-            Mirror::Edge => multiply_turned(both, self.columns.turns(), values),
+            Mirror::Edge => multiply_turned(both, &self.columns.turns, values),
         }
     }
 }

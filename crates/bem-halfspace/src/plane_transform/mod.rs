@@ -35,7 +35,7 @@ pub(crate) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 /// The transforms of fields within a period of `padded` elements along x and y; may be shared between threads.
 #[derive(Clone)]
 pub(crate) struct PlaneTransform {
-    padded: [usize; 2],
+    pub(crate) padded: [usize; 2],
     rows: RowTransform,
     columns: ColumnTransform,
 }
@@ -67,10 +67,6 @@ impl PlaneTransform {
             rows,
             columns,
         }
-    }
-
-    pub(crate) const fn padded(&self) -> [usize; 2] {
-        self.padded
     }
 
     /// Reciprocal of the factor by which forward and inverse transform together multiply a field.

@@ -6,7 +6,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
 use crate::mirror::Mirror;
-use crate::plane_transform::about_centre::{CosineBuffers, Cosines};
+use crate::plane_transform::about_centre::Cosines;
 use crate::plane_transform::about_edge;
 use crate::plane_transform::workspace::Buffers;
 
@@ -68,15 +68,15 @@ impl RowTransform {
             Self::Fourier {
                 forward, inverse, ..
             } => forward.get_scratch_len().max(inverse.get_scratch_len()),
-            Self::AboutCentre(cosines) => cosines.scratch_len(),
+            Self::AboutCentre(cosines) => cosines.plan().get_scratch_len(),
         }
     }
 
-    /// Buffers of the sums about a centre; none elsewhere.
-    pub(super) fn buffers(&self) -> CosineBuffers {
+    /// Number of reals that are transformed.
+    pub(super) fn n_reals(&self) -> usize {
         match self {
-            Self::AboutCentre(cosines) => cosines.buffers(),
-            Self::Fourier { .. } => CosineBuffers::default(),
+            Self::Fourier { forward, .. } => forward.len(),
+            Self::AboutCentre(cosines) => cosines.plan().len(),
         }
     }
 

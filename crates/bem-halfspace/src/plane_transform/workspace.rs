@@ -4,7 +4,6 @@ use rustfft::num_complex::Complex;
 
 use crate::bands::copies;
 use crate::chunks::{MIN_ELEMENTS, PerThread, Starts, fold_chunks};
-use crate::plane_transform::about_centre::CosineBuffers;
 use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 
 /// Buffers of a filter of fields of one shape; with the feature `rayon` for the threads of the pool in which they were
@@ -12,7 +11,7 @@ use crate::plane_transform::{PlaneTransform, STRIP, TILE, ZERO};
 #[derive(Debug, Clone)]
 pub(crate) struct Workspace {
     /// Rows and columns of the fields.
-    pub(super) shape: [usize; 2],
+    pub(crate) shape: [usize; 2],
     /// Transformed rows, [strip][tile][row of the strip].
     pub(super) strips: Vec<[Complex<f64>; TILE]>,
     /// Columns after the product, [tile][row].
@@ -27,8 +26,8 @@ pub(super) struct Buffers {
     pub(super) half_row: Vec<Complex<f64>>,
     pub(super) columns: Vec<Complex<f64>>,
     pub(super) scratch: Vec<Complex<f64>>,
-    /// Of rows in front of a mirror about a centre.
-    pub(super) cosines: CosineBuffers,
+    /// What is transformed of rows in front of a mirror about a centre.
+    pub(super) folded: Vec<f64>,
 }
 
 impl Workspace {
@@ -40,25 +39,16 @@ impl Workspace {
                 [ZERO; TILE],
                 shape[0].next_multiple_of(STRIP) * transform.n_tiles(),
             ),
-            tiles: copies([ZERO; TILE], tile_stride(shape) * transform.n_tiles()),
+            tiles: copies([ZERO; TILE], (shape[0] + 1) * transform.n_tiles()),
             buffers: PerThread::new(shape[0] * shape[1], || Buffers::new(transform)),
         }
     }
 
-    /// Number of pieces from one tile to the next.
+    /// Number of pieces from one tile to the next; at a distance of a power of two they would compete for the same lines of
+    /// the cache.
     pub(super) const fn tile_stride(&self) -> usize {
-        tile_stride(self.shape)
+        self.shape[0] + 1
     }
-
-    /// Rows and columns of the fields.
-    pub(crate) const fn shape(&self) -> [usize; 2] {
-        self.shape
-    }
-}
-
-/// Pieces of a row at a distance of a power of two would compete for the same lines of the cache.
-const fn tile_stride(shape: [usize; 2]) -> usize {
-    shape[0] + 1
 }
 
 impl Buffers {
@@ -66,10 +56,10 @@ impl Buffers {
         let scratch = transform.rows.scratch_len();
         Self {
             row: vec![0.0; transform.rows.len()],
-            half_row: vec![ZERO; transform.rows.len() / 2 + 1],
+            half_row: vec![ZERO; transform.rows.n_reals() / 2 + 1],
             columns: vec![ZERO; TILE * transform.column_stride()],
             scratch: vec![ZERO; scratch.max(transform.columns.scratch_len())],
-            cosines: transform.rows.buffers(),
+            folded: vec![0.0; transform.rows.n_reals()],
         }
     }
 }

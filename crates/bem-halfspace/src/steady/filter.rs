@@ -16,7 +16,7 @@ impl PlaneTransform {
         kernel: impl Fn(usize, usize) -> f64,
         column_step: impl Fn(&Self, &mut [Complex<f64>]),
     ) -> Spectrum {
-        let [length, width] = self.padded();
+        let [length, width] = self.padded;
         let n_columns = self.n_columns();
         let mut values = vec![0.0; width];
         let mut transformed = vec![ZERO; n_columns];
@@ -46,9 +46,9 @@ impl PlaneTransform {
     /// Replaces a field of the shape of the workspace by its product with a spectrum, in Fourier space. Does not
     /// allocate.
     pub(super) fn filter(&self, workspace: &mut Workspace, field: &mut [f64], spectrum: &Spectrum) {
-        let rows = 0..workspace.shape()[0];
+        let rows = 0..workspace.shape[0];
         self.load(workspace, field, &rows);
-        let length = self.padded()[0];
+        let length = self.padded[0];
         self.pass(workspace, (&rows, &rows), |column, values| {
             let factors = &spectrum[column * length..][..length];
             for (value, factor) in values.iter_mut().zip(factors) {

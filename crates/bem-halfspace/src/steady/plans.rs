@@ -51,7 +51,7 @@ impl Plans {
         let table = &self.table;
         recent(
             &mut self.kernels,
-            |kernel| kernel.transform.padded() == padded,
+            |kernel| kernel.transform.padded == padded,
             || {
                 let transform = PlaneTransform::new(padded);
                 let value = |row, column| table.at(signed_offset(row, padded[0]), column);
@@ -70,7 +70,7 @@ impl Plans {
         let table = &self.table;
         recent(
             &mut self.factors,
-            |factors| factors.transform.padded() == padded,
+            |factors| factors.transform.padded == padded,
             || InverseFactors::new(table, padded),
         )
     }
