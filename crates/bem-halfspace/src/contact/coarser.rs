@@ -14,9 +14,9 @@ pub(super) fn start_from_coarser(problem: LoadProblem, state: &mut ContactState)
     let convolution = problem.convolution;
     let grid = convolution.grid();
     let [rows, columns] = grid.shape();
-    let whole = grid.unfolded(convolution.mirrors()).shape();
+    let whole = grid.unfolded(convolution.mirrors).shape();
     let is_even = rows.is_multiple_of(2) && columns.is_multiple_of(2);
-    let has_period = convolution.surroundings() == Surroundings::Periodic;
+    let has_period = convolution.surroundings == Surroundings::Periodic;
     if whole.into_iter().any(|n| n < SMALLEST_EDGE) || (has_period && !is_even) {
         return;
     }

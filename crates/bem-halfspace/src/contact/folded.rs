@@ -24,7 +24,7 @@ pub(super) fn solve_in_front_of_mirrors(
         return solve_loads(problem, state, accuracy);
     }
     let mut front = match state.front.take() {
-        Some(front) if front.convolution.mirrors() == mirrors => front,
+        Some(front) if front.convolution.mirrors == mirrors => front,
         _ => Box::new(ContactBox::in_front_of(mirrors, convolution)),
     };
     let whole = convolution.grid().shape();
@@ -56,7 +56,7 @@ fn find_mirrors(convolution: &Convolution, fields: [&[f64]; 2]) -> [Mirror; 2] {
     };
     let both = |left: [bool; 2], right: [bool; 2]| [0, 1].map(|axis| left[axis] && right[axis]);
     let equal = bands.gather(in_band, both);
-    [0, 1].map(|axis| match convolution.surroundings() {
+    [0, 1].map(|axis| match convolution.surroundings {
         _ if !equal[axis] || shape[axis] == 1 => Mirror::None,
         Surroundings::Free if shape[axis].is_multiple_of(2) => Mirror::Edge,
         Surroundings::Free => Mirror::Centre,
@@ -74,7 +74,7 @@ fn is_palindrome(line: &[f64]) -> bool {
 impl ContactBox {
     /// Writes load and displacement of the whole grid, of which this is the part in front of mirrors.
     fn unfold(&self, fields: [&mut [f64]; 2], whole: [usize; 2]) {
-        let (mirrors, columns) = (self.convolution.mirrors(), self.bounds.shape()[1]);
+        let (mirrors, columns) = (self.convolution.mirrors, self.bounds.shape()[1]);
         let weights = MirrorWeights::of(&self.convolution);
         let bands = Bands::new(whole);
         bands.for_each(fields, |band, [loads, displacements]| {

@@ -15,7 +15,7 @@ pub(super) struct MirrorWeights {
 impl MirrorWeights {
     pub(super) const fn of(convolution: &Convolution) -> Self {
         Self {
-            mirrors: convolution.mirrors(),
+            mirrors: convolution.mirrors,
             columns: convolution.grid().shape()[1],
         }
     }

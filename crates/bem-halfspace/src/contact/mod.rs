@@ -8,7 +8,6 @@
 //! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
-mod accuracy;
 mod active_set;
 mod blocks;
 mod coarser;
@@ -26,17 +25,15 @@ mod violations;
 
 use std::f64::consts::PI;
 
-use crate::bands::Bands;
 use crate::chunks::in_pool;
 use crate::convolution::Surroundings;
 use crate::error::{positive, require};
 use crate::{BemError, Convolution};
-use accuracy::Accuracy;
 pub(crate) use contact_box::ContactBox;
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;
 pub(crate) use solve::Solved;
-use solve::{LoadProblem, solve_loads};
+use solve::{Accuracy, LoadProblem, solve_loads};
 pub use state::ContactState;
 
 /// One contact problem.
@@ -164,55 +161,70 @@ impl ContactOptions {
 }
 
 fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemError> {
-    let grid = problem.convolution.grid();
+    let (grid, heights) = (problem.convolution.grid(), problem.separation);
     positive("compliance", problem.compliance)?;
-    let lengths = [
-        ("separation", problem.separation.len()),
-        ("pressure", state.pressure().len()),
-    ];
-    for (field, length) in lengths {
-        if length != grid.n_elements() {
-            return Err(BemError::LengthMismatch {
-                field,
-                length,
-                elements: grid.n_elements(),
-            });
+    check_length("separation", heights.len(), grid.n_elements())?;
+    check_length("pressure", state.pressure().len(), grid.n_elements())?;
+    check_heights("separation", (heights, grid.shape()[1]), [0; 2])?;
+    check_control(problem.control)?;
+    match problem.control {
+        Control::IndentationDepth(value)
+            if problem.convolution.surroundings == Surroundings::Periodic =>
+        {
+            let is_allowed = value < heights.iter().sum::<f64>() / heights.len() as f64;
+            let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
+            require(is_allowed, "indentation_depth", value, allowed).map(drop)
         }
+        _ => Ok(()),
     }
-    let invalid = |height: f64| height.is_nan() || height == f64::NEG_INFINITY;
-    let bands = Bands::new(grid.shape());
-    let in_band = |band| {
-        let mut elements = bands.elements(band);
-        elements.find(|&element| invalid(problem.separation[element]))
-    };
-    if let Some(index) = bands.gather(in_band, Option::or) {
-        let n_y = grid.shape()[1];
-        return Err(BemError::InvalidHeight {
-            row: index / n_y,
-            column: index % n_y,
-            value: problem.separation[index],
-        });
-    }
-    validate_control(problem)
 }
 
-fn validate_control(problem: &ContactProblem) -> Result<(), BemError> {
-    let heights = problem.separation;
-    match problem.control {
-        Control::NormalForce(value) => {
-            let is_allowed = value.is_finite() && value >= 0.0;
-            let allowed = "finite and not negative (there is no adhesion)";
-            require(is_allowed, "normal_force", value, allowed)?;
-        }
-        Control::IndentationDepth(value) => {
-            require(value.is_finite(), "indentation_depth", value, "finite")?;
-            let is_free = problem.convolution.surroundings() == Surroundings::Free;
-            let is_allowed = is_free || value < heights.iter().sum::<f64>() / heights.len() as f64;
-            let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
-            require(is_allowed, "indentation_depth", value, allowed)?;
-        }
+/// Checks that a field has one value per element.
+pub(crate) fn check_length(
+    field: &'static str,
+    length: usize,
+    elements: usize,
+) -> Result<(), BemError> {
+    if length == elements {
+        return Ok(());
+    }
+    Err(BemError::LengthMismatch {
+        field,
+        length,
+        elements,
+    })
+}
+
+/// Checks the heights of a body over a part of a grid that begins at the element `first`; somewhere there must be a body.
+pub(crate) fn check_heights(
+    field: &'static str,
+    (heights, columns): (&[f64], usize),
+    first: [usize; 2],
+) -> Result<(), BemError> {
+    let invalid = |height: &f64| height.is_nan() || *height == f64::NEG_INFINITY;
+    if let Some(index) = heights.iter().position(invalid) {
+        return Err(BemError::InvalidHeight {
+            row: first[0] + index / columns,
+            column: first[1] + index % columns,
+            value: heights[index],
+        });
     }
     let has_body = heights.iter().any(|height| height.is_finite());
     let allowed = "below infinity in at least one element";
-    require(has_body, "separation", f64::INFINITY, allowed).map(drop)
+    require(has_body, field, f64::INFINITY, allowed).map(drop)
+}
+
+/// Checks a force or depth that is given.
+pub(crate) fn check_control(control: Control) -> Result<(), BemError> {
+    let checked = match control {
+        Control::NormalForce(value) => {
+            let is_allowed = value.is_finite() && value >= 0.0;
+            let allowed = "finite and not negative (there is no adhesion)";
+            require(is_allowed, "normal_force", value, allowed)
+        }
+        Control::IndentationDepth(value) => {
+            require(value.is_finite(), "indentation_depth", value, "finite")
+        }
+    };
+    checked.map(drop)
 }

@@ -72,7 +72,7 @@ impl Preconditioner {
         Self {
             weights,
             shape: grid.shape(),
-            mirrors: convolution.mirrors(),
+            mirrors: convolution.mirrors,
             mirror_weights: MirrorWeights::of(convolution),
             workspace: blocks.workspace(),
             blocks,
@@ -245,7 +245,7 @@ mod tests {
 
     /// Checks the matrix on parts of patterns; what else would be in contact is too much for a matrix.
     fn check(convolution: &Convolution, in_part: impl Fn(usize) -> bool + Sync) {
-        let (shape, mirrors) = (convolution.grid().shape(), convolution.mirrors());
+        let (shape, mirrors) = (convolution.grid().shape(), convolution.mirrors);
         for (number, pattern) in patterns(shape).into_iter().enumerate() {
             let mut contact = ActiveSet::new(shape);
             contact.assign(|element| pattern[element] && in_part(element / shape[1]));

@@ -4,7 +4,7 @@ use crate::bounds::Bounds;
 use crate::contact::coarser::start_from_coarser;
 use crate::contact::contact_box::ContactBox;
 use crate::contact::iteration::Iteration;
-use crate::contact::{Accuracy, ContactState, Control};
+use crate::contact::{ContactOptions, ContactState, Control};
 use crate::convolution::Surroundings;
 use crate::{BemError, Convolution};
 
@@ -59,12 +59,12 @@ fn solve_around(
 ) -> Result<Solved, BemError> {
     let convolution = problem.convolution;
     let grid = convolution.grid();
-    let may_have_box = state.may_have_box && convolution.surroundings() == Surroundings::Free;
+    let may_have_box = state.may_have_box && convolution.surroundings == Surroundings::Free;
     let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
         may_have_box && part < LARGEST_BOX
     };
-    let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors()));
+    let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {
         return Iteration::new(problem, state).run(accuracy);
     };
@@ -120,4 +120,41 @@ fn check_around(
         iterations,
         ..again
     })
+}
+
+/// When an iteration ends.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Accuracy {
+    /// See [`ContactOptions::tolerance`].
+    pub(super) tolerance: f64,
+    /// The residual must also fall to this part of what the first guess leaves; `∞` where that does not matter.
+    pub(super) part_of_first: f64,
+    pub(super) max_iterations: usize,
+}
+
+impl Accuracy {
+    /// For a solution that is the first guess on elements of half the edges.
+    ///
+    /// The residual of its own first guess measures the error of the larger elements, of which about a third remains
+    /// with these; nothing is gained from a solution more accurate than that.
+    pub(super) const GUESS: Self = Self {
+        tolerance: 1e-3,
+        part_of_first: 0.1,
+        max_iterations: 100,
+    };
+
+    /// The residual at which to end, from that of the first guess.
+    pub(super) fn target(&self, first_residual: f64) -> f64 {
+        self.tolerance.min(self.part_of_first * first_residual)
+    }
+}
+
+impl From<&ContactOptions> for Accuracy {
+    fn from(options: &ContactOptions) -> Self {
+        Self {
+            tolerance: options.tolerance,
+            part_of_first: f64::INFINITY,
+            max_iterations: options.max_iterations,
+        }
+    }
 }

@@ -72,7 +72,7 @@ impl ContactState {
 
     /// Drops the buffers that were made for another convolution.
     pub(super) fn prepare_for(&mut self, convolution: &Convolution) {
-        let kind = Some((*convolution.grid(), convolution.surroundings()));
+        let kind = Some((*convolution.grid(), convolution.surroundings));
         if self.kind != kind {
             self.kind = kind;
             (self.workspace, self.fields) = (None, None);

@@ -7,7 +7,7 @@ use rheology::ExponentialStep;
 use super::March;
 use crate::BemError;
 use crate::bounds::Bounds;
-use crate::contact::ContactBox;
+use crate::contact::{ContactBox, check_length};
 
 /// The state of a march from which it can be continued, beside its input.
 ///
@@ -101,14 +101,7 @@ impl March<'_> {
             ("load", &state.load, bounds.n_elements()),
             ("memory", &state.memory, n_values),
         ] {
-            if values.len() != elements {
-                let length = values.len();
-                return Err(BemError::LengthMismatch {
-                    field,
-                    length,
-                    elements,
-                });
-            }
+            check_length(field, values.len(), elements)?;
             if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
                 return Err(BemError::InvalidParameter {
                     parameter: field,

@@ -25,7 +25,7 @@ use indenters::{Control, Surface};
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use crate::bounds::Bounds;
-use crate::contact::ContactBox;
+use crate::contact::{ContactBox, check_heights};
 use crate::error::positive;
 use crate::resolution::Layout;
 use crate::slide::PressureField;
@@ -318,20 +318,11 @@ impl<'a> March<'a> {
         for row in first_row..rows {
             let x = self.along(row, offset) * self.options.spacing[0];
             for column in first_column..columns {
-                let value = self.surface.height([x, self.across(column)]);
-                if value.is_nan() || value == f64::NEG_INFINITY {
-                    return Err(BemError::InvalidHeight { row, column, value });
-                }
-                heights.push(value / self.scale);
+                heights.push(self.surface.height([x, self.across(column)]) / self.scale);
             }
         }
-        if heights.iter().all(|height| !height.is_finite()) {
-            return Err(BemError::InvalidParameter {
-                parameter: "height of the surface",
-                value: f64::INFINITY,
-                allowed: "below infinity in at least one element of the footprint",
-            });
-        }
+        let field = (&heights[..], columns - first_column);
+        check_heights("height of the surface", field, [first_row, first_column])?;
         self.heights = heights;
         self.sampled_offset = offset;
         Ok(())

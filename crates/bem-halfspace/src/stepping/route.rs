@@ -6,6 +6,7 @@ use indenters::Control;
 
 use super::Motion;
 use crate::BemError;
+use crate::contact::check_control;
 use crate::error::positive;
 use crate::grid::whole;
 
@@ -57,7 +58,7 @@ impl Route {
             } = motion;
             let time_step = positive("time step", time - time_before)?;
             let [cell, offset] = place(position, spacing)?;
-            check(control)?;
+            check_control(control)?;
             legs.push(Leg {
                 time,
                 time_step,
@@ -84,7 +85,7 @@ impl Route {
         control: Control,
     ) -> Result<Self, BemError> {
         let time_step = positive("time step", spacing / velocity)?;
-        check(control)?;
+        check_control(control)?;
         let cells: Vec<f64> = (1..=n_steps).map(|step| step as f64).collect();
         let leg = |&cell: &f64| Leg {
             time: cell * spacing / velocity,
@@ -158,23 +159,4 @@ fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
             offset
         },
     ])
-}
-
-fn check(control: Control) -> Result<(), BemError> {
-    let (parameter, value, allowed) = match control {
-        Control::NormalForce(force) if !(force.is_finite() && force >= 0.0) => (
-            "normal_force",
-            force,
-            "finite and not negative (there is no adhesion)",
-        ),
-        Control::IndentationDepth(depth) if !depth.is_finite() => {
-            ("indentation_depth", depth, "finite")
-        }
-        _ => return Ok(()),
-    };
-    Err(BemError::InvalidParameter {
-        parameter,
-        value,
-        allowed,
-    })
 }

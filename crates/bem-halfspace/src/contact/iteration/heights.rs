@@ -128,7 +128,7 @@ impl Iteration<'_> {
         let (contact, listed) = (&self.fields.contact, &mut self.fields.listed);
         let (separation, displacement, load) =
             (&listed.separation, &listed.displacement, &listed.load);
-        let own_influence = self.convolution.self_influence();
+        let own_influence = self.convolution.self_influence;
         let depth = self.indentation_depth;
         let in_band = |band, [residual]: [&mut [f64]; 1]| {
             let [separation, displacement, load] =
