@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 use std::iter::repeat_n;
 
-use bem_halfspace::slide::{Motion, MotionRow, follow};
+use bem_halfspace::slide::{MotionRow, follow};
 use bem_halfspace::{Control, GridOptions};
 use rheology::Material;
 
 use crate::support::{
-    after, assert_all_close, assert_close, assert_near, every_kind_of_material, paraboloid, prony,
-    slid, squares, three_elements, tight, under_force,
+    after, assert_all_close, assert_close, assert_near, every_kind_of_material, motions,
+    paraboloid, prony, slid, squares, three_elements, tight, under_force,
 };
 
 const FORCE: f64 = 0.5;
@@ -21,12 +21,8 @@ fn moved(
     material: &dyn Material,
     options: &GridOptions,
 ) -> Vec<MotionRow> {
-    let motion = |(time, position)| Motion {
-        time,
-        position,
-        control: Control::NormalForce(FORCE),
-    };
-    let motions: Vec<Motion> = path.into_iter().map(motion).collect();
+    let under_force = |(time, position)| (time, position, Control::NormalForce(FORCE));
+    let motions = motions(path.into_iter().map(under_force));
     follow(&paraboloid(0.5), material, &motions, options).expect("rows")
 }
 
@@ -82,6 +78,19 @@ fn friction_does_not_depend_on_the_parts_of_an_element_that_a_step_is() {
     }
 }
 
+/// Compares the contacts, forces and depths of steps, where the tangential force may have the other sign.
+fn assert_same_rows(rows: &[MotionRow], expected: &[MotionRow], sign: f64, tolerance: f64) {
+    for (row, expected) in rows.iter().zip(expected) {
+        let allowed = tolerance * FORCE;
+        let tangential_force = sign * expected.tangential_force;
+        assert_near(row, row.tangential_force, tangential_force, allowed);
+        assert_close(row, row.normal_force, expected.normal_force, tolerance);
+        let depth = expected.indentation_depth;
+        assert_close(row, row.indentation_depth, depth, tolerance);
+        assert_eq!(row.n_contact, expected.n_contact, "{row:?}");
+    }
+}
+
 /// There and back: a mirrored body that moves the other path has the opposite force.
 #[test]
 fn motion_to_the_other_side_is_the_mirror_image() {
@@ -94,12 +103,7 @@ fn motion_to_the_other_side_is_the_mirror_image() {
         let timed = timed.map(|(k, x)| (0.05 * (k + 1) as f64, sign * x));
         moved(timed, &solid(), &options)
     });
-    for (right, left) in right.iter().zip(&left) {
-        let forces = [right.tangential_force, -left.tangential_force];
-        assert_near(right.time, forces[0], forces[1], 1e-9 * FORCE);
-        let [depth, expected] = [right.indentation_depth, left.indentation_depth];
-        assert_close(right.time, depth, expected, 1e-9);
-    }
+    assert_same_rows(&right, &left, -1.0, 1e-9);
     // The dent in front resists, and after the turn the one that was behind.
     let [before, after] = [29, 49].map(|step| right[step].tangential_force);
     assert!(before > 0.0 && after < 0.0, "{before} and then {after}");
@@ -115,29 +119,18 @@ fn the_footprint_does_not_matter() {
         let path = times.map(|time| (time, (1.3 * time).sin()));
         moved(path, &material, &tight(squares(0.1, half_width)))
     });
-    for (small, large) in small.iter().zip(&large) {
-        assert_eq!(small.n_contact, large.n_contact, "at {} s", large.time);
-        let [force, expected] = [small.tangential_force, large.tangential_force];
-        assert_near(large.time, force, expected, 1e-9 * FORCE);
-        let [depth, expected] = [small.indentation_depth, large.indentation_depth];
-        assert_close(large.time, depth, expected, 1e-9);
-    }
+    assert_same_rows(&small, &large, 1.0, 1e-9);
 }
 
 /// Waiting at a place is pressing: the depth is that of a body that never moved, if it was lifted meanwhile.
 #[test]
 fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
     let far = 40.0;
-    let motions = [
+    let motions = motions([
         (1.0, 0.0, Control::NormalForce(FORCE)),
         (1.5, far, Control::IndentationDepth(-1.0)),
         (2.5, far, Control::NormalForce(FORCE)),
-    ];
-    let motions = motions.map(|(time, position, control)| Motion {
-        time,
-        position,
-        control,
-    });
+    ]);
     let (material, options) = (three_elements(0.4, 2.0, 0.5), tight(squares(0.1, 1.6)));
     let rows = follow(&paraboloid(0.5), &material, &motions, &options).expect("rows");
     assert_eq!(rows[1].contact_x, None, "lifted");
@@ -156,16 +149,12 @@ fn force_and_depth_control_agree() {
     let options = tight(squares(0.15, 1.6));
     let path = (1..=12).map(|k| (0.1 * f64::from(k), 0.13 * f64::from(k)));
     let pressed = moved(path, &solid(), &options);
-    let motions = pressed.iter().map(|row| Motion {
-        time: row.time,
-        position: row.position,
-        control: Control::IndentationDepth(row.indentation_depth),
-    });
-    let motions: Vec<Motion> = motions.collect();
+    let held = |row: &MotionRow| Control::IndentationDepth(row.indentation_depth);
+    let motions = motions(
+        pressed
+            .iter()
+            .map(|row| (row.time, row.position, held(row))),
+    );
     let held = follow(&paraboloid(0.5), &solid(), &motions, &options).expect("rows");
-    for (pressed, held) in pressed.iter().zip(&held) {
-        assert_close(held.time, held.normal_force, FORCE, 1e-8);
-        let [force, expected] = [held.tangential_force, pressed.tangential_force];
-        assert_near(held.time, force, expected, 1e-8 * FORCE);
-    }
+    assert_same_rows(&held, &pressed, 1.0, 1e-8);
 }

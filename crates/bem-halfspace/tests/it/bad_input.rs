@@ -13,7 +13,7 @@ use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
 use numerics::Accuracy;
 
 use crate::support::{
-    Formula, Scene, after, assert_refused, at_depth, paraboloid, power, prony, squares,
+    Formula, Scene, after, assert_refused, at_depth, motions, paraboloid, power, prony, squares,
     three_elements, under_force, viscous,
 };
 
@@ -333,11 +333,7 @@ fn contacts_out_of_range_are_refused() {
 #[test]
 fn motions_out_of_range_are_refused() {
     let (body, material) = (paraboloid(0.5), three_elements(0.1, 2.0, 0.5));
-    let good = [0.1, 0.2].map(|time| Motion {
-        time,
-        position: time,
-        control: Control::NormalForce(0.5),
-    });
+    let good = motions([0.1, 0.2].map(|time| (time, time, Control::NormalForce(0.5))));
     let options = squares(0.1, 1.6);
     let march = |motions: &[Motion]| March::new(&body, &material, motions, &options).map(|_| ());
     assert_refused("never", march(&[]), "number of steps");
@@ -361,10 +357,10 @@ fn motions_out_of_range_are_refused() {
             assert_bad(bad, march(&[motion]), name);
         }
     }
-    let mut far = good;
+    let mut far = good.clone();
     far[1].position = 1e12;
     assert_refused("a path too long", march(&far), "GridTooLarge");
-    let mut tension = good;
+    let mut tension = good.clone();
     tension[0].control = Control::NormalForce(-1.0);
     assert_refused("tension", march(&tension), "normal_force");
     let nowhere = Formula::new(|_| f64::INFINITY, |_| [0.0; 2]);

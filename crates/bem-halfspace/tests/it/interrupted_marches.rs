@@ -1,34 +1,26 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
-use bem_halfspace::slide::{March, MarchState, Motion, MotionRow};
+use bem_halfspace::slide::{March, MarchState, MotionRow};
 use bem_halfspace::{BemError, Control};
 use indenters::{Surface, Unmirrored};
 use rheology::Material;
 
-use crate::support::{assert_refused, elastic, power, prony, squares};
+use crate::support::{assert_refused, elastic, motions, power, prony, squares};
 
 /// Pressed, released to a much smaller contact, slid by fractions of an element, lifted, and pressed elsewhere.
-fn motions() -> Vec<Motion> {
-    let motion = |k: usize| {
-        let time = 0.1 * k as f64;
-        let control = match k {
-            1..4 => Control::NormalForce(6.0),
-            18..22 => Control::IndentationDepth(-0.5),
-            _ => Control::NormalForce(0.4 + 0.3 * (0.3 * k as f64).sin()),
-        };
-        let position = (0.07 * k as f64).min(1.9);
-        Motion {
-            time,
-            position,
-            control,
-        }
+fn path(k: usize) -> (f64, f64, Control) {
+    let k_th = k as f64;
+    let control = match k {
+        1..4 => Control::NormalForce(6.0),
+        18..22 => Control::IndentationDepth(-0.5),
+        _ => Control::NormalForce(0.4 + 0.3 * (0.3 * k_th).sin()),
     };
-    (1..=32).map(motion).collect()
+    (0.1 * k_th, (0.07 * k_th).min(1.9), control)
 }
 
 fn march<'a>(body: &'a dyn Surface, material: &'a dyn Material, n_steps: usize) -> March<'a> {
-    let motions = &motions()[..n_steps];
-    March::new(body, material, motions, &squares(0.1, 1.6)).expect("a march")
+    let motions = motions((1..=n_steps).map(path));
+    March::new(body, material, &motions, &squares(0.1, 1.6)).expect("a march")
 }
 
 /// Makes at most so many steps.

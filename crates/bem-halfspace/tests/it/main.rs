@@ -20,7 +20,6 @@ mod mirrored_contact;
 mod nested_grids;
 mod omissions;
 mod periodic_contact;
-mod sliding_converges;
 mod stationary_state;
 mod steady_cylinder;
 mod steady_estimate;

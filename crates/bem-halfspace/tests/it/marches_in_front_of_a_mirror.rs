@@ -8,34 +8,25 @@ use indenters::{HeightMap, Surface, Unmirrored};
 use rheology::Material;
 
 use crate::support::{
-    Formula, assert_near, cone, difference, every_kind_of_material, prony, three_elements, tight,
+    Formula, assert_near, cone, difference, every_kind_of_material, motions, prony, three_elements,
+    tight,
 };
 
 const SQUARE: Footprint = Footprint::square(1.5);
 
 /// Pressed, slid by parts of elements, lifted off, and pressed again where the half space remembers.
-fn motions() -> Vec<Motion> {
-    let motion = |(time, position, control)| Motion {
-        time,
-        position,
-        control,
-    };
-    let way = [
-        (0.1, 0.0, Control::NormalForce(0.3)),
-        (0.3, 0.2, Control::NormalForce(0.5)),
-        (0.4, 0.37, Control::NormalForce(0.5)),
-        (0.7, 0.9, Control::NormalForce(0.0)),
-        (0.8, 0.5, Control::IndentationDepth(0.3)),
-        (0.9, 0.61, Control::NormalForce(0.2)),
-    ];
-    way.map(motion).to_vec()
-}
+const PATH: [(f64, f64, Control); 6] = [
+    (0.1, 0.0, Control::NormalForce(0.3)),
+    (0.3, 0.2, Control::NormalForce(0.5)),
+    (0.4, 0.37, Control::NormalForce(0.5)),
+    (0.7, 0.9, Control::NormalForce(0.0)),
+    (0.8, 0.5, Control::IndentationDepth(0.3)),
+    (0.9, 0.61, Control::NormalForce(0.2)),
+];
 
 /// The same without moving.
 fn presses() -> Vec<Motion> {
-    let mut motions = motions();
-    motions.iter_mut().for_each(|motion| motion.position = 0.0);
-    motions
+    motions(PATH.map(|(time, _, control)| (time, 0.0, control)))
 }
 
 /// Compares all steps with those without mirrors; of the elements that are followed, which are the numbers in front of
@@ -81,7 +72,7 @@ fn compare(
 #[test]
 fn one_half_tells_all_of_a_motion_and_one_quarter_all_of_an_indenter_that_stays() {
     for (_, material) in every_kind_of_material() {
-        compare(&cone(0.4), &*material, (&motions(), SQUARE), 2);
+        compare(&cone(0.4), &*material, (&motions(PATH), SQUARE), 2);
         compare(&cone(0.4), &*material, (&presses(), SQUARE), 4);
     }
 }
@@ -98,7 +89,7 @@ fn the_front_tells_all_of_a_keel_until_it_moves() {
     };
     let material = three_elements(0.1, 2.0, 0.5);
     compare(&keel, &material, (&presses(), SQUARE), 2);
-    compare(&keel, &material, (&motions(), SQUARE), 1);
+    compare(&keel, &material, (&motions(PATH), SQUARE), 1);
 }
 
 #[test]
@@ -109,7 +100,7 @@ fn a_height_map_has_the_mirrors_of_its_nodes() {
         0.4 * x * x + 0.7 * y * y + 0.05 * (3.0 * x).cos() * y.abs()
     };
     let map = HeightMap::new([33, 33], [0.125; 2], (0..33 * 33).map(height).collect());
-    compare(&map.expect("a map"), &material, (&motions(), SQUARE), 2);
+    compare(&map.expect("a map"), &material, (&motions(PATH), SQUARE), 2);
 }
 
 #[test]
@@ -119,5 +110,5 @@ fn a_footprint_that_is_not_symmetric_is_followed_on_both_sides() {
         y: [-1.5, 2.5],
     };
     let material = three_elements(0.1, 2.0, 0.5);
-    compare(&cone(0.4), &material, (&motions(), footprint), 1);
+    compare(&cone(0.4), &material, (&motions(PATH), footprint), 1);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_2_PI;
 use std::fmt::Debug;
 
 use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
-use bem_halfspace::slide::{PressureField, Transient, slide_on_grid};
+use bem_halfspace::slide::{Motion, PressureField, Transient, slide_on_grid};
 use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, SteadySliding, steady, steady_on_grid};
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
@@ -288,6 +288,16 @@ pub(crate) fn slid(
     options: &GridOptions,
 ) -> Transient {
     slide_on_grid(body, material, load, options).expect("a transient")
+}
+
+/// Motions to positions \[m] at times \[s].
+pub(crate) fn motions(path: impl IntoIterator<Item = (f64, f64, Control)>) -> Vec<Motion> {
+    let motion = |(time, position, control)| Motion {
+        time,
+        position,
+        control,
+    };
+    path.into_iter().map(motion).collect()
 }
 
 /// A power profile h = c r^p on a half space.
