@@ -1,8 +1,8 @@
 //! Linear viscoelastic materials as friction of rubber needs them.
 //!
 //! [`Viscous`] is the material of the theory (Kürschner 2014, ZAMM 94, Eq. 3); [`StandardSolid`] is the elastomer whose
-//! middle frequency range it stands for (Eq. 2, Fig. 1). [`Elastic`], [`KelvinVoigt`], [`Maxwell`], [`Prony`] and
-//! [`KelvinChain`] are the others, [`Compressible`] gives any of them a Poisson ratio. [`Springpot`] and
+//! middle frequency range it stands for (Eq. 2, Fig. 1). [`Elastic`], [`KelvinVoigt`], [`Maxwell`] and [`Prony`] are
+//! the others, [`Compressible`] gives any of them a Poisson ratio. [`Springpot`] and
 //! [`FractionalMaxwell`] become one of them by a Prony series with a stated error. Every [`Material`] is described
 //! twice and exactly, by its [`RelaxationSpectrum`] and by its [`CreepSpectrum`]; both give moduli and compliances over
 //! time and frequency, and [`ExponentialStep`] is all that a contact solver asks of them.
@@ -19,8 +19,8 @@
 //! let peak = rubber.loss_peak();
 //! assert!((peak.loss_tangent - 15.803_488_531_025_35).abs() < 1e-12);
 //! // Far below Ω = 1 the loss modulus is that of the dashpot alone.
-//! let dashpot = Viscous::new(rubber.viscosity())?;
-//! let ratio = rubber.loss_modulus(0.1)? / dashpot.loss_modulus(0.1)?;
+//! let dashpot = Viscous::new(rubber.parameters().viscosity)?;
+//! let ratio = rubber.complex_modulus(0.1)?.loss / dashpot.complex_modulus(0.1)?.loss;
 //! assert!((ratio - 1.0).abs() < 1.1e-6);
 //! # Ok::<(), RheologyError>(())
 //! ```
@@ -43,9 +43,8 @@ pub use fractional::PronyExpansion;
 pub use fractional::fractional_maxwell::{FractionalMaxwell, FractionalMaxwellParameters};
 pub use fractional::springpot::Springpot;
 pub use material::Material;
-pub use materials::compressible::Compressible;
 pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
-pub use materials::generalised::{KelvinChain, Prony};
+pub use materials::generalised::{Compressible, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};

@@ -1,6 +1,7 @@
 //! What every material has: two spectra, and the moduli and compliances that follow.
 
 use std::fmt::Debug;
+use std::ops::Deref;
 
 use crate::{ComplexCompliance, ComplexModulus, CreepSpectrum, RelaxationSpectrum, RheologyError};
 
@@ -59,22 +60,6 @@ pub trait Material: Debug + Send + Sync {
         self.creep().complex_compliance(angular_frequency)
     }
 
-    /// Storage modulus G'(ω), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
-    fn storage_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        Ok(self.complex_modulus(angular_frequency)?.storage)
-    }
-
-    /// Loss modulus G''(ω), \[Pa], at an angular frequency ω ≥ 0 \[rad/s].
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
-    fn loss_modulus(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
-        Ok(self.complex_modulus(angular_frequency)?.loss)
-    }
-
     /// Loss tangent G''/G', infinite where G' vanishes, at an angular frequency ω ≥ 0 \[rad/s].
     ///
     /// # Errors
@@ -84,23 +69,19 @@ pub trait Material: Debug + Send + Sync {
     }
 }
 
-macro_rules! forward_to_material {
-    ($pointer:ty) => {
-        impl<M: Material + ?Sized> Material for $pointer {
-            fn relaxation(&self) -> RelaxationSpectrum {
-                (**self).relaxation()
-            }
+impl<P> Material for P
+where
+    P: Deref<Target: Material> + Debug + Send + Sync,
+{
+    fn relaxation(&self) -> RelaxationSpectrum {
+        (**self).relaxation()
+    }
 
-            fn creep(&self) -> CreepSpectrum {
-                (**self).creep()
-            }
+    fn creep(&self) -> CreepSpectrum {
+        (**self).creep()
+    }
 
-            fn poisson_ratio(&self) -> f64 {
-                (**self).poisson_ratio()
-            }
-        }
-    };
+    fn poisson_ratio(&self) -> f64 {
+        (**self).poisson_ratio()
+    }
 }
-
-forward_to_material!(&M);
-forward_to_material!(Box<M>);

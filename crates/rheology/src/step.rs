@@ -135,20 +135,6 @@ impl ExponentialStep {
             }
         }
     }
-
-    /// [`history`](Self::history) of a single point.
-    #[must_use]
-    pub fn history_at(&self, state: &[f64]) -> f64 {
-        let fields = self.fields.iter().zip(state);
-        fields.map(|(field, value)| field.decay * value).sum()
-    }
-
-    /// [`advance`](Self::advance) of a single point.
-    pub fn advance_at(&self, input: f64, state: &mut [f64]) {
-        for (field, value) in self.fields.iter().zip(state) {
-            *value = field.decay * *value + field.gain * input;
-        }
-    }
 }
 
 /// φ(x) = (1 − e^(−x))/x for x ≥ 0.

@@ -44,8 +44,8 @@ pub(super) fn compute() -> Result<Vec<Row>> {
             loss_tangent_gamma_0_001: soft.loss_tangent(frequency)?,
             loss_tangent_gamma_0_01: middle.loss_tangent(frequency)?,
             loss_tangent_gamma_0_1: stiff.loss_tangent(frequency)?,
-            scaled_storage_modulus: middle.storage_modulus(frequency)?,
-            scaled_loss_modulus: middle.loss_modulus(frequency)?,
+            scaled_storage_modulus: middle.complex_modulus(frequency)?.storage,
+            scaled_loss_modulus: middle.complex_modulus(frequency)?.loss,
         })
     };
     (0..=240).map(row).collect()

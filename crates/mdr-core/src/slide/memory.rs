@@ -11,9 +11,7 @@
 //! during it. That is a creep compliance again. A chain of this material is ahead twice, and differs from the chain of the
 //! material itself by what the step does, to first order in the step.
 
-use rheology::{
-    Compressible, CreepSpectrum, ExponentialStep, KelvinChain, Material, RetardationElement,
-};
+use rheology::{Compressible, CreepSpectrum, ExponentialStep, Material, Prony, RetardationElement};
 
 use crate::MdrError;
 use crate::chain::is_elastic;
@@ -36,6 +34,6 @@ pub(super) fn ahead(
     };
     let elements = creep.elements().iter().map(left).collect();
     let creep = CreepSpectrum::new(creep.creep_compliance(by)?, creep.fluidity(), elements)?;
-    let chain = KelvinChain::new(creep)?;
+    let chain = Prony::from_creep(creep)?;
     Ok(Some(Compressible::new(&chain, material.poisson_ratio())?))
 }

@@ -193,11 +193,7 @@ impl Problem {
     /// Squared relative error of every point; the two rows of a frequency are one point.
     fn point_errors(&self, series: &Series) -> Vec<f64> {
         let square = |row: &Row| (row.weight * (series.value(row) - row.value)).powi(2);
-        let rows_per_point = self
-            .rows
-            .iter()
-            .take_while(|row| row.same_point(&self.rows[0]));
-        let points = self.rows.chunks(rows_per_point.count().max(1));
+        let points = self.rows.chunk_by(Row::same_point);
         points.map(|point| point.iter().map(square).sum()).collect()
     }
 }
@@ -206,13 +202,8 @@ impl Series {
     /// Branches that the first guess left out come back small, where they can grow.
     fn revived(&self) -> Self {
         let mut series = self.clone();
-        let largest = series.moduli.iter().copied().fold(0.0, f64::max);
-        let least = series
-            .moduli
-            .iter()
-            .copied()
-            .filter(|&modulus| modulus > 0.0);
-        let seed = 1e-2 * least.fold(largest, f64::min);
+        let grown = || series.moduli.iter().copied().filter(|&m| m > 0.0);
+        let seed = 1e-2 * grown().fold(grown().fold(0.0, f64::max), f64::min);
         for modulus in series.moduli.iter_mut().chain(series.spring.as_mut()) {
             *modulus = modulus.max(seed);
         }

@@ -52,36 +52,29 @@ pub fn shifted_master_curve(
 ///
 /// # Errors
 /// [`RheologyError::NoOverlap`] when two neighbours stay farther apart than a quarter of their moduli;
-/// [`RheologyError::TooFewPoints`] /// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
+/// [`RheologyError::TooFewPoints`]
+/// when there is no isotherm, or one with less than two points; those of [`MeasuredCurve::oscillation`].
 pub fn automatic_master_curve(
     isotherms: &[Isotherm],
     temperature: f64,
 ) -> Result<MasterCurve, RheologyError> {
     let mut order: Vec<usize> = (0..isotherms.len()).collect();
-    order.sort_by(|&a, &b| {
-        isotherms[a]
-            .temperature
-            .total_cmp(&isotherms[b].temperature)
-    });
-    let distance = |&index: &usize| (isotherms[index].temperature - temperature).abs();
-    let nearest =
-        (0..order.len()).min_by(|&a, &b| distance(&order[a]).total_cmp(&distance(&order[b])));
-    let Some(nearest) = nearest else {
-        return Err(RheologyError::TooFewPoints {
-            needed: 1,
-            given: 0,
-        });
-    };
+    let temperature_of = |place: usize| isotherms[place].temperature;
+    order.sort_by(|&a, &b| temperature_of(a).total_cmp(&temperature_of(b)));
+    let distance = |place: &usize| (temperature_of(order[*place]) - temperature).abs();
+    let nearest = (0..order.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = nearest.ok_or(RheologyError::TooFewPoints {
+        needed: 1,
+        given: 0,
+    })?;
     for isotherm in isotherms {
         MeasuredCurve::oscillation(isotherm.points.clone())?;
     }
     let mut logs = vec![0.0; isotherms.len()];
-    for place in nearest + 1..order.len() {
-        let [known, new] = [order[place - 1], order[place]];
-        logs[new] = logs[known] + shift_onto(&isotherms[known], &isotherms[new])?;
-    }
-    for place in (0..nearest).rev() {
-        let [known, new] = [order[place + 1], order[place]];
+    let upwards = (nearest + 1..order.len()).map(|place| [place - 1, place]);
+    let downwards = (0..nearest).rev().map(|place| [place + 1, place]);
+    for places in upwards.chain(downwards) {
+        let [known, new] = places.map(|place| order[place]);
         logs[new] = logs[known] + shift_onto(&isotherms[known], &isotherms[new])?;
     }
     let factors = isotherms.iter().zip(logs);

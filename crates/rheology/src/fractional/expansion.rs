@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 use std::iter::successors;
 
-use crate::error::positive;
+use crate::error::{in_range, positive};
 use crate::{ComplexModulus, RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// A Prony series, and how far it is from what it stands for.
@@ -29,7 +29,7 @@ pub(super) struct Continuous<'a> {
     /// fast branches add up far beyond the rates that are numbers.
     pub(super) log_density: &'a dyn Fn(f64) -> f64,
     /// Exact complex modulus at ω > 0.
-    pub(super) exact: &'a dyn Fn(f64) -> ComplexModulus,
+    pub(super) exact: &'a dyn Fn(f64) -> Result<ComplexModulus, RheologyError>,
     /// Half the width of the strip around real ln s in which the density is analytic.
     pub(super) strip: f64,
     /// Exponent a of the density towards slow rates, H ~ s^a.
@@ -114,7 +114,7 @@ impl Continuous<'_> {
         let inner = inner.take_while(|&omega| omega < high);
         let mut worst = 0.0_f64;
         for omega in inner.chain([high]) {
-            let (exact, series) = ((self.exact)(omega), series.complex_modulus(omega)?);
+            let (exact, series) = ((self.exact)(omega)?, series.complex_modulus(omega)?);
             let error = (series.storage - exact.storage).hypot(series.loss - exact.loss);
             worst = worst.max(error / exact.storage.hypot(exact.loss));
         }
@@ -141,31 +141,16 @@ const MAX_TERMS: u32 = 100_000;
 fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyError> {
     positive("lowest_frequency", low)?;
     positive("highest_frequency", high)?;
-    if high <= low {
-        return Err(RheologyError::InvalidParameter {
-            parameter: "highest_frequency",
-            value: high,
-            allowed: "greater than the lowest frequency",
-        });
-    }
-    if !(1e-12..=0.1).contains(&relative_error) {
-        return Err(RheologyError::InvalidParameter {
-            parameter: "relative_error",
-            value: relative_error,
-            allowed: "from 1e-12 to 0.1",
-        });
-    }
+    let holds = high > low;
+    let allowed = "greater than the lowest frequency";
+    in_range("highest_frequency", high, holds, allowed)?;
+    let holds = (1e-12..=0.1).contains(&relative_error);
+    in_range("relative_error", relative_error, holds, "from 1e-12 to 0.1")?;
     Ok(())
 }
 
 /// Checks that the exponent of a fractional element is neither that of a spring nor that of a dashpot.
 pub(super) fn fractional_exponent(exponent: f64) -> Result<f64, RheologyError> {
-    if (0.01..=0.99).contains(&exponent) {
-        return Ok(exponent);
-    }
-    Err(RheologyError::InvalidParameter {
-        parameter: "exponent",
-        value: exponent,
-        allowed: "from 0.01 to 0.99",
-    })
+    let holds = (0.01..=0.99).contains(&exponent);
+    in_range("exponent", exponent, holds, "from 0.01 to 0.99")
 }

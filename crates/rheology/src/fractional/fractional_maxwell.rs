@@ -49,10 +49,6 @@ impl FractionalMaxwell {
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
     pub fn complex_modulus(&self, angular_frequency: f64) -> Result<ComplexModulus, RheologyError> {
         let omega = not_negative("angular_frequency", angular_frequency)?;
-        Ok(self.modulus_at(omega))
-    }
-
-    fn modulus_at(&self, omega: f64) -> ComplexModulus {
         let FractionalMaxwellParameters {
             shear_modulus,
             relaxation_time,
@@ -68,10 +64,10 @@ impl FractionalMaxwell {
         } else {
             1.0 + small * cosine
         };
-        ComplexModulus {
+        Ok(ComplexModulus {
             storage: shear_modulus * real / square,
             loss: shear_modulus * small * sine / square,
-        }
+        })
     }
 
     /// A Prony series that stands for this element over a band [ω_min, ω_max] of angular frequencies \[rad/s].
@@ -89,7 +85,7 @@ impl FractionalMaxwell {
         let exponent = self.parameters.exponent;
         let continuous = Continuous {
             log_density: &|log_rate| self.log_density(log_rate),
-            exact: &|omega| self.modulus_at(omega),
+            exact: &|omega| self.complex_modulus(omega),
             // Where r^a = −e^(±iπa).
             strip: PI * (1.0 - exponent) / exponent,
             exponent,

@@ -54,16 +54,12 @@ impl Springpot {
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
     pub fn complex_modulus(&self, angular_frequency: f64) -> Result<ComplexModulus, RheologyError> {
         let omega = not_negative("angular_frequency", angular_frequency)?;
-        Ok(self.modulus_at(omega))
-    }
-
-    fn modulus_at(&self, omega: f64) -> ComplexModulus {
         let magnitude = self.coefficient * omega.powf(self.exponent);
         let (sine, cosine) = (0.5 * PI * self.exponent).sin_cos();
-        ComplexModulus {
+        Ok(ComplexModulus {
             storage: magnitude * cosine,
             loss: magnitude * sine,
-        }
+        })
     }
 
     /// Loss tangent tan(π a/2), the same at every frequency.
@@ -87,7 +83,7 @@ impl Springpot {
         let scale = self.coefficient * (PI * self.exponent).sin() / PI;
         let continuous = Continuous {
             log_density: &|log_rate| scale.ln() + self.exponent * log_rate,
-            exact: &|omega| self.modulus_at(omega),
+            exact: &|omega| self.complex_modulus(omega),
             strip: f64::INFINITY,
             exponent: self.exponent,
             has_glass_modulus: false,

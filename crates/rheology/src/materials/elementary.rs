@@ -18,7 +18,7 @@ macro_rules! elementary {
         $(#[$new:meta])*
         new;
         $($(#[$parameter_doc:meta])* $parameter:ident, its inverse $inverse:literal;)+
-        $(=> $(#[$time_doc:meta])* $time:ident;)?
+        $(=> viscosity over modulus $time:literal;)?
     ) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +37,7 @@ macro_rules! elementary {
                 $(positive(stringify!($parameter), $parameter)?;)+
                 $(positive($inverse, $parameter.recip())?;)+
                 let material = Self { $($parameter),+ };
-                $(positive(stringify!($time), material.$time())?;)?
+                $(positive($time, material.viscosity / material.shear_modulus)?;)?
                 Ok(material)
             }
 
@@ -48,14 +48,6 @@ macro_rules! elementary {
                     self.$parameter
                 }
             )+
-
-            $(
-                $(#[$time_doc])*
-                #[must_use]
-                pub fn $time(&self) -> f64 {
-                    self.viscosity / self.shear_modulus
-                }
-            )?
         }
     };
 }
@@ -87,9 +79,7 @@ elementary! {
     shear_modulus, its inverse "compliance";
     /// Shear viscosity η of the dashpot, [Pa s].
     viscosity, its inverse "fluidity";
-    =>
-    /// Time η/G in which the strain creeps at constant stress, \[s].
-    retardation_time;
+    => viscosity over modulus "retardation_time";
 }
 
 elementary! {
@@ -101,48 +91,46 @@ elementary! {
     shear_modulus, its inverse "compliance";
     /// Shear viscosity η of the dashpot, [Pa s].
     viscosity, its inverse "fluidity";
-    =>
-    /// Time η/G in which the stress relaxes at constant strain, \[s].
-    relaxation_time;
+    => viscosity over modulus "relaxation_time";
 }
 
 impl Material for Elastic {
     /// G(t) = G.
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::without_branches(self.shear_modulus, 0.0)
+        RelaxationSpectrum::legal(self.shear_modulus, 0.0, Vec::new())
     }
 
     /// J(t) = 1/G.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::without_elements(self.shear_modulus.recip(), 0.0)
+        CreepSpectrum::legal(self.shear_modulus.recip(), 0.0, Vec::new())
     }
 }
 
 impl Material for Viscous {
     /// G(t) = η δ(t).
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::without_branches(0.0, self.viscosity)
+        RelaxationSpectrum::legal(0.0, self.viscosity, Vec::new())
     }
 
     /// J(t) = t/η.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::without_elements(0.0, self.viscosity.recip())
+        CreepSpectrum::legal(0.0, self.viscosity.recip(), Vec::new())
     }
 }
 
 impl Material for KelvinVoigt {
     /// G(t) = G + η δ(t).
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::without_branches(self.shear_modulus, self.viscosity)
+        RelaxationSpectrum::legal(self.shear_modulus, self.viscosity, Vec::new())
     }
 
     /// J(t) = (1 − e^(−G t/η))/G.
     fn creep(&self) -> CreepSpectrum {
         let element = RetardationElement {
             compliance: self.shear_modulus.recip(),
-            retardation_time: self.retardation_time(),
+            retardation_time: self.viscosity / self.shear_modulus,
         };
-        CreepSpectrum::single(0.0, element)
+        CreepSpectrum::legal(0.0, 0.0, vec![element])
     }
 }
 
@@ -151,13 +139,17 @@ impl Material for Maxwell {
     fn relaxation(&self) -> RelaxationSpectrum {
         let branch = RelaxationBranch {
             modulus: self.shear_modulus,
-            relaxation_time: self.relaxation_time(),
+            relaxation_time: self.viscosity / self.shear_modulus,
         };
-        RelaxationSpectrum::single(0.0, branch)
+        RelaxationSpectrum::legal(0.0, 0.0, vec![branch])
     }
 
     /// J(t) = 1/G + t/η.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::without_elements(self.shear_modulus.recip(), self.viscosity.recip())
+        CreepSpectrum::legal(
+            self.shear_modulus.recip(),
+            self.viscosity.recip(),
+            Vec::new(),
+        )
     }
 }

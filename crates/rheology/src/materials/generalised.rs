@@ -1,60 +1,82 @@
-//! Materials of any number of elements, given by one of their spectra.
+//! Materials given by a spectrum, or by another material.
 
+use crate::error::in_range;
 use crate::{CreepSpectrum, Material, RelaxationSpectrum, RheologyError};
 
-/// A material with both of its spectra, the other of which follows from the one that is given.
-macro_rules! generalised {
-    (
-        $(#[$doc:meta])*
-        $material:ident;
-        $(#[$new:meta])*
-        new: $given:ident: $spectrum:ty, $other:ident by $conversion:ident;
-    ) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-        pub struct $material {
-            relaxation: RelaxationSpectrum,
-            creep: CreepSpectrum,
-        }
-
-        impl $material {
-            $(#[$new])*
-            pub fn new($given: $spectrum) -> Result<Self, RheologyError> {
-                let $other = $given.$conversion()?;
-                Ok(Self { $given, $other })
-            }
-        }
-
-        impl Material for $material {
-            fn relaxation(&self) -> RelaxationSpectrum {
-                self.relaxation.clone()
-            }
-
-            fn creep(&self) -> CreepSpectrum {
-                self.creep.clone()
-            }
-        }
-    };
+/// A material of any number of elements, incompressible: its relaxation modulus is a Prony series.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Prony {
+    relaxation: RelaxationSpectrum,
+    creep: CreepSpectrum,
 }
 
-generalised! {
-    /// Maxwell branches in parallel, with or without a lone spring and a lone dashpot, incompressible: its relaxation modulus
-    /// is a Prony series.
-    Prony;
-    /// The material that relaxes like this.
+impl Prony {
+    /// Maxwell branches in parallel, with or without a lone spring and a lone dashpot.
     ///
     /// # Errors
     /// [`RheologyError`] when a compliance or a time of its creep is outside the range of `f64`.
-    new: relaxation: RelaxationSpectrum, creep by to_creep;
-}
+    pub fn new(relaxation: RelaxationSpectrum) -> Result<Self, RheologyError> {
+        let creep = relaxation.to_creep()?;
+        Ok(Self { relaxation, creep })
+    }
 
-generalised! {
-    /// Kelvin–Voigt elements in series, with or without a lone spring and a lone dashpot, incompressible.
-    KelvinChain;
-    /// The material that creeps like this.
+    /// A Kelvin chain: Kelvin–Voigt elements in series, with or without a lone spring and a lone dashpot.
     ///
     /// # Errors
     /// [`RheologyError`] when a modulus or a time of its relaxation is outside the range of `f64`.
-    new: creep: CreepSpectrum, relaxation by to_relaxation;
+    pub fn from_creep(creep: CreepSpectrum) -> Result<Self, RheologyError> {
+        let relaxation = creep.to_relaxation()?;
+        Ok(Self { relaxation, creep })
+    }
+}
+
+impl Material for Prony {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        self.relaxation.clone()
+    }
+
+    fn creep(&self) -> CreepSpectrum {
+        self.creep.clone()
+    }
+}
+
+/// A material whose Poisson ratio does not depend on time.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Compressible {
+    relaxation: RelaxationSpectrum,
+    creep: CreepSpectrum,
+    poisson_ratio: f64,
+}
+
+impl Compressible {
+    /// The material that behaves like `material` in shear and has the `poisson_ratio` −1 < ν ≤ 1/2.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when the ratio is outside that range.
+    pub fn new(material: &dyn Material, poisson_ratio: f64) -> Result<Self, RheologyError> {
+        let holds = poisson_ratio > -1.0 && poisson_ratio <= 0.5;
+        let allowed = "greater than -1 and at most 0.5";
+        in_range("poisson_ratio", poisson_ratio, holds, allowed)?;
+        Ok(Self {
+            relaxation: material.relaxation(),
+            creep: material.creep(),
+            poisson_ratio,
+        })
+    }
+}
+
+impl Material for Compressible {
+    fn relaxation(&self) -> RelaxationSpectrum {
+        self.relaxation.clone()
+    }
+
+    fn creep(&self) -> CreepSpectrum {
+        self.creep.clone()
+    }
+
+    fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
 }

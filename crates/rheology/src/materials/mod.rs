@@ -1,6 +1,5 @@
 //! The materials by name.
 
-pub(crate) mod compressible;
 pub(crate) mod elementary;
 pub(crate) mod generalised;
 pub(crate) mod standard_solid;

@@ -68,61 +68,41 @@ impl StandardSolid {
         Ok(solid)
     }
 
-    /// Equilibrium modulus G₁, \[Pa].
+    /// The moduli and the viscosity that it was made of.
     #[must_use]
-    pub const fn equilibrium_modulus(&self) -> f64 {
-        self.parameters.equilibrium_modulus
-    }
-
-    /// Modulus G₂ of the Maxwell branch, \[Pa].
-    #[must_use]
-    pub const fn maxwell_modulus(&self) -> f64 {
-        self.parameters.maxwell_modulus
-    }
-
-    /// Viscosity η of the Maxwell branch, [Pa s].
-    #[must_use]
-    pub const fn viscosity(&self) -> f64 {
-        self.parameters.viscosity
+    pub const fn parameters(&self) -> StandardSolidParameters {
+        self.parameters
     }
 
     /// Modulus of the first instant G₁ + G₂, \[Pa].
     #[must_use]
     pub fn glass_modulus(&self) -> f64 {
-        self.equilibrium_modulus() + self.maxwell_modulus()
+        self.parameters.equilibrium_modulus + self.parameters.maxwell_modulus
     }
 
     /// Stiffness ratio γ = G₁/G₂.
     #[must_use]
     pub fn stiffness_ratio(&self) -> f64 {
-        self.equilibrium_modulus() / self.maxwell_modulus()
+        self.parameters.equilibrium_modulus / self.parameters.maxwell_modulus
     }
 
     /// Time τ = η/G₂ in which the stress relaxes at constant strain, \[s].
     #[must_use]
     pub fn relaxation_time(&self) -> f64 {
-        self.viscosity() / self.maxwell_modulus()
+        self.parameters.viscosity / self.parameters.maxwell_modulus
     }
 
     /// Time λ = η/G₁ + η/G₂ in which the strain creeps at constant stress, \[s].
     #[must_use]
     pub fn retardation_time(&self) -> f64 {
-        self.viscosity() / self.equilibrium_modulus() + self.relaxation_time()
-    }
-
-    /// The spring G₂ and its dashpot.
-    fn branch(&self) -> RelaxationBranch {
-        RelaxationBranch {
-            modulus: self.maxwell_modulus(),
-            relaxation_time: self.relaxation_time(),
-        }
+        self.parameters.viscosity / self.parameters.equilibrium_modulus + self.relaxation_time()
     }
 
     /// What creeps: G₂/(G₁ (G₁ + G₂)) over the time λ.
     fn element(&self) -> RetardationElement {
-        let maxwell_share = self.maxwell_modulus() / self.glass_modulus();
+        let maxwell_share = self.parameters.maxwell_modulus / self.glass_modulus();
         RetardationElement {
-            compliance: maxwell_share / self.equilibrium_modulus(),
+            compliance: maxwell_share / self.parameters.equilibrium_modulus,
             retardation_time: self.retardation_time(),
         }
     }
@@ -159,11 +139,15 @@ impl StandardSolid {
 
 impl Material for StandardSolid {
     fn relaxation(&self) -> RelaxationSpectrum {
-        RelaxationSpectrum::single(self.equilibrium_modulus(), self.branch())
+        let branch = RelaxationBranch {
+            modulus: self.parameters.maxwell_modulus,
+            relaxation_time: self.relaxation_time(),
+        };
+        RelaxationSpectrum::legal(self.parameters.equilibrium_modulus, 0.0, vec![branch])
     }
 
     /// J(t) = 1/(G₁ + G₂) + G₂/(G₁ (G₁ + G₂)) (1 − e^(−t/λ)).
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::single(self.glass_modulus().recip(), self.element())
+        CreepSpectrum::legal(self.glass_modulus().recip(), 0.0, vec![self.element()])
     }
 }

@@ -13,48 +13,53 @@ use crate::{
     CreepSpectrum, RelaxationBranch, RelaxationSpectrum, RetardationElement, RheologyError,
 };
 
-pub(super) fn creep_of(relaxation: &RelaxationSpectrum) -> Result<CreepSpectrum, RheologyError> {
-    let decays = relaxation
-        .branches()
-        .iter()
-        .map(|b| (b.relaxation_time, b.viscosity()));
-    let poles = poles(relaxation.viscosity(), decays);
-    let elements = roots(&poles, relaxation.equilibrium_modulus())
-        .into_iter()
-        .map(|root| RetardationElement {
+impl RelaxationSpectrum {
+    /// The same material, described by its creep.
+    ///
+    /// # Errors
+    /// [`RheologyError`] when a compliance or a time of it is outside the range of `f64`.
+    pub fn to_creep(&self) -> Result<CreepSpectrum, RheologyError> {
+        let branches = self.branches().iter();
+        let decays = branches.map(|b| (b.relaxation_time, b.viscosity()));
+        let roots = roots(&poles(self.viscosity(), decays), self.equilibrium_modulus());
+        let elements = roots.into_iter().map(|root| RetardationElement {
             compliance: root.inverse_slope / root.position,
             retardation_time: root.position,
         });
-    let fluidity = if relaxation.equilibrium_modulus() > 0.0 {
-        0.0
-    } else {
-        relaxation.zero_shear_viscosity().recip()
-    };
-    // An infinite glass modulus leaves no compliance to the first instant.
-    let instantaneous = relaxation.glass_modulus().recip();
-    CreepSpectrum::new(instantaneous, fluidity, elements.collect())
+        let fluidity = if self.equilibrium_modulus() > 0.0 {
+            0.0
+        } else {
+            self.zero_shear_viscosity().recip()
+        };
+        // An infinite glass modulus leaves no compliance to the first instant.
+        let instantaneous = self.glass_modulus().recip();
+        CreepSpectrum::new(instantaneous, fluidity, elements.collect())
+    }
 }
 
-pub(super) fn relaxation_of(creep: &CreepSpectrum) -> Result<RelaxationSpectrum, RheologyError> {
-    let decays = creep
-        .elements()
-        .iter()
-        .map(|e| (e.retardation_time, e.compliance));
-    let poles = poles(creep.instantaneous_compliance(), decays);
-    let branches = roots(&poles, creep.fluidity())
-        .into_iter()
-        .map(|root| RelaxationBranch {
+impl CreepSpectrum {
+    /// The same material, described by its relaxation.
+    ///
+    /// # Errors
+    /// [`RheologyError`] when a modulus or a time of it is outside the range of `f64`.
+    pub fn to_relaxation(&self) -> Result<RelaxationSpectrum, RheologyError> {
+        let elements = self.elements().iter();
+        let decays = elements.map(|e| (e.retardation_time, e.compliance));
+        let poles = poles(self.instantaneous_compliance(), decays);
+        let roots = roots(&poles, self.fluidity());
+        let branches = roots.into_iter().map(|root| RelaxationBranch {
             modulus: root.inverse_slope / root.position / root.position,
             relaxation_time: root.position,
         });
-    let viscosity = if creep.instantaneous_compliance() > 0.0 {
-        0.0
-    } else {
-        creep.initial_fluidity().recip()
-    };
-    // An infinite compliance leaves no modulus to the end.
-    let equilibrium = creep.equilibrium_compliance().recip();
-    RelaxationSpectrum::new(equilibrium, viscosity, branches.collect())
+        let viscosity = if self.instantaneous_compliance() > 0.0 {
+            0.0
+        } else {
+            self.initial_fluidity().recip()
+        };
+        // An infinite compliance leaves no modulus to the end.
+        let equilibrium = self.equilibrium_compliance().recip();
+        RelaxationSpectrum::new(equilibrium, viscosity, branches.collect())
+    }
 }
 
 /// The poles of a spectrum; `at_zero` is the weight of the one at zero, if there is one.

@@ -5,11 +5,10 @@
 //! J'(ω) = J₀ + Σ J_k/(1 + Ω_k²)    J''(ω) = 1/(ω η_f) + Σ J_k Ω_k/(1 + Ω_k²)    Ω_k = ω λ_k
 //! ```
 
-use super::conversion;
-use super::merge::merge;
+use super::decays::normal_form;
+use crate::RheologyError;
 use crate::complex::{ComplexCompliance, debye};
-use crate::error::{in_list, not_negative, positive};
-use crate::{RelaxationSpectrum, RheologyError};
+use crate::error::not_negative;
 
 /// One Kelvin–Voigt element: a spring and a dashpot in parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,51 +47,34 @@ impl CreepSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("instantaneous_compliance", instantaneous_compliance)?;
         not_negative("fluidity", fluidity)?;
-        for (index, element) in elements.iter().enumerate() {
-            element.validate().map_err(in_list("elements", index))?;
-        }
         let decays = elements.iter().map(|e| (e.compliance, e.retardation_time));
-        let spectrum = Self {
-            instantaneous_compliance,
-            fluidity,
-            elements: merge(decays.collect())
-                .into_iter()
-                .map(|(compliance, retardation_time)| RetardationElement {
-                    compliance,
-                    retardation_time,
-                })
-                .collect(),
-        };
-        spectrum.validate_sums()?;
-        Ok(spectrum)
-    }
-
-    /// A lone spring and a lone dashpot, both legal.
-    pub(crate) const fn without_elements(instantaneous_compliance: f64, fluidity: f64) -> Self {
-        Self {
-            instantaneous_compliance,
-            fluidity,
-            elements: Vec::new(),
-        }
-    }
-
-    /// A lone spring and one element, both legal.
-    pub(crate) fn single(instantaneous_compliance: f64, element: RetardationElement) -> Self {
-        Self {
-            instantaneous_compliance,
-            fluidity: 0.0,
-            elements: vec![element],
-        }
-    }
-
-    fn validate_sums(&self) -> Result<(), RheologyError> {
-        let sum = self.recoverable_compliance();
-        if sum == 0.0 && self.fluidity == 0.0 {
+        let names = ["elements", "compliance", "retardation_time"];
+        let elements = normal_form(names, decays.collect())?.into_iter();
+        let elements = elements.map(|(compliance, retardation_time)| RetardationElement {
+            compliance,
+            retardation_time,
+        });
+        let spectrum = Self::legal(instantaneous_compliance, fluidity, elements.collect());
+        let sum = spectrum.recoverable_compliance();
+        if sum == 0.0 && fluidity == 0.0 {
             return Err(RheologyError::NoCompliance);
         }
         not_negative("recoverable_compliance", sum)?;
-        not_negative("initial_fluidity", self.initial_fluidity())?;
-        Ok(())
+        not_negative("initial_fluidity", spectrum.initial_fluidity())?;
+        Ok(spectrum)
+    }
+
+    /// The spectrum of legal numbers, the elements in increasing order of distinct times.
+    pub(crate) const fn legal(
+        instantaneous_compliance: f64,
+        fluidity: f64,
+        elements: Vec<RetardationElement>,
+    ) -> Self {
+        Self {
+            instantaneous_compliance,
+            fluidity,
+            elements,
+        }
     }
 
     /// Compliance J₀ of the first instant, \[1/Pa].
@@ -168,14 +150,6 @@ impl CreepSpectrum {
         }
         Ok(compliance)
     }
-
-    /// The same material, described by its relaxation.
-    ///
-    /// # Errors
-    /// [`RheologyError`] when a modulus or a time of it is outside the range of `f64`.
-    pub fn to_relaxation(&self) -> Result<RelaxationSpectrum, RheologyError> {
-        conversion::relaxation_of(self)
-    }
 }
 
 impl RetardationElement {
@@ -193,11 +167,5 @@ impl RetardationElement {
             return self.fluidity() * time;
         }
         -self.compliance * (-x).exp_m1()
-    }
-
-    fn validate(&self) -> Result<(), RheologyError> {
-        not_negative("compliance", self.compliance)?;
-        positive("retardation_time", self.retardation_time)?;
-        Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The two descriptions of a material: how stress relaxes and how strain creeps.
 
-pub(crate) mod conversion;
+mod conversion;
 pub(crate) mod creep;
-mod merge;
+mod decays;
 pub(crate) mod relaxation;
 mod secular;

@@ -5,11 +5,10 @@
 //! G'(ω) = G_∞ + Σ G_k Ω_k²/(1 + Ω_k²)    G''(ω) = ω η₀ + Σ G_k Ω_k/(1 + Ω_k²)    Ω_k = ω τ_k
 //! ```
 
-use super::conversion;
-use super::merge::merge;
+use super::decays::normal_form;
+use crate::RheologyError;
 use crate::complex::{ComplexModulus, debye};
-use crate::error::{in_list, not_negative, positive};
-use crate::{CreepSpectrum, RheologyError};
+use crate::error::not_negative;
 
 /// One Maxwell branch: a spring and a dashpot in series.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,51 +48,34 @@ impl RelaxationSpectrum {
     ) -> Result<Self, RheologyError> {
         not_negative("equilibrium_modulus", equilibrium_modulus)?;
         not_negative("viscosity", viscosity)?;
-        for (index, branch) in branches.iter().enumerate() {
-            branch.validate().map_err(in_list("branches", index))?;
-        }
         let decays = branches.iter().map(|b| (b.modulus, b.relaxation_time));
-        let spectrum = Self {
-            equilibrium_modulus,
-            viscosity,
-            branches: merge(decays.collect())
-                .into_iter()
-                .map(|(modulus, relaxation_time)| RelaxationBranch {
-                    modulus,
-                    relaxation_time,
-                })
-                .collect(),
-        };
-        spectrum.validate_sums()?;
-        Ok(spectrum)
-    }
-
-    /// A lone spring and a lone dashpot, both legal.
-    pub(crate) const fn without_branches(equilibrium_modulus: f64, viscosity: f64) -> Self {
-        Self {
-            equilibrium_modulus,
-            viscosity,
-            branches: Vec::new(),
-        }
-    }
-
-    /// A lone spring and one branch, both legal.
-    pub(crate) fn single(equilibrium_modulus: f64, branch: RelaxationBranch) -> Self {
-        Self {
-            equilibrium_modulus,
-            viscosity: 0.0,
-            branches: vec![branch],
-        }
-    }
-
-    fn validate_sums(&self) -> Result<(), RheologyError> {
-        let sum = self.spring_moduli();
-        if sum == 0.0 && self.viscosity == 0.0 {
+        let names = ["branches", "modulus", "relaxation_time"];
+        let branches = normal_form(names, decays.collect())?.into_iter();
+        let branches = branches.map(|(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        });
+        let spectrum = Self::legal(equilibrium_modulus, viscosity, branches.collect());
+        let sum = spectrum.spring_moduli();
+        if sum == 0.0 && viscosity == 0.0 {
             return Err(RheologyError::NoStiffness);
         }
         not_negative("glass_modulus", sum)?;
-        not_negative("zero_shear_viscosity", self.zero_shear_viscosity())?;
-        Ok(())
+        not_negative("zero_shear_viscosity", spectrum.zero_shear_viscosity())?;
+        Ok(spectrum)
+    }
+
+    /// The spectrum of legal numbers, the branches in increasing order of distinct times.
+    pub(crate) const fn legal(
+        equilibrium_modulus: f64,
+        viscosity: f64,
+        branches: Vec<RelaxationBranch>,
+    ) -> Self {
+        Self {
+            equilibrium_modulus,
+            viscosity,
+            branches,
+        }
     }
 
     /// Modulus G_∞ of the lone spring, \[Pa], what is left after a long time; 0 for a fluid.
@@ -144,11 +126,9 @@ impl RelaxationSpectrum {
         if not_negative("time", time)? == 0.0 {
             return Ok(self.glass_modulus());
         }
-        let decays = self.branches.iter();
-        let relaxing: f64 = decays
-            .map(|b| b.modulus * (-time / b.relaxation_time).exp())
-            .sum();
-        Ok(self.equilibrium_modulus + relaxing)
+        let branches = self.branches.iter();
+        let moduli = branches.map(|b| b.modulus * (-time / b.relaxation_time).exp());
+        Ok(self.equilibrium_modulus + moduli.sum::<f64>())
     }
 
     /// Complex modulus at an angular frequency ω ≥ 0 \[rad/s].
@@ -183,17 +163,15 @@ impl RelaxationSpectrum {
 
     /// tan δ from G''/ω and G'/ω: far below all 1/τ the squares of a fluid's G' underflow, these do not.
     fn loss_tangent_of_vanishing_storage(&self, omega: f64) -> f64 {
-        let per_omega: f64 = self
-            .branches
-            .iter()
-            .map(|b| b.viscosity() * debye(omega * b.relaxation_time)[1])
-            .sum();
+        let over_branches = |part: fn([f64; 2]) -> f64| -> f64 {
+            let parts = self.branches.iter();
+            parts
+                .map(|b| b.viscosity() * part(debye(omega * b.relaxation_time)))
+                .sum()
+        };
+        let per_omega = over_branches(|[_, out_of_phase]| out_of_phase);
         if omega > 0.0 && self.equilibrium_modulus + per_omega > 0.0 {
-            let viscous: f64 = self
-                .branches
-                .iter()
-                .map(|b| b.viscosity() * (1.0 - debye(omega * b.relaxation_time)[0]))
-                .sum();
+            let viscous = over_branches(|[in_phase, _]| 1.0 - in_phase);
             return (self.viscosity + viscous) / (self.equilibrium_modulus / omega + per_omega);
         }
         if self.equilibrium_modulus > 0.0 {
@@ -214,14 +192,6 @@ impl RelaxationSpectrum {
             [self.branches(), other.branches()].concat(),
         )
     }
-
-    /// The same material, described by its creep.
-    ///
-    /// # Errors
-    /// [`RheologyError`] when a compliance or a time of it is outside the range of `f64`.
-    pub fn to_creep(&self) -> Result<CreepSpectrum, RheologyError> {
-        conversion::creep_of(self)
-    }
 }
 
 impl RelaxationBranch {
@@ -229,11 +199,5 @@ impl RelaxationBranch {
     #[must_use]
     pub fn viscosity(&self) -> f64 {
         self.modulus * self.relaxation_time
-    }
-
-    fn validate(&self) -> Result<(), RheologyError> {
-        not_negative("modulus", self.modulus)?;
-        positive("relaxation_time", self.relaxation_time)?;
-        Ok(())
     }
 }

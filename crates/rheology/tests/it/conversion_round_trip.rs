@@ -1,8 +1,7 @@
 use casebook::assert_close;
 use proptest::prelude::*;
 use rheology::{
-    CreepSpectrum, KelvinChain, Material, Prony, RelaxationBranch, RelaxationSpectrum,
-    RetardationElement,
+    CreepSpectrum, Material, Prony, RelaxationBranch, RelaxationSpectrum, RetardationElement,
 };
 
 use crate::support::{fixed_cases, spectrum};
@@ -163,7 +162,7 @@ fn kelvin_chains_survive_the_round_trip() {
                 retardation_time: 10_f64.powi(i32::try_from(k).unwrap()),
             });
             let creep = CreepSpectrum::new(instantaneous, fluidity, elements.collect()).unwrap();
-            let chain = KelvinChain::new(creep.clone()).unwrap();
+            let chain = Prony::from_creep(creep.clone()).unwrap();
             let back = Prony::new(chain.relaxation()).unwrap().creep();
             assert_eq!(
                 back.elements().len(),

@@ -3,6 +3,14 @@ use rheology::{ExponentialStep, RelaxationSpectrum};
 
 use crate::support::{assert_same, named_spectrum, spectrum};
 
+/// Output of one point with an input, whose state moves on.
+fn output(step: &ExponentialStep, input: f64, state: &mut [f64]) -> f64 {
+    let mut history = [f64::NAN];
+    step.history(state, &mut history);
+    step.advance(&[input], state);
+    step.response() * input + history[0]
+}
+
 /// φ₁(x) = (1 − e^(−x))/x is the stiffness of a single branch, x φ₁(x) the compliance of a single element.
 #[test]
 fn coefficients_keep_their_digits_at_any_ratio_of_step_and_time() {
@@ -12,7 +20,7 @@ fn coefficients_keep_their_digits_at_any_ratio_of_step_and_time() {
         let relaxing = ExponentialStep::relaxation(&branch, x).unwrap();
         case.check("phi1", relaxing.response());
         let mut state = [1.0];
-        relaxing.advance_at(0.0, &mut state);
+        relaxing.advance(&[0.0], &mut state);
         case.check("decay", state[0]);
         // G = η δ(t) + 1 is a Kelvin-Voigt solid of J = 1 and λ = 1.
         let creep = spectrum(1.0, 1.0, &[], &[]).to_creep().unwrap();
@@ -31,8 +39,7 @@ fn ramp_and_hold(material: &RelaxationSpectrum, time: f64, n_steps: u32) -> f64 
     for count in 1..=n_steps {
         let next = (time_step * f64::from(count)).min(1.0);
         let increment = next - now;
-        stress = step.response() * increment + step.history_at(&state);
-        step.advance_at(increment, &mut state);
+        stress = output(&step, increment, &mut state);
         strain += increment;
         now = next;
     }
@@ -67,8 +74,7 @@ fn constant_load_creeps_exactly_for_any_step() {
             let step = ExponentialStep::creep(&creep, time_step).unwrap();
             let mut state = vec![0.0; step.n_fields()];
             for count in 1..=50 {
-                let displacement = step.response() + step.history_at(&state);
-                step.advance_at(1.0, &mut state);
+                let displacement = output(&step, 1.0, &mut state);
                 let exact = creep
                     .creep_compliance(time_step * f64::from(count))
                     .unwrap();
@@ -88,20 +94,16 @@ fn fields_of_many_points_are_those_of_each() {
         .unwrap();
     let step = ExponentialStep::creep(&creep, 0.7).unwrap();
     assert_eq!(step.n_fields(), 3, "two elements and free flow");
-    let inputs = [[1.0, -2.0], [0.5, 4.0], [0.0, 1e-3]];
     let mut together = vec![0.0; 2 * step.n_fields()];
     let mut apart = vec![vec![0.0; step.n_fields()]; 2];
-    for input in inputs {
-        step.advance(&input, &mut together);
+    for inputs in [[1.0, -2.0], [0.5, 4.0], [0.0, 1e-3]] {
         let mut history = [f64::NAN; 2];
         step.history(&together, &mut history);
-        for point in 0..2 {
-            step.advance_at(input[point], &mut apart[point]);
-            assert_same(
-                &format!("point {point}"),
-                history[point],
-                step.history_at(&apart[point]),
-            );
+        step.advance(&inputs, &mut together);
+        for (point, input) in inputs.into_iter().enumerate() {
+            let alone = output(&step, input, &mut apart[point]);
+            let beside_another = step.response() * input + history[point];
+            assert_same(&format!("point {point}"), beside_another, alone);
         }
     }
 }

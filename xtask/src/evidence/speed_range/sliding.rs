@@ -97,7 +97,8 @@ impl Sliding {
     /// η = G''(ω)/ω at ω = v/b.
     fn viscosity(&self, normal_force: f64) -> Result<f64> {
         let solid = solid(self.stiffness_ratio)?;
-        let loss = |length: f64| solid.loss_modulus(self.speed / length);
+        let modulus = |length: f64| solid.complex_modulus(self.speed / length);
+        let loss = |length: f64| modulus(length).map(|modulus| modulus.loss);
         // ln of F_N = 4 G'' b h̃(b), which rises with b: G'' falls at most like 1/b.
         let excess = |logarithm: f64| {
             loss(logarithm.exp()).map_or(f64::NAN, |loss| {

@@ -14,8 +14,10 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// The response to two steps of a length, of which the first is held over the second.
 fn two_steps(step: &ExponentialStep, first: f64) -> (f64, f64) {
     let mut state = vec![0.0; step.n_fields()];
-    step.advance_at(first, &mut state);
-    (step.response(), step.history_at(&state))
+    let mut held = [0.0];
+    step.advance(&[first], &mut state);
+    step.history(&state, &mut held);
+    (step.response(), held[0])
 }
 
 /// Two steps from rest under constant load are J(2Δt) w, and one step is J(Δt) w.
