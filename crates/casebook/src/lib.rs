@@ -86,6 +86,13 @@ impl Case {
         number(&self.0["expected"][name])
     }
 
+    /// Names of the numbers among the expected values.
+    pub fn expected_names(&self) -> impl Iterator<Item = &str> {
+        let values = self.0["expected"].as_object().into_iter().flatten();
+        let numbers = values.filter(|(_, value)| number(value).is_some());
+        numbers.map(|(name, _)| name.as_str())
+    }
+
     /// A list of numbers among the expected values.
     #[must_use]
     pub fn expected_list(&self, name: &str) -> Option<Vec<f64>> {

@@ -140,10 +140,14 @@ impl Problem {
         }
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
         let spring = is_solid.then(|| moduli.pop()).flatten();
+        let branches = moduli.into_iter().zip(times);
+        let branches = branches.map(|(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        });
         Ok(Series {
             spring,
-            moduli,
-            times,
+            branches: branches.collect(),
         })
     }
 
@@ -153,7 +157,8 @@ impl Problem {
         let window = [shortest / WINDOW_MARGIN, longest * WINDOW_MARGIN];
         let start = self.solved(self.spaced(n_branches), 0.0)?;
         let moved = refine(&self.rows, start.revived(), window);
-        let end = self.solved(moved.times, 0.0)?;
+        let times = moved.branches.iter().map(|branch| branch.relaxation_time);
+        let end = self.solved(times.collect(), 0.0)?;
         let better = end.squares(&self.rows) < start.squares(&self.rows);
         Ok(if better { end } else { start })
     }
@@ -175,13 +180,8 @@ impl Problem {
     }
 
     fn assessed(&self, series: &Series) -> Result<Identification, RheologyError> {
-        let branches = series.moduli.iter().zip(&series.times);
-        let branches = branches.map(|(&modulus, &relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
         let spring = series.spring.unwrap_or_default();
-        let spectrum = RelaxationSpectrum::new(spring, 0.0, branches.collect())?;
+        let spectrum = RelaxationSpectrum::new(spring, 0.0, series.branches.clone())?;
         let errors = self.point_errors(series);
         Ok(Identification {
             spectrum,
@@ -202,9 +202,12 @@ impl Series {
     /// Branches that the first guess left out come back small, where they can grow.
     fn revived(&self) -> Self {
         let mut series = self.clone();
-        let grown = || series.moduli.iter().copied().filter(|&m| m > 0.0);
-        let seed = 1e-2 * grown().fold(grown().fold(0.0, f64::max), f64::min);
-        for modulus in series.moduli.iter_mut().chain(series.spring.as_mut()) {
+        let moduli = series.branches.iter().map(|branch| branch.modulus);
+        let grown: Vec<f64> = moduli.filter(|&modulus| modulus > 0.0).collect();
+        let largest = grown.iter().copied().fold(0.0, f64::max);
+        let seed = 1e-2 * grown.into_iter().fold(largest, f64::min);
+        let moduli = series.branches.iter_mut().map(|branch| &mut branch.modulus);
+        for modulus in moduli.chain(series.spring.as_mut()) {
             *modulus = modulus.max(seed);
         }
         series

@@ -5,13 +5,13 @@
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
 
 use super::system::Row;
+use crate::RelaxationBranch;
 
 /// A series while it is refined: the lone spring, if there is one, and the branches.
 #[derive(Debug, Clone)]
 pub(super) struct Series {
     pub(super) spring: Option<f64>,
-    pub(super) moduli: Vec<f64>,
-    pub(super) times: Vec<f64>,
+    pub(super) branches: Vec<RelaxationBranch>,
 }
 
 const MAX_STEPS: usize = 100;
@@ -65,23 +65,20 @@ impl Linearised {
 
 impl Series {
     pub(super) fn value(&self, row: &Row) -> f64 {
-        let branches = self.moduli.iter().zip(&self.times);
-        let relaxing: f64 = branches
-            .map(|(modulus, &time)| modulus * row.branch(time)[0])
-            .sum();
-        self.spring.unwrap_or_default() * row.spring() + relaxing
+        let branches = self.branches.iter();
+        let relaxing =
+            branches.map(|branch| branch.modulus * row.branch(branch.relaxation_time)[0]);
+        self.spring.unwrap_or_default() * row.spring() + relaxing.sum::<f64>()
     }
 
     /// Sum of squared relative errors.
     pub(super) fn squares(&self, rows: &[Row]) -> f64 {
-        let errors = rows
-            .iter()
-            .map(|row| row.weight * (self.value(row) - row.value));
-        errors.map(|error| error * error).sum()
+        let error = |row: &Row| row.weight * (self.value(row) - row.value);
+        rows.iter().map(error).map(|error| error * error).sum()
     }
 
     fn linearised(&self, rows: &[Row]) -> Linearised {
-        let n = self.moduli.len() * 2 + usize::from(self.spring.is_some());
+        let n = self.branches.len() * 2 + usize::from(self.spring.is_some());
         let mut slopes = DMatrix::zeros(n, rows.len());
         let errors = rows.iter().zip(slopes.column_iter_mut());
         let errors =
@@ -104,8 +101,12 @@ impl Series {
         let spring = self.spring.map(|modulus| modulus * row.spring());
         spring.into_iter().for_each(&mut put);
         let mut value = spring.unwrap_or_default();
-        for (modulus, &time) in self.moduli.iter().zip(&self.times) {
-            let [response, by_log_time] = row.branch(time);
+        for &RelaxationBranch {
+            modulus,
+            relaxation_time,
+        } in &self.branches
+        {
+            let [response, by_log_time] = row.branch(relaxation_time);
             value += modulus * response;
             put(modulus * response);
             put(modulus * by_log_time);
@@ -120,9 +121,10 @@ impl Series {
         let spring_factor = spring.first().copied().map_or(1.0, factor);
         let mut moved = self.clone();
         moved.spring = moved.spring.map(|modulus| modulus * spring_factor);
-        for (k, pair) in branches.chunks_exact(2).enumerate() {
-            moved.moduli[k] *= factor(pair[0]);
-            moved.times[k] = (moved.times[k] * factor(pair[1])).clamp(shortest, longest);
+        for (branch, pair) in moved.branches.iter_mut().zip(branches.chunks_exact(2)) {
+            branch.modulus *= factor(pair[0]);
+            let time = branch.relaxation_time * factor(pair[1]);
+            branch.relaxation_time = time.clamp(shortest, longest);
         }
         moved
     }

@@ -88,38 +88,43 @@ fn exact_data_give_back_their_spectrum() {
     }
 }
 
-/// Squares of the errors over the square of the last storage modulus, what pyvisco minimises.
-fn pyvisco_squares(data: &[Vec<f64>], found: &RelaxationSpectrum) -> f64 {
-    let scale = data.last().unwrap()[1];
-    let errors = data.iter().map(|row| {
-        let modulus = found.complex_modulus(TAU * row[0]).unwrap();
-        (modulus.storage - row[1]).hypot(modulus.loss - row[2]) / scale
-    });
-    errors.map(|error| error * error).sum()
+/// Asserts that fits have at most so many branches and smaller squares than those of pyvisco.
+fn assert_better_than_pyvisco(
+    curve: &MeasuredCurve,
+    rows: &[(Control, usize, f64)],
+    squares: impl Fn(&RelaxationSpectrum) -> f64,
+) {
+    for &(control, most, peer) in rows {
+        let found = identify(curve, &solid(control)).unwrap().spectrum;
+        let squares = squares(&found);
+        assert!(
+            found.branches().len() <= most && squares < peer,
+            "{control:?}: squares {squares:e}, pyvisco {peer:e}, {found:?}"
+        );
+    }
 }
 
-/// pyvisco 2.1.3 on its own examples/freq_user_master.csv, `prony.discretize(df, "round", 20)`: squares 3.866e-2 by
-/// `prony.fit`, 1.3385e-2 with `opt=True` in 0.92 s; with its default of 26 terms 3.602e-2 and 8.822e-3.
+/// pyvisco 2.1.3 on its own examples/freq_user_master.csv, `prony.discretize(df, "round", 20)`, squares of the errors over
+/// the square of the last storage modulus: 3.866e-2 by `prony.fit`, 1.3385e-2 with `opt=True` in 0.92 s; with its default
+/// of 26 terms 3.602e-2 and 8.822e-3.
 #[test]
 fn twenty_branches_fit_pyviscos_frequency_data_better_than_pyvisco() {
     let data = table(include_str!("../data/pyvisco_frequency_master.csv"));
     let points = data.iter().map(|row| point([TAU * row[0], row[1], row[2]]));
     let curve = MeasuredCurve::oscillation(points.collect()).unwrap();
-    for (n_branches, peer) in [(20, 1.3385e-2), (26, 8.822e-3)] {
-        let found = identify(&curve, &solid(Control::Branches(n_branches))).unwrap();
-        let squares = pyvisco_squares(&data, &found.spectrum);
-        assert!(
-            found.spectrum.branches().len() <= n_branches && squares < peer,
-            "{n_branches} branches: squares {squares:e}, pyvisco {peer:e}, {found:?}"
-        );
-    }
-    let fewest = identify(&curve, &IdentifyOptions::default()).unwrap();
-    let squares = pyvisco_squares(&data, &fewest.spectrum);
-    let n_branches = fewest.spectrum.branches().len();
-    assert!(
-        n_branches <= 20 && squares < 1.3385e-2,
-        "{n_branches} branches: squares {squares:e}"
-    );
+    let scale = data.last().unwrap()[1];
+    let rows = [
+        (Control::Branches(20), 20, 1.3385e-2),
+        (Control::Branches(26), 26, 8.822e-3),
+        (IdentifyOptions::default().control, 20, 1.3385e-2),
+    ];
+    assert_better_than_pyvisco(&curve, &rows, |found| {
+        let errors = data.iter().map(|row| {
+            let modulus = found.complex_modulus(TAU * row[0]).unwrap();
+            (modulus.storage - row[1]).hypot(modulus.loss - row[2]) / scale
+        });
+        errors.map(|error| error * error).sum()
+    });
 }
 
 /// pyvisco 2.1.3 on its own examples/time_user_master.csv, squares of the errors over the square of the first modulus,
@@ -132,18 +137,15 @@ fn pyviscos_relaxation_data_are_fitted_better_than_by_pyvisco() {
         modulus: row[1],
     });
     let curve = MeasuredCurve::relaxation(points.collect()).unwrap();
-    for (n_branches, peer) in [(20, 3.856e-3), (31, 4.139e-4)] {
-        let found = identify(&curve, &solid(Control::Branches(n_branches))).unwrap();
+    let rows = [(20, 3.856e-3), (31, 4.139e-4)];
+    let rows = rows.map(|(n_branches, peer)| (Control::Branches(n_branches), n_branches, peer));
+    assert_better_than_pyvisco(&curve, &rows, |found| {
         let errors = data.iter().map(|row| {
-            let modulus = found.spectrum.relaxation_modulus(row[0]).unwrap();
+            let modulus = found.relaxation_modulus(row[0]).unwrap();
             ((modulus - row[1]) / data[0][1]).powi(2)
         });
-        let squares: f64 = errors.sum();
-        assert!(
-            squares < peer,
-            "{n_branches} branches: squares {squares:e}, pyvisco {peer:e}"
-        );
-    }
+        errors.sum()
+    });
 }
 
 /// As many branches as the data have, and no more.
