@@ -116,24 +116,17 @@ impl Canvas {
 
     /// The picture; an error if a text could not be drawn.
     pub(crate) fn finish(self) -> Result<Drawing, PlotError> {
-        self.refused.map_or_else(
-            || {
-                Ok(Drawing {
-                    svg: self.svg.end_document(),
-                    outlined: self.outlined.end_document(),
-                })
-            },
-            Err,
-        )
+        if let Some(refused) = self.refused {
+            return Err(refused);
+        }
+        Ok(Drawing {
+            svg: self.svg.end_document(),
+            outlined: self.outlined.end_document(),
+        })
     }
 
-    pub(crate) fn line(&mut self, from: Pixel, to: Pixel, pen: &Pen) {
-        let ends = [
-            ("x1", from[0]),
-            ("y1", from[1]),
-            ("x2", to[0]),
-            ("y2", to[1]),
-        ];
+    pub(crate) fn line(&mut self, [x1, y1]: Pixel, [x2, y2]: Pixel, pen: &Pen) {
+        let ends = [("x1", x1), ("y1", y1), ("x2", x2), ("y2", y2)];
         self.mark("line", &ends, &[], pen);
     }
 
@@ -155,12 +148,8 @@ impl Canvas {
     }
 
     pub(crate) fn rectangle(&mut self, area: Area, fill: &str, pen: &Pen) {
-        let places = [
-            ("x", area.left),
-            ("y", area.top),
-            ("width", area.width),
-            ("height", area.height),
-        ];
+        let [width, height] = [("width", area.width), ("height", area.height)];
+        let places = [("x", area.left), ("y", area.top), width, height];
         self.mark("rect", &places, &[("fill", fill)], pen);
     }
 

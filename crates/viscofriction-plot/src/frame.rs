@@ -23,12 +23,12 @@ const HALF_DIGIT: f64 = 0.365;
 
 const GRID_PEN: Pen<'static> = Pen::solid("#e4e4e4", 0.7);
 
-/// Data rectangle and its two axes.
+/// Data rectangle, its title and its two axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame<'a> {
+    title: Option<&'a str>,
     pub(crate) area: Area,
-    pub(crate) x: &'a Axis,
-    pub(crate) y: &'a Axis,
+    axes: [&'a Axis; 2],
 }
 
 /// To which side of their edge the ticks point.
@@ -53,11 +53,6 @@ pub(crate) fn top_margin(title: Option<&str>) -> f64 {
     if title.is_some() { TITLE_HEIGHT } else { 10.0 }
 }
 
-/// Room the tick labels and the label of the x axis take below the frame, \[px\].
-pub(crate) fn bottom_margin() -> f64 {
-    4.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE)
-}
-
 /// Room the tick labels and the label of a y axis take beside the frame, \[px\].
 pub(crate) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
     Ok(widest_label(&ticks(y))? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
@@ -71,33 +66,49 @@ pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
 }
 
 fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
-    widest(
-        ticks.iter().filter_map(|tick| tick.label.as_deref()),
-        TICK_SIZE,
-    )
+    let labels = ticks.iter().filter_map(|tick| tick.label.as_deref());
+    widest(labels, TICK_SIZE)
 }
 
-impl Frame<'_> {
+impl<'a> Frame<'a> {
+    /// The frame over axes x and y, with data of this size and the panel's upper left corner, less its left margin, at
+    /// `origin`.
+    pub(crate) fn new(
+        title: &'a Option<String>,
+        axes: [&'a Axis; 2],
+        [left, top]: Pixel,
+        [width, height]: [f64; 2],
+    ) -> Self {
+        let title = title.as_deref();
+        let area = Area {
+            left,
+            top: top + top_margin(title),
+            width,
+            height,
+        };
+        Self { title, area, axes }
+    }
+
     /// Pixel of a data point.
     pub(crate) fn pixel(&self, [x, y]: [f64; 2]) -> Pixel {
-        let [x, y] = [self.x.fraction(x), self.y.fraction(y)];
+        let [x, y] = [self.axes[0].fraction(x), self.axes[1].fraction(y)];
         [
             Edge::Bottom.pixel(&self.area, x)[0],
             Edge::Left.pixel(&self.area, y)[1],
         ]
     }
 
+    /// Where the tick labels and the label of the x axis end, \[px\].
+    pub(crate) fn bottom(&self) -> f64 {
+        self.area.bottom() + (4.0 * GAP + f64::from(TICK_SIZE + LABEL_SIZE))
+    }
+
     /// Draws everything but the data.
-    pub(crate) fn draw(
-        &self,
-        canvas: &mut Canvas,
-        title: Option<&str>,
-        side: TickSide,
-    ) -> Result<(), PlotError> {
+    pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) -> Result<(), PlotError> {
         let area = self.area;
         let axes = [
-            AxisEdge::new(self.x, area, Edge::Bottom)?,
-            AxisEdge::new(self.y, area, Edge::Left)?,
+            AxisEdge::new(self.axes[0], area, Edge::Bottom)?,
+            AxisEdge::new(self.axes[1], area, Edge::Left)?,
         ];
         if side == TickSide::Inside {
             axes.iter().for_each(|axis| axis.draw_grid(canvas));
@@ -105,7 +116,7 @@ impl Frame<'_> {
         canvas.rectangle(area, "none", &FRAME_PEN);
         axes.iter().for_each(|axis| axis.draw_ticks(canvas, side));
         axes.iter().try_for_each(|axis| axis.draw_label(canvas))?;
-        if let Some(title) = title {
+        if let Some(title) = self.title {
             check_fit(title, TITLE_SIZE, area.width + SPILL)?;
             let above = [area.left + area.width / 2.0, area.top - GAP - 2.0];
             canvas.text(above, title, TITLE_SIZE, Anchor::Middle);

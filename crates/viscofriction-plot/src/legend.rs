@@ -1,10 +1,12 @@
 //! The legend: where it stands and what it shows.
 
+use std::iter::successors;
+
 use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel, to_f64};
 use crate::error::PlotError;
 use crate::font::widest;
-use crate::frame::{Frame, bottom_margin};
-use crate::marks::{MARKER_RADIUS, draw_marker, error_ends, line_pen};
+use crate::frame::Frame;
+use crate::marks::{MARKER_RADIUS, draw_marker, error_bars, line_pen};
 use crate::series::Series;
 
 /// Place of the legend.
@@ -43,10 +45,10 @@ impl<'a> Legend<'a> {
         frame: &Frame,
         place: LegendPlace,
     ) -> Result<Self, PlotError> {
-        let labelled = series.iter();
-        let entries: Vec<_> = labelled
-            .filter_map(|one| Some((one, one.label.as_deref()?)))
-            .collect();
+        let labelled = series
+            .iter()
+            .filter_map(|one| Some((one, one.label.as_deref()?)));
+        let entries: Vec<_> = labelled.collect();
         let labels = entries.iter().map(|&(_, label)| label);
         let mut legend = Self {
             column: SAMPLE + PADDING + widest(labels, TEXT_SIZE)?,
@@ -73,7 +75,7 @@ impl<'a> Legend<'a> {
     }
 
     /// Draws the legend of a frame.
-    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Area) {
+    pub(crate) fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         if self.entries.is_empty() {
             return;
         }
@@ -83,8 +85,8 @@ impl<'a> Legend<'a> {
         } else {
             let count = to_f64(self.columns);
             let width = count * self.column + (count - 1.0) * COLUMN_GAP;
-            let left = frame.left + (frame.width - width) / 2.0;
-            [left, frame.bottom() + bottom_margin()]
+            let left = frame.area.left + (frame.area.width - width) / 2.0;
+            [left, frame.bottom()]
         };
         for (index, &(series, label)) in self.entries.iter().enumerate() {
             let (column, row) = (index / self.rows(), index % self.rows());
@@ -112,21 +114,19 @@ impl<'a> Legend<'a> {
         let width = self.column + 2.0 * PADDING;
         let height = to_f64(self.entries.len()) * ROW + PADDING;
         let [left, top] = [frame.left + INSET, frame.top + INSET];
-        let [right, bottom] = [
-            frame.right() - INSET - width,
-            frame.bottom() - INSET - height,
-        ];
+        let right = frame.right() - INSET - width;
+        let bottom = frame.bottom() - INSET - height;
         let corners = [[right, top], [left, top], [right, bottom], [left, bottom]];
-        let margin = MARKER_RADIUS + 4.0;
         let boxes = corners.map(|[left, top]| Area {
             left,
             top,
             width,
             height,
         });
+        let covers = |area: &Area, pixel| area.contains(pixel, MARKER_RADIUS + 4.0);
         boxes
             .into_iter()
-            .find(|area| !marks.iter().any(|&pixel| area.contains(pixel, margin)))
+            .find(|area| !marks.iter().any(|&pixel| covers(area, pixel)))
     }
 
     fn columns_below(&self, width: f64) -> usize {
@@ -153,8 +153,7 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
                 push_between(&mut marks, pair[0], pair[1]);
             }
         }
-        for (&point, &error) in one.points.iter().zip(one.errors.iter().flatten()) {
-            let [upper, lower] = error_ends(frame, point, error);
+        for [upper, lower] in error_bars(frame, one) {
             push_between(&mut marks, upper, lower);
         }
         marks.extend(pixels);
@@ -163,14 +162,14 @@ fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
 }
 
 fn push_between(marks: &mut Vec<Pixel>, from: Pixel, to: Pixel) {
-    let along = [to[0] - from[0], to[1] - from[1]];
-    let steps = (along[0].hypot(along[1]) / 3.0).ceil();
-    let mut step = 0.0;
-    while step < steps {
-        let part = step / steps;
-        marks.push([from[0] + part * along[0], from[1] + part * along[1]]);
-        step += 1.0;
-    }
+    let [right, down] = [to[0] - from[0], to[1] - from[1]];
+    let steps = (right.hypot(down) / 3.0).ceil();
+    let parts = successors(Some(0.0), |step| Some(step + 1.0)).take_while(|step| *step < steps);
+    marks.extend(
+        parts
+            .map(|step| step / steps)
+            .map(|part| [from[0] + part * right, from[1] + part * down]),
+    );
 }
 
 fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label: &str) {
@@ -182,9 +181,7 @@ fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label
         let centre = [left + SAMPLE / 2.0, middle];
         draw_marker(canvas, centre, marker, series.colour.hex());
     }
-    let place = [
-        left + SAMPLE + PADDING,
-        middle + 0.36 * f64::from(TEXT_SIZE),
-    ];
-    canvas.text(place, label, TEXT_SIZE, Anchor::Start);
+    let baseline = middle + 0.36 * f64::from(TEXT_SIZE);
+    let start = left + SAMPLE + PADDING;
+    canvas.text([start, baseline], label, TEXT_SIZE, Anchor::Start);
 }

@@ -8,9 +8,9 @@ use crate::canvas::{Area, Canvas, Pixel, to_f64};
 use crate::colour::{ColourScale, level_colour};
 use crate::error::PlotError;
 use crate::figure::{Draw, PANEL_WIDTH};
-use crate::frame::{Frame, TickSide, bottom_margin, side_margin, top_margin};
+use crate::frame::{Frame, TickSide, side_margin};
 use crate::marks::draw_series;
-use crate::series::Series;
+use crate::series::{Series, validate};
 
 /// Field on a rectangular grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,15 +49,13 @@ const BAR_GAP: f64 = 12.0;
 impl Draw for Map {
     fn validate(&self) -> Result<(), PlotError> {
         for axis in [&self.x, &self.y] {
-            axis.validate()?;
             if axis.scale == Scale::Log10 && self.proportions == Proportions::True {
                 return Err(axis.refused("be linear, because the map has true proportions"));
             }
         }
         self.validate_size()?;
         self.colours.validate(self.values.iter().copied())?;
-        let mut overlays = self.overlays.iter();
-        overlays.try_for_each(|series| series.validate(&self.x, &self.y))
+        validate(&self.overlays, &self.x, &self.y)
     }
 
     fn left_margin(&self) -> Result<f64, PlotError> {
@@ -65,19 +63,17 @@ impl Draw for Map {
     }
 
     fn height(&self, left: f64) -> Result<f64, PlotError> {
-        Ok(self.frame([0.0, 0.0], left)?.area.bottom() + bottom_margin())
+        Ok(self.frame([left, 0.0], left)?.bottom())
     }
 
-    fn draw(&self, canvas: &mut Canvas, origin: Pixel, left: f64) -> Result<(), PlotError> {
-        let frame = self.frame(origin, left)?;
-        self.draw_field(canvas, frame.area);
-        frame.draw(canvas, self.title.as_deref(), TickSide::Outside)?;
-        for series in &self.overlays {
-            draw_series(canvas, &frame, series);
-        }
+    fn draw(&self, canvas: &mut Canvas, [x, y]: Pixel, left: f64) -> Result<(), PlotError> {
+        let frame = self.frame([x + left, y], left)?;
         let area = frame.area;
-        self.colours
-            .draw_bar(canvas, area.right() + BAR_GAP, [area.top, area.height])
+        self.draw_field(canvas, area);
+        frame.draw(canvas, TickSide::Outside)?;
+        draw_series(canvas, &frame, &self.overlays);
+        let bar = area.right() + BAR_GAP;
+        self.colours.draw_bar(canvas, bar, [area.top, area.height])
     }
 }
 
@@ -99,41 +95,28 @@ impl Map {
         })
     }
 
-    fn frame(&self, [x, y]: Pixel, left: f64) -> Result<Frame<'_>, PlotError> {
+    fn frame(&self, origin: Pixel, left: f64) -> Result<Frame<'_>, PlotError> {
+        let axes = [&self.x, &self.y];
         let right = BAR_GAP + self.colours.bar_width()?;
         let largest = [PANEL_WIDTH - left - right, LARGEST_HEIGHT];
-        let spans = [&self.x, &self.y].map(|axis| axis.range[1] - axis.range[0]);
+        let spans = axes.map(|axis| axis.range[1] - axis.range[0]);
         let scale = (largest[0] / spans[0]).min(largest[1] / spans[1]);
-        let [width, height] = match self.proportions {
+        let size = match self.proportions {
             Proportions::True => spans.map(|span| scale * span),
             Proportions::Free => largest,
         };
-        let area = Area {
-            left: x + left,
-            top: y + top_margin(self.title.as_deref()),
-            width,
-            height,
-        };
-        Ok(Frame {
-            area,
-            x: &self.x,
-            y: &self.y,
-        })
+        Ok(Frame::new(&self.title, axes, origin, size))
     }
 
     /// One path per colour, neighbours of one colour in a row merged.
     fn draw_field(&self, canvas: &mut Canvas, area: Area) {
         let rows = self.values.len() / self.columns;
-        let size = [
-            area.width / to_f64(self.columns),
-            area.height / to_f64(rows),
-        ];
+        let [columns, rows] = [self.columns, rows].map(to_f64);
+        let size = [area.width / columns, area.height / rows];
         let mut paths: BTreeMap<u8, String> = BTreeMap::new();
         for (row, values) in self.values.chunks(self.columns).enumerate() {
-            let levels = values
-                .iter()
-                .map(|value| value.map(|value| self.colours.level(value)));
-            let levels: Vec<Option<u8>> = levels.collect();
+            let level = |value: &Option<f64>| value.map(|value| self.colours.level(value));
+            let levels: Vec<Option<u8>> = values.iter().map(level).collect();
             let mut start = 0;
             for run in levels.chunk_by(|a, b| a == b) {
                 let length = run.len();
@@ -145,7 +128,11 @@ impl Map {
                 start += length;
             }
         }
-        let coloured = |(level, path)| (level_colour(level), path);
-        canvas.mosaic(area, size, paths.into_iter().map(coloured));
+        let paths = paths.into_iter();
+        canvas.mosaic(
+            area,
+            size,
+            paths.map(|(level, path)| (level_colour(level), path)),
+        );
     }
 }

@@ -9,31 +9,28 @@ use crate::series::{Dash, Fill, Line, Marker, Series, Shape};
 pub(crate) const MARKER_RADIUS: f64 = 3.6;
 const CAP: f64 = 3.5;
 
-/// Draws one series: its line, then its error bars, then its markers.
-pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &Series) {
-    let pixels: Vec<Pixel> = series
-        .points
-        .iter()
-        .map(|&point| frame.pixel(point))
-        .collect();
-    if let Some(line) = series.line {
-        canvas.polyline(&pixels, &line_pen(line, series.colour));
-    }
-    if let Some(errors) = &series.errors {
-        for (&point, &error) in series.points.iter().zip(errors) {
-            draw_error_bar(canvas, error_ends(frame, point, error), series);
+/// Draws series one after the other: of each the line, then the error bars, then the markers.
+pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series]) {
+    for one in series {
+        let pixels: Vec<Pixel> = one.points.iter().map(|&point| frame.pixel(point)).collect();
+        if let Some(line) = one.line {
+            canvas.polyline(&pixels, &line_pen(line, one.colour));
         }
-    }
-    if let Some(marker) = series.marker {
-        for &at in pixels.iter().step_by(marker.every) {
-            draw_marker(canvas, at, marker, series.colour.hex());
+        for ends in error_bars(frame, one) {
+            draw_error_bar(canvas, ends, one);
+        }
+        if let Some(marker) = one.marker {
+            for &at in pixels.iter().step_by(marker.every) {
+                draw_marker(canvas, at, marker, one.colour.hex());
+            }
         }
     }
 }
 
-/// Upper and lower end of an error bar.
-pub(crate) fn error_ends(frame: &Frame, [x, y]: [f64; 2], error: f64) -> [Pixel; 2] {
-    [y + error, y - error].map(|end| frame.pixel([x, end]))
+/// Upper and lower ends of the error bars of a series.
+pub(crate) fn error_bars(frame: &Frame, series: &Series) -> impl Iterator<Item = [Pixel; 2]> {
+    let bars = series.points.iter().zip(series.errors.iter().flatten());
+    bars.map(|([x, y], error)| [y + error, y - error].map(|end| frame.pixel([*x, end])))
 }
 
 /// Pen of the line of a series.
@@ -46,10 +43,8 @@ pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen<'static> {
         Dash::DashDot => &[5.0, 1.8, 1.2, 1.8],
         Dash::Dotted => &[1.2, 1.8],
     };
-    let lengths: Vec<String> = pattern
-        .iter()
-        .map(|part| format!("{:.2}", part * unit))
-        .collect();
+    let lengths = pattern.iter().map(|part| format!("{:.2}", part * unit));
+    let lengths: Vec<String> = lengths.collect();
     Pen {
         colour: colour.hex(),
         width: line.width,

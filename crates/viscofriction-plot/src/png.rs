@@ -21,10 +21,8 @@ pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
     let scaled = scaled.ok_or_else(refused)?;
     let mut pixels = Pixmap::new(scaled.width(), scaled.height()).ok_or_else(refused)?;
     pixels.fill(Color::WHITE);
-    let [x, y] = [
-        f64::from(scaled.width()) / f64::from(tree.size().width()),
-        f64::from(scaled.height()) / f64::from(tree.size().height()),
-    ];
+    let x = f64::from(scaled.width()) / f64::from(tree.size().width());
+    let y = f64::from(scaled.height()) / f64::from(tree.size().height());
     #[allow(
         clippy::cast_possible_truncation,
         reason = "a scale needs no more digits"
@@ -55,13 +53,10 @@ mod tests {
         let size = (got.width(), got.height());
         assert_eq!(size, (400, 200), "size of a picture of 40 x 20");
         let corner = got.pixel(399, 0).map(|pixel| pixel.demultiply());
-        assert_eq!(
-            corner,
-            Some(Color::WHITE.to_color_u8()),
-            "colour of the upper right corner"
-        );
-        let pixels = got.pixels().iter();
-        let dark = pixels.filter(|pixel| pixel.red() < 128).count();
+        let white = Some(Color::WHITE.to_color_u8());
+        assert_eq!(corner, white, "colour of the upper right corner");
+        let dark = got.pixels().iter().filter(|pixel| pixel.red() < 128);
+        let dark = dark.count();
         // Three strokes of about 20 x 140, 20 x 140 and less: some percent of 80000 pixels.
         assert!(
             (2000..20_000).contains(&dark),

@@ -111,6 +111,13 @@ impl Marker {
     }
 }
 
+/// Refuses axes without a range, points and error bars that they do not show, and series that leave no trace.
+pub(crate) fn validate(series: &[Series], x: &Axis, y: &Axis) -> Result<(), PlotError> {
+    x.validate()?;
+    y.validate()?;
+    series.iter().try_for_each(|series| series.validate(x, y))
+}
+
 impl Series {
     /// Line without markers, label or error bars.
     #[must_use]
@@ -127,14 +134,11 @@ impl Series {
 
     /// Markers without line, label or error bars.
     #[must_use]
-    pub const fn markers(points: Vec<[f64; 2]>, marker: Marker, colour: Colour) -> Self {
+    pub fn markers(points: Vec<[f64; 2]>, marker: Marker, colour: Colour) -> Self {
         Self {
-            label: None,
-            points,
-            errors: None,
             line: None,
             marker: Some(marker),
-            colour,
+            ..Self::line(points, Line::thin(Dash::Solid), colour)
         }
     }
 
@@ -147,8 +151,7 @@ impl Series {
         }
     }
 
-    /// Refuses points and error bars that the axes do not show, and what leaves no trace.
-    pub(crate) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
+    fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
         let name = self.label.as_deref().unwrap_or("a series without label");
         if let Some(what) = self.unseen() {
             return Err(PlotError::Empty(format!("the {what} of {name}")));

@@ -61,10 +61,8 @@ fn markers_stand_on_their_points() {
 fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
     let height = |chart: Chart| number(&svg(chart), "height");
     let inside = height(chart());
-    let below = height(Chart {
-        legend: LegendPlace::Below,
-        ..chart()
-    });
+    let legend = LegendPlace::Below;
+    let below = height(Chart { legend, ..chart() });
     assert!(
         below > inside + 17.0,
         "expected a row more than {inside} px, got {below}"
@@ -73,10 +71,9 @@ fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
         let x = 10_f64.powf(-3.0 + 0.1 * f64::from(k));
         [x, 0.1 + 0.1 * f64::from(k % 3 - 1)]
     });
+    let zigzag = Series::line(zigzag.collect(), Line::thin(Dash::Solid), Colour::Black);
     let mut full = chart();
-    let line = Line::thin(Dash::Solid);
-    full.series
-        .push(Series::line(zigzag.collect(), line, Colour::Black));
+    full.series.push(zigzag);
     let got = height(full);
     assert!(
         (got - below).abs() < 0.011,
@@ -87,20 +84,12 @@ fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
 #[test]
 fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
     let text = svg(map());
-    for cell in [
-        "M0 0h2v1h-2z",
-        "M2 0h1v1h-1z",
-        "M1 1h1v1h-1z",
-        "M2 1h1v1h-1z",
-    ] {
-        let path = format!(r#"d="{cell}""#);
-        assert!(text.contains(&path), "expected the cell {cell} in {text}");
+    for start in ["0 0h2", "2 0h1", "1 1h1", "2 1h1"] {
+        let path = format!(r#"d="M{start}v1h-"#);
+        assert!(text.contains(&path), "expected a cell {path} in {text}");
     }
     let drawn = text.matches("v1h-").count();
-    assert_eq!(
-        drawn, 104,
-        "4 runs of cells and 100 steps of the colour bar"
-    );
+    assert_eq!(drawn, 104, "runs of cells, and 100 steps of the colour bar");
 }
 
 #[test]
@@ -110,13 +99,10 @@ fn labels_of_the_x_axis_stand_clear_of_each_other() {
         ..points(&[[1e-12, 0.1]])
     };
     let text = svg(crowded);
-    let is_there = |label: &&str| text.contains(&format!(">{label}·10⁻¹²<"));
-    let got: Vec<&str> = ["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"]
-        .into_iter()
-        .filter(is_there)
-        .collect();
+    let mut labels = vec!["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"];
+    labels.retain(|label| text.contains(&format!(">{label}·10⁻¹²<")));
     // A step of half a unit is 65 px, less than a label of some 62 px and the gap of 6 px.
-    assert_eq!(got, ["1.0", "2.0", "3.0"], "labels in {text}");
+    assert_eq!(labels, ["1.0", "2.0", "3.0"], "labels in {text}");
 }
 
 #[test]

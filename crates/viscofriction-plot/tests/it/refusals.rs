@@ -75,37 +75,38 @@ fn error_bars_that_do_not_match_or_reach_out() {
 
 #[test]
 fn series_without_a_trace() {
-    let line = |points: &[[f64; 2]]| Chart {
-        series: vec![Series::line(
-            points.to_vec(),
-            Line::thick(Dash::Solid),
-            Colour::Blue,
-        )],
-        ..chart()
+    let line = |points: &[[f64; 2]], change: fn(&mut Series)| {
+        let line = Line::thick(Dash::Solid);
+        let mut series = Series::line(points.to_vec(), line, Colour::Blue);
+        change(&mut series);
+        Chart {
+            series: vec![series],
+            ..chart()
+        }
     };
-    let none = Marker {
-        every: 0,
-        ..Marker::filled(Shape::Plus)
+    let bare = |series: &mut Series| series.line = None;
+    let without_points = |series: &mut Series| {
+        series.marker = Some(Marker {
+            every: 0,
+            ..Marker::filled(Shape::Plus)
+        });
+    };
+    let thin = |series: &mut Series| {
+        series.line = Some(Line {
+            dash: Dash::Solid,
+            width: 0.0,
+        });
     };
     let two = [[0.1, 0.1], [0.2, 0.1]];
+    let mut empty = chart();
+    empty.series.clear();
     assert_refused([
-        (line(&[]), "list of points"),
-        (line(&two[..1]), "line and markers"),
-        (
-            changed(line(&two), |series| series.line = None),
-            "line and markers",
-        ),
-        (
-            changed(line(&two), |series| series.marker = Some(none)),
-            "marker spacing",
-        ),
-        (
-            Chart {
-                series: vec![],
-                ..chart()
-            },
-            "list of series",
-        ),
+        (line(&[], |_| ()), "list of points"),
+        (line(&two[..1], |_| ()), "line and markers"),
+        (line(&two, bare), "line and markers"),
+        (line(&two, without_points), "marker spacing"),
+        (line(&two, thin), "line width"),
+        (empty, "list of series"),
     ]);
 }
 
@@ -116,15 +117,13 @@ fn texts_without_glyphs_or_room() {
         ..chart()
     };
     let long = "friction of rigid indenters on viscous half spaces after Kürschner, 2014";
+    let labelled = changed(chart(), |series| series.label = Some(long.into()));
     assert_refused([
         (titled("摩擦"), "no glyph for a character of '摩擦'"),
         (titled(""), "no glyph"),
         (titled(long), "pixels, "),
         (over(Axis::log10("", [1e-3, 1e1])), "label of an axis"),
-        (
-            changed(chart(), |series| series.label = Some(long.into())),
-            "pixels, ",
-        ),
+        (labelled, "pixels, "),
     ]);
 }
 
