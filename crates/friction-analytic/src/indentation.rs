@@ -19,7 +19,7 @@ use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
 /// The contact of a body pressed into a half space without sliding.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct Indentation {
@@ -27,13 +27,6 @@ pub struct Indentation {
     pub contact_radius: f64,
     /// Indentation depth d, \[m].
     pub indentation_depth: f64,
-}
-
-impl Indentation {
-    const NONE: Self = Self {
-        contact_radius: 0.0,
-        indentation_depth: 0.0,
-    };
 }
 
 /// Contact of a power profile after an `impulse` ∫ F_N dt ≥ 0 \[N s], in closed form:
@@ -48,7 +41,7 @@ pub fn power_indentation_after_impulse(
     impulse: f64,
 ) -> Result<Indentation, FrictionError> {
     if not_negative("impulse", impulse)? == 0.0 {
-        return Ok(Indentation::NONE);
+        return Ok(Indentation::default());
     }
     let p = profile.exponent();
     let eta = material.viscosity();
@@ -79,11 +72,17 @@ pub fn indentation_after_impulse(
     impulse: f64,
 ) -> Result<Indentation, FrictionError> {
     if not_negative("impulse", impulse)? == 0.0 {
-        return Ok(Indentation::NONE);
+        return Ok(Indentation::default());
     }
     let target = representable("impulse over 8 η", 0.125 * impulse / material.viscosity())?;
     let Some(radius) = radius_of_moment(body, target)? else {
-        return at_the_rim(body, target);
+        // Beyond the moment of the whole body only a flat punch goes on; any other one is not high enough.
+        let end = body.max_radius();
+        let depth = body.line_height(end) + (target - moment(body, end).value) / end;
+        return Ok(Indentation {
+            contact_radius: contact_radius(body, depth)?,
+            indentation_depth: depth,
+        });
     };
     known_moment(body, radius)?;
     let depth = representable("indentation depth", body.line_height(radius))?;
@@ -211,17 +210,4 @@ fn bracket(excess: &impl Fn(f64) -> f64) -> [f64; 2] {
         lower /= STEP;
     }
     [lower, upper]
-}
-
-/// Beyond the moment of the whole body only a flat punch goes on; any other one is not high enough.
-fn at_the_rim(
-    body: &(impl Axisymmetric + ?Sized),
-    target: f64,
-) -> Result<Indentation, FrictionError> {
-    let end = body.max_radius();
-    let depth = body.line_height(end) + (target - moment(body, end).value) / end;
-    Ok(Indentation {
-        contact_radius: contact_radius(body, depth)?,
-        indentation_depth: depth,
-    })
 }

@@ -45,12 +45,6 @@ fn discrete_friction(body: &dyn Axisymmetric, [kink, front]: [f64; 2], n: u32) -
 fn a_slope_jump_diverges_like_a_logarithm() {
     for case in casebook::group("FRI-04") {
         let (body, expected) = (case.body(), case.input("D"));
-        assert_eq!(
-            case.expected_error(),
-            Some("FrictionDiverges"),
-            "{}",
-            case.id()
-        );
         let (material, load) = with_depth(expected);
         let result = axisymmetric_sliding(&body, &material, &load);
         let kink = body.kinks()[0];

@@ -74,10 +74,7 @@ fn any_shape_is_integrated_without_its_line() {
 #[test]
 fn no_impulse_makes_no_contact() {
     let (material, cone) = (viscous(1.0), power(1.0, 1.0));
-    let nothing = Indentation {
-        contact_radius: 0.0,
-        indentation_depth: 0.0,
-    };
+    let nothing = Indentation::default();
     let closed = power_indentation_after_impulse(&cone, &material, 0.0);
     assert_eq!(closed, Ok(nothing), "closed form");
     let searched = indentation_after_impulse(&cone, &material, 0.0);

@@ -65,19 +65,11 @@ fn depth_friction_and_contact_match_the_exact_solution() {
 #[test]
 fn distance_and_depth_are_inverse() {
     for profile in cone_and_paraboloid() {
-        for fraction in [
-            0.0,
-            1e-9,
-            0.1,
-            0.25,
-            0.25001,
-            0.4,
-            0.5,
-            0.50001,
-            0.9,
-            0.99,
-            1.0 - 1e-6,
-        ] {
+        let (early, late) = (
+            [0.0, 1e-9, 0.1, 0.25, 0.25001],
+            [0.4, 0.5, 0.50001, 0.9, 0.99],
+        );
+        for fraction in early.into_iter().chain(late).chain([1.0 - 1e-6]) {
             let depth = after(&profile, distance(&profile, fraction)).indentation_depth;
             assert_close!(depth => fraction * DEPTH, within 1e-13; "p = {}", profile.exponent());
         }
