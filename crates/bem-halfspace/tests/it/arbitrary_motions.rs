@@ -150,11 +150,11 @@ fn force_and_depth_control_agree() {
     let path = (1..=12).map(|k| (0.1 * f64::from(k), 0.13 * f64::from(k)));
     let pressed = moved(path, &solid(), &options);
     let held = |row: &MotionRow| Control::IndentationDepth(row.indentation_depth);
-    let motions = motions(
-        pressed
-            .iter()
-            .map(|row| (row.time, row.position, held(row))),
-    );
+    let path = pressed.iter();
+    let motions = motions(path.map(|row| (row.time, row.position, held(row))));
     let held = follow(&paraboloid(0.5), &solid(), &motions, &options).expect("rows");
     assert_same_rows(&held, &pressed, 1.0, 1e-8);
+    for row in &held {
+        assert_close(row, row.normal_force, FORCE, 1e-8);
+    }
 }
