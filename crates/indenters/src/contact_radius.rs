@@ -35,23 +35,19 @@ pub fn contact_radius(
     let depth = positive("depth", depth)?;
     let search = Search { body, depth };
     // Where the slope jumps downwards; just outside the line falls.
-    let edges: Vec<f64> = body
+    let falling = body
         .kinks()
         .into_iter()
-        .filter(|kink| kink.slope_jump < 0.0)
-        .map(|kink| kink.radius)
-        .collect();
+        .filter(|kink| kink.slope_jump < 0.0);
+    let edges: Vec<f64> = falling.map(|kink| kink.radius).collect();
     let mut inner = search.apex_side()?;
     loop {
         if edges.contains(&inner) {
             return Err(search.turns_down_at(inner));
         }
         let next = (inner * STEP).min(body.max_radius());
-        let outer = edges
-            .iter()
-            .copied()
-            .find(|edge| *edge > inner)
-            .map_or(next, |edge| next.min(edge));
+        let edge = edges.iter().find(|edge| **edge > inner);
+        let outer = edge.map_or(next, |edge| next.min(*edge));
         if outer <= inner || outer.is_infinite() {
             return search.end_of_body(inner);
         }
@@ -75,12 +71,8 @@ struct Search<'a, P: ?Sized> {
 impl<P: Axisymmetric + ?Sized> Search<'_, P> {
     fn line(&self, x: f64) -> Result<f64, IndenterError> {
         let value = self.body.line_height(x);
-        in_range(
-            "height of the equivalent line",
-            value,
-            !value.is_nan(),
-            "a number",
-        )
+        let holds = !value.is_nan();
+        in_range("height of the equivalent line", value, holds, "a number")
     }
 
     /// A radius below the contact radius, inside which the line rises like its leading power.
@@ -97,7 +89,9 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
                 candidate = candidate.or(Some(x));
                 break;
             }
-            if height < self.depth && self.follows_apex(x, height) {
+            let exponent = x * self.body.line_slope(x) / height;
+            let deviation = (exponent / self.body.profile_exponent() - 1.0).abs();
+            if height < self.depth && deviation <= APEX_DEVIATION {
                 candidate = candidate.or(Some(x));
                 octaves += 1;
             } else {
@@ -110,11 +104,6 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
             value: self.depth,
             allowed: "greater than the height of the line at the smallest positive radius",
         })
-    }
-
-    fn follows_apex(&self, x: f64, height: f64) -> bool {
-        let exponent = x * self.body.line_slope(x) / height;
-        (exponent / self.body.profile_exponent() - 1.0).abs() <= APEX_DEVIATION
     }
 
     /// The highest point inside the interval when the line falls somewhere in it.
@@ -133,13 +122,8 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
             return Ok(Some(inner));
         }
         let turn = bracketed_root(slope, [first, falling]).unwrap_or(f64::NAN);
-        in_range(
-            "slope of the equivalent line",
-            turn,
-            !turn.is_nan(),
-            "a number",
-        )
-        .map(Some)
+        let holds = !turn.is_nan();
+        in_range("slope of the equivalent line", turn, holds, "a number").map(Some)
     }
 
     fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {

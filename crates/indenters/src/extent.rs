@@ -42,11 +42,8 @@ fn on_squares(is_lower: impl Fn([f64; 2]) -> bool, [first, last]: [f64; 2]) -> R
         for (found, inner) in found.iter_mut().zip(inner) {
             *found = [found[0].min(inner[0]), found[1].max(inner[1])];
         }
-        if inner
-            .as_flattened()
-            .iter()
-            .any(|end| end.abs() >= 0.5 * half_width)
-        {
+        let mut ends = inner.as_flattened().iter();
+        if ends.any(|end| end.abs() >= 0.5 * half_width) {
             lower_at = half_width;
         }
         half_width *= 2.0;
@@ -64,9 +61,11 @@ fn tightened(is_lower: impl Fn([f64; 2]) -> bool, mut rectangle: Rectangle) -> R
         let inner = around_lower(&is_lower, searched);
         let before = rectangle;
         for axis in [0, 1] {
-            let spare = 2.0 * width(searched[axis]) / f64::from(INTERVALS);
+            let [start, end] = searched[axis];
+            let spare = 2.0 * (end - start) / f64::from(INTERVALS);
             rectangle[axis] = [inner[axis][0] - spare, inner[axis][1] + spare];
         }
+        let width = |[start, end]: [f64; 2]| end - start;
         let settled = |axis: usize| width(rectangle[axis]) > 0.9 * width(before[axis]);
         if settled(0) && settled(1) {
             break;
@@ -95,8 +94,4 @@ fn steps([start, end]: [f64; 2]) -> impl Iterator<Item = f64> {
         let part = f64::from(step) / f64::from(INTERVALS);
         (1.0 - part) * start + part * end
     })
-}
-
-fn width([start, end]: [f64; 2]) -> f64 {
-    end - start
 }

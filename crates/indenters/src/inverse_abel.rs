@@ -37,17 +37,13 @@ pub fn inverse_abel(
         });
     }
     let height = |phi: f64| line.height(radius * phi.sin());
-    average(height, &angles(line, radius), relative_tolerance)
-}
-
-/// 0, the angles of the known kinks, and a quarter turn.
-fn angles(line: &(impl RigidLine + ?Sized), radius: f64) -> Vec<f64> {
-    let inner = line.kinks().into_iter();
-    let inner = inner.filter(|kink| *kink > 0.0 && *kink < radius);
-    std::iter::once(0.0)
-        .chain(inner.map(|kink| (kink / radius).asin()))
-        .chain(std::iter::once(FRAC_PI_2))
-        .collect()
+    // 0, the angles of the known kinks, and a quarter turn.
+    let kinks = line.kinks().into_iter();
+    let inner = kinks.filter(|kink| *kink > 0.0 && *kink < radius);
+    let mut angles = vec![0.0];
+    angles.extend(inner.map(|kink| (kink / radius).asin()));
+    angles.push(FRAC_PI_2);
+    average(height, &angles, relative_tolerance)
 }
 
 /// (2 / π) ∫ f dφ between the first and the last angle; halves every interval that does not converge as a whole.

@@ -53,7 +53,7 @@ pub(crate) fn all_shapes(unit: f64) -> Vec<(&'static str, Box<dyn Axisymmetric>)
         ),
         ("round-tipped cone", boxed(RoundTippedCone::new(tip, 0.3))),
         ("hyperboloid", boxed(Hyperboloid::new(tip, 0.3))),
-        ("superposition", Box::new(sum)),
+        ("sum", Box::new(sum)),
         ("table", Box::new(table(&radii, &heights))),
     ]
 }
