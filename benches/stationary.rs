@@ -6,7 +6,7 @@ use bem_halfspace::steady::SteadyOptions;
 use bem_halfspace::{Footprint, steady, steady_on_grid};
 use benches::report_error;
 use criterion::Criterion;
-use friction_analytic::power_sliding;
+use friction_analytic::{half_space_power_friction, power_sliding};
 use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
@@ -16,15 +16,12 @@ const ELEMENTS: [f64; 3] = [20.0, 60.0, 180.0];
 const ASPECT: f64 = 0.5;
 const TOLERANCE: f64 = 1e-7;
 const RELATIVE_ERROR: f64 = 1e-3;
-/// Converged ratio s₂ of the friction on the half space to that on the line, from `docs/figures/scaling_factors.csv`,
-/// which puts its error at 6.3e-5.
-const SCALING_FACTOR: f64 = 0.69955;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let body = PowerProfile::paraboloid(1.0)?;
     let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
     let line = power_sliding(&body, &material, &load)?;
-    let exact = SCALING_FACTOR * line.friction_coefficient;
+    let exact = half_space_power_friction(&body, &material, &load)?.value;
     let mut criterion = Criterion::default().sample_size(10).configure_from_args();
     for elements in ELEMENTS {
         let spacing = line.contact_length() / elements;

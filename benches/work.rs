@@ -15,6 +15,7 @@ use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
 use benches::{ContactScene, deviation, rough_heights};
+use cpu_time::ThreadTime;
 
 /// Why there is no timing.
 type Failure = Box<dyn Error + Send + Sync>;
@@ -80,11 +81,11 @@ fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
 }
 
 fn hertz(name: &'static str, n: usize, offset: f64) -> Result<Scene, Failure> {
-    let start = processor_time()?;
+    let start = ThreadTime::now();
     Ok(Scene {
         name,
         contact: ContactScene::hertz(n, offset)?,
-        setup: processor_time()? - start,
+        setup: start.elapsed().as_secs_f64(),
         tolerance: 5e-10,
         padded: 2 * n,
     })
@@ -92,11 +93,11 @@ fn hertz(name: &'static str, n: usize, offset: f64) -> Result<Scene, Failure> {
 
 fn rough(heights: Vec<f64>) -> Result<Scene, Failure> {
     let n = heights.len().isqrt();
-    let start = processor_time()?;
+    let start = ThreadTime::now();
     Ok(Scene {
         name: "rough",
         contact: ContactScene::periodic(heights)?,
-        setup: processor_time()? - start,
+        setup: start.elapsed().as_secs_f64(),
         tolerance: 5e-9,
         padded: n,
     })
@@ -112,9 +113,9 @@ fn heights_in(file: &str) -> Result<Vec<f64>, Failure> {
 }
 
 fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), Failure> {
-    let start = processor_time()?;
+    let start = ThreadTime::now();
     let (contact, state) = scene.contact.solve(tolerance)?;
-    Ok((contact, state, processor_time()? - start))
+    Ok((contact, state, start.elapsed().as_secs_f64()))
 }
 
 fn report(scene: &Scene) -> Result<(), Failure> {
@@ -165,23 +166,15 @@ fn transform_pair(edge: usize) -> Result<f64, Failure> {
     let mut workspace = convolution.workspace();
     let values = vec![1.0; edge * edge];
     let mut result = vec![0.0; edge * edge];
-    let (start, mut pairs) = (processor_time()?, 0.0);
+    let (start, mut pairs) = (ThreadTime::now(), 0.0);
     let mut spent = 0.0;
     // Longer than the steps in which the system counts.
     while spent < 0.2 {
         convolution.apply(&mut workspace, (&values, 0..edge), (&mut result, 0..edge));
         pairs += 1.0;
-        spent = processor_time()? - start;
+        spent = start.elapsed().as_secs_f64();
     }
     Ok(spent / pairs)
-}
-
-/// Time on the processor of this thread, which other work on the machine disturbs less than the clock on the wall, \[s]
-/// (Linux).
-fn processor_time() -> Result<f64, Failure> {
-    let text = fs::read_to_string("/proc/thread-self/schedstat")?;
-    let nanoseconds = text.split_whitespace().next().ok_or("no time")?;
-    Ok(nanoseconds.parse::<f64>()? * 1e-9)
 }
 
 /// A line of the memory that this process has, in bytes (Linux).

@@ -10,7 +10,7 @@ use friction_analytic::{StationarySliding, power_sliding};
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
 use mdr_core::slide_on_grid as slide_line;
 use numerics::Estimate;
-use rheology::Viscous;
+use rheology::{StandardSolid, StandardSolidParameters, Viscous};
 
 /// A profile h = c r^p, pressed and slid.
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +86,15 @@ pub(crate) fn refined_to(relative_error: f64, aspect: f64) -> RefinementOptions 
         aspect,
         ..RefinementOptions::default()
     }
+}
+
+/// The three-element solid of the paper's Fig. 1 with γ = G₁/G₂, G₂ = 1 Pa and τ = 1 s.
+pub(crate) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
+    Ok(StandardSolid::new(StandardSolidParameters {
+        equilibrium_modulus: stiffness_ratio,
+        maxwell_modulus: 1.0,
+        viscosity: 1.0,
+    })?)
 }
 
 /// Friction of the half space as far as it was computed.

@@ -1,19 +1,14 @@
 //! Exponents of power laws: straight lines of least squares through logarithms.
 
+use numerics::Estimate;
+
 /// A line needs more points than it has parameters.
 const FEWEST: usize = 3;
 /// Abscissae must span this factor before a power of them means anything.
 const LEAST_SPAN: f64 = 2.0;
 
-/// An exponent and its standard error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Exponent {
-    pub(super) value: f64,
-    pub(super) error: f64,
-}
-
-/// The exponent, where there are points enough and they scatter by less than the line rises.
-pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Exponent> {
+/// The exponent and its standard error, where there are points enough and they scatter by less than the line rises.
+pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Estimate> {
     let abscissae = || points.iter().map(|point| point[0]);
     let span = abscissae().fold(0.0, f64::max) / abscissae().fold(f64::INFINITY, f64::min);
     if points.len() < FEWEST || span < LEAST_SPAN {
@@ -23,8 +18,8 @@ pub(super) fn clear_exponent(points: &[[f64; 2]]) -> Option<Exponent> {
     (exponent.error < exponent.value.abs()).then_some(exponent)
 }
 
-/// The exponent of y ∼ x^q.
-pub(super) fn exponent(points: &[[f64; 2]]) -> Exponent {
+/// The exponent of y ∼ x^q and its standard error.
+pub(super) fn exponent(points: &[[f64; 2]]) -> Estimate {
     let logarithms: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::ln)).collect();
     let count = points.len() as f64;
     let mean = |axis: usize| logarithms.iter().map(|point| point[axis]).sum::<f64>() / count;
@@ -34,7 +29,7 @@ pub(super) fn exponent(points: &[[f64; 2]]) -> Exponent {
     let value = centred().map(|[x, y]| x * y).sum::<f64>() / squares;
     let misfit: f64 = centred().map(|[x, y]| (y - value * x).powi(2)).sum();
     let error = (misfit / ((count - 2.0) * squares)).sqrt();
-    Exponent { value, error }
+    Estimate { value, error }
 }
 
 #[cfg(test)]

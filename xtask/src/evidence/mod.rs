@@ -55,19 +55,16 @@ enum Experiment {
 
 /// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
 pub(crate) fn evidence(options: Evidence) -> Result<()> {
-    let Evidence {
-        experiment,
-        out,
-        quick,
-    } = options;
-    make_folder(&out)?;
+    let out = &*options.out;
+    make_folder(out)?;
+    let experiments = options.experiment.map(|one| vec![one]);
     let mut failures = Vec::new();
-    for experiment in experiment.map_or_else(Experiment::all, |one| vec![one]) {
+    for experiment in experiments.unwrap_or_else(Experiment::all) {
         let start = Instant::now();
-        let report = experiment.run(quick)?;
-        report.write(&out)?;
+        let report = experiment.run(options.quick)?;
+        report.write(out)?;
         print_line(&report.summary)?;
-        let (page, seconds) = (report.page(&out), start.elapsed().as_secs_f64());
+        let (page, seconds) = (report.page(out), start.elapsed().as_secs_f64());
         print_line(&format!("{} in {seconds:.1} s", page.display()))?;
         failures.extend(report.failure);
     }

@@ -87,11 +87,8 @@ fn known_digits(value: f64, error: Option<f64>) -> String {
     }
     let first = value.abs().log10().floor();
     let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
-    let decimals = |count: f64| {
-        (0..20)
-            .take_while(|&digit| f64::from(digit) < count)
-            .count()
-    };
+    let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;
+    let decimals = |count| (0..20).take_while(is_below(count)).count();
     if (-3.0..6.0).contains(&first) {
         let last = last.max(first - 3.0);
         return format!("{value:.*}", decimals(-last));

@@ -13,22 +13,29 @@ pub(super) struct Request {
     pub(super) accuracy: Accuracy,
 }
 
-/// Friction, or the depth where nothing slides, with its absolute error bar.
+/// What a method finds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Solved {
-    pub(super) value: f64,
-    pub(super) error: f64,
+    /// Friction, or the depth where nothing slides.
+    pub(super) known: Estimate,
     pub(super) unknowns: usize,
 }
 
 /// What a result is compared with.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reference {
-    pub(super) value: f64,
-    /// Absolute.
-    pub(super) error: f64,
+    pub(super) known: Estimate,
     /// Where it comes from.
     pub(super) source: String,
+}
+
+impl Reference {
+    pub(super) fn new(value: f64, error: f64, source: &str) -> Self {
+        Self {
+            known: Estimate { value, error },
+            source: source.to_owned(),
+        }
+    }
 }
 
 impl Request {
@@ -46,6 +53,15 @@ impl Request {
 
     pub(super) fn is_by_elements(&self) -> bool {
         matches!(self.accuracy, Accuracy::Elements(_))
+    }
+
+    /// What is asked for.
+    pub(super) fn kind(&self) -> &'static str {
+        if self.is_by_elements() {
+            "elements"
+        } else {
+            "relative error"
+        }
     }
 
     /// The relative error or the number of elements asked for.
@@ -78,26 +94,21 @@ impl Request {
         } else {
             answer.friction_coefficient
         };
-        let Estimate { value, error } = known.context("the result has no friction, or no depth")?;
         Ok(Solved {
-            value,
-            error,
+            known: known.context("the result has no friction, or no depth")?,
             unknowns: answer.unknowns,
         })
     }
 
     /// The result as a reference; `rounding` is the smallest relative error of a closed form.
     pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
-        let Solved { value, error, .. } = self.solve(scene)?;
+        let Estimate { value, error } = self.solve(scene)?.known;
         let source = match self.method {
             Method::Analytic => "closed form".to_owned(),
             method => format!("{} to {:.1e}", method.name(), self.number()),
         };
-        Ok(Reference {
-            value,
-            error: error.max(rounding * value.abs()),
-            source,
-        })
+        let error = error.max(rounding * value.abs());
+        Ok(Reference::new(value, error, &source))
     }
 }
 

@@ -76,10 +76,8 @@ fn compare<R: Serialize>(
         let new = new?;
         for (column, (old, new)) in columns.iter().zip(old.iter().zip(&new)) {
             let what = || format!("{file}: {column} of {old:?}");
-            let [old, new] = [
-                old.parse::<f64>().with_context(what)?,
-                new.parse().with_context(what)?,
-            ];
+            let number = |text: &str| text.parse::<f64>().with_context(what);
+            let [old, new] = [number(old)?, number(new)?];
             let allowed = match tolerance(column, row) {
                 Tolerance::Relative(part) => part * old.abs(),
                 Tolerance::Absolute(allowed) => allowed,

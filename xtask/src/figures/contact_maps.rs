@@ -26,7 +26,8 @@ pub(super) fn caption(contacts: &[Contact]) -> String {
     let list = |value: fn(&Contact) -> f64| {
         let values = contacts
             .iter()
-            .map(|contact| format!("{:.2}", value(contact)));
+            .map(value)
+            .map(|value| format!("{value:.2}"));
         values.collect::<Vec<_>>().join(", ")
     };
     format!(
@@ -73,38 +74,27 @@ fn map(contact: &Contact) -> Map {
 /// Mean over the elements of a cell, given by its corner; none where half of them or more are free.
 fn pressure(contact: &Contact, corner: [f64; 2]) -> Option<f64> {
     let element = 1.0 / contact.elements as f64;
-    let centres = (0..SHARE * SHARE).map(|index| {
-        [
-            corner[0] + (0.5 + (index / SHARE) as f64) * element,
-            corner[1] + (0.5 + (index % SHARE) as f64) * element,
-        ]
-    });
-    let loads: Vec<f64> = centres
-        .map(|centre| contact.pressure(centre))
-        .filter(|pressure| *pressure > 0.0)
-        .collect();
+    let centre = |axis: usize, step: usize| corner[axis] + (0.5 + step as f64) * element;
+    let pressures = (0..SHARE * SHARE)
+        .map(|index| contact.pressure([centre(0, index / SHARE), centre(1, index % SHARE)]));
+    let loads: Vec<f64> = pressures.filter(|pressure| *pressure > 0.0).collect();
     let mean = loads.iter().sum::<f64>() / loads.len() as f64;
     (2 * loads.len() > SHARE * SHARE).then(|| mean.min(BRIGHTEST))
 }
 
 /// Along the front from right to left, and back along the rear; a point for the columns that share a cell.
 fn outline(contact: &Contact) -> Series {
-    let rows: Vec<[f64; 3]> = contact.outline.chunks(SHARE).map(mean).collect();
-    let front = rows.iter().map(|[y, _, front]| [*front, *y]);
-    let rear = rows.iter().rev().map(|[y, rear, _]| [*rear, *y]);
-    let mut points: Vec<[f64; 2]> = front.chain(rear).collect();
+    let columns = || contact.outline.chunks(SHARE);
+    let front = columns().map(|rows| [mean(rows, |row| row.front), mean(rows, |row| row.y)]);
+    let rear = columns().map(|rows| [mean(rows, |row| row.rear), mean(rows, |row| row.y)]);
+    let mut points: Vec<[f64; 2]> = front.chain(rear.rev()).collect();
     points.extend(points.first().copied());
     Series::line(points, Line::thin(Dash::Solid), Colour::Black)
 }
 
-/// Place across, rear and front of neighbouring columns.
-fn mean(rows: &[Row]) -> [f64; 3] {
-    let mean = |value: fn(&Row) -> f64| rows.iter().map(value).sum::<f64>() / rows.len() as f64;
-    [
-        mean(|row| row.y),
-        mean(|row| row.rear),
-        mean(|row| row.front),
-    ]
+/// Mean of neighbouring columns.
+fn mean(rows: &[Row], value: fn(&Row) -> f64) -> f64 {
+    rows.iter().map(value).sum::<f64>() / rows.len() as f64
 }
 
 /// Points at one contact length from the lowest point, as far as the window shows them.

@@ -1,9 +1,10 @@
 //! The scaling factors beside the paper's: the plain simulation, the biases of its sources, and the converged value.
 
 use anyhow::Result;
+use numerics::Estimate;
 use serde::{Deserialize, Serialize};
 
-use crate::scaling::{MAX_UNKNOWNS, ScalingFactor, scaling_factor};
+use crate::scaling::{MAX_UNKNOWNS, scaling_factor};
 use crate::scene::Scene;
 use crate::tasks::in_parallel;
 
@@ -44,12 +45,12 @@ pub(super) struct Row {
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
         let factor = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?;
-        row(exponent, paper, factor)
+        row(exponent, paper, factor.friction_ratio)
     })
 }
 
 /// The plain simulation beside a converged factor.
-pub(super) fn row(exponent: f64, paper: f64, converged: ScalingFactor) -> Result<Row> {
+fn row(exponent: f64, paper: f64, converged: Estimate) -> Result<Row> {
     let scene = Scene::unit(exponent)?;
     let theory = scene.theory()?;
     let spacing = theory.contact_length() / PLAIN_ELEMENTS;

@@ -51,33 +51,32 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
         contacts: stationary::compute()?,
         factors,
     };
-    write_data(&data, out)?;
+    let tables = tables(&data)?;
+    for (name, table) in &tables {
+        write_atomically(&out.join(name), table.as_bytes())?;
+    }
     let pictures = pictures::all(&data)?;
     for Picture { name, drawing, .. } in &pictures {
         write_drawing(out, name, drawing)?;
     }
     let page = out.join("report.html");
-    write_atomically(&page, report::html(&data, &pictures)?.as_bytes())?;
+    write_atomically(&page, report::html(&data, &tables, &pictures)?.as_bytes())?;
     let seconds = start.elapsed().as_secs_f64();
     println!("{} written in {seconds:.1} s", page.display());
     Ok(())
 }
 
-fn write_data(data: &Data, out: &Path) -> Result<()> {
+/// File names and contents.
+fn tables(data: &Data) -> Result<[(&'static str, String); 7]> {
     let outlines = data.contacts.iter().flat_map(|contact| &contact.outline);
-    for (name, table) in [
+    let approach = data.approach.iter().flat_map(|approach| &approach.rows);
+    Ok([
         (loss_tangent::FILE, to_csv(&data.loss_tangent)?),
         (CONE.file, to_csv(&data.cone)?),
         (PARABOLOID.file, to_csv(&data.paraboloid)?),
         (factors::FILE, to_csv(&data.factors)?),
         (scaling_function::FILE, to_csv(&data.scaling_function)?),
-        (
-            "approach.csv",
-            to_csv(&[&data.approach[0].rows[..], &data.approach[1].rows].concat())?,
-        ),
+        ("approach.csv", to_csv(&approach.collect::<Vec<_>>())?),
         (stationary::FILE, to_csv(&outlines.collect::<Vec<_>>())?),
-    ] {
-        write_atomically(&out.join(name), table.as_bytes())?;
-    }
-    Ok(())
+    ])
 }

@@ -33,19 +33,14 @@ fn exponent(index: u32) -> f64 {
 }
 
 fn node(exponent: f64) -> Result<Node> {
-    let factor = tabulated(exponent)?;
-    Ok(Node {
-        exponent,
-        scaling_factor: factor.value,
-        error: factor.error,
-    })
+    Ok(Node::new(exponent, tabulated(exponent)?))
 }
 
 /// Solves some exponents on the half space and compares with the table, within the bars of both.
 pub(super) fn check_against_the_half_space() -> Result<usize> {
     for (exponent, relative_error) in SOLVED_ANEW {
         let tabulated = tabulated(exponent)?;
-        let solved = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
+        let solved = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?.friction_ratio;
         let difference = (tabulated.value - solved.value).abs();
         let allowed = tabulated.error + solved.error;
         ensure!(

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use bem_halfspace::steady::RefinementOptions;
+use numerics::Estimate;
 
 use crate::scene::{Scene, as_far_as_reached};
 
@@ -10,11 +11,11 @@ const STEEP: f64 = 4.0;
 /// Unknown pressures for which an answer is worth waiting.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
-/// s_p with its absolute error.
+/// s_p.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ScalingFactor {
-    pub(crate) value: f64,
-    pub(crate) error: f64,
+    /// Friction of the half space over that of the line, with its absolute error.
+    pub(crate) friction_ratio: Estimate,
     /// Unknown pressures on the finest grid.
     pub(crate) unknowns: usize,
 }
@@ -44,8 +45,7 @@ pub(crate) fn scaling_factor(
         )
     };
     Ok(ScalingFactor {
-        value,
-        error,
+        friction_ratio: Estimate { value, error },
         unknowns,
     })
 }

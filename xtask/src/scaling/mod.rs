@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::output::{WrongInput, markdown_table, to_csv};
 use crate::tasks::in_parallel;
-pub(crate) use converged::{MAX_UNKNOWNS, ScalingFactor, scaling_factor};
+pub(crate) use converged::{MAX_UNKNOWNS, scaling_factor};
 pub(crate) use table::{Node, generate as generate_table};
 
 /// How the factors are printed.
@@ -69,8 +69,8 @@ fn timed(exponent: f64, relative_error: f64) -> Result<Row> {
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
     Ok(Row {
         exponent,
-        scaling_factor: factor.value,
-        error: factor.error,
+        scaling_factor: factor.friction_ratio.value,
+        error: factor.friction_ratio.error,
         unknowns: factor.unknowns,
         seconds: start.elapsed().as_secs_f64(),
     })

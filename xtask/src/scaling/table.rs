@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
+use numerics::Estimate;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +38,16 @@ pub(crate) struct Node {
     pub(crate) error: f64,
 }
 
+impl Node {
+    pub(crate) const fn new(exponent: f64, factor: Estimate) -> Self {
+        Self {
+            exponent,
+            scaling_factor: factor.value,
+            error: factor.error,
+        }
+    }
+}
+
 /// Computes all nodes that are not in `out` yet, and writes the source file there.
 pub(crate) fn generate(out: &Path) -> Result<()> {
     let finished = out.join(FINISHED);
@@ -69,11 +80,7 @@ fn exponent(index: usize) -> f64 {
 fn node(exponent: f64) -> Result<Node> {
     let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
-    Ok(Node {
-        exponent,
-        scaling_factor: factor.value,
-        error: factor.error,
-    })
+    Ok(Node::new(exponent, factor.friction_ratio))
 }
 
 /// The source file, as rustfmt would leave it.

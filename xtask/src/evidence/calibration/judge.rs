@@ -103,9 +103,8 @@ pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
                 offered.push(request);
             }
         }
-        let (closed, others): (Vec<&Request>, Vec<_>) = offered
-            .into_iter()
-            .partition(|request| request.method == Method::Analytic);
+        let is_closed = |request: &&Request| request.method == Method::Analytic;
+        let (closed, others): (Vec<_>, Vec<_>) = offered.into_iter().partition(is_closed);
         if !closed.is_empty() {
             let reference = of_closed_form(scene, model, least).transpose();
             if let Some(reference) = reference {
@@ -140,23 +139,19 @@ impl Judged {
 }
 
 fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
-    let solved = request.solve(&scene.file)?;
-    let deviation = (solved.value - reference.value).abs();
+    let (got, expected) = (request.solve(&scene.file)?.known, reference.known);
+    let deviation = (got.value - expected.value).abs();
     Ok(Bar {
-        asked_kind: if request.is_by_elements() {
-            "elements"
-        } else {
-            "relative error"
-        },
+        asked_kind: request.kind(),
         asked: request.number(),
-        value: solved.value,
-        error_bar: solved.error,
-        reference: reference.value,
-        reference_error: reference.error,
+        value: got.value,
+        error_bar: got.error,
+        reference: expected.value,
+        reference_error: expected.error,
         reference_source: reference.source.clone(),
         deviation,
-        holds: deviation <= solved.error + reference.error,
-        holds_alone: deviation <= solved.error,
+        holds: deviation <= got.error + expected.error,
+        holds_alone: deviation <= got.error,
         solver: request.method,
     })
 }

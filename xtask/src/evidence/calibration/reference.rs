@@ -38,11 +38,11 @@ pub(super) fn of_closed_form(scene: &Scene, model: Model, asked: f64) -> Result<
 
 fn numerical(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {
     if scene.is_elastic() && !presses(&scene.file) {
-        return Ok(Reference {
-            value: 0.0,
-            error: 0.0,
-            source: "no friction on an elastic material".to_owned(),
-        });
+        return Ok(Reference::new(
+            0.0,
+            0.0,
+            "no friction on an elastic material",
+        ));
     }
     match model {
         Model::Line => first_reached(&scene.file, model, &LINE_ERRORS),
@@ -59,11 +59,10 @@ fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
                 value,
                 error,
                 ..
-            })) => Ok(Reference {
-                value,
-                error,
-                source: "bem-steady, as far as it came".to_owned(),
-            }),
+            })) => {
+                let source = "bem-steady, as far as it came";
+                Ok(Reference::new(value, error, source))
+            }
             _ => Err(failure),
         }
     })
@@ -82,9 +81,6 @@ fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
     let impulse = force * (material.half_space_factor() * compliance);
     let contact = power_indentation_after_impulse(profile, &Viscous::new(1.0)?, impulse)?;
     let value = contact.indentation_depth;
-    Ok(Some(Reference {
-        value,
-        error: ROUNDING * value,
-        source: "closed form of powers".to_owned(),
-    }))
+    let source = "closed form of powers";
+    Ok(Some(Reference::new(value, ROUNDING * value, source)))
 }

@@ -34,17 +34,12 @@ enum Motion {
     Stationary,
 }
 
-/// Two of three scenes are stationary.
+/// Most scenes are stationary.
 const MOTIONS: [Motion; 6] = {
-    use Motion::{FromFirstTouch, Pressed, Stationary};
-    [
-        Pressed,
-        FromFirstTouch,
-        Stationary,
-        Stationary,
-        Stationary,
-        Stationary,
-    ]
+    let mut motions = [Motion::Stationary; 6];
+    motions[0] = Motion::Pressed;
+    motions[1] = Motion::FromFirstTouch;
+    motions
 };
 /// Bodies whose motion from first touch is known.
 const KNOWN_FROM_FIRST_TOUCH: [&str; 2] = ["cone", "paraboloid"];
@@ -202,14 +197,15 @@ impl Sample<'_> {
         let time = random.decades(2.0) * self.time;
         let distance = 3.0 * random.decades(0.5) * contact;
         let at_depth = motion == Motion::Stationary && random.uniform() < AT_DEPTH;
-        let sliding = contact / time;
-        let (velocity, solve) = match motion {
-            Motion::Pressed => (0.0, format!("\nsolve = {{ duration = {time:?} }}")),
-            Motion::FromFirstTouch => (
-                sliding,
-                format!("\nsolve = {{ sliding_distance = {distance:?} }}"),
-            ),
-            Motion::Stationary => (sliding, String::new()),
+        let velocity = if motion == Motion::Pressed {
+            0.0
+        } else {
+            contact / time
+        };
+        let solve = match motion {
+            Motion::Pressed => format!("\nsolve = {{ duration = {time:?} }}"),
+            Motion::FromFirstTouch => format!("\nsolve = {{ sliding_distance = {distance:?} }}"),
+            Motion::Stationary => String::new(),
         };
         let with = |control: &str, value: f64| {
             format!("load = {{ {control} = {value:?}, velocity = {velocity:?} }}{solve}")

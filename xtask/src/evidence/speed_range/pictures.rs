@@ -7,9 +7,9 @@ use viscofriction_plot::{
     Series, Shape,
 };
 
-use super::sliding::solid;
 use super::{Decades, EXPONENTS, Extent, Friction, MODELS, Point, Prediction, border, plateau};
 use crate::output::points;
+use crate::scene::solid;
 
 /// Colours of the stiffness ratios.
 const COLOURS: [Colour; 3] = [Colour::Blue, Colour::Green, Colour::Red];

@@ -19,10 +19,10 @@ use friction_analytic::power_sliding;
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad, stretch};
 use mdr_core::steady;
 use numerics::{Estimate, bracketed_root};
-use rheology::{Material as _, StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Material as _, Viscous};
 use serde::Serialize;
 
-use crate::scene::{as_far_as_reached, refined_to};
+use crate::scene::{as_far_as_reached, refined_to, solid};
 
 /// Relative error asked of the line.
 pub(super) const LINE_ERROR: f64 = 1e-6;
@@ -38,15 +38,6 @@ pub(super) struct Sliding {
     pub(super) stiffness_ratio: f64,
     /// vτ/a.
     pub(super) speed: f64,
-}
-
-/// G₂ = τ = 1.
-pub(super) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
-    Ok(StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: stiffness_ratio,
-        maxwell_modulus: 1.0,
-        viscosity: 1.0,
-    })?)
 }
 
 impl Sliding {

@@ -6,8 +6,9 @@ use indenters::{
 use rheology::{KelvinVoigt, Maxwell};
 
 use super::case::{Case, Family, decades, families};
-use super::materials::{prony_over, solid};
+use super::materials::prony_over;
 use super::{contacts, half_space, line, materials, range, refusals, units};
+use crate::scene::solid;
 
 /// Numbers that no size, speed, force or modulus can be.
 const NOT_POSITIVE: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];

@@ -17,7 +17,8 @@ use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
 use super::case::{Comparison, Finding, compare, refused};
 use super::line::{Dashpot, dashpot, unit_dashpot};
-use super::materials::{prony_over, solid};
+use super::materials::prony_over;
+use crate::scene::solid;
 
 /// Enough unknowns for all of these cases, and seconds at most.
 const OPTIONS: RefinementOptions = RefinementOptions {
@@ -124,16 +125,12 @@ fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Finding> {
 /// Slow sliding, v τ (1 + γ)/γ = 1e-4 a: friction by the exact elastic limit.
 pub(super) fn slow(gamma: f64) -> Result<Finding> {
     let velocity = 1e-4 * gamma / (1.0 + gamma);
-    at_limit(gamma, velocity, |body, solid, at| {
-        low_speed_friction(body, solid, at)
-    })
+    at_limit(gamma, velocity, low_speed_friction)
 }
 
 /// Fast sliding, v τ = 1e4 a.
 pub(super) fn fast(gamma: f64) -> Result<Finding> {
-    at_limit(gamma, 1e4, |body, solid, at| {
-        high_speed_friction(body, solid, at)
-    })
+    at_limit(gamma, 1e4, high_speed_friction)
 }
 
 /// Between the limits a solid with a soft spring is a dashpot, at v τ = 1e-5 a within γ/1e-5 and 1e-5.

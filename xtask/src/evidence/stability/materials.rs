@@ -3,10 +3,11 @@
 use anyhow::Result;
 use rheology::{
     ExponentialStep, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum,
-    Springpot, StandardSolid, StandardSolidParameters,
+    Springpot,
 };
 
 use super::case::{Comparison, Finding, compare};
+use crate::scene::solid;
 
 /// A few roundings.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -84,15 +85,6 @@ fn reciprocal_spectra(relaxation: &RelaxationSpectrum) -> Result<Finding> {
         comparisons.push(compare("imaginary part", imaginary, 0.0));
     }
     Ok(Finding::of(&comparisons))
-}
-
-/// The solid of the paper's Fig. 1 with G₂ = 1 Pa and τ = 1 s.
-pub(super) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
-    Ok(StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: stiffness_ratio,
-        maxwell_modulus: 1.0,
-        viscosity: 1.0,
-    })?)
 }
 
 /// Retardation time (1 + γ)/γ, compliance 1/(γ (1 + γ)), largest loss tangent 1/(2 √(γ (1 + γ))), J(1) by Taylor where

@@ -16,7 +16,7 @@ use rheology::{
 
 use super::case::{Case, Finding, cases, compare, refused};
 use super::line::{Dashpot, state, unit_dashpot};
-use super::materials::solid;
+use crate::scene::solid;
 
 pub(super) fn no_state() -> Vec<Case> {
     cases! {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 use benches::deviation;
+use numerics::Estimate;
 use serde::Serialize;
 use viscofriction::scene::{self, Method, Model};
 
@@ -153,22 +154,22 @@ fn series(
     requests: &[Request],
     reference: &Reference,
 ) -> Series {
-    let expected = reference.value;
+    let expected = reference.known;
     let run = |request: &Request| {
         let (request, scene) = (*request, Arc::clone(scene));
         let kind = match request.method {
             Method::Analytic => "closed form",
-            _ if request.is_by_elements() => "elements",
-            _ => "relative error",
+            _ => request.kind(),
         };
         Run {
             kind,
             resolution: (request.method != Method::Analytic).then(|| request.number()),
             solve: Box::new(move || {
                 let solved = request.solve(&scene)?;
+                let Estimate { value, error } = solved.known;
                 Ok(Found {
-                    error: deviation(&[solved.value], &[expected]),
-                    error_bar: Some(solved.error / solved.value.abs()),
+                    error: deviation(&[value], &[expected.value]),
+                    error_bar: Some(error / value.abs()),
                     unknowns: solved.unknowns,
                 })
             }),
@@ -180,7 +181,7 @@ fn series(
         quantity: if presses(scene) { DEPTH } else { FRICTION },
         method: Some(requests[0].method),
         reference: reference.source.clone(),
-        reference_error: reference.error / expected.abs(),
+        reference_error: expected.error / expected.value.abs(),
         runs: requests.iter().map(run).collect(),
     }
 }
