@@ -80,10 +80,8 @@ impl Workspace {
 
     /// All examples, as a release build compiles them.
     pub(super) fn example_files(&self) -> impl Iterator<Item = PathBuf> {
-        let examples = self
-            .packages
-            .iter()
-            .flat_map(|package| package.targets("example"));
+        let packages = self.packages.iter();
+        let examples = packages.flat_map(|package| package.targets("example"));
         let folder = self.target_directory.join("release/examples");
         examples.map(move |name| folder.join(name))
     }
@@ -101,10 +99,8 @@ impl Package {
     /// Names of its targets of a kind.
     fn targets(&self, kind: &str) -> impl Iterator<Item = &str> {
         let is_wanted = move |target: &&Target| target.kind.iter().any(|own| own == kind);
-        self.targets
-            .iter()
-            .filter(is_wanted)
-            .map(|target| &*target.name)
+        let wanted = self.targets.iter().filter(is_wanted);
+        wanted.map(|target| &*target.name)
     }
 
     fn broken(&self) -> Vec<String> {

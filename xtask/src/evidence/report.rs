@@ -55,8 +55,9 @@ impl Table {
         Ok(Self { name, contents })
     }
 
-    /// Some columns in Markdown, numbers only as far as their `…_error` says that they are known.
-    pub(super) fn markdown(&self, columns: &[&str]) -> Result<String> {
+    /// Some columns, separated by blanks, in Markdown; numbers only as far as their `…_error` says that they are known.
+    pub(super) fn markdown(&self, columns: &str) -> Result<String> {
+        let columns = columns.split_whitespace();
         let mut reader = csv::Reader::from_reader(self.contents.as_bytes());
         let names = reader.headers()?.clone();
         let place = |column: &str| names.iter().position(|name| name == column);
@@ -65,7 +66,7 @@ impl Table {
             let record = record?;
             let number = |place: usize| record[place].parse::<f64>().ok();
             let mut line = Vec::new();
-            for &column in columns {
+            for column in columns.clone() {
                 let cell = place(column).with_context(|| format!("no column {column}"))?;
                 let error = place(&format!("{column}_error")).and_then(number);
                 line.push(match number(cell) {
@@ -75,7 +76,7 @@ impl Table {
             }
             lines.push(line);
         }
-        let header: Vec<String> = columns.iter().map(|name| name.replace('_', " ")).collect();
+        let header: Vec<String> = columns.map(|name| name.replace('_', " ")).collect();
         Ok(markdown_table(&header, lines).to_string())
     }
 }

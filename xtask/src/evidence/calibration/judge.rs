@@ -89,10 +89,8 @@ impl Judged {
 
 /// Solves a scene by every method that can, closed forms first, which are compared with no other closed form.
 pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
-    let mut judged = Judged {
-        left_out: requests.left_out.clone(),
-        ..Judged::default()
-    };
+    let mut judged = Judged::default();
+    judged.left_out.clone_from(&requests.left_out);
     for model in [Model::Line, Model::HalfSpace] {
         let of_model = requests.made.iter().filter(|made| made.model == model);
         let errors = of_model.clone().filter(|request| !request.is_by_elements());

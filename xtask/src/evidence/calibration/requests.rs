@@ -47,7 +47,7 @@ const PRESSED: [usize; 3] = [16, 32, 64];
 const CLOSED: Accuracy = Accuracy::RelativeError(1e-2);
 
 /// What is asked of a scene, and why some is not.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Requests {
     /// Not every one is offered there.
     pub(super) made: Vec<Request>,
@@ -63,10 +63,7 @@ const EXPENSIVE: &str = "the half space in the scenes between, because it costs 
 
 impl Requests {
     pub(super) fn new(random: &mut Random, scene: &Scene, extent: &Extent) -> Self {
-        let mut requests = Self {
-            made: Vec::new(),
-            left_out: Vec::new(),
-        };
+        let mut requests = Self::default();
         if presses(&scene.file) {
             requests.made = pressed(random);
             return requests;

@@ -36,15 +36,11 @@ pub(super) struct Row {
 /// The ranges of all rows of the map; `error` is the relative one that the half space has on them.
 pub(super) fn find(map: &[Prediction], error: f64) -> Result<Vec<Row>> {
     let key = |(at, _): &Prediction| [at.exponent, at.stiffness_ratio].map(f64::to_bits);
-    let speeds = map.chunk_by(|one, other| key(one) == key(other));
-    let both = |speeds| MODELS.map(|model| Scan { model, speeds });
-    let scans: Vec<Scan> = speeds.flat_map(both).collect();
+    let speeds = || map.chunk_by(|one, other| key(one) == key(other));
+    let scans = |model| speeds().map(move |speeds| Scan { model, speeds });
+    let scans: Vec<Scan> = MODELS.into_iter().flat_map(scans).collect();
     let mut rows = in_parallel("border of the viscous law", &scans, |scan| scan.row(error))?;
-    rows.sort_by(|one, other| {
-        let model = |row: &Row| row.model == Model::HalfSpace;
-        let exponents = one.exponent.total_cmp(&other.exponent);
-        exponents.then(model(one).cmp(&model(other)))
-    });
+    rows.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
     Ok(rows)
 }
 
@@ -192,13 +188,5 @@ impl Border {
 const STEP: f64 = 0.02;
 
 /// Columns that are printed.
-pub(super) const COLUMNS: &[&str] = &[
-    "exponent",
-    "model",
-    "stiffness_ratio",
-    "lowest_speed",
-    "highest_speed",
-    "loss_tangent_at_lowest",
-    "loss_tangent_at_highest",
-    "smallest_deviation",
-];
+pub(super) const COLUMNS: &str = "exponent model stiffness_ratio lowest_speed highest_speed \
+                                  loss_tangent_at_lowest loss_tangent_at_highest smallest_deviation";

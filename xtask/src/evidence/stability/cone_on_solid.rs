@@ -10,7 +10,7 @@
 
 use anyhow::{Context, Result};
 use numerics::bracketed_root;
-use rheology::RelaxationSpectrum;
+use rheology::{RelaxationBranch, RelaxationSpectrum};
 
 /// Stationary sliding of a cone.
 #[derive(Debug, Clone, Copy)]
@@ -21,18 +21,13 @@ pub(super) struct ConeOnSolid {
 
 /// A cone whose line has the slope s = 1, with its front at x_r = 1, at speed v.
 pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Result<ConeOnSolid> {
-    let branches: Vec<Branch> = material
-        .branches()
-        .iter()
-        .map(|branch| Branch {
-            modulus: branch.modulus,
-            length: velocity * branch.relaxation_time,
-        })
-        .collect();
-    let (spring, dashpot) = (
-        material.equilibrium_modulus(),
-        material.viscosity() * velocity,
-    );
+    let branch = |branch: &RelaxationBranch| Branch {
+        modulus: branch.modulus,
+        length: velocity * branch.relaxation_time,
+    };
+    let branches: Vec<Branch> = material.branches().iter().map(branch).collect();
+    let spring = material.equilibrium_modulus();
+    let dashpot = material.viscosity() * velocity;
     let behind = |y: f64| {
         let stresses: f64 = branches.iter().map(|branch| branch.behind(y)).sum();
         spring * (1.0 - y) - dashpot + stresses

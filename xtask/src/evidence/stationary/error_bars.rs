@@ -78,10 +78,11 @@ impl Case {
 
     /// r^low/2 + coefficient r^high.
     fn sum(name: &str, low: f64, coefficient: f64, high: f64) -> Result<Self> {
-        let terms = [(0.5, low), (coefficient, high)].map(|(coefficient, exponent)| PowerTerm {
+        let term = |(coefficient, exponent)| PowerTerm {
             coefficient,
             exponent,
-        });
+        };
+        let terms = [(0.5, low), (coefficient, high)].map(term);
         Self::new(name, Superposition::new(terms.to_vec())?)
     }
 
@@ -201,17 +202,9 @@ fn summary(rows: &[Row]) -> Result<String> {
     let mut worst: Vec<&Row> = rows.iter().collect();
     worst.sort_by(|one, other| other.deviation_over_bar.total_cmp(&one.deviation_over_bar));
     worst.truncate(WORST.max(rows.len() - held));
-    let columns = [
-        "case",
-        "aspect",
-        "relative_error_asked",
-        "friction",
-        "error_bar",
-        "deviation",
-        "deviation_over_bar",
-        "holds",
-    ];
-    let table = Table::new("worst", &worst)?.markdown(&columns)?;
+    let columns = "case aspect relative_error_asked friction error_bar deviation \
+                   deviation_over_bar holds";
+    let table = Table::new("worst", &worst)?.markdown(columns)?;
     Ok(format!(
         "{held} of {} error bars hold, {:.1} %: {}\nmedian of bar/deviation {width:.1}: {}\n{table}",
         rows.len(),

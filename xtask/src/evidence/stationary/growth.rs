@@ -74,15 +74,8 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
 }
 
 /// Columns that are printed.
-const COLUMNS: &[&str] = &[
-    "elements_in_contact",
-    "unknowns",
-    "contact_sets",
-    "seconds",
-    "processor_seconds",
-    "peak_memory_mib",
-    "relative_deviation",
-];
+const COLUMNS: &str = "elements_in_contact unknowns contact_sets seconds processor_seconds \
+                       peak_memory_mib relative_deviation";
 
 fn growth(rows: &[Row]) -> String {
     let elements = |row: &Row| row.elements_in_contact;

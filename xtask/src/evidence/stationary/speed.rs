@@ -191,18 +191,8 @@ fn spacing(scene: &Scene, relative_error: f64) -> Result<Spacing> {
 }
 
 /// Columns that are printed.
-const COLUMNS: &[&str] = &[
-    "solver",
-    "exponent",
-    "relative_error_asked",
-    "estimated_error",
-    "deviation",
-    "unknowns",
-    "elements_along_contact",
-    "sliding_distance",
-    "seconds",
-    "processor_seconds",
-];
+const COLUMNS: &str = "solver exponent relative_error_asked estimated_error deviation unknowns \
+                       elements_along_contact sliding_distance seconds processor_seconds";
 
 /// Processor times of the stationary solver over that of the march, which is last.
 fn ratios(rows: &[Row]) -> String {

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::fit::clear_exponent;
 use super::{Report, Table};
-use crate::output::markdown_table;
+use crate::output::{markdown_table, points};
 use crate::tasks::in_turn;
 use scenes::{QUICK_SCENES, SCENES, Scene};
 use series::{Row, Series, series_of};
@@ -67,10 +67,6 @@ pub(super) fn report(quick: bool) -> Result<Report> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let measure = |series: &Series| Ok(series.measure(extent.timed_once, &mut refused));
     let measured = pool.install(|| in_turn("work and precision", &series, measure))?;
-    let refused: Vec<String> = refused
-        .iter()
-        .map(|refused| format!("\nrefused: {refused}"))
-        .collect();
     let fits: Vec<Fit> = measured.iter().filter_map(|rows| Fit::of(rows)).collect();
     let rows: Vec<&Row> = measured.iter().flatten().collect();
     let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
@@ -113,13 +109,14 @@ impl Fit {
     fn of(rows: &[Row]) -> Option<Self> {
         let first = rows.first()?;
         let resolved = rows.iter().filter(|row| row.is_resolved());
-        let errors: Vec<[f64; 2]> = resolved
-            .filter_map(|row| Some([row.fineness()?, row.error]))
-            .collect();
-        let numerical = rows.iter().filter(|row| row.unknowns > 0);
-        let costs: Vec<[f64; 2]> = numerical
-            .map(|row| [row.unknowns as f64, row.processor_seconds])
-            .collect();
+        let errors = resolved.filter_map(|row| Some([row.fineness()?, row.error]));
+        let errors: Vec<[f64; 2]> = errors.collect();
+        let numerical: Vec<&Row> = rows.iter().filter(|row| row.unknowns > 0).collect();
+        let costs = points(
+            &numerical,
+            |row| row.unknowns as f64,
+            |row| row.processor_seconds,
+        );
         let [order, cost] = [clear_exponent(&errors), clear_exponent(&costs)];
         Some(Self {
             scene: first.scene,

@@ -119,7 +119,9 @@ pub(super) fn series_of(
             Ok(reference) => reference,
             Err(error) => {
                 let (name, model) = (scene.name, model.name());
-                refused.push(format!("{name}, reference of the {model}: {error:#}"));
+                refused.push(format!(
+                    "\nrefused: {name}, reference of the {model}: {error:#}"
+                ));
                 continue;
             }
         };
@@ -202,7 +204,7 @@ impl Series {
                 Err(error) => {
                     let number = run.resolution.unwrap_or_default();
                     let what = format!("{}, {}, {} {number}", self.scene, self.name(), run.kind);
-                    refused.push(format!("{what}: {error:#}"));
+                    refused.push(format!("\nrefused: {what}: {error:#}"));
                 }
             }
         }
