@@ -48,11 +48,11 @@ pub(crate) fn to_csv(
     Ok(writer.into_inner()?)
 }
 
-/// A table in Markdown with this header.
-pub(crate) fn markdown(header: &[&str]) -> Table {
+/// A table in Markdown; bars divide the header.
+pub(crate) fn markdown(header: &str) -> Table {
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
-    table.set_header(header.to_vec());
+    table.set_header(header.split(" | "));
     table
 }
 

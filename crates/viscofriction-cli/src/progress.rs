@@ -10,12 +10,13 @@ pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     styled(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}, {eta} left")
 }
 
-/// A sign of life for one task without steps.
-pub(crate) fn spinner(task: String) -> ProgressBar {
-    styled(
-        ProgressBar::new_spinner().with_message(task),
-        "{spinner} {msg}  {elapsed}",
-    )
+/// Does one task without steps, with a sign of life.
+pub(crate) fn during<T>(task: String, work: impl FnOnce() -> T) -> T {
+    let spinner = ProgressBar::new_spinner().with_message(task);
+    let spinner = styled(spinner, "{spinner} {msg}  {elapsed}");
+    let value = work();
+    spinner.finish_and_clear();
+    value
 }
 
 fn styled(bar: ProgressBar, template: &str) -> ProgressBar {

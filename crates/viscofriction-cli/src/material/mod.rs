@@ -88,19 +88,20 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let out = options.out.as_deref();
     let out = out.map(|out| OutputFolder::new(out, options.overwrite, output_files::NAMES));
     let out = out.transpose()?;
-    let bar = progress::spinner(format!("fitting {}", options.data.display()));
-    let found = identify(&curve, &options.identification()).map_err(wrong_option);
-    if let Points::Oscillation(points) = &points
-        && !found.as_ref().is_ok_and(swapped::is_good)
-    {
-        swapped::check(points, options.ending())?;
-    }
-    bar.finish_and_clear();
+    let found = progress::during(format!("fitting {}", options.data.display()), || {
+        let found = identify(&curve, &options.identification()).map_err(wrong_option);
+        if let Points::Oscillation(points) = &points
+            && !found.as_ref().is_ok_and(swapped::is_good)
+        {
+            swapped::check(points, options.ending())?;
+        }
+        found
+    })?;
     let fitted = Fitted {
         options,
         points,
         master,
-        found: found?,
+        found,
     };
     let Some(out) = &out else {
         return print_text(&output_files::material(&fitted));
@@ -183,16 +184,11 @@ impl FitMaterial {
 
 impl Fitted<'_> {
     fn summary(&self) -> String {
-        let Identification {
-            spectrum,
-            rms_relative_error,
-            max_relative_error,
-        } = &self.found;
-        let n_branches = spectrum.branches().len();
+        let found = &self.found;
+        let n_branches = found.spectrum.branches().len();
+        let [rms, most] = [found.rms_relative_error, found.max_relative_error].map(|e| 100.0 * e);
         format!(
-            "{n_branches} branches; relative error of the modulus: {:.3} % rms, {:.3} % at most",
-            100.0 * rms_relative_error,
-            100.0 * max_relative_error
+            "{n_branches} branches; relative error of the modulus: {rms:.3} % rms, {most:.3} % at most"
         )
     }
 }

@@ -61,12 +61,11 @@ impl Table {
             }
         }
         if rows.len() < 2 {
-            let n_rows = rows.len();
+            let needed = "at least 2 measurements are needed after the lines of names and units";
+            let last = records.last().map_or(1, |last| head.line(last));
             return Err(wrong(
-                records.last().map_or(1, |last| head.line(last)),
-                &format!(
-                    "at least 2 measurements are needed after the lines of names and units, but there are {n_rows}"
-                ),
+                last,
+                &format!("{needed}, but there are {}", rows.len()),
             ));
         }
         let is_celsius = |column: &Column| units.get(column.place) != Some("K");

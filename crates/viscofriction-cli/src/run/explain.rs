@@ -21,15 +21,7 @@ const GRID: usize = 12;
 /// Work is repeated until it has taken so much processor time \[s].
 const CLOCKED: f64 = 0.1;
 
-const HEADER: [&str; 7] = [
-    "left out",
-    "because",
-    "time",
-    "with it",
-    "memory",
-    "with it",
-    "answer changes by",
-];
+const HEADER: &str = "left out | because | time | with it | memory | with it | answer changes by";
 
 /// Work on one thread.
 #[derive(Debug, Clone, Copy, Default)]
@@ -56,7 +48,7 @@ struct Saving {
 /// # Errors
 /// When a discrete problem does not stay the same.
 pub(super) fn table(problem: &Problem, answer: &Timed<'_>) -> Result<Table> {
-    let mut table = markdown(&HEADER);
+    let mut table = markdown(HEADER);
     for &omission in &answer.answer.left_out {
         let name = omission.name();
         let cells = match saving(problem, answer, omission) {

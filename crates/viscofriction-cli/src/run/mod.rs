@@ -93,19 +93,17 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let out = options.out.as_deref();
     let out = out.map(|out| OutputFolder::new(out, options.overwrite, files::NAMES));
     let out = out.transpose()?;
-    let bar = progress::spinner(format!("{} by {}", source.path().display(), method.name()));
+    let path = source.path().display();
+    let task = format!("{path} by {}", method.name());
     let started = Instant::now();
-    let answer = in_pool(&problem);
+    let answer = progress::during(task, || in_pool(&problem));
     let seconds = started.elapsed().as_secs_f64();
-    bar.finish_and_clear();
-    let mut answer = answer.with_context(|| format!("{}", source.path().display()))?;
+    let mut answer = answer.with_context(|| path.to_string())?;
     if out.is_none() {
         answer.left_out.push(Omission::Files);
     }
-    let answer = Timed {
-        answer: &answer,
-        seconds,
-    };
+    let answer = &answer;
+    let answer = Timed { answer, seconds };
     // Before anything is printed, because a pipe that is closed ends the program.
     if let Some(out) = &out {
         files::write(&answer, out)?;
@@ -119,6 +117,9 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     }
     Ok(())
 }
+
+/// Why a method was chosen.
+const CHEAPEST: &str = ", the cheapest that answers the scene";
 
 /// Solves on as many threads as the scene says, or on all.
 fn in_pool(problem: &Problem) -> Result<Answer> {
@@ -135,12 +136,8 @@ fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
         Format::Json => print_line(&serde_json::to_string_pretty(timed)?),
         Format::Table => {
             let (method, model) = (answer.method.name(), table::model(answer.model));
-            let why = if chosen {
-                ", the cheapest that answers the scene"
-            } else {
-                ""
-            };
-            print_line(&format!("{method}{why}; {model}; {seconds:.3} s"))?;
+            let cheapest = if chosen { CHEAPEST } else { "" };
+            print_line(&format!("{method}{cheapest}; {model}; {seconds:.3} s"))?;
             print_line(&table::table(answer))?;
             if let Some(parts) = table::parts(&answer.error_parts) {
                 print_line(&format!("error bar: {parts}"))?;
@@ -153,10 +150,8 @@ fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
 
 /// Measures what the scene did not need; a result as JSON stays alone on the standard output.
 fn explain(problem: &Problem, answer: &Timed<'_>, format: Format) -> Result<()> {
-    let bar = progress::spinner("measuring what was left out".to_owned());
-    let omissions = explain::table(problem, answer);
-    bar.finish_and_clear();
-    let omissions = omissions?;
+    let task = "measuring what was left out".to_owned();
+    let omissions = progress::during(task, || explain::table(problem, answer))?;
     match format {
         Format::Json => say(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,

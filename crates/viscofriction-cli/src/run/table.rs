@@ -9,7 +9,7 @@ use crate::output::markdown;
 
 /// One row per quantity, with its error and unit.
 pub(super) fn table(answer: &Answer) -> Table {
-    let mut table = markdown(&["quantity", "value", "error", "unit"]);
+    let mut table = markdown("quantity | value | error | unit");
     let [force, area] = if answer.is_per_length {
         ["N/m", "m²/m"]
     } else {

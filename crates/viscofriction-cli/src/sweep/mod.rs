@@ -121,11 +121,8 @@ fn into_file(
     let table = file.finish()?;
     pictures.draw(&table)?;
     let n_rows = table.rows.len();
-    say(&format!(
-        "{} points computed, {n_rows} in {}",
-        points.len(),
-        path.display()
-    ));
+    let (n_computed, path) = (points.len(), path.display());
+    say(&format!("{n_computed} points computed, {n_rows} in {path}"));
     let failed = table.rows.iter().filter(|row| row.failed());
     Ok([failed.count(), n_rows])
 }
@@ -147,12 +144,8 @@ fn compute(
     let each = |finished: &mut mpsc::Sender<_>, &point: &usize| {
         finished.send(plan.solve(point)).map_err(|_| ())
     };
-    let all = || {
-        points
-            .par_iter()
-            .with_max_len(1)
-            .try_for_each_with(finished, each)
-    };
+    let points = points.par_iter().with_max_len(1);
+    let all = || points.try_for_each_with(finished, each);
     let taken = std::thread::scope(|scope| {
         scope.spawn(|| pool.install(all).ok());
         rows.into_iter().try_for_each(|row| {

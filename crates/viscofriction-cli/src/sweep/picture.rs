@@ -85,9 +85,8 @@ fn signature(fingerprint: &str) -> String {
 fn figure(table: &RowTable) -> Result<Figure> {
     let place = |name: &str| table.header.iter().position(|column| column == name);
     let [before, behind] = AROUND_KEYS.map(place);
-    let (before, behind) = before
-        .zip(behind)
-        .context("the columns are not those of a sweep")?;
+    let keys = before.zip(behind);
+    let (before, behind) = keys.context("the columns are not those of a sweep")?;
     let column = |place: usize| -> Vec<Option<f64>> {
         let cells = table.rows.iter().map(|row| row.fields[place].parse().ok());
         cells.collect()
@@ -104,9 +103,8 @@ fn figure(table: &RowTable) -> Result<Figure> {
         }
         _ => true,
     };
-    let drawn = QUANTITIES
-        .iter()
-        .find(|(name, _)| is_known(name) && is_drawn(name));
+    let mut quantities = QUANTITIES.into_iter();
+    let drawn = quantities.find(|(name, _)| is_known(name) && is_drawn(name));
     let (name, label) = drawn.context("no point has a result")?;
     let errors = values(&format!("{name}_error"));
     let values = values(name);

@@ -7,29 +7,16 @@ use viscofriction::Estimate;
 
 use crate::support::{Folder, estimate, number};
 
-/// A number whose unit is m^a Pa^b s^c, in the text of a scene.
-fn quantity(value: f64, powers: [f64; 3]) -> String {
-    let [a, b, c] = powers;
-    format!("<{value:?} {a:?} {b:?} {c:?}>")
-}
-
-const LENGTH: [f64; 3] = [1.0, 0.0, 0.0];
-const STRESS: [f64; 3] = [0.0, 1.0, 0.0];
-const TIME: [f64; 3] = [0.0, 0.0, 1.0];
-const VISCOSITY: [f64; 3] = [0.0, 1.0, 1.0];
-
-/// The text in these units.
+/// The text of a scene in these units; `<x a b c>` stands for the number x of the unit m^a Pa^b s^c.
 fn in_units(text: &str, units: [f64; 3]) -> String {
     let number = |word: &str| word.parse::<f64>().expect("a number");
     let mut parts = text.split(['<', '>']);
     let mut scene = parts.next().unwrap_or_default().to_owned();
     while let (Some(quantity), Some(rest)) = (parts.next(), parts.next()) {
         let numbers: Vec<f64> = quantity.split(' ').map(number).collect();
-        let powers = units
-            .iter()
-            .zip(&numbers[1..])
-            .map(|(unit, power)| unit.powf(*power));
-        scene += &format!("{:?}{rest}", numbers[0] * powers.product::<f64>());
+        let powers = units.iter().zip(&numbers[1..]);
+        let factor: f64 = powers.map(|(unit, power)| unit.powf(*power)).product();
+        scene += &format!("{:?}{rest}", numbers[0] * factor);
     }
     scene
 }
@@ -40,65 +27,55 @@ fn decades(n: f64) -> impl Strategy<Value = f64> {
 
 /// c r^p with the coefficient 1 m^(1 − p).
 fn power(p: f64) -> String {
-    let coefficient = quantity(1.0, [1.0 - p, 0.0, 0.0]);
-    format!("{{ coefficient = {coefficient}, exponent = {p:?} }}")
+    let unit = 1.0 - p;
+    format!("{{ coefficient = <1 {unit:?} 0 0>, exponent = {p:?} }}")
 }
 
 fn body() -> impl Strategy<Value = String> {
     let with_tip = |kind: &'static str| {
-        let length = |tip| quantity(tip, LENGTH);
-        decades(1.0)
-            .prop_map(move |tip| format!("{kind} = {{ radius = {}, slope = 0.7 }}", length(tip)))
+        let keys = move |tip| format!("{kind} = {{ radius = <{tip:?} 1 0 0>, slope = 0.7 }}");
+        decades(1.0).prop_map(keys)
+    };
+    let superposition = |(low, high)| {
+        let terms = [low, high].map(power).join(", ");
+        format!("superposition.terms = [{terms}]")
     };
     prop_oneof![
         (0.75..4.0_f64).prop_map(|p| format!("power = {}", power(p))),
         Just("cone.slope = 0.3".to_owned()),
-        Just(format!(
-            "paraboloid.curvature = {}",
-            quantity(1.0, [-1.0, 0.0, 0.0])
-        )),
+        Just("paraboloid.curvature = <1 -1 0 0>".to_owned()),
         with_tip("hyperboloid"),
         with_tip("round-tipped-cone"),
-        (1.0..2.0_f64, 2.0..4.0_f64).prop_map(|(low, high)| {
-            format!("superposition.terms = [{}, {}]", power(low), power(high))
-        }),
+        (1.0..2.0_f64, 2.0..4.0_f64).prop_map(superposition),
     ]
 }
 
+/// A material but for its Poisson ratio and what ends it.
 fn material() -> impl Strategy<Value = String> {
-    let modulus = |value| quantity(value, STRESS);
-    let viscosity = |value| quantity(value, VISCOSITY);
-    let of_two = move |kind: &'static str| {
-        let keys = move |tau| {
-            format!(
-                "shear_modulus = {}, viscosity = {}",
-                modulus(1.0),
-                viscosity(tau)
-            )
-        };
-        decades(2.0).prop_map(move |tau| format!("{kind} = {{ {}", keys(tau)))
+    let of_two = |kind: &'static str| {
+        let dashpot = |tau| format!("shear_modulus = <1 0 1 0>, viscosity = <{tau:?} 0 1 1>");
+        decades(2.0).prop_map(move |tau| format!("{kind} = {{ {}", dashpot(tau)))
     };
-    let branch = (decades(2.0), decades(3.0)).prop_map(move |(value, tau)| {
-        let time = quantity(tau, TIME);
-        format!(
-            "{{ modulus = {}, relaxation_time = {time} }}",
-            modulus(value)
-        )
+    let solid = |(modulus, tau): (f64, f64)| {
+        let viscosity = modulus * tau;
+        let branch =
+            format!("maxwell_modulus = <{modulus:?} 0 1 0>, viscosity = <{viscosity:?} 0 1 1>");
+        format!("standard-solid = {{ equilibrium_modulus = <1 0 1 0>, {branch}")
+    };
+    let branch = (decades(2.0), decades(3.0)).prop_map(|(modulus, tau)| {
+        format!("{{ modulus = <{modulus:?} 0 1 0>, relaxation_time = <{tau:?} 0 0 1> }}")
     });
+    let prony = |branches: Vec<String>| {
+        let branches = branches.join(", ");
+        format!("prony = {{ equilibrium_modulus = <1 0 1 0>, branches = [{branches}]")
+    };
     prop_oneof![
-        Just(format!("viscous = {{ viscosity = {}", viscosity(1.0))),
-        Just(format!("elastic = {{ shear_modulus = {}", modulus(1.0))),
+        Just("viscous = { viscosity = <1 0 1 1>".to_owned()),
+        Just("elastic = { shear_modulus = <1 0 1 0>".to_owned()),
         of_two("kelvin-voigt"),
         of_two("maxwell"),
-        (decades(2.0), decades(2.0)).prop_map(move |(spring, tau)| {
-            let [equilibrium, maxwell] = [1.0, spring].map(modulus);
-            let dashpot = viscosity(spring * tau);
-            format!("standard-solid = {{ equilibrium_modulus = {equilibrium}, maxwell_modulus = {maxwell}, viscosity = {dashpot}")
-        }),
-        prop::collection::vec(branch, 1..4).prop_map(move |branches| {
-            let branches = branches.join(", ");
-            format!("prony = {{ equilibrium_modulus = {}, branches = [{branches}]", modulus(1.0))
-        }),
+        (decades(2.0), decades(2.0)).prop_map(solid),
+        prop::collection::vec(branch, 1..4).prop_map(prony),
     ]
 }
 
@@ -118,10 +95,9 @@ proptest! {
         units in [decades(6.0), decades(6.0), decades(6.0)],
     ) {
         let relative_error = 10.0_f64.powf(exponent);
-        let [depth, velocity] = [quantity(depth, LENGTH), quantity(velocity, [1.0, 0.0, -1.0])];
         let body = format!("indenter.{body}");
         let material = format!("material.{material}, poisson_ratio = {poisson_ratio:?} }}");
-        let load = format!("indentation_depth = {depth}, velocity = {velocity}");
+        let load = format!("indentation_depth = <{depth:?} 1 0 0>, velocity = <{velocity:?} 1 0 -1>");
         let solve = format!("model = \"line\", relative_error = {relative_error:?}");
         let folder = Folder::new("any-scene");
         let [answer, scaled] = [[1.0; 3], units].map(|units| {

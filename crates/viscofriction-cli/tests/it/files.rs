@@ -115,31 +115,22 @@ fn only_regular_files_and_scenes_with_an_end_are_read() {
 
 #[test]
 fn of_two_that_write_the_same_the_second_is_refused() {
+    let sweep = "sweep scene.toml --vary load.velocity=1,2 --out out";
+    // Takes longer than the test.
+    let march = ("bem-steady", "bem-transient");
+    let slow = [march, ("relative_error = 1e-2", "elements = 96")];
     for (line, again) in [
-        (
-            "sweep scene.toml --vary load.velocity=1,2 --out out",
-            "--resume",
-        ),
-        (
-            "sweep scene.toml --vary load.velocity=1,2 --out out",
-            "--overwrite",
-        ),
+        (sweep, "--resume"),
+        (sweep, "--overwrite"),
         ("run scene.toml --out out", "--overwrite"),
     ] {
-        // Takes longer than the test.
-        let slow = [
-            ("bem-steady", "bem-transient"),
-            ("relative_error = 1e-2", "elements = 96"),
-        ];
         let folder = Folder::with("two", "cone-half-space.toml", &slow);
         let first = folder.command(line).stdout(Stdio::null()).spawn();
         let mut first = first.expect("the command runs");
         let started = Instant::now();
         while !folder.path("out").exists() {
-            assert!(
-                started.elapsed() < Duration::from_secs(20),
-                "{line} does not begin"
-            );
+            let waited = started.elapsed().as_secs();
+            assert!(waited < 20, "{line} does not begin");
             std::thread::sleep(Duration::from_millis(5));
         }
         // From the name of the file to the lock on it.
@@ -176,10 +167,8 @@ fn a_run_that_is_killed_leaves_whole_files() {
 /// A kill between writing a file and giving it its name leaves a part; it is too rare to wait for.
 #[test]
 fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
-    for (line, written) in WRITING
-        .into_iter()
-        .filter(|(line, _)| !line.contains("merge"))
-    {
+    // Who merges does not lock the folder.
+    for (line, written) in [WRITING[0], WRITING[1], WRITING[3]] {
         let folder = prepared("parts");
         let [part, other] = ["viscofriction-4711", "old"].map(|of| format!(".{written}.{of}.part"));
         for name in [&part, &other] {
@@ -187,10 +176,8 @@ fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
         }
         folder.ends(line, 0, "");
         let names = folder.names("out");
-        assert!(
-            !names.contains(&part) && names.contains(&other),
-            "{line} leaves {names:?}"
-        );
+        let kept = !names.contains(&part) && names.contains(&other);
+        assert!(kept, "{line} leaves {names:?}");
     }
 }
 
@@ -202,14 +189,10 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
         "run IN/half-space-run-in.toml --out out",
         "sweep IN/hertz.toml --vary load.normal_force=1:2:40 --out out/s.csv",
     ] {
-        let script = "trap '' XFSZ; ulimit -f 4; exec \"$@\"";
-        let mut shell = Command::new("sh");
-        shell.current_dir(&folder.0).args([
-            "-c",
-            script,
-            "sh",
-            env!("CARGO_BIN_EXE_viscofriction"),
-        ]);
+        let program = env!("CARGO_BIN_EXE_viscofriction");
+        let script = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";
+        let shell = &mut Command::new("sh");
+        let shell = shell.current_dir(&folder.0).args(["-c", script, program]);
         let said = said(shell.args(line.split(' ').map(argument)));
         assert_eq!(said.status, Some(1), "{line}: {said:?}");
         for needed in ["writing ", "File too large"] {
@@ -217,16 +200,12 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
         }
         // An empty folder does not stay either.
         let left = folder.names("out");
-        assert!(
-            left.iter().all(|name| !name.ends_with(".part")),
-            "{left:?} are left"
-        );
+        let clean = left.iter().all(|name| !name.ends_with(".part"));
+        assert!(clean, "{line}: {left:?} are left");
     }
     let rows = folder.text("out/s.csv");
-    assert!(
-        rows.lines().count() > 2 && rows.ends_with('\n'),
-        "a half row in {rows}"
-    );
+    let whole = rows.lines().count() > 2 && rows.ends_with('\n');
+    assert!(whole, "a half row in {rows}");
 }
 
 #[test]

@@ -160,18 +160,25 @@ fn a_sliding_cylinder_has_the_friction_of_hunter() {
     }
 }
 
-/// b = √(4 F' R/(π E*)) and p₀ = 2 F'/(π b) with E* = 2 G/(1 − ν).
+/// Hertz with R = 10 mm, G = 1 MPa, ν = 0.3 and E* = 2 G/(1 − ν): a³ = 3 F R/(4 E*), d = a²/R, p₀ = 3 F/(2 π a²) under a
+/// paraboloid with F = 1 N, and b = √(4 F' R/(π E*)), p₀ = 2 F'/(π b) under a cylinder with F' = 2000 N/m.
 #[test]
-fn a_pressed_cylinder_is_that_of_hertz() {
-    let result = Folder::new("cylinder").json("IN/cylinder-hertz.toml");
-    let [force, radius, effective] = [2000.0, 0.01, 2e6 / 0.7];
-    let half_width = (4.0 * force * radius / (PI * effective)).sqrt();
-    for (field, expected) in [
-        ("contact_area", 2.0 * half_width),
-        ("peak_pressure", 2.0 * force / (PI * half_width)),
-        ("normal_force", force),
+fn hertz_comes_out_as_in_the_textbook() {
+    let [radius, effective]: [f64; 2] = [0.01, 2.0 * 1.0e6 / (1.0 - 0.3)];
+    let contact = (0.75 * radius / effective).cbrt();
+    let half_width = (4.0 * 2000.0 * radius / (PI * effective)).sqrt();
+    let [point, line] = ["hertz.toml", "cylinder-hertz.toml"];
+    for (scene, field, expected) in [
+        (point, "indentation_depth", contact * contact / radius),
+        (point, "contact_area", PI * contact * contact),
+        (point, "peak_pressure", 1.5 / (PI * contact * contact)),
+        (line, "contact_area", 2.0 * half_width),
+        (line, "peak_pressure", 4000.0 / (PI * half_width)),
+        (line, "normal_force", 2000.0),
     ] {
-        assert_close(field, number(&result, field), expected, 1e-14);
+        let result = Folder::new("hertz").json(&format!("IN/{scene}"));
+        let part = if scene == line { 1e-14 } else { 1e-9 };
+        assert_close(field, number(&result, field), expected, part);
     }
 }
 

@@ -3,22 +3,21 @@
 
 use crate::support::{Folder, npy, rows, scene};
 
-/// A scene that is right, beside the numbers of its lines.
-const SCENE: [&str; 13] = [
-    /* 1 */ "[indenter.power]",
-    /* 2 */ "coefficient = 0.5",
-    /* 3 */ "exponent = 1.5",
-    /* 4 */ "",
-    /* 5 */ "[material.viscous]",
-    /* 6 */ "viscosity = 1.0e4",
-    /* 7 */ "",
-    /* 8 */ "[load]",
-    /* 9 */ "normal_force = 1.0",
-    /* 10 */ "velocity = 0.01",
-    /* 11 */ "",
-    /* 12 */ "[solve]",
-    /* 13 */ "relative_error = 1e-3",
-];
+/// A scene that is right.
+const SCENE: &str = "\
+[indenter.power]
+coefficient = 0.5
+exponent = 1.5
+
+[material.viscous]
+viscosity = 1.0e4
+
+[load]
+normal_force = 1.0
+velocity = 0.01
+
+[solve]
+relative_error = 1e-3";
 
 /// Lines that are replaced | by what | line that is named | what is said.
 const SCENES: &str = r#"
@@ -39,11 +38,9 @@ const SCENES: &str = r#"
 5 | [materials.viscous] | 5 | materials: unknown field
 6 | viscosity = 1.0e4\npoisson_ratio = 0.6 | 7 | material.viscous.poisson_ratio must be greater than -1 and at most 0.5, but is 0.6
 6 | viscosity = 1.0e4\npoisson_ratio = -1 | 7 | material.viscous.poisson_ratio
-6 | viscosity = 1.0e4\npoisson_ratio = nan | 7 | material.viscous.poisson_ratio
 6 | shear_modulus = 1.0e4 | 6 | material.viscous.shear_modulus: unknown field
 8 | [loads] | 8 | loads: unknown field
 9 | normal_force = 0.0 | 9 | load.normal_force must be finite and greater than 0, but is 0
-9 | normal_force = -1.0 | 9 | load.normal_force
 9 | indentation_depth = -1.0 | 9 | load.indentation_depth must be finite and greater than 0, but is -1
 9 | normal_force = 1.0\nindentation_depth = 1.0 | 10 | load.indentation_depth: either normal_force or indentation_depth
 9 |  | 8 | load.normal_force: normal_force or indentation_depth is missing
@@ -56,7 +53,6 @@ const SCENES: &str = r#"
 12 | [[solve]] | 12 | solve: a table is needed, and not a value of type array
 13 | relative_error = 0.0 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0
 13 | relative_error = 0.5 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0.5
-13 | relative_error = -1e-3 | 13 | solve.relative_error
 13 | relative_error = 1e-3\nelements = 32 | 14 | solve.elements: either relative_error or elements
 13 | elements = 7 | 13 | solve.elements must be from 8 to 100000, but is 7
 13 | elements = -8 | 13 | solve.elements
@@ -131,6 +127,9 @@ a,b,c\n1,0,1\n | 1 | column 1: a finite height in m is needed, and not 'a'
 1,1,1\n1,0,\xff\n | 2 | the text is no UTF-8
 1,1,1\n1,-1e308,1\n1,1,1e308\n | 3 | height above the lowest must be finite
 "#;
+
+/// Height map that is lowest at its edge | line of the scene | what is said.
+const EDGE: &str = r"0,1\n1,1\n | 2 | on the edge of the map";
 
 /// Header | length of the numbers | what is said.
 const ARRAYS: &str = r#"
@@ -262,44 +261,35 @@ fn assert_refused(folder: &Folder, file: &str, line: &str, cases: Vec<Case>) {
 fn replaced(lines: &str, text: &str) -> String {
     let (first, last) = lines.split_once('-').unwrap_or((lines, lines));
     let [first, last] = [first, last].map(|line| line.parse::<usize>().expect("a line"));
-    [&SCENE[..first - 1], &[text], &SCENE[last..]]
-        .concat()
-        .join("\n")
+    let scene: Vec<&str> = SCENE.lines().collect();
+    let parts = [&scene[..first - 1], &[text], &scene[last..]];
+    parts.concat().join("\n")
 }
 
 /// Every number that must be positive, replaced by all that is none, misspelt and left out.
 fn numbers() -> Vec<Case> {
     let mut cases = Vec::new();
     for [table, keys] in rows(NUMBERS) {
-        let (place, first) = if table.starts_with("indenter") {
-            ("1-3", 1)
-        } else {
-            ("5-6", 5)
-        };
+        let is_body = table.starts_with("indenter");
+        let (place, first) = if is_body { ("1-3", 1) } else { ("5-6", 5) };
         let keys: Vec<&str> = keys.split(' ').collect();
         for (index, key) in keys.iter().enumerate() {
-            let mut add = |line: &str, named: usize, needed: String| {
+            let wrong =
+                rows(NO_NUMBERS).map(|[value, why]| (format!("{key} = {value}"), 1 + index, why));
+            let unknown = (
+                format!("{key}s = 0.5"),
+                1 + index,
+                format!("s: unknown field `{key}s`"),
+            );
+            let missing = (String::new(), 0, format!(": missing field `{key}`"));
+            for (line, named, why) in wrong.chain([unknown, missing]) {
                 let mut lines: Vec<String> =
                     keys.iter().map(|key| format!("{key} = 0.5")).collect();
-                line.clone_into(&mut lines[index]);
-                let text = format!("[{table}]\n{}", lines.join("\n"));
-                cases.push((
-                    replaced(place, &text).into(),
-                    format!("scene.toml:{named}"),
-                    needed,
-                ));
-            };
-            let line = first + 1 + index;
-            for [value, why] in rows(NO_NUMBERS) {
-                add(
-                    &format!("{key} = {value}"),
-                    line,
-                    format!("{table}.{key}{why}"),
-                );
+                lines[index] = line;
+                let scene = replaced(place, &format!("[{table}]\n{}", lines.join("\n")));
+                let named = format!("scene.toml:{}", first + named);
+                cases.push((scene.into(), named, format!("{table}.{key}{why}")));
             }
-            let unknown = format!("{table}.{key}s: unknown field `{key}s`");
-            add(&format!("{key}s = 0.5"), line, unknown);
-            add("", first, format!("{table}.{key}: missing field `{key}`"));
         }
     }
     cases
@@ -310,58 +300,40 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     let folder = Folder::new("malformed");
     folder.write("map.csv", "1,1,1\n1,0,1\n1,1,1\n");
     let mut cases = numbers();
+    let place = |line: &str| format!("scene.toml:{line}");
     cases.extend(rows(SCENES).map(|[lines, text, named, needed]| {
-        (
-            replaced(&lines, &text.replace("\\0", "\0")).into(),
-            format!("scene.toml:{named}"),
-            needed,
-        )
+        let scene = replaced(&lines, &text.replace("\\0", "\0"));
+        (scene.into(), place(&named), needed)
     }));
-    cases.extend(rows(UNANSWERED).map(|[parts, named, needed]| {
-        (scene(&parts).into(), format!("scene.toml:{named}"), needed)
-    }));
+    let unanswered = rows(UNANSWERED);
+    cases.extend(
+        unanswered.map(|[parts, line, needed]| (scene(&parts).into(), place(&line), needed)),
+    );
     assert!(cases.len() >= 280, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
-    folder.write("scene.toml", SCENE.join("\n"));
+    folder.write("scene.toml", SCENE);
     folder.ends("run scene.toml", 0, "");
 }
 
 /// A folder with a scene that names a file, and the beginning of what is said about that.
 fn naming(body: &str, file: &str) -> (Folder, String) {
     let folder = Folder::new(&format!("malformed-{file}"));
-    let spacing = if body == "height-map" {
-        "spacing = [1, 1]"
-    } else {
-        ""
-    };
-    let rest = SCENE[3..].join("\n");
-    folder.write(
-        "scene.toml",
-        format!("[indenter.{body}]\nfile = \"{file}\"\n{spacing}\n{rest}"),
-    );
-    (
-        folder,
-        format!("scene.toml:2: indenter.{body}.file: {file}"),
-    )
+    let spacing = ["", "spacing = [1, 1]"][usize::from(body == "height-map")];
+    let table = format!("[indenter.{body}]\nfile = \"{file}\"\n{spacing}");
+    folder.write("scene.toml", replaced("1-3", &table));
+    let place = format!("scene.toml:2: indenter.{body}.file: {file}");
+    (folder, place)
 }
 
 #[test]
 fn a_malformed_table_of_a_scene_is_refused_with_both_lines() {
-    for (body, file, table) in [
-        ("table", "profile.csv", PROFILES),
-        ("height-map", "map.csv", MAPS),
-    ] {
-        let (folder, place) = naming(body, file);
-        let cases = cases(table, |line| format!("{place}:{line}"));
-        assert_refused(&folder, file, "run scene.toml", cases);
-    }
-    let (folder, _) = naming("height-map", "edge.csv");
-    let edge = (
-        b"0,1\n1,1\n".to_vec(),
-        "scene.toml:2".to_owned(),
-        "on the edge of the map".to_owned(),
-    );
-    assert_refused(&folder, "edge.csv", "run scene.toml", vec![edge]);
+    let (folder, place) = naming("table", "profile.csv");
+    let wrong = cases(PROFILES, |line| format!("{place}:{line}"));
+    assert_refused(&folder, "profile.csv", "run scene.toml", wrong);
+    let (folder, place) = naming("height-map", "map.csv");
+    let mut wrong = cases(MAPS, |line| format!("{place}:{line}"));
+    wrong.extend(cases(EDGE, |line| format!("scene.toml:{line}")));
+    assert_refused(&folder, "map.csv", "run scene.toml", wrong);
 }
 
 #[test]
@@ -371,18 +343,14 @@ fn a_malformed_array_of_heights_is_refused_with_its_file() {
     let whole = npy(header, &[]);
     let heights = [1.0, 1.0, 0.0, 1.0, 1.0, f64::NAN].map(f64::to_le_bytes);
     let no_array = "an array of NumPy in the format 1.0";
+    let short = "the header ends after 128 bytes, but the file has 60";
+    let infinite = "[2, 1]: a finite height in m is needed, and not NaN";
     let mut cases: Vec<Case> = [
         (Vec::new(), no_array),
         (b"1,0\n0,1\n".to_vec(), no_array),
         (whole[..9].to_vec(), no_array),
-        (
-            whole[..60].to_vec(),
-            "the header ends after 128 bytes, but the file has 60",
-        ),
-        (
-            npy(header, &heights.concat()),
-            "[2, 1]: a finite height in m is needed, and not NaN",
-        ),
+        (whole[..60].to_vec(), short),
+        (npy(header, &heights.concat()), infinite),
     ]
     .map(|(array, needed)| (array, place.clone(), needed.to_owned()))
     .into();
@@ -400,22 +368,14 @@ fn malformed_rows_and_moduli_are_refused_with_their_line_and_leave_nothing() {
     for (rows, ..) in &mut wrong {
         rows.splice(0..0, *b"sweep,point,points,load.velocity,failure\n");
     }
-    assert_refused(
-        &folder,
-        "rows.csv",
-        "sweep --out out --merge rows.csv",
-        wrong,
-    );
+    let merge = "sweep --out out --merge rows.csv";
+    assert_refused(&folder, "rows.csv", merge, wrong);
     let wrong = cases(MODULI, |place| format!("moduli.csv, {place}"));
-    assert_refused(
-        &folder,
-        "moduli.csv",
-        "fit-material moduli.csv --out out",
-        wrong,
-    );
+    let fit = "fit-material moduli.csv --out out";
+    assert_refused(&folder, "moduli.csv", fit, wrong);
+    let left = folder.names("").join(" ");
     assert_eq!(
-        folder.names(""),
-        ["moduli.csv", "rows.csv"],
-        "something is written from wrong files"
+        left, "moduli.csv rows.csv",
+        "what is written from wrong files"
     );
 }

@@ -45,16 +45,12 @@ pub(crate) fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [String;
 
 /// A committed scene, or a file that one names.
 pub(crate) fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../examples/scenes")
-        .join(name)
+    PathBuf::from(argument(&format!("IN/{name}")))
 }
 
 /// A committed table of measured moduli.
 pub(crate) fn measured(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../rheology/tests/data")
-        .join(name)
+    PathBuf::from(argument(&format!("DATA/{name}")))
 }
 
 /// What a run of the program says.
@@ -117,10 +113,9 @@ impl Folder {
     /// The names of what is in a folder in this one, if that is there.
     pub(crate) fn names(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).into_iter().flatten();
-        let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("an entry").file_name();
-        let mut names: Vec<String> = entries
-            .map(|entry| name(entry).to_string_lossy().into_owned())
-            .collect();
+        let names = entries.map(|entry| entry.expect("an entry").file_name());
+        let names = names.map(|name| name.into_string().expect("a name in Unicode"));
+        let mut names: Vec<String> = names.collect();
         names.sort();
         names
     }
@@ -174,10 +169,9 @@ impl Folder {
 
 /// A word of a line with paths in their places.
 pub(crate) fn argument(word: &str) -> String {
-    let paths = [("IN/", example("")), ("DATA/", measured(""))];
-    paths.iter().fold(word.to_owned(), |word, (name, path)| {
-        word.replace(name, path.to_str().expect("a path in Unicode"))
-    })
+    let crates = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let word = word.replace("IN/", &format!("{crates}/../examples/scenes/"));
+    word.replace("DATA/", &format!("{crates}/rheology/tests/data/"))
 }
 
 /// What a command says.
