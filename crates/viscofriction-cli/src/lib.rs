@@ -3,6 +3,7 @@
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+mod check;
 mod input;
 mod material;
 mod output;
@@ -16,7 +17,7 @@ use clap::{CommandFactory as _, Parser, Subcommand};
 use clap_complete::Shell;
 pub use viscofriction::WrongInput;
 
-pub use input::{InputKind, check_input};
+pub use check::{InputKind, check_input};
 
 /// Friction of rigid bodies that slide over rubber and other viscoelastic materials.
 #[derive(Debug, Parser)]

@@ -4,7 +4,8 @@ use anyhow::Result;
 use rheology::WlfShift;
 use rheology::fit::{ModulusPoint, RelaxationPoint};
 
-use super::{Fitted, Points, picture};
+use super::picture::{Comparison, figure};
+use super::{Fitted, Points};
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that a fit may write.
@@ -21,18 +22,12 @@ const OSCILLATION: [&str; 6] = [
 ];
 const RELAXATION: [&str; 4] = ["time_s", "modulus_pa", "modulus_fit_pa", "relative_error"];
 
-/// Measured against fitted, as rows of a table.
-pub(super) struct Comparison {
-    pub(super) names: &'static [&'static str],
-    pub(super) rows: Vec<Vec<f64>>,
-}
-
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
 pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
     let comparison = compare(fitted)?;
     let rows = to_csv(comparison.names, &comparison.rows)?;
     out.write("fit.csv", &rows)?;
-    out.draw("fit", &picture::figure(&comparison))?;
+    out.draw("fit", &figure(&comparison))?;
     if let Some(master) = &fitted.master {
         let names = ["temperature", "log10_shift_factor"];
         out.write("shifts.csv", &to_csv(&names, &master.log10_factors)?)?;

@@ -4,7 +4,11 @@ use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
 };
 
-use super::output_files::Comparison;
+/// Measured against fitted, as rows of a table.
+pub(super) struct Comparison {
+    pub(super) names: &'static [&'static str],
+    pub(super) rows: Vec<Vec<f64>>,
+}
 
 pub(super) fn figure(comparison: &Comparison) -> Figure {
     let (x, moduli) = match comparison.names.len() {

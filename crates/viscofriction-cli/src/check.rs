@@ -1,0 +1,48 @@
+//! The checks of what the commands read, without the commands.
+
+use std::path::Path;
+
+use viscofriction::WrongInput;
+use viscofriction::scene::{Source, height_map, profile};
+use viscofriction::solve::problem_of;
+
+use crate::input::read_input;
+use crate::material::check_table;
+use crate::sweep::check_rows;
+
+/// A kind of file that the commands read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputKind {
+    /// A scene, of `run` and `sweep`.
+    Scene,
+    /// Radii and heights that a scene names.
+    Profile,
+    /// A grid of heights that a scene names.
+    HeightMap,
+    /// Measured moduli, of `fit-material`.
+    Moduli,
+    /// Rows of a sweep, of `sweep --resume` and `sweep --merge`.
+    SweepRows,
+}
+
+/// Checks the contents of a `file` like the command that reads it, up to the point where it would begin to compute.
+///
+/// The file need not be there; what a scene names is beside it.
+///
+/// # Errors
+/// [`WrongInput`] with file and line.
+pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
+    match kind {
+        InputKind::Scene => {
+            let source = Source::new(file, contents.to_vec())?;
+            problem_of(&source, None, read_input).map(|_| ())
+        }
+        InputKind::Profile => profile(file, contents).map(|_| ()).map_err(WrongInput),
+        InputKind::HeightMap => {
+            let map = height_map(file, contents, [1.0; 2]);
+            map.map(|_| ()).map_err(WrongInput)
+        }
+        InputKind::Moduli => check_table(file, contents),
+        InputKind::SweepRows => check_rows(file, contents),
+    }
+}
