@@ -12,7 +12,7 @@ use indenters::{Control, Surface};
 use rheology::Material;
 
 use crate::error::check_contact_elements;
-use crate::stepping::{Instant, March, Motion};
+use crate::stepping::{March, Motion};
 use crate::{BemError, GridOptions};
 pub use history::{ControlHistory, HistoryOptions, IndentHistory, PiecewiseLinear, indent_history};
 pub use press::{PressEstimate, PressSolution, indent, indent_on_grid, press, press_on_grid};
@@ -72,26 +72,16 @@ pub fn indent_history_on_grid(
     let mut march = March::through(&surface, material, motions, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
-    while let Some(instant) = march.advance()? {
-        largest = largest.max(elements_across(&instant));
-        rows.push(row(&instant, options));
+    while let Some(row) = march.advance()? {
+        largest = largest.max(march.elements_across());
+        rows.push(IndentRow {
+            time: row.time,
+            indentation_depth: row.indentation_depth,
+            normal_force: row.normal_force,
+            contact_area: row.contact_area,
+            n_contact: row.n_contact,
+        });
     }
     check_contact_elements(largest)?;
     Ok(rows)
-}
-
-/// Elements of the contact along x or y, whichever are fewer.
-fn elements_across(instant: &Instant) -> usize {
-    let shape = instant.bounds.map_or([0; 2], |bounds| bounds.shape());
-    shape[0].min(shape[1])
-}
-
-fn row(instant: &Instant, options: &GridOptions) -> IndentRow {
-    IndentRow {
-        time: instant.leg.time,
-        indentation_depth: instant.indentation_depth,
-        normal_force: instant.normal_force,
-        contact_area: instant.n_contact as f64 * options.spacing[0] * options.spacing[1],
-        n_contact: instant.n_contact,
-    }
 }

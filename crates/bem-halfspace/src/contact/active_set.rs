@@ -37,8 +37,8 @@ impl Run {
 #[derive(Debug, Clone)]
 pub(super) struct ActiveSet {
     in_contact: Vec<bool>,
-    columns: usize,
-    bands: Bands,
+    pub(super) columns: usize,
+    pub(super) bands: Bands,
     /// Of each band, with room for as many as there can be, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
     /// Number of elements in contact before each band, and of all.
@@ -99,14 +99,6 @@ impl ActiveSet {
 
     pub(super) fn len(&self) -> usize {
         self.starts[self.bands.n_bands()]
-    }
-
-    pub(super) const fn columns(&self) -> usize {
-        self.columns
-    }
-
-    pub(super) const fn bands(&self) -> Bands {
-        self.bands
     }
 
     /// The neighbours in contact in a band, increasing.
@@ -214,6 +206,32 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
                 length,
             });
             place += length;
+        }
+    }
+}
+
+/// Sums over the elements of each block of a band that are in contact, of the terms that their places in the part of a
+/// list have that belongs to the band.
+pub(super) fn sum_blocks<const EDGE: usize>(
+    contact: &ActiveSet,
+    band: usize,
+    term: impl Fn(usize) -> f64,
+    sums: &mut [f64],
+) {
+    let columns = contact.columns;
+    let first_row = contact.bands.rows(band).start;
+    sums.fill(0.0);
+    for run in contact.runs(band) {
+        let Range { start, end } = run.elements();
+        let row = start / columns;
+        let sums = &mut sums[(row - first_row) / EDGE * columns.div_ceil(EDGE)..];
+        let (mut column, end) = (start - row * columns, end - row * columns);
+        let mut place = run.places().start;
+        while column < end {
+            let block = column / EDGE;
+            let length = ((block + 1) * EDGE).min(end) - column;
+            sums[block] += (place..place + length).map(&term).sum::<f64>();
+            (column, place) = (column + length, place + length);
         }
     }
 }

@@ -33,13 +33,6 @@ impl ContactBox {
         Ok(Self::new(convolution.on_grid(&grid), bounds))
     }
 
-    /// A box that is solved as a whole, also where the contact is much smaller.
-    pub(crate) fn undivided(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
-        let mut contact_box = Self::of(convolution, bounds)?;
-        contact_box.state.may_have_box = false;
-        Ok(contact_box)
-    }
-
     /// The part of the grid of a convolution in front of mirrors in its middle.
     pub(super) fn in_front_of(mirrors: [Mirror; 2], convolution: &Convolution) -> Self {
         let folded = convolution.folded(mirrors);

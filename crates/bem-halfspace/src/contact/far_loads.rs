@@ -26,8 +26,7 @@
 use std::f64::consts::PI;
 
 use crate::bands::{Bands, for_each_row, resize};
-use crate::contact::active_set::ActiveSet;
-use crate::contact::blocks::sum_blocks;
+use crate::contact::active_set::{ActiveSet, sum_blocks};
 use crate::{Grid, influence};
 
 /// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.
@@ -82,7 +81,7 @@ impl FarLoads {
     /// Takes the list of the `loads` that the inverse finds for the gap one.
     pub(super) fn weigh(&mut self, contact: &ActiveSet, loads: &[f64]) {
         contact
-            .bands()
+            .bands
             .for_each_part([contact.list(&mut self.weights)], |band, [weights]| {
                 for (weight, value) in weights.iter_mut().zip(&loads[contact.places(band)]) {
                     *weight = value.max(0.0);
@@ -94,7 +93,7 @@ impl FarLoads {
     fn find_sums(&mut self, contact: &ActiveSet) {
         let (weights, levels) = (&self.weights, &mut self.levels);
         let sums = [contact.blocks(SMALLEST, &mut levels[0].sums)];
-        contact.bands().for_each_part(sums, |band, [sums]| {
+        contact.bands.for_each_part(sums, |band, [sums]| {
             let weights = &weights[contact.places(band)];
             sum_blocks::<SMALLEST>(contact, band, |place| weights[place], sums);
         });

@@ -17,10 +17,9 @@ use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::{Preconditioner, Weights};
 use crate::contact::reductions::sum;
 use crate::contact::solve::LoadProblem;
-use crate::contact::violations::Violations;
 use crate::contact::{Accuracy, ContactState, Control, Solved};
 use crate::{BemError, Convolution, ConvolutionWorkspace};
-use heights::Heights;
+use heights::{Heights, Violations};
 
 /// Changes of the set without fewer violations than ever before, after which one element at a time changes.
 const PATIENCE: usize = 10;
@@ -166,7 +165,7 @@ impl<'a> Iteration<'a> {
             !vanishes && (guessed || (!loaded && separation[element] < below))
         });
         let weights = MirrorWeights::of(self.convolution);
-        let bands = contact.bands();
+        let bands = contact.bands;
         bands.for_each([&mut *self.load, spread], |band, [load, spread]| {
             spread.fill(0.0);
             for (load, element) in load.iter_mut().zip(bands.elements(band)) {
@@ -196,7 +195,7 @@ impl<'a> Iteration<'a> {
         let sum = self.total_load();
         let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
         contact
-            .bands()
+            .bands
             .for_each_part([contact.list(&mut listed.load)], |_, [load]| {
                 for load in load {
                     // Multiplied last, because the quotient of extreme forces may overflow.
@@ -257,7 +256,7 @@ impl<'a> Iteration<'a> {
     /// Clears what has just left the contact, while the runs are still those before.
     fn clear_left(&mut self) {
         let (contact, spread) = (&mut self.fields.contact, &mut self.fields.spread);
-        let bands = contact.bands();
+        let bands = contact.bands;
         bands.for_each([&mut *self.load, spread], |band, fields| {
             let first = bands.elements(band).start;
             for field in fields {

@@ -9,7 +9,6 @@
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
 mod active_set;
-mod blocks;
 mod coarser;
 mod contact_box;
 mod far_loads;
@@ -21,7 +20,6 @@ mod preconditioner;
 mod reductions;
 mod solve;
 mod state;
-mod violations;
 
 use std::f64::consts::PI;
 

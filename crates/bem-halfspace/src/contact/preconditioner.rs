@@ -13,8 +13,7 @@
 
 use std::ops::Range;
 
-use crate::contact::active_set::{ActiveSet, Run};
-use crate::contact::blocks::sum_blocks;
+use crate::contact::active_set::{ActiveSet, Run, sum_blocks};
 use crate::contact::far_loads::{FarLoads, SMALLEST};
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::reductions::add;
@@ -108,7 +107,7 @@ impl Preconditioner {
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
         contact
-            .bands()
+            .bands
             .for_each_part([contact.list(result)], |band, [result]| {
                 let residual = &residual[contact.places(band)];
                 this.take_blocks((contact, band), result);
@@ -129,13 +128,13 @@ impl Preconditioner {
             contact.blocks(SMALLEST, loads),
         ];
         contact
-            .bands()
+            .bands
             .for_each_part(fields, |band, [field, means, loads]| {
                 let [residual, weights] =
                     [residual, weights].map(|list| &list[contact.places(band)]);
                 contact.scatter_in(band, residual, field);
                 sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
-                let first = contact.bands().elements(band).start;
+                let first = contact.bands.elements(band).start;
                 for run in contact.runs(band) {
                     for (index, weight) in mirror_weights.in_line(run.elements()) {
                         let element = run.elements_from(first).start + index;
@@ -295,7 +294,7 @@ mod tests {
         let whole = Convolution::new(&grid);
         for convolution in [&whole, &whole.folded([Mirror::None, Mirror::Centre])] {
             let border = ActiveSet::new(convolution.grid().shape());
-            let border = border.bands().rows(1).start;
+            let border = border.bands.rows(1).start;
             assert!(
                 (1..1988).contains(&border),
                 "two bands meet at row {border}"

@@ -16,7 +16,7 @@ pub struct ContactState {
     /// Elements in contact, increasing.
     contact: Vec<usize>,
     /// Whether the iteration may run on a box around the contact.
-    pub(super) may_have_box: bool,
+    pub(crate) may_have_box: bool,
     /// The grid, and what surrounds it, for which everything below was made when it was first needed.
     kind: Option<(Grid, Surroundings)>,
     pub(super) workspace: Option<ConvolutionWorkspace>,

@@ -8,7 +8,6 @@ use indenters::{Control, PressingLoad, Surface, contact_radius};
 use numerics::{Accuracy, ErrorParts, Goal};
 use rheology::{Elastic, Material};
 
-use super::elements_across;
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
 use crate::error::{check_contact_elements, positive};
 use crate::plan::GridPlan;
@@ -182,24 +181,24 @@ impl Spring {
         };
         let once = std::iter::once(motion);
         let mut march = March::through(surface, &Elastic::new(1.0)?, once, options)?;
-        let instant = march.first()?;
-        check_contact_elements(elements_across(&instant))?;
-        let [contact_x, contact_y] = march.edges(&march.contact_bounds(), 0.0);
+        let row = march.first()?;
+        check_contact_elements(march.elements_across())?;
+        let [contact_x, contact_y] = march.contact_edges();
         let mut pressure = march.pressure()?;
         for value in &mut pressure.pressure {
             *value /= self.compliance;
         }
         Ok(PressSolution {
-            indentation_depth: instant.indentation_depth,
+            indentation_depth: row.indentation_depth,
             normal_force: match control {
                 Control::NormalForce(force) => force,
-                Control::IndentationDepth(_) => instant.normal_force / self.compliance,
+                Control::IndentationDepth(_) => row.normal_force / self.compliance,
             },
-            contact_area: instant.n_contact as f64 * pressure.grid.element_area(),
+            contact_area: row.n_contact as f64 * pressure.grid.element_area(),
             contact_x,
             contact_y,
-            n_contact: instant.n_contact,
-            iterations: instant.iterations,
+            n_contact: row.n_contact,
+            iterations: row.iterations,
             pressure: self.has_pressure.then_some(pressure),
         })
     }

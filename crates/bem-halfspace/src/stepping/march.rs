@@ -3,7 +3,7 @@
 use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
-use super::{Instant, March, Motion, MotionRow, Route};
+use super::{March, Motion, MotionRow, Route};
 use crate::error::positive;
 use crate::grid::elements_along;
 use crate::{BemError, Grid, GridOptions};
@@ -65,13 +65,15 @@ impl<'a> March<'a> {
     /// [`BemError::InvalidHeight`]; [`BemError::InvalidParameter`] for a slope that is not a number;
     /// [`BemError::Material`].
     pub fn step(&mut self) -> Result<Option<MotionRow>, BemError> {
-        let Some(instant) = self.advance()? else {
+        let Some(mut row) = self.advance()? else {
             return Ok(None);
         };
         let mut slopes = std::mem::take(&mut self.slopes);
-        self.means = slopes.over(self, &instant)?;
+        self.means = slopes.over(self, &self.route.legs[self.steps_done - 1])?;
         self.slopes = slopes;
-        Ok(Some(self.row(&instant)))
+        row.tangential_force = row.normal_force * self.means.met;
+        row.tangential_force_end_of_step = row.normal_force * self.means.end;
+        Ok(Some(row))
     }
 
     /// Largest rise of the body over an element in contact, \[m].
@@ -82,25 +84,6 @@ impl<'a> March<'a> {
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
     pub(crate) fn steepness(&self) -> f64 {
         self.means.steepness
-    }
-
-    fn row(&self, instant: &Instant) -> MotionRow {
-        let Instant { leg, bounds, .. } = instant;
-        let [dx, dy] = self.options.spacing;
-        let edges = bounds.map(|bounds| self.edges(&bounds, leg.offset));
-        MotionRow {
-            time: leg.time,
-            position: leg.position,
-            indentation_depth: instant.indentation_depth,
-            normal_force: instant.normal_force,
-            tangential_force: instant.normal_force * self.means.met,
-            tangential_force_end_of_step: instant.normal_force * self.means.end,
-            contact_area: instant.n_contact as f64 * dx * dy,
-            contact_x: edges.map(|[x, _]| x),
-            contact_y: edges.map(|[_, y]| y),
-            n_contact: instant.n_contact,
-            iterations: instant.iterations,
-        }
     }
 }
 

@@ -97,18 +97,6 @@ impl HalfSpace {
     }
 }
 
-/// The contact at the end of a step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Instant {
-    pub(crate) leg: Leg,
-    pub(crate) indentation_depth: f64,
-    pub(crate) normal_force: f64,
-    /// The loaded elements of the footprint.
-    pub(crate) bounds: Option<Bounds>,
-    pub(crate) n_contact: usize,
-    pub(crate) iterations: usize,
-}
-
 impl<'a> March<'a> {
     /// From an undeformed half space at time zero, where the lowest point is over the centre of an element at position
     /// zero.
@@ -193,7 +181,7 @@ impl<'a> March<'a> {
     }
 
     /// The box of the footprint around all loaded elements; the element under the lowest point without any.
-    pub(crate) fn contact_bounds(&self) -> Bounds {
+    fn contact_bounds(&self) -> Bounds {
         let lowest = Bounds::around(self.layout.apex);
         let loaded = self.loaded_bounds();
         loaded.map_or(lowest, |loaded| self.layout.unfolded(&loaded))
@@ -234,10 +222,11 @@ impl<'a> March<'a> {
         })
     }
 
-    /// Ends of a box of elements along x and y relative to the lowest point, \[m].
-    pub(crate) fn edges(&self, bounds: &Bounds, offset: f64) -> [[f64; 2]; 2] {
+    /// Ends along x and y of the box of the footprint around all loaded elements, relative to the lowest point, \[m].
+    pub(crate) fn contact_edges(&self) -> [[f64; 2]; 2] {
+        let bounds = self.contact_bounds();
         let [dx, dy] = self.options.spacing;
-        let x = |row: usize| (self.along(row, offset) - 0.5) * dx;
+        let x = |row: usize| (self.along(row, self.sampled_offset) - 0.5) * dx;
         let y = |column: usize| self.across(column) - 0.5 * dy;
         [
             [bounds.lower[0], bounds.upper[0]].map(x),
@@ -245,34 +234,66 @@ impl<'a> March<'a> {
         ]
     }
 
+    /// Elements of the contact along x or y, whichever are fewer.
+    pub(crate) fn elements_across(&self) -> usize {
+        self.loaded_bounds().map_or(0, |_| {
+            let [rows, columns] = self.contact_bounds().shape();
+            rows.min(columns)
+        })
+    }
+
     /// The compliance of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
         self.material.factor * self.step.response()
     }
 
-    /// The contact at the end of the next step; none after the last.
-    pub(crate) fn advance(&mut self) -> Result<Option<Instant>, BemError> {
+    /// Goes to the end of the next step, without the forces along x; none after the last.
+    pub(crate) fn advance(&mut self) -> Result<Option<MotionRow>, BemError> {
         let leg = self.route.legs.get(self.steps_done).copied();
-        leg.map(|leg| self.follow(leg)).transpose()
+        leg.map(|leg| self.follow(&leg)).transpose()
     }
 
-    /// The contact at the end of the first step, which every march has.
-    pub(crate) fn first(&mut self) -> Result<Instant, BemError> {
-        self.follow(self.route.legs[0])
+    /// Goes to the end of the first step, which every march has.
+    pub(crate) fn first(&mut self) -> Result<MotionRow, BemError> {
+        let leg = self.route.legs[0];
+        self.follow(&leg)
     }
 
-    fn follow(&mut self, leg: Leg) -> Result<Instant, BemError> {
+    fn follow(&mut self, leg: &Leg) -> Result<MotionRow, BemError> {
         self.set_time_step(leg.time_step)?;
         self.sample(leg.offset)?;
         self.set_separation(leg.row);
-        let instant = match self.depth_without_contact(leg.control) {
+        let row = match self.depth_without_contact(leg.control) {
             Some(depth) => self.free(leg, depth)?,
             None => self.press(leg)?,
         };
         self.window
             .remember(&self.step, self.rows_needed(self.steps_done));
         self.steps_done += 1;
-        Ok(instant)
+        Ok(row)
+    }
+
+    /// The state at the end of a leg, but for depth and forces.
+    fn row(&self, leg: &Leg) -> MotionRow {
+        let [dx, dy] = self.options.spacing;
+        let loaded = self.loaded_elements();
+        let n_contact = loaded
+            .map(|(element, _)| self.layout.n_images_of(element))
+            .sum();
+        let edges = (n_contact > 0).then(|| self.contact_edges());
+        MotionRow {
+            time: leg.time,
+            position: leg.position,
+            indentation_depth: 0.0,
+            normal_force: 0.0,
+            tangential_force: 0.0,
+            tangential_force_end_of_step: 0.0,
+            contact_area: n_contact as f64 * dx * dy,
+            contact_x: edges.map(|[x, _]| x),
+            contact_y: edges.map(|[_, y]| y),
+            n_contact,
+            iterations: 0,
+        }
     }
 
     /// Rows that a step or a later one needs.
@@ -337,7 +358,9 @@ impl<'a> March<'a> {
                 lower: [0; 2],
                 upper: [rows, columns],
             };
-            return ContactBox::undivided(convolution, bounds);
+            let mut contact_box = ContactBox::of(convolution, bounds)?;
+            contact_box.state.may_have_box = false;
+            return Ok(contact_box);
         }
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
@@ -368,18 +391,14 @@ impl<'a> March<'a> {
         }
     }
 
-    fn free(&mut self, leg: Leg, indentation_depth: f64) -> Result<Instant, BemError> {
-        if self.contact_box.loaded_elements().next().is_some() {
+    fn free(&mut self, leg: &Leg, indentation_depth: f64) -> Result<MotionRow, BemError> {
+        if self.loaded_bounds().is_some() {
             self.contact_box = self.box_at_lowest(&self.separation)?;
         }
         self.window.release(self.rows_needed(self.steps_done));
-        Ok(Instant {
-            leg,
+        Ok(MotionRow {
             indentation_depth,
-            normal_force: 0.0,
-            bounds: None,
-            n_contact: 0,
-            iterations: 0,
+            ..self.row(leg)
         })
     }
 }

@@ -4,10 +4,9 @@ use std::f64::consts::PI;
 
 use indenters::Control;
 
-use super::{Instant, Leg, March, SlideOmission};
+use super::{Leg, March, MotionRow, SlideOmission};
 use crate::BemError;
 use crate::bounds::Bounds;
-use crate::contact::Solved;
 use crate::mirror::images;
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
@@ -16,7 +15,7 @@ const NEEDED_PART: f64 = 0.75;
 
 impl March<'_> {
     /// Solves the contact at the end of a step, on a box that grows until the indenter penetrates nowhere outside.
-    pub(super) fn press(&mut self, leg: Leg) -> Result<Instant, BemError> {
+    pub(super) fn press(&mut self, leg: &Leg) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
             self.fill_box();
@@ -34,35 +33,20 @@ impl March<'_> {
                 enlarged = true;
                 continue;
             }
-            let all = contact.map(|contact| self.layout.unfolded(&contact));
-            if let Some((contact, all)) = contact.zip(all) {
-                self.check_footprint(&all, leg.position)?;
+            if let Some(contact) = contact {
+                self.check_footprint(&self.layout.unfolded(&contact), leg.position)?;
                 self.tighten(&contact)?;
             }
-            return Ok(self.instant(leg, solved, all));
+            return Ok(MotionRow {
+                indentation_depth: solved.indentation_depth * self.scale,
+                normal_force: match leg.control {
+                    Control::NormalForce(force) => force,
+                    Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
+                },
+                iterations: solved.iterations,
+                ..self.row(leg)
+            });
         }
-    }
-
-    fn instant(&self, leg: Leg, solved: Solved, bounds: Option<Bounds>) -> Instant {
-        let normal_force = match leg.control {
-            Control::NormalForce(force) => force,
-            Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
-        };
-        Instant {
-            leg,
-            indentation_depth: solved.indentation_depth * self.scale,
-            normal_force,
-            bounds,
-            n_contact: self.n_contact(),
-            iterations: solved.iterations,
-        }
-    }
-
-    fn n_contact(&self) -> usize {
-        let loaded = self.loaded_elements();
-        loaded
-            .map(|(element, _)| self.layout.n_images_of(element))
-            .sum()
     }
 
     /// Sum of the loads in front of the mirrors that a normal force of 1 N makes.
@@ -88,7 +72,7 @@ impl March<'_> {
 
     fn find_increment(&mut self, first_row: usize) {
         let wanted = self.rows_needed(self.steps_done);
-        if self.contact_box.loaded_elements().next().is_none() {
+        if self.loaded_bounds().is_none() {
             self.window.release(wanted);
             return;
         }

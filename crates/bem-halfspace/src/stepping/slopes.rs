@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use indenters::Surface;
 
 use crate::BemError;
-use crate::stepping::{Instant, Leg, March};
+use crate::stepping::{Leg, March};
 
 /// Slopes of the loaded elements, weighted with their pressure; zero without contact.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,12 +39,8 @@ pub(super) struct Slopes {
 
 impl Slopes {
     /// Means over the step that has been made.
-    pub(super) fn over(
-        &mut self,
-        march: &March<'_>,
-        instant: &Instant,
-    ) -> Result<MeanSlopes, BemError> {
-        let chord = Chord::new(elastic_share(march, instant)?, &instant.leg);
+    pub(super) fn over(&mut self, march: &March<'_>, leg: &Leg) -> Result<MeanSlopes, BemError> {
+        let chord = Chord::new(elastic_share(march, leg)?, leg);
         self.turn_to(chord, march.layout.shape);
         let mut sum = MeanSlopes::default();
         let mut normal = 0.0;
@@ -113,13 +109,13 @@ fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, Be
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
-fn elastic_share(march: &March<'_>, instant: &Instant) -> Result<f64, BemError> {
+fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
     let creep = &march.material.creep;
     let Leg {
         advance, time_step, ..
-    } = instant.leg;
+    } = *leg;
     let mut elastic = creep.instantaneous_compliance();
-    let n_rows = instant.bounds.map_or(1, |bounds| bounds.shape()[0]);
+    let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);
     for element in creep.elements() {
         let within = langevin(0.5 * time_step / element.retardation_time);

@@ -14,7 +14,7 @@ impl Iteration<'_> {
         self.convolution
             .apply_to_all(self.workspace, &self.fields.spread, image);
         let direction = &listed.direction;
-        let energy = contact.bands().fold(
+        let energy = contact.bands.fold(
             [contact.list(&mut listed.image)],
             |band, [listed]| {
                 contact.gather_in(band, image, listed);
@@ -60,7 +60,7 @@ impl Iteration<'_> {
             ]
         };
         let both = |left: [f64; 3], right: [f64; 3]| [0, 1, 2].map(|k| left[k] + right[k]);
-        let [sum_r, sum_z, sum_rz] = contact.bands().gather(by_band, both);
+        let [sum_r, sum_z, sum_rz] = contact.bands.gather(by_band, both);
         let mean = match self.control {
             Control::NormalForce(_) => sum_z / contact.len() as f64,
             Control::IndentationDepth(_) => 0.0,
@@ -74,7 +74,7 @@ impl Iteration<'_> {
         };
         let fields = [contact.field(spread), contact.list(direction)];
         contact
-            .bands()
+            .bands
             .for_each_part(fields, |band, [spread, direction]| {
                 let values = &preconditioned[contact.places(band)];
                 for (direction, value) in direction.iter_mut().zip(values) {

@@ -5,8 +5,7 @@ use std::ops::Range;
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
-use crate::contact::reductions::{add, lower, reduce, sum};
-use crate::contact::violations::Violations;
+use crate::contact::reductions::{add, larger, largest, lower, reduce, sum};
 
 /// Heights of the deformed surface.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +33,7 @@ impl Heights {
         inside: [&[f64]; 2],
         depth: f64,
     ) -> Self {
-        let first = contact.bands().elements(band).start;
+        let first = contact.bands.elements(band).start;
         let height = |[separation, displacement]: [f64; 2]| separation + displacement;
         let lowest_in = |gap: Range<usize>| {
             let fields = outside.map(|field| &field[gap.start - first..gap.end - first]);
@@ -65,12 +64,12 @@ impl Iteration<'_> {
         let separation = &listed.separation;
         let in_band = |band, [displacement]: [&mut [f64]; 1]| {
             contact.gather_in(band, fields[1], displacement);
-            let outside = fields.map(|field| &field[contact.bands().elements(band)]);
+            let outside = fields.map(|field| &field[contact.bands.elements(band)]);
             let inside = [&separation[contact.places(band)], displacement];
             Heights::of_band((contact, band), outside, inside, depth)
         };
         let displacement = [contact.list(&mut listed.displacement)];
-        self.heights = contact.bands().fold(displacement, in_band, Heights::both);
+        self.heights = contact.bands.fold(displacement, in_band, Heights::both);
         self.fresh = true;
         self.previous_product = 0.0;
     }
@@ -82,7 +81,7 @@ impl Iteration<'_> {
         let separation = &listed.separation;
         let (heights, depth) = (self.separation, self.indentation_depth);
         let in_band = |band, [field, displacement, load]: [&mut [f64]; 3]| {
-            let (elements, places) = (contact.bands().elements(band), contact.places(band));
+            let (elements, places) = (contact.bands.elements(band), contact.places(band));
             add(field, length, &image[elements.clone()]);
             add(displacement, length, &listed.image[places.clone()]);
             add(load, length, &listed.direction[places.clone()]);
@@ -95,7 +94,7 @@ impl Iteration<'_> {
             contact.list(&mut listed.displacement),
             contact.list(&mut listed.load),
         ];
-        self.heights = contact.bands().fold(moved, in_band, Heights::both);
+        self.heights = contact.bands.fold(moved, in_band, Heights::both);
         self.fresh = false;
         self.improved = true;
     }
@@ -141,10 +140,71 @@ impl Iteration<'_> {
             Violations::inside(residual, [load, displacement], own_influence)
         };
         let residual = [contact.list(&mut listed.residual)];
-        let inside = contact.bands().fold(residual, in_band, Violations::worst);
+        let inside = contact.bands.fold(residual, in_band, Violations::worst);
         Violations {
             penetration: (depth - self.heights.lowest_outside).max(0.0),
             ..inside
+        }
+    }
+}
+
+/// The largest violations, as lengths.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Violations {
+    /// Largest |gap| in the contact; NaN where numbers overflow.
+    pub(super) gap: f64,
+    /// Largest tension in the contact, as the displacement that it causes at its own element; a half of it where a mirror
+    /// passes through.
+    pub(super) tension: f64,
+    /// Largest penetration outside the contact.
+    pub(super) penetration: f64,
+    /// Largest displacement in the contact.
+    pub(super) deflection: f64,
+}
+
+impl Violations {
+    /// The largest relative to the deflection; zero where there is neither, NaN where numbers overflow.
+    pub(super) fn relative(&self) -> f64 {
+        let largest = self.gap.max(self.tension).max(self.penetration);
+        if self.gap.is_nan() {
+            f64::NAN
+        } else if largest == 0.0 {
+            0.0
+        } else {
+            largest / self.deflection
+        }
+    }
+
+    /// Those of two parts of a contact.
+    pub(super) fn worst(self, other: Self) -> Self {
+        let gap = if self.gap.is_nan() {
+            self.gap
+        } else {
+            larger(self.gap, other.gap)
+        };
+        Self {
+            gap,
+            tension: larger(self.tension, other.tension),
+            penetration: larger(self.penetration, other.penetration),
+            deflection: larger(self.deflection, other.deflection),
+        }
+    }
+
+    /// Those in the contact, whose load causes the displacement `own_influence` at its own element each.
+    pub(super) fn inside(
+        residual: &[f64],
+        [load, displacement]: [&[f64]; 2],
+        own_influence: f64,
+    ) -> Self {
+        // Zero where all numbers are finite, else NaN; the extremes do not matter then.
+        let spoiled = sum([residual], |[residual]| 0.0 * residual);
+        let lowest_load = reduce([load], 0.0, |[load]| load, lower);
+        let largest_load = largest([load], 0.0, |[load]| load);
+        Self {
+            gap: spoiled + largest([residual], 0.0, |[residual]| residual.abs()),
+            tension: -own_influence * lowest_load,
+            penetration: 0.0,
+            deflection: largest([displacement], own_influence * largest_load, |[own]| own),
         }
     }
 }
