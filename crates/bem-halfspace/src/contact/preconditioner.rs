@@ -265,26 +265,21 @@ mod tests {
 
     #[test]
     fn on_any_contact_it_is_symmetric_and_positive() -> Result<(), BemError> {
-        let grid = Grid::new([26, 24], [1.0, 0.7])?;
-        for whole in [Convolution::new(&grid), Convolution::periodic(&grid)] {
-            for mirrors in [
-                NO_MIRRORS,
-                [Mirror::None, Mirror::Edge],
-                [Mirror::Edge, Mirror::Edge],
-            ] {
-                check(&whole.folded(mirrors), |_| true);
+        for (shape, mirrors) in [
+            ([26, 24], NO_MIRRORS),
+            ([26, 24], [Mirror::None, Mirror::Edge]),
+            ([26, 24], [Mirror::Edge; 2]),
+            ([26, 23], [Mirror::Edge, Mirror::Centre]),
+            ([25, 23], [Mirror::None, Mirror::Centre]),
+            ([25, 23], [Mirror::Centre, Mirror::None]),
+            ([25, 23], [Mirror::Centre; 2]),
+        ] {
+            let grid = Grid::new(shape, [1.0, 0.7])?;
+            check(&Convolution::new(&grid).folded(mirrors), |_| true);
+            if shape == [26, 24] {
+                check(&Convolution::periodic(&grid).folded(mirrors), |_| true);
             }
         }
-        let odd = Convolution::new(&Grid::new([25, 23], [1.0, 0.7])?);
-        for mirrors in [
-            [Mirror::None, Mirror::Centre],
-            [Mirror::Centre, Mirror::None],
-            [Mirror::Centre, Mirror::Centre],
-        ] {
-            check(&odd.folded(mirrors), |_| true);
-        }
-        let mixed = Convolution::new(&Grid::new([26, 23], [1.0, 0.7])?);
-        check(&mixed.folded([Mirror::Edge, Mirror::Centre]), |_| true);
         Ok(())
     }
 

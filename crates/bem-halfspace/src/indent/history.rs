@@ -20,11 +20,8 @@ pub struct ControlHistory<'a> {
 
 impl std::fmt::Debug for ControlHistory<'_> {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let times = ("times", &self.times);
-        formatter
-            .debug_struct("ControlHistory")
-            .field(times.0, times.1)
-            .finish_non_exhaustive()
+        let mut fields = formatter.debug_struct("ControlHistory");
+        fields.field("times", &self.times).finish_non_exhaustive()
     }
 }
 

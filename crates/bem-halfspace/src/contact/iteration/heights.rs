@@ -8,21 +8,12 @@ use crate::contact::iteration::Iteration;
 use crate::contact::reductions::{add, larger, largest, lower, reduce, sum};
 
 /// Heights of the deformed surface.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Heights {
     /// The lowest outside the contact.
     lowest_outside: f64,
     /// The sum of those in the contact, measured from the indentation depth.
     sum_inside: f64,
-}
-
-impl Default for Heights {
-    fn default() -> Self {
-        Self {
-            lowest_outside: f64::INFINITY,
-            sum_inside: 0.0,
-        }
-    }
 }
 
 impl Heights {
