@@ -3,10 +3,10 @@
 use crate::axis::Axis;
 use crate::canvas::{Canvas, Pixel};
 use crate::error::PlotError;
-use crate::figure::{Draw, PANEL_WIDTH};
 use crate::frame::{Frame, TickSide, right_margin, side_margin};
 use crate::legend::{Legend, LegendPlace};
 use crate::marks::draw_series;
+use crate::panel::{Draw, PANEL_WIDTH};
 use crate::series::{Series, validate};
 
 /// Series over a pair of axes.

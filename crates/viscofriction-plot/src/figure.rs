@@ -1,10 +1,11 @@
 //! Figures: one panel or several, side by side and in rows.
 
-use crate::canvas::{Canvas, Drawing, Pixel};
+use crate::canvas::{Canvas, Drawing};
 use crate::chart::Chart;
 use crate::error::PlotError;
 use crate::map::Map;
 use crate::matrix::Matrix;
+use crate::panel::Draw;
 
 /// One or more panels in one picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,29 +25,6 @@ pub enum Panel {
     Map(Map),
     /// Rows of cells.
     Matrix(Matrix),
-}
-
-/// Width of every panel but a matrix, \[px\].
-pub(crate) const PANEL_WIDTH: f64 = 480.0;
-
-/// What every kind of panel does; lengths are in \[px\].
-pub(crate) trait Draw {
-    /// Refuses data that cannot be drawn faithfully.
-    fn validate(&self) -> Result<(), PlotError>;
-
-    /// Width of the whole panel.
-    fn width(&self) -> f64 {
-        PANEL_WIDTH
-    }
-
-    /// Room that the left side needs.
-    fn left_margin(&self) -> Result<f64, PlotError>;
-
-    /// Height of the whole panel with so much room on its left side.
-    fn height(&self, left: f64) -> Result<f64, PlotError>;
-
-    /// Draws the panel with its upper left corner at `origin`.
-    fn draw(&self, canvas: &mut Canvas, origin: Pixel, left: f64) -> Result<(), PlotError>;
 }
 
 impl Panel {

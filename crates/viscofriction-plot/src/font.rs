@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, FaceParsingError, GlyphId, OutlineBuilder};
 
-use crate::canvas::Pixel;
 use crate::error::PlotError;
 
 /// Family name of the bundled font.
@@ -62,7 +61,7 @@ pub(crate) fn widest<'a>(
 pub(crate) fn outline(
     text: &str,
     size: u32,
-    [x, y]: Pixel,
+    [x, y]: [f64; 2],
     part: f64,
 ) -> Result<String, PlotError> {
     let face = face()?;
@@ -84,7 +83,7 @@ pub(crate) fn outline(
 /// Path data of the glyph that begins at the origin, in pixels.
 struct GlyphPath {
     data: String,
-    origin: Pixel,
+    origin: [f64; 2],
     scale: f64,
 }
 

@@ -41,6 +41,7 @@ mod legend;
 mod map;
 mod marks;
 mod matrix;
+mod panel;
 mod png;
 mod series;
 mod ticks;

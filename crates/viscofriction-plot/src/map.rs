@@ -7,9 +7,9 @@ use crate::axis::{Axis, Scale};
 use crate::canvas::{Area, Canvas, Pixel, to_f64};
 use crate::colour::{ColourScale, level_colour};
 use crate::error::PlotError;
-use crate::figure::{Draw, PANEL_WIDTH};
 use crate::frame::{Frame, TickSide, side_margin};
 use crate::marks::draw_series;
+use crate::panel::{Draw, PANEL_WIDTH};
 use crate::series::{Series, validate};
 
 /// Field on a rectangular grid.

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use crate::canvas::{Anchor, Area, Canvas, NO_PEN, Pixel, to_f64};
 use crate::colour::{Colour, ColourScale, level_colour};
 use crate::error::PlotError;
-use crate::figure::Draw;
 use crate::font::{check_fit, text_width, widest};
 use crate::frame::{TICK_SIZE, TITLE_SIZE, top_margin};
+use crate::panel::Draw;
 
 /// Rows of cells; the panel is wider than others because texts stand on both sides of them.
 #[derive(Debug, Clone, PartialEq)]
