@@ -97,15 +97,7 @@ impl ElementHeights {
     /// ends.
     fn rise_within(&self, line: &(impl RigidLine + ?Sized), n_elements: usize) -> f64 {
         let distance = n_elements as f64 * self.spacing;
-        let [rear_end, front_end] = line.domain();
-        let height_inside = |position: f64| {
-            if position < rear_end || position > front_end {
-                f64::INFINITY
-            } else {
-                line.height(position)
-            }
-        };
-        let [rear, front] = [-distance, distance].map(|offset| height_inside(self.anchor + offset));
+        let [rear, front] = [-distance, distance].map(|offset| line.height(self.anchor + offset));
         rear.min(front) - self.lowest_height
     }
 

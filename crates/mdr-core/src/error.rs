@@ -81,26 +81,15 @@ pub enum MdrError {
         /// Position from which the line was followed, \[m].
         position: f64,
     },
-    /// The line touches more often than can be followed.
-    #[error("there are more than {allowed} contact intervals at depth {indentation_depth}")]
-    TooManyContacts {
-        /// The most contact intervals of one line.
-        allowed: usize,
-        /// Indentation depth at that instant, \[m].
-        indentation_depth: f64,
-    },
-    /// The line has more detail than can be followed.
-    #[error(
-        "more than {allowed} polynomials are needed to leave out less than {tolerance} of the depth, those at position \
-         {position} among them"
-    )]
-    TooManyPieces {
-        /// The most polynomials of one line.
+    /// The line touches more often, or has more detail, than can be followed.
+    #[error("more than {allowed} {parts} are needed, those at position {position} among them")]
+    TooMuchDetail {
+        /// Contact intervals, or the polynomials that stand for the line.
+        parts: &'static str,
+        /// The most of them.
         allowed: usize,
         /// Where there are too many, \[m].
         position: f64,
-        /// Height that may be left out, relative to the depth.
-        tolerance: f64,
     },
     /// The friction of a lone dashpot grows without limit at a cusp or kink (16), or too slowly to be summed.
     #[error(

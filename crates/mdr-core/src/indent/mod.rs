@@ -3,7 +3,7 @@
 mod on_grid;
 
 use indenters::{Control, PressingLoad, RigidLine};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, no_other_error, refine};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, no_other_error, refine};
 use rheology::{Elastic, Material};
 
 use crate::MdrError;
@@ -63,33 +63,23 @@ pub fn indent(
         largest: MOST_ELEMENTS,
         order: ORDER,
     };
-    let refined = refine(&goal, solve, State::quantities, no_other_error)?;
-    let Refined {
-        value: state,
-        error,
-        parts,
-        elements,
-    } = refined;
-    let [depth, force, rear, front] = state.quantities();
-    let estimate = |value: Quantity, error: f64| Estimate {
-        value: value.value,
-        error,
+    let refined = refine(&goal, solve, |state| state.quantities, no_other_error)?;
+    let State { rows, quantities } = refined.value;
+    let estimate = |k: usize| Estimate {
+        value: quantities[k].value,
+        error: refined.error[k],
     };
-    let (indentation_depth, normal_force, error_parts) = match load.control() {
-        Control::NormalForce(force) => {
-            (estimate(depth, error[0]), Estimate::exact(force), parts[0])
-        }
-        Control::IndentationDepth(depth) => {
-            (Estimate::exact(depth), estimate(force, error[1]), parts[1])
-        }
+    let (indentation_depth, normal_force, sought) = match load.control() {
+        Control::NormalForce(force) => (estimate(0), Estimate::exact(force), 0),
+        Control::IndentationDepth(depth) => (Estimate::exact(depth), estimate(1), 1),
     };
     Ok(Indentation {
         indentation_depth,
         normal_force,
-        error_parts,
-        ends: [estimate(rear, error[2]), estimate(front, error[3])],
-        finest: state.rows,
-        options: options(elements),
+        error_parts: refined.parts[sought],
+        ends: [estimate(2), estimate(3)],
+        finest: rows,
+        options: options(refined.elements),
     })
 }
 
@@ -105,51 +95,36 @@ fn contact_length(
     Problem::new(line, &spring, 1.0)?.contact_span(load.control())
 }
 
-/// The end of a history on one resolution.
+/// A history on one resolution.
 struct State {
     rows: Vec<IndentRow>,
-    last: IndentRow,
-    ends: [f64; 2],
-    /// Height of the line at the front above its lowest point, \[m].
-    front_height: f64,
+    /// Depth, force, rear and front at its end. What is given is the same on all resolutions.
+    quantities: [Quantity; 4],
 }
 
 impl State {
     fn new(line: &(impl RigidLine + ?Sized), rows: Vec<IndentRow>) -> Result<Self, MdrError> {
-        let last = *rows.last().ok_or(MdrError::Empty { list: "steps" })?;
-        let ends = last.contact.ok_or(MdrError::Empty { list: "contact" })?;
-        Ok(Self {
-            front_height: line.height(ends[1]) - line.height(lowest_candidate(line)?),
-            rows,
-            last,
-            ends,
-        })
-    }
-
-    /// Depth, force, rear and front. What is given is the same on all resolutions.
-    fn quantities(&self) -> [Quantity; 4] {
-        let IndentRow {
-            indentation_depth: depth,
-            normal_force: force,
-            n_contact,
-            contact_length,
-            ..
-        } = self.last;
+        let last = rows.last().ok_or(MdrError::Empty { list: "steps" })?;
+        let [rear, front] = last.contact.ok_or(MdrError::Empty { list: "contact" })?;
+        let (depth, force) = (last.indentation_depth, last.normal_force);
         // The outermost elements are loaded as wholes, whatever part of them touches: at the edge of a flat end they carry
         // as much as any, at every resolution.
-        let outline = (depth - self.front_height).clamp(0.0, depth) / n_contact as f64;
-        let spacing = contact_length / n_contact as f64;
+        let front_height = line.height(front) - line.height(lowest_candidate(line)?);
+        let outline = (depth - front_height).clamp(0.0, depth) / last.n_contact as f64;
+        let spacing = last.contact_length / last.n_contact as f64;
         let quantity = |value: f64, least: f64, drives: bool| Quantity {
             least,
             drives,
             ..Quantity::from(value)
         };
-        let [rear, front] = self.ends;
-        [
-            quantity(depth, outline, true),
-            quantity(force, force * (outline / depth), true),
-            quantity(rear, spacing, false),
-            quantity(front, spacing, false),
-        ]
+        Ok(Self {
+            quantities: [
+                quantity(depth, outline, true),
+                quantity(force, force * (outline / depth), true),
+                quantity(rear, spacing, false),
+                quantity(front, spacing, false),
+            ],
+            rows,
+        })
     }
 }

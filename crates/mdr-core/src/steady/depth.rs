@@ -71,10 +71,10 @@ fn bracket(
     let (start, at_start) = within_reach(load, START, target)?;
     let excessive = at_start > target;
     let mut near = start;
-    let margin = if excessive {
-        1.0 - MARGIN
+    let [margin, stride] = if excessive {
+        [1.0 - MARGIN, STRIDE.recip()]
     } else {
-        1.0 + MARGIN
+        [1.0 + MARGIN, STRIDE]
     };
     let mut far = start * (target / at_start) * margin;
     for _ in 0..MAX_STRIDES {
@@ -83,18 +83,10 @@ fn bracket(
         }
         let (reached, at_far) = within_reach(load, far, target)?;
         if (at_far > target) != excessive {
-            return Ok(if excessive {
-                [reached, near]
-            } else {
-                [near, reached]
-            });
+            return Ok([reached.min(near), reached.max(near)]);
         }
         near = reached;
-        far = if excessive {
-            reached / STRIDE
-        } else {
-            reached * STRIDE
-        };
+        far = reached * stride;
     }
     Err(MdrError::NonFinite {
         quantity: "indentation depth",

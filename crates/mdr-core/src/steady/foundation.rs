@@ -76,10 +76,8 @@ pub(super) struct Recovery {
     pub(super) displacement: f64,
     /// β_k, in depths.
     amplitudes: Vec<f64>,
-    /// Distance ξ since then, \[m].
+    /// Distance ξ since then, \[m]; infinite if it was never loaded.
     distance: f64,
-    /// Whether it was ever loaded.
-    released: bool,
 }
 
 impl Foundation {
@@ -96,29 +94,26 @@ impl Foundation {
         let at_once = spring + moduli.sum::<f64>() / factor;
         let unit = if at_once > 0.0 { at_once } else { dashpot };
         let unit = positive("stiffness of the foundation", unit)?;
-        let mut branches = Vec::with_capacity(relaxation.branches().len());
-        for branch in relaxation.branches() {
-            branches.push(Branch {
+        let branches = relaxation.branches().iter().map(|branch| {
+            let length = velocity * branch.relaxation_time;
+            Ok(Branch {
                 modulus: branch.modulus / factor / unit,
-                length: positive("distance of relaxation", velocity * branch.relaxation_time)?,
-            });
-        }
-        let mut modes = Vec::with_capacity(creep.elements().len());
-        for element in creep.elements() {
-            modes.push(Mode {
+                length: positive("distance of relaxation", length)?,
+            })
+        });
+        let modes = creep.elements().iter().map(|element| {
+            let length = velocity * element.retardation_time;
+            Ok(Mode {
                 compliance: element.compliance * factor * unit,
-                length: positive(
-                    "distance of retardation",
-                    velocity * element.retardation_time,
-                )?,
-            });
-        }
+                length: positive("distance of retardation", length)?,
+            })
+        });
         Ok(Self {
             unit,
             spring: spring / unit,
             dashpot: dashpot / unit,
-            branches,
-            modes,
+            branches: branches.collect::<Result<_, MdrError>>()?,
+            modes: modes.collect::<Result<_, MdrError>>()?,
         })
     }
 
@@ -137,11 +132,6 @@ impl Foundation {
 
     pub(super) fn is_elastic(&self) -> bool {
         self.branches.is_empty() && !self.has_dashpot()
-    }
-
-    /// Stresses of branches that have never been strained.
-    pub(super) fn unstrained(&self) -> Vec<f64> {
-        vec![0.0; self.branches.len()]
     }
 
     /// How far a displacement δ on a segment of this length can change ∫ w dξ, relative to δ, \[m].
@@ -230,7 +220,6 @@ impl Foundation {
             displacement,
             amplitudes: self.modes.iter().map(amplitude).collect(),
             distance: 0.0,
-            released: true,
         }
     }
 
@@ -292,14 +281,13 @@ impl Recovery {
         Self {
             displacement: 0.0,
             amplitudes: Vec::new(),
-            distance: 0.0,
-            released: false,
+            distance: f64::INFINITY,
         }
     }
 
     /// Whether it was loaded right here.
     pub(super) fn just_released(&self) -> bool {
-        self.released && self.distance <= 0.0
+        self.distance <= 0.0
     }
 
     /// Lets the line move on.

@@ -62,7 +62,7 @@ pub struct SteadySliding {
 /// - [`MdrError::FrictionDiverges`] when a lone dashpot is under a line with p ≤ 1/2 or a kink that rises (16).
 /// - [`MdrError::NotConverged`] when the estimated error stays above the one asked for.
 /// - [`MdrError::Indenter`] for a load that ends after a distance; see [`slide`](crate::slide()).
-/// - [`MdrError::NotRising`], [`MdrError::TooManyContacts`], [`MdrError::TooManyPieces`], [`MdrError::InvalidHeight`],
+/// - [`MdrError::NotRising`], [`MdrError::TooMuchDetail`], [`MdrError::InvalidHeight`],
 ///   [`MdrError::InvalidParameter`], [`MdrError::NonFinite`].
 pub fn steady(
     line: &(impl RigidLine + ?Sized),

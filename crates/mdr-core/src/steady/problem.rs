@@ -82,7 +82,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             return Ok(());
         }
         let depth = self.depth(control, ROUGH_TOLERANCE)?;
-        let contacts = self.solve(depth, ROUGH_TOLERANCE)?.sums.contacts;
+        let contacts = self.solve(depth, ROUGH_TOLERANCE)?.contacts;
         match kinks.iter().find(|kink| kink.is_in(&contacts)) {
             None => Ok(()),
             Some(kink) => Err(MdrError::FrictionDiverges {
@@ -120,7 +120,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
 
     /// A quarter of the normal force at a depth, \[N].
     fn quarter_force(&self, depth: f64, tolerance: f64) -> Result<f64, MdrError> {
-        Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.sums.load))
+        Ok(self.foundation.unit * (depth * self.solve(depth, tolerance)?.load))
     }
 
     fn beyond(&self, edge: Edge, control: Control) -> Result<MdrError, MdrError> {
@@ -140,7 +140,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         })
     }
 
-    fn solve(&self, depth: f64, tolerance: f64) -> Result<Solution, MdrError> {
+    fn solve(&self, depth: f64, tolerance: f64) -> Result<Sweep, MdrError> {
         let range = Range::below(self.line, depth)?;
         let resolution = Resolution {
             depth,
@@ -149,17 +149,14 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         };
         let profile = Profile::new(self.line, &range, resolution)?;
         range.check_front(depth * profile.lowest, depth)?;
-        Ok(Solution {
-            sums: sweep(&self.foundation, &profile, depth)?,
-            n_pieces: profile.pieces.len(),
-        })
+        sweep(&self.foundation, &profile)
     }
 
     /// The state in SI; the errors of its ends are not known yet.
     fn state(&self, control: Control, tolerance: f64) -> Result<SteadySliding, MdrError> {
         let depth = self.depth(control, tolerance)?;
-        let solution = self.solve(depth, tolerance)?;
-        let ends = solution.ends();
+        let sums = self.solve(depth, tolerance)?;
+        let ends = sums.ends();
         let Sweep {
             load,
             work,
@@ -167,7 +164,8 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             work_error,
             mut contacts,
             too_steep,
-        } = solution.sums;
+            n_pieces,
+        } = sums;
         if let Some(position) = too_steep {
             return Err(MdrError::FrictionDiverges { position });
         }
@@ -194,7 +192,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             normal_force: estimate(force, force_error),
             ends: ends.map(|end| estimate(end, 0.0)),
             contacts,
-            n_pieces: solution.n_pieces,
+            n_pieces,
         })
     }
 
@@ -212,20 +210,5 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             end.error = 2.0 * (end.value - finer).abs() + rounding;
         }
         Ok(state)
-    }
-}
-
-struct Solution {
-    sums: Sweep,
-    n_pieces: usize,
-}
-
-impl Solution {
-    /// Rear and front of the whole contact, \[m].
-    fn ends(&self) -> [f64; 2] {
-        let contacts = &self.sums.contacts;
-        let front = contacts.first().map_or(0.0, |[_, front]| *front);
-        let rear = contacts.last().map_or(front, |[rear, _]| *rear);
-        [rear, front]
     }
 }

@@ -183,10 +183,10 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         if pieces < MAX_PIECES {
             return Ok(());
         }
-        Err(MdrError::TooManyPieces {
+        Err(MdrError::TooMuchDetail {
+            parts: "polynomials",
             allowed: MAX_PIECES,
             position,
-            tolerance: self.resolution.tolerance,
         })
     }
 

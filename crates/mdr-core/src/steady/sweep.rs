@@ -39,6 +39,17 @@ pub(super) struct Sweep {
     pub(super) contacts: Vec<[f64; 2]>,
     /// Where the work of a lone dashpot has no limit, \[m].
     pub(super) too_steep: Option<f64>,
+    /// Polynomials that stand for the line.
+    pub(super) n_pieces: usize,
+}
+
+impl Sweep {
+    /// Rear and front of the whole contact, \[m].
+    pub(super) fn ends(&self) -> [f64; 2] {
+        let front = self.contacts.first().map_or(0.0, |[_, front]| *front);
+        let rear = self.contacts.last().map_or(front, |[rear, _]| *rear);
+        [rear, front]
+    }
 }
 
 enum Surface {
@@ -47,16 +58,14 @@ enum Surface {
 }
 
 /// Lets the line pass over the foundation.
-pub(super) fn sweep(
-    foundation: &Foundation,
-    profile: &Profile,
-    depth: f64,
-) -> Result<Sweep, MdrError> {
+pub(super) fn sweep(foundation: &Foundation, profile: &Profile) -> Result<Sweep, MdrError> {
     let mut march = March {
         foundation,
         profile,
-        depth,
-        sums: Sweep::default(),
+        sums: Sweep {
+            n_pieces: profile.pieces.len(),
+            ..Sweep::default()
+        },
         surface: Surface::Free(Recovery::untouched()),
     };
     for piece in &profile.pieces {
@@ -78,8 +87,6 @@ pub(super) fn sweep(
 struct March<'a> {
     foundation: &'a Foundation,
     profile: &'a Profile,
-    /// Indentation depth, \[m].
-    depth: f64,
     sums: Sweep,
     surface: Surface,
 }
@@ -119,19 +126,16 @@ impl March<'_> {
             return Ok(1.0);
         };
         if self.sums.contacts.len() == MAX_CONTACTS {
-            return Err(MdrError::TooManyContacts {
+            return Err(MdrError::TooMuchDetail {
+                parts: "contact intervals",
                 allowed: MAX_CONTACTS,
-                indentation_depth: self.depth,
+                position: segment.position(t),
             });
         }
         let t = if 1.0 - t > SHORTEST { t } else { 1.0 };
         let distance = 0.5 * (1.0 + t) * segment.length;
         let free = self.foundation.free_displacement(&recovery, distance);
-        let mut stresses = if self.sums.contacts.is_empty() {
-            self.foundation.unstrained()
-        } else {
-            self.foundation.free_stresses(&recovery, distance)
-        };
+        let mut stresses = self.foundation.free_stresses(&recovery, distance);
         let position = segment.position(t);
         let displacement = self.strain(free);
         self.sums.work -= self.foundation.stored_energy(displacement, &stresses);

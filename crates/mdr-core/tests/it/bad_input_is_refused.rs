@@ -6,7 +6,7 @@ use mdr_core::{IndentRow, MdrError, SlideOptions, slide_on_grid, steady};
 use rheology::Maxwell;
 
 use crate::support::{
-    ASKED, DEPTH, Line, VISCOSITY, endless, indent, load, load_for_depth, material, power,
+    ASKED, DEPTH, Line, VISCOSITY, endless, indent, line, load, load_for_depth, material, power,
 };
 
 const BAD: [f64; 6] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
@@ -125,11 +125,7 @@ fn histories_without_a_contact_are_refused() {
         Err(MdrError::TooCoarse { n_contact: 0, .. })
     );
     // The lowest point of the ramp is the end of its domain.
-    let ramp = Line {
-        height: |x| x,
-        domain: [0.0, 3.0],
-        kinks: Vec::new(),
-    };
+    let ramp = line([0.0, 3.0], |x| x);
     assert_matches!(
         indent(&ramp, &material(VISCOSITY), &[1.0], 0.01, newton),
         Err(MdrError::ContactReachesEdge { position, .. }) if position.abs() < 1e-12
@@ -206,7 +202,7 @@ fn a_line_with_too_much_detail_is_refused_with_where_and_how_many() {
     let corrugated = endless(|x: f64| 0.5 * x * x - 0.1 * (1e6 * x).cos());
     assert_matches!(
         slide_steadily(&corrugated, ASKED),
-        Some(MdrError::TooManyPieces { allowed, position, .. })
+        Some(MdrError::TooMuchDetail { allowed, position, .. })
             if allowed > 1000 && position.is_finite()
     );
 }

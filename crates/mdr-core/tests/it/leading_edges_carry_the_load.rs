@@ -2,14 +2,14 @@
 //! marching and directly (casebook FRI-03).
 
 use casebook::Case;
-use indenters::{RigidLine, SampledLine};
+use indenters::SampledLine;
 use mdr_core::{MdrError, steady};
 use numerics::Estimate;
 use proptest::prelude::*;
 
 use crate::support::{
-    ASKED, VISCOSITY, assert_agree, assert_close, assert_order, cubic, fixed_cases, load_for_depth,
-    material, slid, slide_to,
+    ASKED, VISCOSITY, assert_agree, assert_close, cubic, fixed_cases, load_for_depth, material,
+    slid, slide_to,
 };
 
 /// The gaps and fronts at 1/2, 2, 5/2 fall on elements; the error of the mean slope is below n⁻² with n elements per
@@ -57,22 +57,6 @@ fn friction_and_ends_of_the_cubic_agree_with_the_casebook() {
             assert_close([end, expected], 1e-7, 1.0, &case.id());
         }
     }
-}
-
-#[test]
-fn friction_over_a_gap_is_second_order() {
-    let case = cubic_cases(false).remove(0);
-    assert_eq!(
-        case.expected_list("intervals").map(|ends| ends.len()),
-        Some(4),
-        "a gap"
-    );
-    let exact = case.expected("mu").expect("a friction coefficient");
-    let errors = [8.0, 16.0, 32.0, 64.0, 128.0].map(|n: f64| {
-        let transient = slide_to(&cubic(&case), depth_of(&case), 1.0 / n, 1e-11);
-        transient.expect("a state").last.friction_coefficient / exact - 1.0
-    });
-    assert_order(&errors, 2.0, &case.id());
 }
 
 #[test]
@@ -147,18 +131,6 @@ fn casebook_discrete_line_is_in_balance() {
     let (n_contact, friction) = discrete_friction(&line, depth);
     assert_eq!([row.n_contact, n_contact], [loaded; 2], "{increments:?}");
     assert_close([row.friction_coefficient, friction], 1e-11, 0.0, &row);
-}
-
-/// The line comes down again far behind a hump that is higher than the contact: it is found.
-#[test]
-fn a_second_foot_beyond_a_hump_is_seen() {
-    let mut heights = vec![0.0, 0.1, 0.2, 0.9];
-    heights.extend([0.9; 40]);
-    heights.extend([0.15, 0.9, 1.0]);
-    let line = table(heights, 1.0);
-    let row = slide_to(&line, 0.3, 1.0, 1e-12).expect("a state").last;
-    assert_close([row.contact[1], line.domain()[1] - 2.0], 1e-13, 0.0, &row);
-    assert_close([row.indentation_depth, 0.3], 1e-12, 0.0, &row);
 }
 
 proptest! {

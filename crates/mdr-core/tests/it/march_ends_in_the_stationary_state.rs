@@ -5,7 +5,7 @@ use indenters::{EquivalentLine, RigidLine};
 use mdr_core::{SlideOptions, SlideRow, SteadySliding, slide_on_grid};
 use rheology::{Compressible, Material};
 
-use crate::support::{Line, line_power, load, prony, slid};
+use crate::support::{line, line_power, load, prony, slid};
 
 /// Every kind of material, with a time in which it relaxes near one.
 fn materials() -> Vec<Box<dyn Material>> {
@@ -72,11 +72,7 @@ fn bodies_of_revolution_end_in_the_stationary_state() {
 /// material remember at the second touch, depths would be off by up to 1.7 %.
 #[test]
 fn a_line_that_touches_again_ends_in_the_stationary_state() {
-    let bumps = Line {
-        height: |x: f64| 0.02 * x * x - 0.2 * (5.0 * x).cos(),
-        domain: [-8.0, 8.0],
-        kinks: Vec::new(),
-    };
+    let bumps = line([-8.0, 8.0], |x: f64| 0.02 * x * x - 0.2 * (5.0 * x).cos());
     let mut most_contacts = 0;
     for material in materials() {
         for force in [0.4, 2.0] {

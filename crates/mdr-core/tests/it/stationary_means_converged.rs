@@ -6,7 +6,7 @@ use indenters::EquivalentLine;
 use mdr_core::{MdrError, SlideOptions, Transient, slide_on_grid};
 
 use crate::support::{
-    DEPTH, Line, VISCOSITY, assert_close, endless, load_for_depth, material, power, power_friction,
+    DEPTH, VISCOSITY, assert_close, endless, line, load_for_depth, material, power, power_friction,
     slide_to,
 };
 
@@ -104,11 +104,7 @@ fn too_few_elements_are_refused() {
 /// The line is high enough, but its last element is not: the end of the domain falls between two elements.
 #[test]
 fn contact_reaches_the_last_element() {
-    let ramp = Line {
-        height: |x| x,
-        domain: [0.0, 1.0],
-        kinks: Vec::new(),
-    };
+    let ramp = line([0.0, 1.0], |x| x);
     assert_matches!(
         slide_to(&ramp, 0.99, 0.15, 1e-9),
         Err(MdrError::ContactReachesEdge { position, indentation_depth, time })

@@ -14,7 +14,7 @@ use numerics::Estimate;
 use rheology::Compressible;
 
 use crate::support::{
-    ASKED, Line, VISCOSITY, assert_agree, assert_close, at_depth, body_of, line_of, line_power,
+    ASKED, VISCOSITY, assert_agree, assert_close, at_depth, body_of, line, line_of, line_power,
     load, load_for_depth, material, material_of, model, named, power, prony, slid,
 };
 
@@ -130,17 +130,13 @@ fn slow_and_fast_solids_have_the_friction_of_the_elastic_limits() {
 
 /// Friction force \[N] of `n_waves` of amplitude 1 and length 1 behind a runner.
 fn wavy_friction(n_waves: f64, mean_depth: f64, velocity: f64) -> f64 {
-    let line = Line {
-        height: |x: f64| {
-            if x > 0.0 {
-                1.0 + 40.0 * x * x
-            } else {
-                (TAU * x).cos()
-            }
-        },
-        domain: [-n_waves, 1.0],
-        kinks: Vec::new(),
-    };
+    let line = line([-n_waves, 1.0], |x: f64| {
+        if x > 0.0 {
+            1.0 + 40.0 * x * x
+        } else {
+            (TAU * x).cos()
+        }
+    });
     // The lowest point lies one amplitude below the mean.
     let load = at_depth(mean_depth + 1.0, velocity);
     let state = steady(&line, &model("W4"), &load, 1e-11).expect("a state");

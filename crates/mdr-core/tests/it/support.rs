@@ -105,13 +105,18 @@ pub(crate) struct Line<H> {
     pub(crate) kinks: Vec<f64>,
 }
 
-/// A line without ends.
-pub(crate) fn endless<H: Fn(f64) -> f64>(height: H) -> Line<H> {
+/// A line without kinks.
+pub(crate) fn line<H: Fn(f64) -> f64>(domain: [f64; 2], height: H) -> Line<H> {
     Line {
         height,
-        domain: [f64::NEG_INFINITY, f64::INFINITY],
+        domain,
         kinks: Vec::new(),
     }
+}
+
+/// A line without ends.
+pub(crate) fn endless<H: Fn(f64) -> f64>(height: H) -> Line<H> {
+    line([f64::NEG_INFINITY, f64::INFINITY], height)
 }
 
 impl<H: Fn(f64) -> f64> RigidLine for Line<H> {
@@ -235,14 +240,10 @@ pub(crate) fn assert_agree([actual, expected]: [Estimate; 2], context: &dyn Debu
 /// The cubic line of casebook FRI-03 on [0, 3], moved towards positive or, mirrored, negative x.
 pub(crate) fn cubic(case: &Case) -> impl RigidLine + use<> {
     let (scale, mirrored) = (case.input("eps"), case.has_input("direction"));
-    Line {
-        height: move |x: f64| {
-            let x = if mirrored { 3.0 - x } else { x };
-            scale * x * (x * x / 3.0 - 1.5 * x + 2.0)
-        },
-        domain: [0.0, 3.0],
-        kinks: Vec::new(),
-    }
+    line([0.0, 3.0], move |x: f64| {
+        let x = if mirrored { 3.0 - x } else { x };
+        scale * x * (x * x / 3.0 - 1.5 * x + 2.0)
+    })
 }
 
 /// The materials that the casebook names.

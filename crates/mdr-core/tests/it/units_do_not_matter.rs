@@ -2,7 +2,7 @@
 //! no numbers any more; and they are the same every time.
 
 use indenters::{Control, EquivalentLine, PowerProfile};
-use mdr_core::{SteadySliding, Transient};
+use mdr_core::Transient;
 
 use crate::support::{assert_close, indent, load, march, material, prony, slid};
 
@@ -82,39 +82,6 @@ fn indentation_is_the_same_over_twenty_four_decades() {
     let expected = depth([1.0; 3]);
     for units in all_units() {
         assert_close([depth(units), expected], 1e-12, 0.0, &units);
-    }
-}
-
-/// A solid with a dashpot of its own, at a speed at which everything relaxes.
-fn stationary([length, force, time]: Units) -> SteadySliding {
-    let modulus = force / (length * length);
-    let branches = [(2.0 * modulus, 0.3 * time), (5.0 * modulus, 10.0 * time)];
-    let material = prony([modulus, 0.1 * modulus * time], &branches);
-    let load = load(2.0 * force, 0.7 * length / time);
-    slid(&EquivalentLine(&body(1.5, length)), &material, &load)
-}
-
-#[test]
-fn the_stationary_state_is_the_same_over_twenty_four_decades() {
-    let expected = stationary([1.0; 3]);
-    for units in all_units() {
-        let state = stationary(units);
-        for (actual, expected, unit) in [
-            (
-                state.friction_coefficient,
-                expected.friction_coefficient,
-                1.0,
-            ),
-            (
-                state.indentation_depth,
-                expected.indentation_depth,
-                units[0],
-            ),
-            (state.ends[0], expected.ends[0], units[0]),
-        ] {
-            // The pieces of the line depend on where the range was found, the error asked for is 1e-8.
-            assert_close([actual.value / unit, expected.value], 1e-10, 0.0, &units);
-        }
     }
 }
 
