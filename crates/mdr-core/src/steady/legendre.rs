@@ -99,34 +99,28 @@ pub(super) fn end_value(coefficients: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
+    fn assert_close(actual: f64, expected: f64, tolerance: f64) {
+        let difference = (actual - expected).abs();
+        assert!(difference < tolerance, "{actual} instead of {expected}");
+    }
+
     #[test]
     fn a_polynomial_of_the_full_degree_is_reproduced_with_its_slope() {
         let power = DEGREE as f64;
         let coefficients = Interpolation::new().of(|t| (t - 0.3).powf(power));
         let slopes = derivative(&coefficients);
         for t in [-1.0, -0.77, 0.1, 0.9, 1.0_f64] {
-            let (expected, slope) = ((t - 0.3).powf(power), power * (t - 0.3).powf(power - 1.0));
-            let actual = (value(&coefficients, t), value(&slopes, t));
-            assert!(
-                (actual.0 - expected).abs() < 1e-13 && (actual.1 - slope).abs() < 1e-11,
-                "{actual:?} instead of {expected}, {slope} at {t}"
-            );
+            assert_close(value(&coefficients, t), (t - 0.3).powf(power), 1e-13);
+            let slope = power * (t - 0.3).powf(power - 1.0);
+            assert_close(value(&slopes, t), slope, 1e-11);
         }
     }
 
     #[test]
     fn ends_and_square_integral_are_those_of_the_polynomial() {
         let coefficients = Interpolation::new().of(|t| 1.0 + 2.0 * t);
-        let actual = [
-            start_value(&coefficients),
-            end_value(&coefficients),
-            square_integral(&coefficients),
-        ];
-        for (actual, expected) in actual.iter().zip([-1.0, 3.0, 2.0 + 8.0 / 3.0]) {
-            assert!(
-                (actual - expected).abs() < 1e-14,
-                "{actual} instead of {expected}"
-            );
-        }
+        assert_close(start_value(&coefficients), -1.0, 1e-14);
+        assert_close(end_value(&coefficients), 3.0, 1e-14);
+        assert_close(square_integral(&coefficients), 2.0 + 8.0 / 3.0, 1e-14);
     }
 }
