@@ -16,7 +16,7 @@
 use rheology::{ComplexModulus, Material};
 
 use crate::FrictionError;
-use crate::error::{positive, representable};
+use crate::error::{in_range, positive, representable};
 
 /// A sinusoidal line in motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,13 +147,13 @@ fn refuse_repeated(waves: &[SurfaceWave]) -> Result<(), FrictionError> {
     };
     let mut seen = std::collections::BTreeSet::new();
     for wave in waves {
-        if !seen.insert(direction(wave)) {
-            return Err(FrictionError::InvalidParameter {
-                parameter: "wave vector",
-                value: wave.wave_vector[0],
-                allowed: "different from that of every other wave, and not its opposite: such waves add up to one",
-            });
-        }
+        let allowed = "different from that of every other wave, and not its opposite: such waves add up to one";
+        in_range(
+            "wave vector",
+            wave.wave_vector[0],
+            seen.insert(direction(wave)),
+            allowed,
+        )?;
     }
     Ok(())
 }

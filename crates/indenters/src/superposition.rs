@@ -50,8 +50,15 @@ impl Superposition {
             length: 0,
         })?;
         positive("coefficient of the lowest exponent", leading.coefficient)?;
-        refuse_repeated_exponents(&terms)?;
-        let line_terms = terms.iter().map(line_term).collect::<Result<_, _>>()?;
+        for pair in terms.windows(2) {
+            let [before, exponent] = [pair[0].exponent, pair[1].exponent];
+            let allowed = "different from the exponents of the other terms";
+            in_range("exponent", exponent, before < exponent, allowed)?;
+        }
+        let mut line_terms = terms.clone();
+        for term in &mut line_terms {
+            term.coefficient *= stretch(term.exponent)?;
+        }
         Ok(Self { terms, line_terms })
     }
 
@@ -60,22 +67,6 @@ impl Superposition {
     pub fn terms(&self) -> &[PowerTerm] {
         &self.terms
     }
-}
-
-fn refuse_repeated_exponents(terms: &[PowerTerm]) -> Result<(), IndenterError> {
-    for pair in terms.windows(2) {
-        let [before, exponent] = [pair[0].exponent, pair[1].exponent];
-        let allowed = "different from the exponents of the other terms";
-        in_range("exponent", exponent, before < exponent, allowed)?;
-    }
-    Ok(())
-}
-
-fn line_term(term: &PowerTerm) -> Result<PowerTerm, IndenterError> {
-    Ok(PowerTerm {
-        coefficient: stretch(term.exponent)? * term.coefficient,
-        exponent: term.exponent,
-    })
 }
 
 impl Axisymmetric for Superposition {
