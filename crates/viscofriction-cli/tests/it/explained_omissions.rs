@@ -22,7 +22,7 @@ IN/hertz.toml | numerical solution, half space | 0 | error bars
 
 /// The rows of the printed table of a scene, each as its cells.
 fn explained(folder: &Folder, scene: &str) -> Vec<Vec<String>> {
-    let printed = folder.ends(&format!("run --explain {scene}"), 0, "").stdout;
+    let printed = folder.done(format!("run --explain {scene}")).stdout;
     let table = printed.split("left out:\n").nth(1);
     let table = table.unwrap_or_else(|| panic!("no table of what is left out in\n{printed}"));
     let cells = |line: &str| line.split('|').map(|cell| cell.trim().to_owned()).collect();

@@ -31,7 +31,7 @@ fn prepared(name: &str) -> Folder {
     )
     .expect("a copy");
     let sweep = "sweep IN/hertz.toml --vary load.normal_force=1,2 --out rows.csv";
-    folder.ends(sweep, 0, "");
+    folder.done(sweep);
     fs::create_dir(folder.path("out")).expect("a folder");
     folder
 }
@@ -49,7 +49,7 @@ fn what_is_there_is_replaced_only_when_asked_for_and_keeps_link_and_permissions(
         let there = "the file is there already; --overwrite replaces it";
         folder.ends(line, 2, there);
         assert_eq!(folder.text("target"), "mine", "{line}");
-        folder.ends(&format!("{line} --overwrite"), 0, "");
+        folder.done(format!("{line} --overwrite"));
         assert!(file.is_symlink(), "{line} cut the link");
         assert_ne!(folder.text("target"), "mine", "{line}");
         let mode = fs::metadata(&file).expect("the file").permissions().mode();
@@ -147,7 +147,7 @@ fn a_run_that_is_killed_leaves_whole_files() {
     let folder = Folder::new("killed-run");
     let line = "run IN/half-space-run-in.toml --out out";
     let started = Instant::now();
-    folder.ends(line, 0, "");
+    folder.done(line);
     let duration = started.elapsed();
     fs::rename(folder.path("out"), folder.path("whole")).expect("a folder");
     for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95] {
@@ -174,7 +174,7 @@ fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
         for name in [&part, &other] {
             folder.write(&format!("out/{name}"), "{");
         }
-        folder.ends(line, 0, "");
+        folder.done(line);
         let names = folder.names("out");
         let kept = !names.contains(&part) && names.contains(&other);
         assert!(kept, "{line} leaves {names:?}");
@@ -243,12 +243,12 @@ fn a_file_that_the_scene_names_and_that_has_changed_makes_another_sweep() {
     let profile = fs::read_to_string(example("profile.csv")).expect("a profile");
     folder.write("profile.csv", &profile);
     let sweep = "sweep scene.toml --vary load.normal_force=0.5,0.6 --out";
-    folder.ends(&format!("{sweep} a.csv --shard 1/2"), 0, "");
+    folder.done(format!("{sweep} a.csv --shard 1/2"));
     // One more digit of the last height.
     folder.write("profile.csv", format!("{}1\n", profile.trim_end()));
     let resumed = format!("{sweep} a.csv --resume");
     folder.ends(&resumed, 2, "a file that the scene names");
-    folder.ends(&format!("{sweep} b.csv --shard 2/2"), 0, "");
+    folder.done(format!("{sweep} b.csv --shard 2/2"));
     let merge = "sweep --out c.csv --merge a.csv b.csv";
     folder.ends(merge, 2, "the row is of another sweep");
 }

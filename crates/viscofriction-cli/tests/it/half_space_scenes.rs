@@ -185,7 +185,7 @@ fn hertz_comes_out_as_in_the_textbook() {
 #[test]
 fn units_per_length_are_printed_and_the_pressure_is_written() {
     let folder = Folder::new("line-contact");
-    let said = folder.ends("run IN/cylinder-solid.toml --out out", 0, "");
+    let said = folder.done("run IN/cylinder-solid.toml --out out");
     for unit in ["N/m", "m²/m"] {
         assert!(said.stdout.contains(unit), "no {unit} in {}", said.stdout);
     }

@@ -7,28 +7,16 @@ use viscofriction_cli::{InputKind, check_input};
 
 use crate::support::{Folder, example, npy};
 
-/// The committed map, row by row.
-fn heights() -> Vec<Vec<f64>> {
-    let text = fs::read_to_string(example("tread.csv")).expect("the map");
-    let number = |cell: &str| cell.trim().parse().expect("a height");
-    text.lines()
-        .map(|line| line.split(',').map(number).collect())
-        .collect()
-}
-
 /// The answers of the committed scene with the same map as text and as an array are the same, but for the time they took.
 fn assert_same(heights: &[Vec<f64>], kind: &str, order: &str, numbers: &[u8]) {
     let elements = ("relative_error = 2e-2", "elements = 12");
+    let line = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let lines: Vec<String> = heights.iter().map(line).collect();
+    let shape = (heights.len(), heights[0].len());
+    let header = format!("{{'descr': '{kind}', 'fortran_order': {order}, 'shape': {shape:?}, }}");
     let answers = ["map.csv", "map.npy"].map(|map| {
         let folder = Folder::with("numpy", "tread.toml", &[("tread.csv", map), elements]);
-        let line = |row: &Vec<f64>| row.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        folder.write(
-            "map.csv",
-            heights.iter().map(line).collect::<Vec<_>>().join("\n"),
-        );
-        let shape = (heights.len(), heights[0].len());
-        let header =
-            format!("{{'descr': '{kind}', 'fortran_order': {order}, 'shape': {shape:?}, }}");
+        folder.write("map.csv", lines.join("\n"));
         folder.write("map.npy", npy(&header, numbers));
         let mut answer = folder.json("scene.toml");
         answer["seconds"] = Value::Null;
@@ -38,32 +26,28 @@ fn assert_same(heights: &[Vec<f64>], kind: &str, order: &str, numbers: &[u8]) {
 }
 
 #[test]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to single precision is meant"
+)]
 fn arrays_of_either_precision_and_order_have_the_answer_of_the_text() {
-    let mut heights = heights();
-    let by_row: Vec<u8> = heights
-        .iter()
-        .flatten()
-        .flat_map(|height| height.to_le_bytes())
-        .collect();
-    assert_same(&heights, "<f8", "False", &by_row);
-    let column = |column: usize| {
-        heights
-            .iter()
-            .flat_map(move |row| row[column].to_le_bytes())
-    };
-    let by_column: Vec<u8> = (0..heights[0].len()).flat_map(column).collect();
-    assert_same(&heights, "<f8", "True", &by_column);
-    let mut singles = Vec::new();
-    for height in heights.iter_mut().flatten() {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "rounding to single precision is meant"
-        )]
-        let single = *height as f32;
-        *height = f64::from(single);
-        singles.extend(single.to_le_bytes());
+    let text = fs::read_to_string(example("tread.csv")).expect("the map");
+    let number = |cell: &str| cell.trim().parse().expect("a height");
+    let row = |line: &str| line.split(',').map(number).collect();
+    let mut heights: Vec<Vec<f64>> = text.lines().map(row).collect();
+    let by_row: Vec<f64> = heights.concat();
+    let column = |column: usize| heights.iter().map(move |row| row[column]);
+    let by_column: Vec<f64> = (0..heights[0].len()).flat_map(column).collect();
+    for (order, numbers) in [("False", &by_row), ("True", &by_column)] {
+        let bytes: Vec<[u8; 8]> = numbers.iter().map(|height| height.to_le_bytes()).collect();
+        assert_same(&heights, "<f8", order, bytes.as_flattened());
     }
-    assert_same(&heights, "<f4", "False", &singles);
+    for height in heights.iter_mut().flatten() {
+        *height = f64::from(*height as f32);
+    }
+    let singles = by_row.iter().map(|height| (*height as f32).to_le_bytes());
+    let singles: Vec<[u8; 4]> = singles.collect();
+    assert_same(&heights, "<f4", "False", singles.as_flattened());
 }
 
 /// The pressure of an answer as the heights of a body: whatever is written can be read.

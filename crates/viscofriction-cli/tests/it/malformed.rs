@@ -312,7 +312,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     assert!(cases.len() >= 280, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
     folder.write("scene.toml", SCENE);
-    folder.ends("run scene.toml", 0, "");
+    folder.done("run scene.toml");
 }
 
 /// A folder with a scene that names a file, and the beginning of what is said about that.

@@ -143,10 +143,16 @@ impl Folder {
         said
     }
 
+    /// The program, run without fault.
+    #[track_caller]
+    pub(crate) fn done(&self, line: impl AsRef<str>) -> Said {
+        self.ends(line.as_ref(), 0, "")
+    }
+
     /// The result of a scene.
     #[track_caller]
     pub(crate) fn json(&self, line: &str) -> Value {
-        let said = self.ends(&format!("run --format json {line}"), 0, "");
+        let said = self.done(format!("run --format json {line}"));
         serde_json::from_str(&said.stdout).expect("JSON")
     }
 

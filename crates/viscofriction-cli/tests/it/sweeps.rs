@@ -11,7 +11,7 @@ const VARY: &str = "--vary indenter.cone.slope=0.05:0.2:4 --vary load.velocity=1
 #[track_caller]
 fn swept(folder: &Folder, out: &str, more: &str) -> String {
     let line = format!("sweep scene.toml {VARY} --out {out} {more}");
-    folder.ends(&line, 0, "");
+    folder.done(line);
     folder.text(out)
 }
 
@@ -81,21 +81,14 @@ fn a_file_cut_anywhere_or_with_a_gap_gets_what_it_lacks() {
 fn shards_join_to_the_whole_and_say_what_is_missing() {
     let folder = quick("shards");
     let expected = swept(&folder, "whole.csv", "");
-    for shard in 1..=3 {
-        swept(
-            &folder,
-            &format!("{shard}.csv"),
-            &format!("--shard {shard}/3"),
-        );
+    for shard in ["1", "2", "3"] {
+        swept(&folder, shard, &format!("--shard {shard}/3"));
     }
-    folder.ends("sweep --out all.csv --merge 3.csv 1.csv 2.csv", 0, "");
+    folder.done("sweep --out all.csv --merge 3 1 2");
     assert_eq!(folder.text("all.csv"), expected);
     let missing = "no file has the points 2, 5, 8, 11, 14, 17, 20";
-    folder.ends(
-        "sweep --overwrite --out all.csv --merge 3.csv 1.csv",
-        1,
-        missing,
-    );
+    let merge = "sweep --overwrite --out all.csv --merge 3 1";
+    folder.ends(merge, 1, missing);
 }
 
 #[test]
@@ -117,11 +110,9 @@ fn the_file_of_another_sweep_is_not_continued() {
 
 #[test]
 fn a_point_that_cannot_be_computed_is_a_row_and_status_1() {
-    let closed = (
-        "mdr-transient\"\nelements = 64",
-        "analytic\"\nmodel = \"line\"",
-    );
-    let folder = Folder::with("failing-sweep", "power-law.toml", &[closed]);
+    let method = ("mdr-transient", "analytic");
+    let closed = [method, ("elements = 64", "model = \"line\"")];
+    let folder = Folder::with("failing-sweep", "power-law.toml", &closed);
     let line = "sweep scene.toml --vary indenter.power.exponent=0.5:1.5:3 --out rows.csv";
     folder.ends(line, 1, "1 of 3 points could not be computed");
     let rows = folder.text("rows.csv");
@@ -129,11 +120,8 @@ fn a_point_that_cannot_be_computed_is_a_row_and_status_1() {
     let rows: Vec<&str> = rows.lines().skip(1).collect();
     let infinite = "friction of the one-dimensional model is infinite";
     for (index, needed) in [infinite, answered, answered].iter().enumerate() {
-        assert!(
-            rows[index].contains(needed),
-            "no {needed} in {}",
-            rows[index]
-        );
+        let row = rows[index];
+        assert!(row.contains(needed), "no {needed} in {row}");
     }
 }
 
@@ -154,11 +142,8 @@ load.velocity=1:inf:3 | STOP must be finite";
 fn wrong_points_are_refused_before_the_first_is_computed() {
     let folder = quick("wrong-points");
     for [vary, needed] in rows(WRONG) {
-        folder.ends(
-            &format!("sweep scene.toml --out rows.csv --vary {vary}"),
-            2,
-            &needed,
-        );
+        let line = format!("sweep scene.toml --out rows.csv --vary {vary}");
+        folder.ends(&line, 2, &needed);
     }
     for shard in ["0/3", "4/3", "1", "1/0", "a/b"] {
         let line = format!("sweep scene.toml {VARY} --out rows.csv --shard {shard}");
@@ -178,9 +163,8 @@ fn powers_of_ten_and_lists_are_met_exactly() {
         cells.iter().map(|row| row[3].to_owned()).collect()
     };
     let power = |power: i32| format!("1e{power}").parse::<f64>().expect("a number");
-    let powers: Vec<String> = (-9..7)
-        .map(|exponent| format!("{:?}", power(exponent)))
-        .collect();
+    let powers: Vec<f64> = (-9..7).map(power).collect();
+    let powers: Vec<String> = powers.iter().map(|power| format!("{power:?}")).collect();
     assert_eq!(values("load.velocity=1e-9:1e6:16:log"), powers);
     let thirds = values("load.velocity=1e-3:1:10:log");
     assert_eq!([&thirds[3], &thirds[6]], ["0.01", "0.1"]);
@@ -196,14 +180,11 @@ IN/hertz.toml --vary load.normal_force=1e-3:1:4:log --vary indenter.paraboloid.c
 
 #[test]
 fn a_sweep_is_drawn_over_what_varies() {
-    let folder = Folder::with(
-        "drawn-sweeps",
-        "hertz.toml",
-        &[("normal_force = 1.0", "indentation_depth = 1e-5")],
-    );
+    let depth = ("normal_force = 1.0", "indentation_depth = 1e-5");
+    let folder = Folder::with("drawn-sweeps", "hertz.toml", &[depth]);
     fs::rename(folder.path("scene.toml"), folder.path("held.toml")).expect("a scene");
     for [sweep, labels] in rows(DRAWN) {
-        let said = folder.ends(&format!("sweep {sweep} --out rows.csv --overwrite"), 0, "");
+        let said = folder.done(format!("sweep {sweep} --out rows.csv --overwrite"));
         assert!(!said.stderr.contains("no picture"), "{sweep}: {said:?}");
         let svg = folder.text("rows.svg");
         for label in labels.split(" | ") {
