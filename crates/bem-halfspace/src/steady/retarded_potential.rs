@@ -12,27 +12,29 @@ use crate::influence;
 use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
 use crate::steady::sliding_creep::ElementCreep;
 
-/// Distance, in panel lengths, from which on so many points are enough for eleven digits.
+/// Distance from the edges of the loaded element, in panel lengths, from which a rule of so many points gives eleven
+/// digits.
 const POINTS: [(f64, usize); 4] = [(256.0, 4), (24.0, 6), (6.0, 8), (1.0, MAX_POINTS)];
-/// Distance, in rows, from which on a polynomial through the values at so many rows leaves eleven digits: its error is
+/// Distance in rows from which the polynomial through the values at so many rows gives eleven digits: its error is
 /// (1/2 · 3/2 · …)² over the power of the distance to the nearest of them.
 const ROWS: [(f64, usize); 3] = [(86.0, 6), (41.0, 8), (29.0, 10)];
 /// Rows kept on either side of a panel.
 const KEPT: usize = 5;
-/// Panels next to a singularity on the line itself are not made shorter than this.
+/// Panels next to a singularity on their own line are not divided below this length.
 const SHORTEST: f64 = 1.0 / (1_u64 << 26) as f64;
-/// The recursion starts at least that far ahead; from there on panels grow in proportion to the distance.
+/// The recursion along rows starts at least that far ahead of the load; further ahead, each panel ends this many times as far
+/// away as it begins.
 const FIRST_ROW: f64 = 16.0;
 const GROWTH: f64 = 1.9;
-/// Exponents of what no longer counts.
-const FORGOTTEN: f64 = 40.0;
+/// Terms e^(−x) with a larger x are below rounding and left out.
+const LARGEST_EXPONENT: f64 = 40.0;
 
 /// A part of the line ahead of a point.
 #[derive(Debug, Clone, Copy)]
 struct Panel {
     start: f64,
     length: f64,
-    /// Which of the rules.
+    /// Index of its rule in [`POINTS`].
     rule: usize,
 }
 
@@ -47,24 +49,24 @@ struct Retardation {
     row_weights: [[f64; MAX_POINTS]; ROWS.len()],
 }
 
-/// The values of all retardation elements along a row of the table.
+/// Displacements by all retardation elements along a row of the table.
 #[derive(Debug)]
 pub(super) struct RetardedPotential {
     delays: Vec<Retardation>,
     rules: [ExponentialRule; POINTS.len()],
     aspect: f64,
     n_columns: usize,
-    /// Row that was reached.
+    /// Position of the present row.
     position: f64,
     /// By delay and column, in parts of the compliance.
     values: Vec<f64>,
     increments: Vec<f64>,
-    /// V by row and column, from behind the panel at the row that was reached to ahead of it.
+    /// V by row and column, for the rows around the element ahead of the present row.
     rows: VecDeque<Vec<f64>>,
 }
 
 impl RetardedPotential {
-    /// Starts one element ahead of the row at `first`.
+    /// Starts at the row one element ahead of `first`.
     pub(super) fn new(creep: &ElementCreep, [first, aspect]: [f64; 2], n_columns: usize) -> Self {
         let rules = POINTS.map(|(_, n_points)| ExponentialRule::new(n_points));
         let row_rules = ROWS.map(|(_, n_points)| ExponentialRule::on_lattice(n_points));
@@ -92,7 +94,7 @@ impl RetardedPotential {
             increments: vec![0.0; creep.delays.len() * n_columns],
             rows: VecDeque::with_capacity(2 * KEPT),
         };
-        start.come_from_infinity();
+        start.integrate_from_infinity();
         for row in (1..=2 * KEPT).rev() {
             start.push_row(position - KEPT as f64 + row as f64);
         }
@@ -102,12 +104,12 @@ impl RetardedPotential {
         start
     }
 
-    /// V.
+    /// Potential V of the loaded element.
     fn potential(&self, x: f64, column: usize) -> f64 {
         influence([x, column as f64 * self.aspect], [1.0, self.aspect])
     }
 
-    /// Takes in a row behind those that are kept.
+    /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
     fn push_row(&mut self, x: f64) {
         let mut row = if self.rows.len() == 2 * KEPT {
             self.rows.pop_back().unwrap_or_default()
@@ -119,16 +121,13 @@ impl RetardedPotential {
         self.rows.push_front(row);
     }
 
-    /// The values at the first row.
-    fn come_from_infinity(&mut self) {
-        let slowest = self
-            .delays
-            .iter()
-            .map(|delay| delay.rate)
-            .fold(f64::MAX, f64::min);
+    /// The values at the first row: the integral over everything ahead of it.
+    fn integrate_from_infinity(&mut self) {
+        let rates = self.delays.iter().map(|delay| delay.rate);
+        let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
-        while slowest * (end - self.position) < FORGOTTEN && end < 1e150 {
+        while slowest * (end - self.position) < LARGEST_EXPONENT && end < 1e150 {
             end *= GROWTH;
             ends.push(end);
         }
@@ -180,9 +179,9 @@ impl RetardedPotential {
             if let Some(rule) = shortest(&ROWS, distance) {
                 self.through_rows(column, rule);
             } else if let Some(rule) = shortest(&POINTS, distance) {
-                self.whole((x, column), rule);
+                self.whole(x, column, rule);
             } else {
-                self.graded((x, column), clearance);
+                self.graded(x, column, clearance);
             }
             for (index, delay) in self.delays.iter().enumerate() {
                 let place = index * self.n_columns + column;
@@ -200,36 +199,39 @@ impl RetardedPotential {
         for (potential, row) in potentials[..n_points].iter_mut().zip(rows) {
             *potential = row[column];
         }
-        for (index, delay) in self.delays.iter().enumerate() {
-            self.increments[index * self.n_columns + column] = dot(
-                &delay.row_weights[rule][..n_points],
-                &potentials[..n_points],
-            );
-        }
+        self.integrate(column, &potentials[..n_points], |delay| {
+            &delay.row_weights[rule]
+        });
     }
 
-    /// The integral over an element in one panel.
-    fn whole(&mut self, (x, column): (f64, usize), rule: usize) {
-        let n_points = POINTS[rule].1;
+    /// The integral over an element in one panel, whose ends are rows that are kept.
+    fn whole(&mut self, x: f64, column: usize, rule: usize) {
+        let last = POINTS[rule].1 - 1;
         let mut potentials = [0.0; MAX_POINTS];
-        potentials[0] = self.rows[KEPT - 1][column];
-        potentials[n_points - 1] = self.rows[KEPT][column];
-        for (potential, node) in potentials[..n_points]
-            .iter_mut()
-            .zip(&self.rules[rule].nodes)
-            .skip(1)
-            .take(n_points - 2)
-        {
-            *potential = influence([x + node, column as f64 * self.aspect], [1.0, self.aspect]);
+        for (index, node) in self.rules[rule].nodes.iter().enumerate() {
+            potentials[index] = match index {
+                0 => self.rows[KEPT - 1][column],
+                _ if index == last => self.rows[KEPT][column],
+                _ => self.potential(x + node, column),
+            };
         }
+        self.integrate(column, &potentials[..=last], |delay| &delay.weights[rule]);
+    }
+
+    /// Sets the increments of a column from the potentials at the nodes of a rule.
+    fn integrate(
+        &mut self,
+        column: usize,
+        potentials: &[f64],
+        weights: impl Fn(&Retardation) -> &[f64; MAX_POINTS],
+    ) {
         for (index, delay) in self.delays.iter().enumerate() {
-            self.increments[index * self.n_columns + column] =
-                dot(&delay.weights[rule][..n_points], &potentials[..n_points]);
+            self.increments[index * self.n_columns + column] = dot(weights(delay), potentials);
         }
     }
 
     /// The integral over an element near the edges of the loaded one.
-    fn graded(&mut self, (x, column): (f64, usize), clearance: f64) {
+    fn graded(&mut self, x: f64, column: usize, clearance: f64) {
         for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
             *increment = 0.0;
         }
@@ -243,12 +245,12 @@ impl RetardedPotential {
         }
     }
 
-    /// Displacement by all retardation elements at the row that was reached.
+    /// Displacement by all retardation elements at the present row.
     pub(super) fn value(&self, column: usize) -> f64 {
         self.values[column..].iter().step_by(self.n_columns).sum()
     }
 
-    /// The part of it that has crept since the row before.
+    /// The part of it that comes from the last element passed.
     pub(super) fn increment(&self, column: usize) -> f64 {
         self.increments[column..]
             .iter()
@@ -270,7 +272,8 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
     rules.iter().position(|(far, _)| distance >= *far)
 }
 
-/// Panels of the element ahead of `x`, divided where the potential is singular and then by halves.
+/// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
+/// one of the rules.
 fn panels(x: f64, clearance: f64) -> Vec<Panel> {
     let mut ends = vec![x];
     ends.extend(
