@@ -6,7 +6,7 @@ use rheology::Material;
 use crate::BemError;
 use crate::error::positive;
 use crate::grid::elements_along;
-use crate::steady::{depth_scale_of_body, depth_scale_of_surface};
+use crate::steady::depth_scale_of_surface;
 
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,16 +42,15 @@ impl Footprint {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        let body = match (load.control(), surface.as_axisymmetric()) {
-            (Control::IndentationDepth(depth), _) => return Self::below(surface, depth),
-            (Control::NormalForce(_), Some(body)) => body,
-            (Control::NormalForce(_), None) => {
-                let depth = depth_scale_of_surface(&surface, material, load)?;
-                return Self::below(surface, 2.0 * depth);
-            }
+        let depth = match load.control() {
+            Control::IndentationDepth(depth) => return Self::below(surface, depth),
+            Control::NormalForce(_) => depth_scale_of_surface(&surface, material, load)?,
+        };
+        let Some(body) = surface.as_axisymmetric() else {
+            return Self::below(surface, 2.0 * depth);
         };
         let sharp = body.profile_exponent() < 0.75;
-        let height = if sharp { 2.0 } else { 1.5 } * depth_scale_of_body(body, material, load)?;
+        let height = if sharp { 2.0 } else { 1.5 } * depth;
         let footprint = Self::below(surface, height)?;
         let [_, radius] = footprint.x;
         if radius < body.max_radius() || body.profile_height(radius) >= height {

@@ -3,7 +3,7 @@
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
 use rheology::{Elastic, Material};
 
-use crate::steady::{depth_scale_of_body, depth_scale_of_surface};
+use crate::steady::depth_scale_of_surface;
 use crate::{BemError, Footprint};
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids.
@@ -36,7 +36,7 @@ impl GridPlan {
     ) -> Result<Self, BemError> {
         if let Some(body) = surface.as_axisymmetric() {
             let depth = match load.control() {
-                Control::NormalForce(_) => depth_scale_of_body(body, material, load)?,
+                Control::NormalForce(_) => depth_scale_of_surface(surface, material, load)?,
                 Control::IndentationDepth(depth) => depth,
             };
             return Self::of_body(body, Footprint::sliding(surface, material, load)?, depth);
@@ -56,11 +56,7 @@ impl GridPlan {
         let [depth, highest] = match control {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, 1.0)?;
-                let spring = Elastic::new(1.0)?;
-                let depth = match surface.as_axisymmetric() {
-                    Some(body) => depth_scale_of_body(body, &spring, &load)?,
-                    None => depth_scale_of_surface(surface, &spring, &load)?,
-                };
+                let depth = depth_scale_of_surface(surface, &Elastic::new(1.0)?, &load)?;
                 [depth, HIGHEST * depth]
             }
             Control::IndentationDepth(depth) => [depth; 2],

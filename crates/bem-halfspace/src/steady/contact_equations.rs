@@ -10,10 +10,10 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use crate::steady::SteadyOmission;
+use crate::steady::filter::Product;
 use crate::steady::krylov::minimal_residual;
 use crate::steady::mesh::Mesh;
 use crate::steady::plans::Plans;
-use crate::steady::product::Product;
 use crate::steady::region::Region;
 use crate::steady::wiener_hopf::WienerHopf;
 
@@ -101,7 +101,7 @@ impl<'mesh> ContactEquations<'mesh> {
         let mut preconditioner = WienerHopf::new(plans, &region);
         Self {
             lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),
-            product: Product::new(plans, &region),
+            product: Product::new(plans.kernel(region.shape), &region),
             preconditioner,
             region,
             contact,
@@ -145,7 +145,7 @@ impl<'mesh> ContactEquations<'mesh> {
         for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
             *load += change * lowered;
         }
-        let moved = self.product.displacements(&loads, &self.region);
+        let moved = self.product.apply(0, &loads, &self.region);
         let heights = self
             .contact
             .iter()
@@ -160,7 +160,7 @@ impl<'mesh> ContactEquations<'mesh> {
 
     /// K x − δ.
     fn displacements_below(&mut self, loads: &[f64], depth: f64) -> Vec<f64> {
-        let mut moved = self.product.displacements(loads, &self.region);
+        let mut moved = self.product.apply(0, loads, &self.region);
         moved.iter_mut().for_each(|value| *value -= depth);
         moved
     }

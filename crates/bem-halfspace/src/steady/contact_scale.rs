@@ -18,9 +18,6 @@
 
 use std::f64::consts::TAU;
 
-use indenters::{Axisymmetric, SlidingLoad};
-use rheology::Material;
-
 use crate::BemError;
 use crate::error::positive;
 use crate::steady::sliding_creep::SlidingCreep;
@@ -29,22 +26,6 @@ use crate::steady::sliding_creep::SlidingCreep;
 const HALVINGS: usize = 60;
 /// Doublings of the length until there is no solution.
 const DOUBLINGS: usize = 900;
-
-/// D of a body of revolution.
-pub(crate) fn depth_scale_of_body(
-    body: &dyn Axisymmetric,
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-) -> Result<f64, BemError> {
-    let creep = SlidingCreep::new(material, load.velocity())?;
-    let height = |radius: f64| body.profile_height(radius);
-    depth_scale(
-        &creep,
-        load.require_normal_force()?,
-        height,
-        body.max_radius(),
-    )
-}
 
 /// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.
 pub(super) fn depth_scale(

@@ -1,11 +1,50 @@
 //! Filters with kernels that are even along y, but not along x.
 
+use std::sync::Arc;
+
 use rustfft::num_complex::Complex;
 
 use crate::plane_transform::{PlaneTransform, Workspace, ZERO};
+use crate::steady::region::Region;
 
 /// Fourier transform of a kernel, by column, with the normalisation of the transforms folded in.
 pub(super) type Spectrum = Vec<Complex<f64>>;
+
+/// Filters of one period.
+#[derive(Debug)]
+pub(super) struct Filters<const N: usize> {
+    pub(super) transform: PlaneTransform,
+    pub(super) spectra: [Spectrum; N],
+}
+
+/// Filters of fields on the bounding box of a region.
+#[derive(Debug)]
+pub(super) struct RegionFilter<const N: usize> {
+    filters: Arc<Filters<N>>,
+    workspace: Workspace,
+    field: Vec<f64>,
+}
+
+/// The product of the stationary kernel with loads: displacements of the elements of a region.
+pub(super) type Product = RegionFilter<1>;
+
+impl<const N: usize> RegionFilter<N> {
+    pub(super) fn new(filters: Arc<Filters<N>>, region: &Region) -> Self {
+        Self {
+            workspace: Workspace::new(&filters.transform, region.shape),
+            field: vec![0.0; region.n_places()],
+            filters,
+        }
+    }
+
+    /// One of the filters of values on the elements of `region`, which are 0 elsewhere.
+    pub(super) fn apply(&mut self, filter: usize, values: &[f64], region: &Region) -> Vec<f64> {
+        region.spread(values, &mut self.field);
+        let Filters { transform, spectra } = &*self.filters;
+        transform.filter(&mut self.workspace, &mut self.field, &spectra[filter]);
+        region.gather(&self.field)
+    }
+}
 
 impl PlaneTransform {
     /// Spectrum of a kernel that is even along y; `kernel(row, column)` is asked for the whole period along x and half
@@ -45,7 +84,7 @@ impl PlaneTransform {
 
     /// Replaces a field of the shape of the workspace by its product with a spectrum, in Fourier space. Does not
     /// allocate.
-    pub(super) fn filter(&self, workspace: &mut Workspace, field: &mut [f64], spectrum: &Spectrum) {
+    fn filter(&self, workspace: &mut Workspace, field: &mut [f64], spectrum: &Spectrum) {
         let rows = 0..workspace.shape[0];
         self.load(workspace, field, &rows);
         let length = self.padded[0];

@@ -186,8 +186,14 @@ pub(crate) fn depth_scale_of_surface(
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
     let creep = SlidingCreep::new(material, load.velocity())?;
-    let height = |distance| mean_height(surface, distance);
-    depth_scale(&creep, load.require_normal_force()?, height, f64::INFINITY)
+    let force = load.require_normal_force()?;
+    let body = surface.as_axisymmetric();
+    let height = |distance| match body {
+        Some(body) => body.profile_height(distance),
+        None => mean_height(surface, distance),
+    };
+    let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
+    depth_scale(&creep, force, height, largest)
 }
 
 /// D of a profile, and the distance from its lowest point at which it is as high, \[m].

@@ -1,10 +1,10 @@
-//! The stationary problem on a grid: the elements that may touch, their heights, kernel, symmetry.
+//! The stationary problem on a grid: the elements that may touch, their heights, kernel and symmetry.
 //!
-//! On a dashpot the gap changes by ∫w/(ηv) − (rise of the body) between the rear edges of two neighbouring elements.
-//! Where the body does not rise, the gap at the rear is therefore larger than at the front, and no element there can
-//! touch: only rising elements are kept. On any other material all elements that the body covers are.
+//! On a dashpot the gap changes by ∫w/(ηv) minus the rise of the body between the rear edges of two neighbouring elements.
+//! Where the body does not rise, the gap is therefore larger at the rear than at the front, and no element can touch: only
+//! elements over which the body rises are unknowns. On any other material all elements that the body covers are.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
@@ -20,9 +20,10 @@ use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
 use crate::{BemError, Grid};
 
-/// Height below which the flanks of a steep body count as flat, in units of the depth scale.
-const FLAT: f64 = 0.1;
-/// Height that the sides of the contact of a paraboloid reach, about, in the same units.
+/// Height of the foot of a steep flank, in units of the depth scale.
+const FOOT: f64 = 0.1;
+/// Elements below this height are guessed to be in contact, in the same units: about as high as the sides of the contact
+/// of a paraboloid.
 const GUESSED_HEIGHT: f64 = 0.5;
 
 /// An element that may touch.
@@ -185,8 +186,12 @@ impl Mesh {
         column - distance
     }
 
-    fn is_on_axis(&self, element: &Element) -> bool {
-        self.mirror == Mirror::Centre && self.image(element.column) == element.column
+    fn has_image(&self, element: &Element) -> bool {
+        match self.mirror {
+            Mirror::None => false,
+            Mirror::Centre => self.image(element.column) != element.column,
+            Mirror::Edge => true,
+        }
     }
 
     /// Displacement of one element by the unit load of another and of its mirror image.
@@ -194,7 +199,7 @@ impl Mesh {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
         let direct = self.kernel(rows, to.column.abs_diff(from.column));
-        if self.mirror == Mirror::None || self.is_on_axis(from) {
+        if !self.has_image(from) {
             return direct;
         }
         direct + self.kernel(rows, to.column - self.image(from.column))
@@ -208,12 +213,9 @@ impl Mesh {
     /// Row and column of an element and of its mirror image; itself where it has none.
     pub(super) fn places(&self, element: usize) -> [[usize; 2]; 2] {
         let Element { row, column, .. } = self.elements[element];
-        let image = if self.weight(element) > 1.0 {
-            self.image(column)
-        } else {
-            column
-        };
-        [[row, column], [row, image]]
+        let has_image = self.has_image(&self.elements[element]);
+        let image = has_image.then(|| self.image(column));
+        [[row, column], [row, image.unwrap_or(column)]]
     }
 
     /// The elements at most `reach` rows and columns away from one of `centres`, unless they are more than `most`.
@@ -244,10 +246,13 @@ impl Mesh {
         self.options.spacing[1] / self.options.spacing[0]
     }
 
-    /// How many elements of the whole an element stands for.
+    /// 2 for an element with a mirror image, which it represents, otherwise 1.
     pub(super) fn weight(&self, element: usize) -> f64 {
-        let alone = self.mirror == Mirror::None || self.is_on_axis(&self.elements[element]);
-        if alone { 1.0 } else { 2.0 }
+        if self.has_image(&self.elements[element]) {
+            2.0
+        } else {
+            1.0
+        }
     }
 
     /// Height of an element where its gap is evaluated.
@@ -260,30 +265,17 @@ impl Mesh {
         let dx = coarser * self.options.spacing[0];
         let passes = |element: &Element| {
             let rise = element.slope * dx / self.loading.depth_scale;
-            element.height < FLAT && element.height + rise > 1.0
+            element.height < FOOT && element.height + rise > 1.0
         };
         !self.elements.iter().any(passes)
     }
 
-    /// Whether an element belongs to the flat part of the body, which on a material that only flows has been pressed down
-    /// by the flank ahead of it already.
-    pub(super) fn is_flat(&self, element: usize) -> bool {
-        self.only_rising && self.height(element) < FLAT
-    }
-
-    /// The low elements; flat parts only where they are the front.
+    /// The low elements, without loads.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
-        let low =
-            || (0..self.n_elements()).filter(|&element| self.height(element) < GUESSED_HEIGHT);
-        let mut guess: BTreeSet<usize> = low().collect();
-        if self.only_rising {
-            guess.retain(|&element| !self.is_flat(element));
-            let fronts: BTreeMap<usize, usize> = low()
-                .map(|element| (self.elements[element].column, element))
-                .collect();
-            guess.extend(fronts.values());
-        }
-        guess.into_iter().map(|element| (element, 0.0)).collect()
+        (0..self.n_elements())
+            .filter(|&element| self.height(element) < GUESSED_HEIGHT)
+            .map(|element| (element, 0.0))
+            .collect()
     }
 
     /// Force or depth that is asked for.
@@ -310,37 +302,24 @@ impl Mesh {
         solution.loads.iter().map(weighted).sum()
     }
 
-    /// Mean slope weighted with the load.
-    pub(super) fn friction(&self, solution: &Solution) -> f64 {
-        let (mut tangential, mut normal) = (0.0, 0.0);
+    /// Mean of a function of ∂h/∂x weighted with the load.
+    pub(super) fn mean(&self, solution: &Solution, of_slope: fn(f64) -> f64) -> f64 {
+        let (mut sum, mut normal) = (0.0, 0.0);
         for &(element, load) in &solution.loads {
-            tangential += self.weight(element) * load * self.elements[element].slope;
+            sum += self.weight(element) * load * of_slope(self.elements[element].slope);
             normal += self.weight(element) * load;
         }
-        tangential / normal
-    }
-
-    /// Mean of |∂h/∂x| weighted with the load.
-    pub(super) fn mean_slope(&self, solution: &Solution) -> f64 {
-        let (mut slopes, mut normal) = (0.0, 0.0);
-        for &(element, load) in &solution.loads {
-            slopes += self.weight(element) * load * self.elements[element].slope.abs();
-            normal += self.weight(element) * load;
-        }
-        slopes / normal
+        sum / normal
     }
 
     /// Row, column and load of every loaded element of the whole.
     pub(super) fn loaded(&self, solution: &Solution) -> Vec<([usize; 2], f64)> {
-        let mut loaded = Vec::new();
-        for &(element, load) in &solution.loads {
-            let Element { row, column, .. } = self.elements[element];
-            loaded.push(([row, column], load));
-            if self.weight(element) > 1.0 {
-                loaded.push(([row, self.image(column)], load));
-            }
-        }
-        loaded
+        let with_image = |&(element, load): &(usize, f64)| {
+            let [place, image] = self.places(element);
+            let places = std::iter::once(place).chain((image != place).then_some(image));
+            places.map(move |place| (place, load))
+        };
+        solution.loads.iter().flat_map(with_image).collect()
     }
 
     /// Whether a range of rows and one of columns lie inside the footprint, away from its boundary.

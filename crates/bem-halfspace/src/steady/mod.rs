@@ -30,7 +30,6 @@ mod mesh;
 mod neighbourhood;
 mod pivoting;
 mod plans;
-mod product;
 mod refinement;
 mod region;
 mod retarded_potential;
@@ -45,7 +44,6 @@ use rheology::Material;
 use crate::chunks::in_pool;
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
-pub(crate) use contact_scale::depth_scale_of_body;
 pub use depth::SinkingDepth;
 pub use estimate::{SteadyEstimate, steady, steady_refined};
 pub use kernel::wake_influence;
@@ -53,7 +51,6 @@ pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_
 use loading::Loading;
 pub(crate) use loading::depth_scale_of_surface;
 use mesh::Mesh;
-use pivoting::Start;
 use plans::Plans;
 pub use refinement::{Average, Refinement, RefinementOptions};
 pub use solution::SteadySliding;
@@ -158,7 +155,11 @@ fn solve(
     below_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
-        let coarse = coarser(options, loading);
+        let coarse = SteadyOptions {
+            spacing: loading.scaled(options.spacing, COARSER),
+            tolerance: options.tolerance.max(COARSE_TOLERANCE),
+            ..*options
+        };
         // Only the kernel of a dashpot is the same on both grids.
         let mut other = Reuse::default();
         let coarse_reuse = if loading.creep.only_flows() {
@@ -169,22 +170,13 @@ fn solve(
         // Without a solution on the coarse grid the fine one starts from its own guess.
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
     }
-    let start = match &reuse.solution {
-        Some(other) => Start::Known(loads_of(other, &mesh)),
-        None => Start::Guessed(mesh.first_guess()),
+    let guess = match &reuse.solution {
+        Some(other) => loads_of(other, &mesh),
+        None => mesh.first_guess(),
     };
     let plans = &mut reuse.plans;
-    let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, start))?;
+    let solution = in_pool(mesh.n_elements(), || pivoting::solve(&mesh, plans, guess))?;
     SteadySliding::new(&mesh, &solution)
-}
-
-/// A grid of twice the spacing, for a solution that is only a start.
-fn coarser(options: &SteadyOptions, loading: &Loading) -> SteadyOptions {
-    SteadyOptions {
-        spacing: loading.scaled(options.spacing, COARSER),
-        tolerance: options.tolerance.max(COARSE_TOLERANCE),
-        ..*options
-    }
 }
 
 /// The loaded elements of another solution, seen on this mesh.

@@ -8,10 +8,10 @@
 
 use crate::BemError;
 use crate::steady::contact_equations::{EquationSolution, solve_equations};
+use crate::steady::filter::Product;
 use crate::steady::mesh::Mesh;
 use crate::steady::neighbourhood::solve_neighbourhood;
 use crate::steady::plans::Plans;
-use crate::steady::product::Product;
 use crate::steady::region::Region;
 
 /// Pivots without progress up to which all violations change, then the larger ones, then every other one, and in the end
@@ -46,28 +46,20 @@ pub(super) struct Solution {
     pub(super) residual: f64,
 }
 
-/// Where the search begins.
-#[derive(Debug)]
-pub(super) enum Start {
-    /// Loads of another grid.
-    Known(Vec<(usize, f64)>),
-    /// Elements that may be in contact. Flat parts of the body join once the active set on its flanks is found: through
-    /// the holes of a guess all of them would seem to penetrate.
-    Guessed(Vec<(usize, f64)>),
-}
-
-/// Solves the complementarity problem from a first guess of the loads.
-pub(super) fn solve(mesh: &Mesh, plans: &mut Plans, start: Start) -> Result<Solution, BemError> {
+/// Solves the complementarity problem from a first guess of the elements in contact and their loads.
+pub(super) fn solve(
+    mesh: &Mesh,
+    plans: &mut Plans,
+    guess: Vec<(usize, f64)>,
+) -> Result<Solution, BemError> {
     let target = mesh.options.tolerance;
-    let mut search = Search::new(mesh, plans, start);
+    let mut search = Search::new(mesh, plans, guess);
     let mut progress = Progress::default();
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.solve();
         (residual, made) = (state.residual, iterations);
-        if state.violations.is_empty() && search.flat_parts_wait {
-            search.flat_parts_wait = false;
-        } else if state.violations.is_empty() {
+        if state.violations.is_empty() {
             if residual <= target {
                 return Ok(search.finish(residual, iterations));
             }
@@ -169,8 +161,6 @@ struct Search<'mesh> {
     depth: f64,
     factorised: bool,
     tolerance: f64,
-    /// Whether flat parts may not join yet.
-    flat_parts_wait: bool,
     all: Region,
     product: Product,
 }
@@ -186,11 +176,7 @@ struct State {
 }
 
 impl<'mesh> Search<'mesh> {
-    fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, start: Start) -> Self {
-        let (guess, flat_parts_wait) = match start {
-            Start::Known(guess) => (guess, false),
-            Start::Guessed(guess) => (guess, true),
-        };
+    fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, guess: Vec<(usize, f64)>) -> Self {
         let all = Region::around(mesh, 0..mesh.n_elements());
         let mut search = Self {
             mesh,
@@ -199,8 +185,7 @@ impl<'mesh> Search<'mesh> {
             depth: 0.0,
             factorised: false,
             tolerance: first_tolerance(guess.len()).max(LAST * mesh.options.tolerance),
-            flat_parts_wait,
-            product: Product::new(plans, &all),
+            product: Product::new(plans.kernel(all.shape), &all),
             plans,
             all,
         };
@@ -257,7 +242,7 @@ impl<'mesh> Search<'mesh> {
     }
 
     fn state(&mut self) -> State {
-        let moved = self.product.displacements(&self.loads, &self.all);
+        let moved = self.product.apply(0, &self.loads, &self.all);
         let gap = |(element, moved)| self.mesh.height(element) + moved - self.depth;
         let gaps: Vec<f64> = moved.into_iter().enumerate().map(gap).collect();
         let in_contact = gaps.iter().zip(&self.inside).filter(|(_, inside)| **inside);
@@ -270,8 +255,7 @@ impl<'mesh> Search<'mesh> {
             } else {
                 -gap
             };
-            let waits = self.flat_parts_wait && !in_tension && self.mesh.is_flat(element);
-            (!waits && size > if in_tension { 0.0 } else { allowed }).then_some(Violation {
+            (size > if in_tension { 0.0 } else { allowed }).then_some(Violation {
                 element,
                 size,
                 in_tension,
@@ -298,13 +282,8 @@ impl<'mesh> Search<'mesh> {
             .iter()
             .map(|violation| violation.element)
             .collect();
-        let solved = solve_neighbourhood(
-            self.mesh,
-            &state.gaps,
-            &self.loads,
-            &violations,
-            state.allowed,
-        );
+        let (gaps, allowed) = (&state.gaps, state.allowed);
+        let solved = solve_neighbourhood(self.mesh, gaps, &self.loads, &violations, allowed);
         for &(element, load) in solved.iter().flatten() {
             (self.inside[element], self.loads[element]) = (load > 0.0, load);
         }

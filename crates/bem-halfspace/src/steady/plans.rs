@@ -5,27 +5,20 @@ use std::sync::Arc;
 
 use crate::fast_length::fast_length;
 use crate::plane_transform::PlaneTransform;
-use crate::steady::filter::Spectrum;
+use crate::steady::filter::{Filters, Spectrum};
 use crate::steady::sliding_creep::ElementCreep;
 use crate::steady::wake_table::WakeTable;
-use crate::steady::wiener_hopf::InverseFactors;
+use crate::steady::wiener_hopf;
 
 /// Periods that are kept: the boxes of successive contacts have about the same size.
 const KEPT: usize = 4;
-
-/// The stationary kernel in Fourier space.
-#[derive(Debug)]
-pub(super) struct KernelSpectrum {
-    pub(super) transform: PlaneTransform,
-    pub(super) spectrum: Spectrum,
-}
 
 /// What depends on the creep over an element, on the aspect ratio of the elements and on the size of a box only.
 #[derive(Debug, Default)]
 pub(super) struct Plans {
     table: Arc<WakeTable>,
-    kernels: Vec<Arc<KernelSpectrum>>,
-    factors: Vec<Arc<InverseFactors>>,
+    kernels: Vec<Arc<Filters<1>>>,
+    factors: Vec<Arc<Filters<2>>>,
 }
 
 impl Plans {
@@ -39,58 +32,48 @@ impl Plans {
         if !self.table.is_for(creep, aspect) {
             *self = Self::default();
         }
-        let filtered = InverseFactors::period(shape);
+        let filtered = wiener_hopf::period(shape);
         let reach = [0, 1].map(|axis| free_period(shape[axis]).max(filtered[axis]) / 2);
         WakeTable::cover(&mut self.table, creep, aspect, reach);
         Arc::clone(&self.table)
     }
 
     /// The kernel for loads and displacements within a box of `shape` elements.
-    pub(super) fn kernel(&mut self, shape: [usize; 2]) -> Arc<KernelSpectrum> {
-        let padded = shape.map(free_period);
-        let table = &self.table;
-        recent(
-            &mut self.kernels,
-            |kernel| kernel.transform.padded == padded,
-            || {
-                let transform = PlaneTransform::new(padded);
-                let value = |row, column| table.at(signed_offset(row, padded[0]), column);
-                let spectrum = transform.spectrum(value, |_, _| {});
-                KernelSpectrum {
-                    transform,
-                    spectrum,
-                }
-            },
-        )
+    pub(super) fn kernel(&mut self, shape: [usize; 2]) -> Arc<Filters<1>> {
+        let (padded, table) = (shape.map(free_period), &self.table);
+        recent(&mut self.kernels, padded, |transform| {
+            let value = |row, column| table.at(signed_offset(row, padded[0]), column);
+            [transform.spectrum(value, |_, _| {})]
+        })
     }
 
     /// The inverse Wiener–Hopf factors for a box of `shape` elements.
-    pub(super) fn inverse_factors(&mut self, shape: [usize; 2]) -> Arc<InverseFactors> {
-        let padded = InverseFactors::period(shape);
-        let table = &self.table;
-        recent(
-            &mut self.factors,
-            |factors| factors.transform.padded == padded,
-            || InverseFactors::new(table, padded),
-        )
+    pub(super) fn inverse_factors(&mut self, shape: [usize; 2]) -> Arc<Filters<2>> {
+        let (padded, table) = (wiener_hopf::period(shape), &self.table);
+        recent(&mut self.factors, padded, |transform| {
+            wiener_hopf::inverse_factors(table, transform)
+        })
     }
 }
 
-/// The kept item that matches, or a new one in the place of the oldest.
-fn recent<T>(
-    kept: &mut Vec<Arc<T>>,
-    matches: impl Fn(&T) -> bool,
-    make: impl FnOnce() -> T,
-) -> Arc<T> {
-    if let Some(item) = kept.iter().find(|item| matches(item)) {
-        return Arc::clone(item);
+/// The kept filters of a period, or new ones in the place of the oldest.
+fn recent<const N: usize>(
+    kept: &mut Vec<Arc<Filters<N>>>,
+    padded: [usize; 2],
+    spectra: impl FnOnce(&PlaneTransform) -> [Spectrum; N],
+) -> Arc<Filters<N>> {
+    let same_period = |filters: &&Arc<Filters<N>>| filters.transform.padded == padded;
+    if let Some(filters) = kept.iter().find(same_period) {
+        return Arc::clone(filters);
     }
     if kept.len() == KEPT {
         kept.remove(0);
     }
-    let item = Arc::new(make());
-    kept.push(Arc::clone(&item));
-    item
+    let transform = PlaneTransform::new(padded);
+    let spectra = spectra(&transform);
+    let filters = Arc::new(Filters { transform, spectra });
+    kept.push(Arc::clone(&filters));
+    filters
 }
 
 /// A period that is fast to transform and keeps `n` elements free of their images.

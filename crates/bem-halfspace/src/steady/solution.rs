@@ -108,8 +108,8 @@ impl SteadySliding {
         let pressure = pressure_field(mesh, &loaded, bounds)?;
         let total_load = mesh.total_load(solution);
         Ok(Self {
-            friction_coefficient: mesh.friction(solution),
-            mean_slope: mesh.mean_slope(solution),
+            friction_coefficient: mesh.mean(solution, |slope| slope),
+            mean_slope: mesh.mean(solution, f64::abs),
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: loaded.len() as f64 * pressure.grid.element_area(),

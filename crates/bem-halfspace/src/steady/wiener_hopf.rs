@@ -9,13 +9,11 @@
 //! (Wiener & Hopf 1931); without end ahead of a straight rear, in the other order. The preconditioner goes from the one
 //! to the other along x in proportion to the distance from the two ends.
 
-use std::sync::Arc;
-
 use rustfft::num_complex::Complex;
 
 use crate::fast_length::fast_length;
-use crate::plane_transform::{PlaneTransform, Workspace};
-use crate::steady::filter::Spectrum;
+use crate::plane_transform::PlaneTransform;
+use crate::steady::filter::{RegionFilter, Spectrum};
 use crate::steady::plans::{Plans, signed_offset};
 use crate::steady::region::Region;
 use crate::steady::sliding_creep::{Delay, ElementCreep};
@@ -25,81 +23,50 @@ use crate::steady::wake_table::WakeTable;
 /// fast.
 const MARGIN: usize = 4;
 
-/// The inverses of the two factors in Fourier space.
-#[derive(Debug)]
-pub(super) struct InverseFactors {
-    pub(super) transform: PlaneTransform,
-    /// Inverse of the factor that contains the creep filter.
-    sweep: Spectrum,
-    /// Inverse of the other factor.
-    counter_sweep: Spectrum,
+/// Places of the two factors.
+const SWEEP: usize = 0;
+const COUNTER_SWEEP: usize = 1;
+
+/// Period of the filters for a box of `shape` elements.
+pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
+    shape.map(|n| fast_length(n + MARGIN))
 }
 
-impl InverseFactors {
-    /// Period of the filters for a box of `shape` elements.
-    pub(super) fn period(shape: [usize; 2]) -> [usize; 2] {
-        shape.map(|n| fast_length(n + MARGIN))
-    }
-
-    pub(super) fn new(table: &WakeTable, padded: [usize; 2]) -> Self {
-        let transform = PlaneTransform::new(padded);
-        let potential =
-            |row: usize, column: usize| table.potential(signed_offset(row, padded[0]), column);
-        let counter_sweep = transform.spectrum(potential, invert_causal_factor);
-        Self {
-            sweep: with_inverse_creep(&counter_sweep, table.creep(), padded[0]),
-            transform,
-            counter_sweep,
-        }
-    }
+/// The inverses of the two factors in Fourier space: of that which contains the creep filter, and of the other one.
+pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> [Spectrum; 2] {
+    let [length, _] = transform.padded;
+    let potential = |row: usize, column: usize| table.potential(signed_offset(row, length), column);
+    let counter_sweep = transform.spectrum(potential, invert_causal_factor);
+    let sweep = with_inverse_creep(&counter_sweep, table.creep(), length);
+    [sweep, counter_sweep]
 }
 
 /// An approximate inverse of the product with the stationary kernel on a region.
 #[derive(Debug)]
 pub(super) struct WienerHopf {
-    factors: Arc<InverseFactors>,
+    inverses: RegionFilter<2>,
     /// Weight of the order that is exact at the front.
     front: Vec<f64>,
-    workspace: Workspace,
-    field: Vec<f64>,
 }
 
 impl WienerHopf {
     pub(super) fn new(plans: &mut Plans, region: &Region) -> Self {
-        let factors = plans.inverse_factors(region.shape);
         Self {
+            inverses: RegionFilter::new(plans.inverse_factors(region.shape), region),
             front: region.fractions_from_rear(),
-            workspace: Workspace::new(&factors.transform, region.shape),
-            field: vec![0.0; region.n_places()],
-            factors,
         }
     }
 
     /// Approximate loads that cause the given displacements.
     pub(super) fn loads(&mut self, displacements: &[f64], region: &Region) -> Vec<f64> {
-        let mut at_front = displacements.to_vec();
-        let mut at_rear = displacements.to_vec();
-        for [front, rear] in [[false, true], [true, false]] {
-            self.filter(front, &mut at_front, region);
-            self.filter(rear, &mut at_rear, region);
-        }
-        for ((front, rear), weight) in at_front.iter_mut().zip(at_rear).zip(&self.front) {
-            *front = weight * *front + (1.0 - weight) * rear;
-        }
-        at_front
-    }
-
-    /// Applies one inverse factor and cuts out the contact.
-    fn filter(&mut self, sweep: bool, vector: &mut Vec<f64>, region: &Region) {
-        let InverseFactors {
-            transform,
-            sweep: with_sum,
-            counter_sweep,
-        } = &*self.factors;
-        let spectrum = if sweep { with_sum } else { counter_sweep };
-        region.spread(vector, &mut self.field);
-        transform.filter(&mut self.workspace, &mut self.field, spectrum);
-        *vector = region.gather(&self.field);
+        let [at_front, at_rear] =
+            [[COUNTER_SWEEP, SWEEP], [SWEEP, COUNTER_SWEEP]].map(|[first, second]| {
+                let between = self.inverses.apply(first, displacements, region);
+                self.inverses.apply(second, &between, region)
+            });
+        let both = at_front.iter().zip(at_rear).zip(&self.front);
+        both.map(|((front, rear), weight)| weight * front + (1.0 - weight) * rear)
+            .collect()
     }
 }
 
