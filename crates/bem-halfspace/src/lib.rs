@@ -42,6 +42,7 @@ mod influence;
 mod mirror;
 mod plan;
 mod plane_transform;
+mod pressure_field;
 mod rectangle;
 mod resolution;
 pub mod slide;

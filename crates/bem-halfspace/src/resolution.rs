@@ -3,8 +3,17 @@
 use crate::bounds::Bounds;
 use crate::error::positive;
 use crate::mirror::Mirror;
-use crate::slide::SlideOmission;
 use crate::{BemError, ContactOptions, Footprint};
+
+/// A part of the work of a march that is left out where a problem does not need it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum SlideOmission {
+    /// The elements of the footprint around the contact, while it is solved.
+    OutsideContact,
+    /// The displacement of the rows that the footprint has left behind for good.
+    RowsBehind,
+}
 
 /// One grid for pressing and sliding in time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,7 @@ use rheology::{Elastic, Material};
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
 use crate::error::{check_contact_elements, positive};
 use crate::plan::GridPlan;
-use crate::slide::PressureField;
+use crate::pressure_field::PressureField;
 use crate::stepping::{March, Motion};
 use crate::{BemError, GridOptions};
 

@@ -26,7 +26,7 @@ use std::sync::Arc;
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 
-use crate::plane_transform::rows::forward_real;
+use crate::plane_transform::real_rows::forward_real;
 use crate::plane_transform::workspace::Buffers;
 
 /// Largest L for which L numbers are transformed instead of the period.

@@ -11,6 +11,7 @@ mod about_centre;
 mod about_edge;
 mod columns;
 mod even_product;
+mod real_rows;
 mod rows;
 mod workspace;
 

@@ -8,6 +8,7 @@ use rustfft::num_complex::Complex;
 use crate::mirror::Mirror;
 use crate::plane_transform::about_centre::Cosines;
 use crate::plane_transform::about_edge;
+use crate::plane_transform::real_rows::{forward_real, inverse_real};
 use crate::plane_transform::workspace::Buffers;
 
 /// The transforms of a row, or of the part of it in front of a mirror.
@@ -141,29 +142,6 @@ impl RowTransform {
 fn fill(row: &mut [f64], values: &[f64]) {
     row[..values.len()].copy_from_slice(values);
     row[values.len()..].fill(0.0);
-}
-
-pub(super) fn forward_real(
-    plan: &dyn RealToComplex<f64>,
-    (reals, coefficients): (&mut [f64], &mut [Complex<f64>]),
-    scratch: &mut [Complex<f64>],
-) {
-    let done = plan.process_with_scratch(reals, coefficients, scratch);
-    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
-}
-
-pub(super) fn inverse_real(
-    plan: &dyn ComplexToReal<f64>,
-    (coefficients, reals): (&mut [Complex<f64>], &mut [f64]),
-    scratch: &mut [Complex<f64>],
-) {
-    // Rounding leaves imaginary parts where a real row has none, and the transform refuses them.
-    coefficients[0].im = 0.0;
-    if reals.len().is_multiple_of(2) {
-        coefficients[reals.len() / 2].im = 0.0;
-    }
-    let done = plan.process_with_scratch(coefficients, reals, scratch);
-    debug_assert!(done.is_ok(), "the buffers fit the plan: {done:?}");
 }
 
 /// Stores two real numbers each as one complex number.

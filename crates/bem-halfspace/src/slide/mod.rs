@@ -17,11 +17,13 @@ mod transient;
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
-pub use crate::stepping::{March, MarchState, Motion, MotionRow, SlideOmission};
+pub use crate::pressure_field::PressureField;
+pub use crate::resolution::SlideOmission;
+pub use crate::stepping::{March, MarchState, Motion, MotionRow};
 use crate::{BemError, GridOptions};
 pub use estimate::{SlideEstimate, slide};
 pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
-pub use transient::{PressureField, SlideRow, Transient};
+pub use transient::{SlideRow, Transient};
 
 /// Presses `surface` into an undeformed half space under a constant force or at a constant depth and slides it from first
 /// touch over the sliding distance of the load, on one grid.

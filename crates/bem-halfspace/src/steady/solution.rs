@@ -4,7 +4,7 @@ use numerics::ErrorParts;
 
 use crate::bars::{OnGrid, Quantities};
 use crate::error::check_contact_elements;
-use crate::slide::PressureField;
+use crate::pressure_field::PressureField;
 use crate::steady::SteadyOptions;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;

@@ -27,24 +27,14 @@ use rheology::{CreepSpectrum, ExponentialStep, Material};
 use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
 use crate::error::positive;
-use crate::resolution::Layout;
-use crate::slide::PressureField;
+use crate::pressure_field::PressureField;
+use crate::resolution::{Layout, SlideOmission};
 use crate::{BemError, Grid, GridOptions};
 pub use checkpoint::MarchState;
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
 use slopes::{MeanSlopes, Slopes};
 use window::Window;
-
-/// A part of the work of a march that is left out where a problem does not need it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum SlideOmission {
-    /// The elements of the footprint around the contact, while it is solved.
-    OutsideContact,
-    /// The displacement of the rows that the footprint has left behind for good.
-    RowsBehind,
-}
 
 /// An indenter that moves over a half space, step by step.
 pub struct March<'a> {

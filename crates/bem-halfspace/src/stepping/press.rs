@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use indenters::Control;
 
-use super::{Leg, March, MotionRow, SlideOmission};
+use super::{Leg, March, MotionRow};
 use crate::BemError;
 use crate::bounds::Bounds;
 use crate::mirror::images;
+use crate::resolution::SlideOmission;
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
 /// solver would take a smaller box of its own.
