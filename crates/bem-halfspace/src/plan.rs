@@ -41,27 +41,25 @@ impl GridPlan {
             };
             return Self::of_body(body, Footprint::sliding(surface, material, load)?, depth);
         }
-        let [depth, highest] = match load.control() {
+        match load.control() {
             Control::NormalForce(_) => {
                 let depth = depth_scale_of_surface(surface, material, load)?;
-                [depth, HIGHEST * depth]
+                Self::below(surface, depth, HIGHEST * depth)
             }
-            Control::IndentationDepth(depth) => [depth; 2],
-        };
-        Self::below(surface, depth, highest)
+            Control::IndentationDepth(depth) => Self::below(surface, depth, depth),
+        }
     }
 
     /// For a body that is pressed into an elastic half space of unit shear modulus, incompressible.
     pub(crate) fn pressed(surface: &dyn Surface, control: Control) -> Result<Self, BemError> {
-        let [depth, highest] = match control {
+        match control {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, 1.0)?;
                 let depth = depth_scale_of_surface(surface, &Elastic::new(1.0)?, &load)?;
-                [depth, HIGHEST * depth]
+                Self::below(surface, depth, HIGHEST * depth)
             }
-            Control::IndentationDepth(depth) => [depth; 2],
-        };
-        Self::below(surface, depth, highest)
+            Control::IndentationDepth(depth) => Self::below(surface, depth, depth),
+        }
     }
 
     fn of_body(

@@ -18,8 +18,10 @@
 
 use std::f64::consts::TAU;
 
+use indenters::Surface;
+
 use crate::BemError;
-use crate::error::positive;
+use crate::error::{positive, require};
 use crate::steady::sliding_creep::SlidingCreep;
 
 /// Halvings of the logarithm of the length: all the digits there are.
@@ -45,12 +47,22 @@ pub(super) fn depth_scale(
     positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)
 }
 
-/// D, and the length a, of a profile that is `height(a)` high at the distance a from its lowest point.
-pub(super) fn depth_scale_of_profile(
+/// D of a profile, and the distance a from its lowest point at which it is as high, \[m].
+///
+/// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
+pub(super) fn scale_of_profile(
+    profile: &dyn Surface,
     creep: &SlidingCreep,
     force_per_length: f64,
-    height: impl Fn(f64) -> f64,
 ) -> Result<[f64; 2], BemError> {
+    let fluidity = creep.fluidity();
+    let allowed =
+        "0 under a line load: a surface that flows sinks the faster the longer the line is";
+    require(fluidity <= 0.0, "fluidity", fluidity, allowed)?;
+    let height = |distance: f64| {
+        let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
+        0.5 * (rear + front)
+    };
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(force_per_length / TAU * creep.compliance(length)?)
     };

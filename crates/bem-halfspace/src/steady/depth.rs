@@ -1,7 +1,7 @@
 //! How deep a body lies that slides for ever.
 
 use crate::BemError;
-use crate::error::positive;
+use crate::error::{positive, require};
 use crate::steady::loading::sunken;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
@@ -60,13 +60,9 @@ impl SinkingDepth {
     /// [`BemError::InvalidParameter`] for a distance that is shorter than the contact or not finite.
     pub fn after(&self, sliding_distance: f64) -> Result<f64, BemError> {
         positive("sliding_distance", sliding_distance)?;
-        if sliding_distance < self.reference_distance {
-            return Err(BemError::InvalidParameter {
-                parameter: "sliding_distance",
-                value: sliding_distance,
-                allowed: "at least the length of the contact",
-            });
-        }
+        let is_allowed = sliding_distance >= self.reference_distance;
+        let allowed = "at least the length of the contact";
+        require(is_allowed, "sliding_distance", sliding_distance, allowed)?;
         Ok(self.at(Some(sliding_distance)))
     }
 }

@@ -15,8 +15,9 @@ use rheology::Material;
 
 use crate::bars::{self, ContactEstimate};
 use crate::plan::GridPlan;
+use crate::steady::contact_scale::scale_of_profile;
 use crate::steady::estimate::resolution;
-use crate::steady::loading::{Loading, scale_of_profile};
+use crate::steady::loading::Loading;
 use crate::steady::refinement::{Problem, refine};
 use crate::steady::sliding_creep::SlidingCreep;
 use crate::steady::{

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_4, PI};
 use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
-use crate::error::positive;
-use crate::steady::contact_scale::{depth_scale, depth_scale_of_profile};
+use crate::error::{positive, require};
+use crate::steady::contact_scale::{depth_scale, scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Footprint};
 
@@ -169,14 +169,9 @@ fn distance_at_depth(
         }
         return Ok(DISTANCE_ON_SOLID * footprint_length);
     };
-    if distance < footprint_length {
-        return Err(BemError::InvalidParameter {
-            parameter: "sliding_distance",
-            value: distance,
-            allowed: "longer than the footprint, because the depth is known only after the contact has become stationary",
-        });
-    }
-    Ok(distance)
+    let is_allowed = distance >= footprint_length;
+    let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
+    require(is_allowed, "sliding_distance", distance, allowed)
 }
 
 /// D of a surface under a force, \[m].
@@ -194,28 +189,6 @@ pub(crate) fn depth_scale_of_surface(
     };
     let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
     depth_scale(&creep, force, height, largest)
-}
-
-/// D of a profile, and the distance from its lowest point at which it is as high, \[m].
-///
-/// A half space that flows has none: in plane strain a line load sinks the faster the longer it is, without limit.
-pub(super) fn scale_of_profile(
-    profile: &dyn Surface,
-    creep: &SlidingCreep,
-    force_per_length: f64,
-) -> Result<[f64; 2], BemError> {
-    if creep.fluidity() > 0.0 {
-        return Err(BemError::InvalidParameter {
-            parameter: "fluidity",
-            value: creep.fluidity(),
-            allowed: "0 under a line load: a surface that flows sinks the faster the longer the line is",
-        });
-    }
-    let height = |distance: f64| {
-        let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
-        0.5 * (rear + front)
-    };
-    depth_scale_of_profile(creep, force_per_length, height)
 }
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use indenters::Surface;
 
-use crate::error::positive;
+use crate::error::{positive, require};
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
@@ -69,14 +69,8 @@ impl Mesh {
         positive("spacing along x", options.spacing[0])?;
         positive("spacing along y", options.spacing[1])?;
         for value in options.phase {
-            if !(-0.5..=0.5).contains(&value) {
-                let allowed = "between -1/2 and 1/2";
-                return Err(BemError::InvalidParameter {
-                    parameter: "phase",
-                    value,
-                    allowed,
-                });
-            }
+            let is_allowed = (-0.5..=0.5).contains(&value);
+            require(is_allowed, "phase", value, "between -1/2 and 1/2")?;
         }
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {

@@ -85,10 +85,11 @@ impl Neighbourhood {
     fn violations(&self, inside: &[bool], loads: &[f64], allowed: f64) -> Option<Vec<usize>> {
         let violates = |&element: &usize| {
             if inside[element] {
-                loads[element] < 0.0
-            } else {
-                self.gap(element, loads) < -allowed
+                return loads[element] < 0.0;
             }
+            let moved = loads.iter().enumerate();
+            let moved = moved.map(|(from, load)| self.influence[(element, from)] * load);
+            self.gaps[element] + moved.sum::<f64>() < -allowed
         };
         let finite = loads.iter().all(|load| load.is_finite());
         finite.then(|| (0..inside.len()).filter(violates).collect())
@@ -112,13 +113,5 @@ impl Neighbourhood {
             }
         }
         loads
-    }
-
-    fn gap(&self, element: usize, loads: &[f64]) -> f64 {
-        let moved = loads.iter().enumerate();
-        self.gaps[element]
-            + moved
-                .map(|(from, load)| self.influence[(element, from)] * load)
-                .sum::<f64>()
     }
 }

@@ -10,7 +10,7 @@ use indenters::Surface;
 use numerics::{ErrorParts, Estimate};
 
 use crate::bars::{self, FORCE, FRICTION, NAMES};
-use crate::error::{below_one, positive};
+use crate::error::{below_one, positive, require};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
@@ -176,15 +176,9 @@ fn limit(
 /// Order of the error of the averages.
 fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
-    if order > 0.0 {
-        return Ok(order);
-    }
-    // The friction of the apex alone is infinite, as in the one-dimensional model.
-    Err(BemError::InvalidParameter {
-        parameter: "apex exponent",
-        value: apex_exponent,
-        allowed: "above 1/2",
-    })
+    // The friction of a sharper apex alone is infinite, as in the one-dimensional model.
+    require(order > 0.0, "apex exponent", apex_exponent, "above 1/2")?;
+    Ok(order)
 }
 
 fn not_reached(friction: Estimate, force: Estimate, relative_error: f64) -> BemError {
