@@ -26,13 +26,11 @@ pub(super) fn conditions(
         if *load > 0.0 { gap.abs() } else { -gap }
     });
     // Unlike `f64::max` this keeps what is not a number.
-    let worst = violations.fold(0.0, |worst: f64, violation| {
-        if violation <= worst || worst.is_nan() {
-            worst
-        } else {
-            violation
-        }
-    });
+    let keeps = |worst: f64, violation| violation <= worst || worst.is_nan();
+    let worst = violations.fold(
+        0.0,
+        |worst, next| if keeps(worst, next) { worst } else { next },
+    );
     let lowest = pressure.iter().copied().fold(0.0, f64::min);
     let area = problem.convolution.grid().element_area();
     let force = area * pressure.iter().sum::<f64>();

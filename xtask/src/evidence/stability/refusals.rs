@@ -136,27 +136,28 @@ fn stationary(spacing: f64, half_width: f64) -> Result<Result<(), BemError>> {
     Ok(steady_on_grid(&cone, &material, &load, &options).map(drop))
 }
 
-/// A march over five elements.
 fn march(spacing: f64, half_width: f64) -> Result<Result<(), BemError>> {
-    let options = GridOptions::new([spacing; 2], Footprint::square(half_width));
-    marched(&options, 5.0 * spacing)
+    let footprint = Footprint::square(half_width);
+    marched(&GridOptions::new([spacing; 2], footprint))
 }
 
-fn marched(options: &GridOptions, distance: f64) -> Result<Result<(), BemError>> {
+/// A march over five elements.
+fn marched(options: &GridOptions) -> Result<Result<(), BemError>> {
     let (cone, Dashpot { material, load }) = scene()?;
-    Ok(slide_on_grid(&cone, &material, &load.after(distance)?, options).map(drop))
+    let load = load.after(5.0 * options.spacing[0])?;
+    Ok(slide_on_grid(&cone, &material, &load, options).map(drop))
 }
 
 fn few_iterations() -> Result<Finding> {
     let mut options = GridOptions::new([0.05; 2], Footprint::square(2.0));
     options.contact.max_iterations = 1;
-    refused!(marched(&options, 0.25)? => BemError::ContactNotConverged { .. })
+    refused!(marched(&options)? => BemError::ContactNotConverged { .. })
 }
 
 fn no_tolerance() -> Result<Finding> {
     let mut options = GridOptions::new([0.05; 2], Footprint::square(2.0));
     options.contact.tolerance = 0.0;
-    let state = marched(&options, 0.25)?;
+    let state = marched(&options)?;
     refused!(state => BemError::InvalidParameter { parameter: "contact tolerance", .. })
 }
 
