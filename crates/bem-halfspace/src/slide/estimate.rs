@@ -39,7 +39,15 @@ pub fn slide(
     load: &SlidingLoad,
     accuracy: impl Into<Accuracy>,
 ) -> Result<SlideEstimate, BemError> {
-    let problem = Problem::new(&surface, material, load, accuracy.into())?;
+    let surface: &dyn Surface = &surface;
+    let problem = Problem {
+        plan: GridPlan::sliding(surface, material, load)?,
+        creep: material.creep(),
+        surface,
+        material,
+        load,
+        accuracy: accuracy.into(),
+    };
     problem.solve()
 }
 
@@ -60,23 +68,7 @@ struct Problem<'a, M: ?Sized> {
     accuracy: Accuracy,
 }
 
-impl<'a, M: Material + ?Sized> Problem<'a, M> {
-    fn new(
-        surface: &'a dyn Surface,
-        material: &'a M,
-        load: &'a SlidingLoad,
-        accuracy: Accuracy,
-    ) -> Result<Self, BemError> {
-        Ok(Self {
-            plan: GridPlan::sliding(surface, material, load)?,
-            creep: material.creep(),
-            surface,
-            material,
-            load,
-            accuracy,
-        })
-    }
-
+impl<M: Material + ?Sized> Problem<'_, M> {
     fn solve(&self) -> Result<SlideEstimate, BemError> {
         let resolution = Resolution {
             goal: Goal {

@@ -54,7 +54,10 @@ pub(super) fn solve(
 ) -> Result<Solution, BemError> {
     let target = mesh.options.tolerance;
     let mut search = Search::new(mesh, plans, guess);
-    let mut progress = Progress::default();
+    let mut progress = Progress {
+        fewest: usize::MAX,
+        vain: 0,
+    };
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.solve();
@@ -97,15 +100,6 @@ struct Progress {
     fewest: usize,
     /// Pivots since there were fewest.
     vain: usize,
-}
-
-impl Default for Progress {
-    fn default() -> Self {
-        Self {
-            fewest: usize::MAX,
-            vain: 0,
-        }
-    }
 }
 
 impl Progress {

@@ -1,7 +1,5 @@
 //! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
 
-use std::ops::Range;
-
 use crate::steady::mesh::Mesh;
 
 /// Elements of a mesh in their bounding box, images by mirror symmetry included.
@@ -76,7 +74,8 @@ impl Region {
         for column in 0..columns {
             let mut row = 0;
             while row < rows {
-                let run = run_from(row, rows, |row| inside[row * columns + column]);
+                let outside = |row: &usize| !inside[row * columns + column];
+                let run = row..(row..rows).find(outside).unwrap_or(rows);
                 for (step, row) in run.clone().enumerate() {
                     fractions[row * columns + column] = (step as f64 + 0.5) / run.len() as f64;
                 }
@@ -85,9 +84,4 @@ impl Region {
         }
         self.gather(&fractions)
     }
-}
-
-/// The rows from `first` on that are inside, up to the first that is not.
-fn run_from(first: usize, rows: usize, inside: impl Fn(usize) -> bool) -> Range<usize> {
-    first..(first..rows).find(|row| !inside(*row)).unwrap_or(rows)
 }
