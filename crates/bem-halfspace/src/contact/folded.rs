@@ -5,9 +5,9 @@
 
 use crate::BemError;
 use crate::bands::Bands;
-use crate::contact::contact_box::ContactBox;
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::contact::solve::LoadProblem;
+use crate::contact::problem::LoadProblem;
+use crate::contact::state::ContactBox;
 use crate::contact::{Accuracy, ContactState, Solved, map_force, solve_loads};
 use crate::convolution::{Convolution, Surroundings};
 use crate::mirror::{Mirror, NO_MIRRORS, images};

@@ -11,13 +11,13 @@
 mod direction;
 mod heights;
 
-use crate::contact::active_set::{ActiveSet, Run};
-use crate::contact::listed::Listed;
+use crate::contact::active_set::Run;
+use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
-use crate::contact::preconditioner::{Preconditioner, Weights};
+use crate::contact::preconditioner::Weights;
+use crate::contact::problem::{Accuracy, LoadProblem, Solved};
 use crate::contact::reductions::sum;
-use crate::contact::solve::LoadProblem;
-use crate::contact::{Accuracy, ContactState, Control, Solved};
+use crate::contact::{ContactState, Control};
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 
@@ -27,32 +27,6 @@ const PATIENCE: usize = 10;
 /// The active set changes when its violations are this many times the residual: earlier, the directions start anew too
 /// often, and later, they converge on a wrong set. The number of iterations alone depends on it.
 const PRIORITY: f64 = 2.0;
-
-/// Buffers beside the load and its displacement.
-#[derive(Debug, Clone)]
-pub(super) struct Fields {
-    preconditioner: Preconditioner,
-    contact: ActiveSet,
-    listed: Listed,
-    /// Of the list that was last spread over the field, residual or direction; zero outside the contact.
-    spread: Vec<f64>,
-    /// Displacement under the direction.
-    image: Vec<f64>,
-}
-
-impl Fields {
-    fn new(convolution: &Convolution, weights: Weights) -> Self {
-        let grid = convolution.grid();
-        let n = grid.n_elements();
-        Self {
-            preconditioner: Preconditioner::new(convolution, weights),
-            contact: ActiveSet::new(grid.shape()),
-            listed: Listed::new(n),
-            spread: vec![0.0; n],
-            image: vec![0.0; n],
-        }
-    }
-}
 
 pub(super) struct Iteration<'a> {
     convolution: &'a Convolution,

@@ -9,14 +9,14 @@
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
 mod active_set;
-mod coarser;
-mod contact_box;
 mod far_loads;
+mod fields;
 mod folded;
 mod iteration;
 mod listed;
 mod mirror_weights;
 mod preconditioner;
+mod problem;
 mod reductions;
 mod solve;
 mod state;
@@ -27,11 +27,12 @@ use crate::chunks::in_pool;
 use crate::convolution::Surroundings;
 use crate::error::{positive, require};
 use crate::{BemError, Convolution};
-pub(crate) use contact_box::ContactBox;
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;
-pub(crate) use solve::Solved;
-use solve::{Accuracy, LoadProblem, solve_loads};
+pub(crate) use problem::Solved;
+use problem::{Accuracy, LoadProblem};
+use solve::solve_loads;
+pub(crate) use state::ContactBox;
 pub use state::ContactState;
 
 /// One contact problem.

@@ -1,37 +1,21 @@
 //! Where to iterate, and from which first guess.
 
+use crate::BemError;
+use crate::bands::for_each_row;
 use crate::bounds::Bounds;
-use crate::contact::coarser::start_from_coarser;
-use crate::contact::contact_box::ContactBox;
+use crate::chunks::in_pool;
 use crate::contact::iteration::Iteration;
-use crate::contact::{ContactOptions, ContactState, Control};
+use crate::contact::mirror_weights::MirrorWeights;
+use crate::contact::problem::{Accuracy, LoadProblem, Solved};
+use crate::contact::state::{ContactBox, ContactState};
+use crate::contact::{ContactOptions, Control, map_force};
 use crate::convolution::Surroundings;
-use crate::{BemError, Convolution};
-
-/// A contact problem for the load `x = α P / (4π)`, whose displacement is `K x`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct LoadProblem<'a> {
-    pub(super) convolution: &'a Convolution,
-    /// One value per element, \[m].
-    pub(super) separation: &'a [f64],
-    /// A force is the sum of the loads.
-    pub(super) control: Control,
-}
-
-/// The result of a solve beside the load.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Solved {
-    pub(crate) indentation_depth: f64,
-    pub(crate) total_load: f64,
-    pub(crate) iterations: usize,
-    /// Largest displacement in the contact, \[m].
-    pub(crate) deflection: f64,
-    pub(crate) residual: f64,
-}
 
 /// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
 /// at its end, a larger one takes as long as the grid.
 const LARGEST_BOX: f64 = 0.6;
+/// A grid with fewer elements along an edge is solved without a guess.
+const SMALLEST_EDGE: usize = 32;
 
 /// Solves the contact, from the load of the state or, where that is zero, from coarser grids.
 pub(super) fn solve_loads(
@@ -122,39 +106,86 @@ fn check_around(
     })
 }
 
-/// When an iteration ends.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Accuracy {
-    /// See [`ContactOptions::tolerance`].
-    pub(super) tolerance: f64,
-    /// The residual must also fall to this part of what the first guess leaves; `∞` where that does not matter.
-    pub(super) part_of_first: f64,
-    pub(super) max_iterations: usize,
+impl ContactBox {
+    /// Solves for the separation set before; the load has the unit of a length.
+    pub(crate) fn solve(
+        &mut self,
+        control: Control,
+        options: &ContactOptions,
+    ) -> Result<Solved, BemError> {
+        in_pool(self.bounds.n_elements(), || {
+            self.solve_to(control, &options.into())
+        })
+    }
+
+    pub(super) fn solve_to(
+        &mut self,
+        control: Control,
+        accuracy: &Accuracy,
+    ) -> Result<Solved, BemError> {
+        let problem = LoadProblem {
+            convolution: &self.convolution,
+            separation: &self.separation,
+            control,
+        };
+        solve_loads(problem, &mut self.state, accuracy)
+    }
 }
 
-impl Accuracy {
-    /// For a solution that is the first guess on elements of half the edges.
-    ///
-    /// The residual of its own first guess measures the error of the larger elements, of which about a third remains
-    /// with these; nothing is gained from a solution more accurate than that.
-    pub(super) const GUESS: Self = Self {
-        tolerance: 1e-3,
-        part_of_first: 0.1,
-        max_iterations: 100,
+/// Loads the state with the solution for elements of twice the edges; leaves it unloaded where there is none.
+fn start_from_coarser(problem: LoadProblem, state: &mut ContactState) {
+    let convolution = problem.convolution;
+    let grid = convolution.grid();
+    let [rows, columns] = grid.shape();
+    let whole = grid.unfolded(convolution.mirrors).shape();
+    let is_even = rows.is_multiple_of(2) && columns.is_multiple_of(2);
+    let has_period = convolution.surroundings == Surroundings::Periodic;
+    if whole.into_iter().any(|n| n < SMALLEST_EDGE) || (has_period && !is_even) {
+        return;
+    }
+    let coarse_convolution = convolution.between_blocks();
+    let mut coarse = ContactState::new(&coarse_convolution);
+    let problem = LoadProblem {
+        convolution: &coarse_convolution,
+        separation: &mean_of_four(problem.separation, [rows, columns]),
+        control: map_force(problem.control, |total| 0.25 * total),
     };
-
-    /// The residual at which to end, from that of the first guess.
-    pub(super) fn target(&self, first_residual: f64) -> f64 {
-        self.tolerance.min(self.part_of_first * first_residual)
-    }
+    // What was reached is a guess too; the finer grid decides whether the problem can be solved.
+    let _guess = solve_loads(problem, &mut coarse, &Accuracy::GUESS);
+    for_each_row(&mut state.load, columns, |row, loads| {
+        let coarse = &coarse.load[row / 2 * columns.div_ceil(2)..];
+        for (column, load) in loads.iter_mut().enumerate() {
+            *load = coarse[column / 2];
+        }
+    });
+    MirrorWeights::of(convolution).apply(&mut state.load);
 }
 
-impl From<&ContactOptions> for Accuracy {
-    fn from(options: &ContactOptions) -> Self {
-        Self {
-            tolerance: options.tolerance,
-            part_of_first: f64::INFINITY,
-            max_iterations: options.max_iterations,
+/// Mean of the finite heights of two by two elements; `+∞` where there are none.
+fn mean_of_four(heights: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+    let mean = |row: usize, column: usize| {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for row in row..(row + 2).min(rows) {
+            for column in column..(column + 2).min(columns) {
+                let height = heights[row * columns + column];
+                if height.is_finite() {
+                    sum += height;
+                    count += 1.0;
+                }
+            }
         }
-    }
+        if count > 0.0 {
+            sum / count
+        } else {
+            f64::INFINITY
+        }
+    };
+    let shape = [rows, columns].map(|n| n.div_ceil(2));
+    let mut means = vec![0.0; shape[0] * shape[1]];
+    for_each_row(&mut means, shape[1], |row, means| {
+        for (column, value) in means.iter_mut().enumerate() {
+            *value = mean(2 * row, 2 * column);
+        }
+    });
+    means
 }

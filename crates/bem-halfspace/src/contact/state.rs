@@ -1,10 +1,11 @@
-//! Pressure and buffers of a contact solve.
+//! Pressure and buffers of a contact solve, on a grid and on a part of it.
 
 use crate::bands::for_each_row;
-use crate::contact::contact_box::ContactBox;
-use crate::contact::iteration::Fields;
+use crate::bounds::Bounds;
+use crate::contact::fields::Fields;
 use crate::convolution::Surroundings;
-use crate::{Convolution, ConvolutionWorkspace, Grid};
+use crate::mirror::Mirror;
+use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
 /// Pressure and buffers of a contact; kept by the caller so that one solution is the first guess of the next. With the
 /// feature `rayon`, the buffers are for the threads of the pool of the first solve.
@@ -106,5 +107,80 @@ impl ContactState {
         let elements = self.load.iter().enumerate();
         let loaded = elements.filter(|(_, load)| **load > 0.0);
         self.contact.extend(loaded.map(|(element, _)| element));
+    }
+}
+
+/// A box of elements around the contact, on which the contact is solved in place of the grid.
+#[derive(Debug, Clone)]
+pub(crate) struct ContactBox {
+    pub(crate) bounds: Bounds,
+    pub(super) convolution: Convolution,
+    pub(crate) state: ContactState,
+    pub(crate) separation: Vec<f64>,
+}
+
+impl ContactBox {
+    fn new(convolution: Convolution, bounds: Bounds) -> Self {
+        Self {
+            bounds,
+            state: ContactState::new(&convolution),
+            separation: vec![0.0; bounds.n_elements()],
+            convolution,
+        }
+    }
+
+    /// A box of elements of the grid of a convolution, at the same mirrors.
+    pub(crate) fn of(convolution: &Convolution, bounds: Bounds) -> Result<Self, BemError> {
+        let grid = Grid::new(bounds.shape(), convolution.grid().spacing())?;
+        Ok(Self::new(convolution.on_grid(&grid), bounds))
+    }
+
+    /// The part of the grid of a convolution in front of mirrors in its middle.
+    pub(super) fn in_front_of(mirrors: [Mirror; 2], convolution: &Convolution) -> Self {
+        let folded = convolution.folded(mirrors);
+        let (part, upper) = (folded.grid().shape(), convolution.grid().shape());
+        let lower = [upper[0] - part[0], upper[1] - part[1]];
+        Self::new(folded, Bounds { lower, upper })
+    }
+
+    /// A box of other bounds that starts from the load of this one.
+    pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
+        let mut moved = Self::of(&self.convolution, bounds)?;
+        let columns = bounds.shape()[1];
+        for (element, load) in self.loaded_elements() {
+            if bounds.contains(element) {
+                let [row, column] = [element[0] - bounds.lower[0], element[1] - bounds.lower[1]];
+                moved.state.load[row * columns + column] = load;
+            }
+        }
+        Ok(moved)
+    }
+
+    /// Copies what lies inside the bounds from fields with `columns` columns, the load as a first guess.
+    pub(super) fn take_from(&mut self, [separation, load]: [&[f64]; 2], columns: usize) {
+        let bounds = self.bounds;
+        bounds.cut((separation, columns), &mut self.separation);
+        bounds.cut((load, columns), &mut self.state.load);
+    }
+
+    /// Copies the load into a field with `columns` columns.
+    pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {
+        let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
+        let field = &mut field[rows.start * columns..rows.end * columns];
+        for_each_row(field, columns, |row, values| {
+            let load = &self.state.load[row * width..][..width];
+            values[self.bounds.columns()].copy_from_slice(load);
+        });
+    }
+
+    /// Elements with load, as [row, column] of the field in which the box lies, and their load.
+    pub(crate) fn loaded_elements(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
+        let (lower, columns) = (self.bounds.lower, self.bounds.shape()[1]);
+        let loads = self.state.load.iter().enumerate();
+        let loaded = loads.filter(|(_, load)| **load > 0.0);
+        loaded.map(move |(index, &load)| {
+            let element = [lower[0] + index / columns, lower[1] + index % columns];
+            (element, load)
+        })
     }
 }

@@ -1,7 +1,8 @@
 //! Directions of the conjugate gradients.
 
 use crate::contact::Control;
-use crate::contact::iteration::{Fields, Iteration};
+use crate::contact::fields::Fields;
+use crate::contact::iteration::Iteration;
 use crate::contact::listed::Listed;
 use crate::contact::reductions::sum;
 
