@@ -1,7 +1,5 @@
 //! Where a surface is lower than a given height.
 
-use crate::Surface;
-
 /// Half width of the first square, and of the last, in units of the height.
 const HALF_WIDTHS: [f64; 2] = [1e-9, 1e60];
 /// The surface is nowhere lower outside a square when it is not up to so many times its width.
@@ -14,17 +12,16 @@ const GRIDS: usize = 40;
 /// `[[x_min, x_max], [y_min, y_max]]`.
 type Rectangle = [[f64; 2]; 2];
 
-/// See [`Surface::extent_below`].
-pub(crate) fn search(surface: &(impl Surface + ?Sized), height: f64) -> Rectangle {
+/// The extent of the points that are lower than a height; see [`Surface::extent_below`](crate::Surface::extent_below).
+pub(crate) fn search(height: f64, is_lower: impl Fn([f64; 2]) -> bool) -> Rectangle {
     if height.is_nan() || height <= 0.0 {
         return [[0.0; 2]; 2];
     }
-    let is_lower = |position: [f64; 2]| surface.height(position) < height;
     let [first, last] = HALF_WIDTHS.map(|half_width| half_width * height);
-    let found = on_squares(is_lower, [first, last]);
+    let found = on_squares(&is_lower, [first, last]);
     let endless = |end: f64| end.abs() > last / MARGIN;
     if !found.as_flattened().iter().copied().any(endless) {
-        return tightened(is_lower, found);
+        return tightened(&is_lower, found);
     }
     found.map(|[start, end]| {
         let spare = 4.0 / f64::from(INTERVALS) * (end - start);

@@ -41,7 +41,6 @@ mod inverse_abel;
 mod leading_edge;
 mod line;
 mod load;
-mod monotone_breaks;
 mod piecewise_linear;
 mod power;
 #[doc(hidden)]

@@ -1,8 +1,11 @@
-//! Rigid lines of the one-dimensional model.
+//! Rigid lines of the one-dimensional model, and where they turn up or down.
 
 use crate::Axisymmetric;
 use crate::forward::forward;
-use crate::monotone_breaks::find_breaks;
+use numerics::bracketed_root;
+
+/// Halvings of an interval whose slopes contradict its heights before it is taken as it is.
+const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
 pub trait RigidLine {
@@ -81,4 +84,94 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
             .chain(radii.iter().copied())
             .collect()
     }
+}
+
+/// Positions, increasing, from end to end of the domain, between which the line only rises or only falls.
+///
+/// Searches `samples` equal intervals of the (finite) domain, finer between kinks, for a change of sign of the slope. Two
+/// turning points inside one of them are not seen.
+fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
+    let [lower, upper] = line.domain();
+    let mut breaks = vec![lower];
+    breaks.extend(
+        line.kinks()
+            .into_iter()
+            .filter(|x| *x > lower && *x < upper),
+    );
+    breaks.push(upper);
+    let spacing = (upper - lower) / as_float(samples.max(1));
+    let stations = stations(&breaks, spacing);
+    // Slope with which the last interval ended, zero as long as the line is level.
+    let mut heading = 0.0_f64;
+    for ends in stations.windows(2) {
+        let [left, right] = [ends[0], ends[1]];
+        let [start, end] = inside([left, right]).map(|x| line.slope(x));
+        let rise = line.height(right) - line.height(left);
+        let entry = first_not_zero([start, rise, heading]);
+        // A height that is not finite is handed on to whoever evaluates the line at the breaks.
+        if heading.signum() * entry < 0.0 || !line.height(left).is_finite() {
+            breaks.push(left);
+        }
+        breaks.extend(turning_point(line, [left, right], 0));
+        heading = first_not_zero([end, entry, heading]);
+    }
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    breaks
+}
+
+/// The fixed positions, and between them others at most 1.5 spacings apart.
+fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
+    let mut stations = Vec::new();
+    for gap in fixed.windows(2) {
+        stations.push(gap[0]);
+        let between = (1..).map(|step| gap[0] + as_float(step) * spacing);
+        // No sliver is left before the end of the gap.
+        stations.extend(between.take_while(|x| x + 0.5 * spacing < gap[1]));
+    }
+    stations.extend(fixed.last());
+    stations
+}
+
+/// One step inside, so that at a kink the slope is that on the side of this interval.
+fn inside([left, right]: [f64; 2]) -> [f64; 2] {
+    [left.next_up(), right.next_down()]
+}
+
+fn first_not_zero(candidates: [f64; 3]) -> f64 {
+    let [first, second, third] = candidates;
+    match (first != 0.0, second != 0.0) {
+        (true, _) => first,
+        (false, true) => second,
+        (false, false) => third,
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a line is sampled at fewer than 2^53 points"
+)]
+fn as_float(count: usize) -> f64 {
+    count as f64
+}
+
+/// The position inside an interval without kinks at which the slope changes its sign.
+fn turning_point(
+    line: &(impl RigidLine + ?Sized),
+    [left, right]: [f64; 2],
+    bisections: u32,
+) -> Option<f64> {
+    let inside = inside([left, right]);
+    let [start, end] = inside.map(|x| line.slope(x));
+    if start * end.signum() < 0.0 {
+        return bracketed_root(|x| line.slope(x), inside);
+    }
+    let rise = line.height(right) - line.height(left);
+    let contradicts = rise * start < 0.0 || rise * end < 0.0;
+    if !contradicts || bisections == MAX_BISECTIONS {
+        return None;
+    }
+    let middle = 0.5 * (left + right);
+    turning_point(line, [left, middle], bisections + 1)
+        .or_else(|| turning_point(line, [middle, right], bisections + 1))
 }

@@ -32,7 +32,7 @@ pub trait Surface: Send + Sync {
     /// distance from it, or a thousand times as far away as the others, are not seen. The rectangle holds the origin too, and
     /// is a tenth too large.
     fn extent_below(&self, height: f64) -> [[f64; 2]; 2] {
-        search(self, height)
+        search(height, |position| self.height(position) < height)
     }
 
     /// Leading exponent p of h ∼ c r^p at the lowest point; 1 where nothing is known.
