@@ -1,7 +1,5 @@
 //! Arrays as NumPy keeps them: a header in the notation of Python, then the numbers.
 
-use thiserror::Error;
-
 const MAGIC: &[u8] = b"\x93NUMPY";
 const VERSION: [u8; 2] = [1, 0];
 
@@ -24,78 +22,38 @@ pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
 
 /// Numbers in rows and columns.
 #[derive(Debug, Clone, PartialEq)]
-pub struct NpyTable {
+pub(crate) struct NpyTable {
     /// Rows and columns.
-    pub shape: [usize; 2],
+    pub(crate) shape: [usize; 2],
     /// Row by row.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
-/// Why a file is no table of numbers.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum NpyError {
-    /// Another kind of file, or another version.
-    #[error("an array of NumPy in the format 1.0, 2.0 or 3.0 is needed")]
-    Format,
-    /// The file ends before its numbers begin.
-    #[error("the header ends after {needed} bytes, but the file has {length}")]
-    HeaderCut {
-        /// Bytes up to the end of the header.
-        needed: usize,
-        /// Bytes of the file.
-        length: usize,
-    },
-    /// Something that the header does not say as NumPy does.
-    #[error("the header does not say {what}")]
-    Header {
-        /// What is missing.
-        what: &'static str,
-    },
-    /// Other numbers.
-    #[error("little-endian floats are needed, '<f8' or '<f4', and not {descr}")]
-    DataType {
-        /// As the file writes it.
-        descr: String,
-    },
-    /// Other than rows and columns.
-    #[error("an array of 2 dimensions is needed, and not of {dimensions}")]
-    Dimensions {
-        /// Those of the file.
-        dimensions: usize,
-    },
-    /// Numbers are missing, or there are more.
-    #[error("{rows} x {columns} numbers of {size} bytes are needed, but there are {length} bytes")]
-    Length {
-        /// Rows by the header.
-        rows: usize,
-        /// Columns by the header.
-        columns: usize,
-        /// Bytes of a number.
-        size: usize,
-        /// Bytes behind the header.
-        length: usize,
-    },
-}
+const SINGLE: usize = size_of::<f32>();
+const DOUBLE: usize = size_of::<f64>();
 
-/// The table in a file that `numpy.save` wrote.
-///
-/// # Errors
-/// [`NpyError`] for everything but little-endian floats in rows and columns.
-pub fn from_npy(bytes: &[u8]) -> Result<NpyTable, NpyError> {
+/// The table in a file that `numpy.save` wrote, little-endian floats in rows and columns, or why it is none.
+pub(crate) fn from_npy(bytes: &[u8]) -> Result<NpyTable, String> {
     let (header, numbers) = parts(bytes)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
     let [rows, columns] = shape(header)?;
     let count = rows.checked_mul(columns);
     if count.and_then(|count| count.checked_mul(size)) != Some(numbers.len()) {
-        return Err(NpyError::Length {
-            rows,
-            columns,
-            size,
-            length: numbers.len(),
-        });
+        return Err(format!(
+            "{rows} x {columns} numbers of {size} bytes are needed, but there are {} bytes",
+            numbers.len()
+        ));
     }
-    let mut values = floats(numbers, size);
+    let mut values: Vec<f64> = if size == SINGLE {
+        let (numbers, _) = numbers.as_chunks();
+        let number = |bytes: &[u8; SINGLE]| f32::from_le_bytes(*bytes).into();
+        numbers.iter().map(number).collect()
+    } else {
+        let (numbers, _) = numbers.as_chunks();
+        let number = |bytes: &[u8; DOUBLE]| f64::from_le_bytes(*bytes);
+        numbers.iter().map(number).collect()
+    };
     if by_column {
         let place = |index: usize| index / columns + index % columns * rows;
         values = (0..values.len())
@@ -108,39 +66,25 @@ pub fn from_npy(bytes: &[u8]) -> Result<NpyTable, NpyError> {
     })
 }
 
-const SINGLE: usize = size_of::<f32>();
-const DOUBLE: usize = size_of::<f64>();
-
-fn floats(bytes: &[u8], size: usize) -> Vec<f64> {
-    if size == SINGLE {
-        let (numbers, _) = bytes.as_chunks::<SINGLE>();
-        return numbers
-            .iter()
-            .map(|bytes| f32::from_le_bytes(*bytes).into())
-            .collect();
-    }
-    let (numbers, _) = bytes.as_chunks::<DOUBLE>();
-    numbers
-        .iter()
-        .map(|bytes| f64::from_le_bytes(*bytes))
-        .collect()
-}
-
 /// The header, and the bytes of the numbers.
-fn parts(bytes: &[u8]) -> Result<(&str, &[u8]), NpyError> {
+fn parts(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     let (start, length) = match bytes.strip_prefix(MAGIC) {
         Some([1, 0, low, high, ..]) => (10, u32::from(u16::from_le_bytes([*low, *high]))),
         Some([2 | 3, 0, a, b, c, d, ..]) => (12, u32::from_le_bytes([*a, *b, *c, *d])),
-        _ => return Err(NpyError::Format),
+        _ => return Err("an array of NumPy in the format 1.0, 2.0 or 3.0 is needed".to_owned()),
     };
     let needed = usize::try_from(length).map_or(usize::MAX, |length| length.saturating_add(start));
     let length = bytes.len();
-    let header = bytes
-        .get(start..needed)
-        .ok_or(NpyError::HeaderCut { needed, length })?;
-    let what = "anything in UTF-8";
-    let header = std::str::from_utf8(header).map_err(|_| NpyError::Header { what })?;
+    let header = bytes.get(start..needed).ok_or_else(|| {
+        format!("the header ends after {needed} bytes, but the file has {length}")
+    })?;
+    let header = std::str::from_utf8(header).map_err(|_| without("anything in UTF-8"))?;
     Ok((header, &bytes[needed..]))
+}
+
+/// The header does not say something as NumPy does.
+fn without(what: &str) -> String {
+    format!("the header does not say {what}")
 }
 
 /// What follows a key.
@@ -149,51 +93,46 @@ fn after<'a>(header: &'a str, key: &str) -> Option<&'a str> {
     Some(value.trim_start().strip_prefix(':')?.trim_start())
 }
 
-fn size_of_number(header: &str) -> Result<usize, NpyError> {
-    let what = "the type of its numbers, as in 'descr': '<f8'";
-    let value = after(header, "'descr'").ok_or(NpyError::Header { what })?;
-    if value.starts_with("'<f8'") {
-        return Ok(DOUBLE);
+fn size_of_number(header: &str) -> Result<usize, String> {
+    match after(header, "'descr'") {
+        Some(value) if value.starts_with("'<f8'") => Ok(DOUBLE),
+        Some(value) if value.starts_with("'<f4'") => Ok(SINGLE),
+        Some(value) => {
+            let letters = value.chars().filter(|letter| !letter.is_control());
+            let letters = letters.take_while(|letter| *letter != ',').take(40);
+            let descr: String = letters.collect();
+            Err(format!(
+                "little-endian floats are needed, '<f8' or '<f4', and not {descr}"
+            ))
+        }
+        None => Err(without("the type of its numbers, as in 'descr': '<f8'")),
     }
-    if value.starts_with("'<f4'") {
-        return Ok(SINGLE);
-    }
-    let letters = value.chars().filter(|letter| !letter.is_control());
-    let descr = letters.take_while(|letter| *letter != ',').take(40);
-    Err(NpyError::DataType {
-        descr: descr.collect(),
-    })
 }
 
 /// Whether the first index is the fastest, as of a transposed array.
-fn is_by_column(header: &str) -> Result<bool, NpyError> {
-    let what = "the order of its numbers, as in 'fortran_order': False";
-    let value = after(header, "'fortran_order'").ok_or(NpyError::Header { what })?;
-    match (value.starts_with("True"), value.starts_with("False")) {
-        (true, _) => Ok(true),
-        (_, true) => Ok(false),
-        _ => Err(NpyError::Header { what }),
+fn is_by_column(header: &str) -> Result<bool, String> {
+    match after(header, "'fortran_order'") {
+        Some(value) if value.starts_with("True") => Ok(true),
+        Some(value) if value.starts_with("False") => Ok(false),
+        _ => Err(without(
+            "the order of its numbers, as in 'fortran_order': False",
+        )),
     }
 }
 
-fn shape(header: &str) -> Result<[usize; 2], NpyError> {
-    let what = "its shape, as in 'shape': (3, 4)";
-    let unclear = NpyError::Header { what };
+fn shape(header: &str) -> Result<[usize; 2], String> {
     let tuple = after(header, "'shape'").and_then(|value| value.strip_prefix('('));
-    let Some((tuple, _)) = tuple.and_then(|tuple| tuple.split_once(')')) else {
-        return Err(unclear);
-    };
-    let mut lengths: Vec<&str> = tuple.split(',').map(str::trim).collect();
-    // A tuple may end with a comma; that of no dimension is empty.
-    if lengths.last().is_some_and(|last| last.is_empty()) {
-        lengths.pop();
-    }
-    let lengths: Result<Vec<usize>, _> = lengths.into_iter().map(str::parse).collect();
-    let lengths = lengths.map_err(|_| unclear)?;
-    let dimensions = lengths.len();
-    lengths
-        .try_into()
-        .map_err(|_| NpyError::Dimensions { dimensions })
+    let tuple = tuple.and_then(|tuple| Some(tuple.split_once(')')?.0));
+    let lengths = tuple.and_then(|tuple| {
+        // A tuple may end with a comma.
+        let lengths = tuple.trim().split_terminator(',');
+        lengths.map(|length| length.trim().parse().ok()).collect()
+    });
+    let lengths: Vec<usize> = lengths.ok_or_else(|| without("its shape, as in 'shape': (3, 4)"))?;
+    <[usize; 2]>::try_from(lengths).map_err(|lengths| {
+        let dimensions = lengths.len();
+        format!("an array of 2 dimensions is needed, and not of {dimensions}")
+    })
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use comfy_table::Table;
 use cpu_time::ProcessTime;
 use viscofriction::Estimate;
 use viscofriction::scene::{Accuracy, Method};
-use viscofriction::solve::{Answer, Omission, Problem, SameProblem, solve_by};
+use viscofriction::solve::{Answer, Omission, Problem, solve_again, solve_by};
 
 use super::{Timed, files};
 use crate::output::{OutputFolder, markdown};
@@ -66,7 +66,7 @@ pub(super) fn table(problem: &Problem, answer: &Timed<'_>) -> Result<Table> {
             }
             Err(error) => ["", "", "", "", &format!("not measured: {error:#}")].map(str::to_owned),
         };
-        let names = [name, omission.because()].map(str::to_owned);
+        let names = [name, omission.because().to_owned()];
         table.add_row(names.into_iter().chain(cells));
     }
     Ok(table)
@@ -82,7 +82,7 @@ fn saving(problem: &Problem, answer: &Timed<'_>, omission: Omission) -> Result<S
     let answer = answer.answer;
     match omission.done_by(answer.model, problem.motion) {
         Some(method) => by_method(problem, answer, method),
-        None => on_same_problem(&SameProblem::of(problem, answer)?, omission),
+        None => on_same_problem(problem, answer, omission),
     }
 }
 
@@ -98,9 +98,9 @@ fn of_files(answer: &Timed<'_>) -> Result<Saving> {
     })
 }
 
-fn on_same_problem(problem: &SameProblem, omission: Omission) -> Result<Saving> {
-    let (numbers, left_out) = metered(|| Ok(problem.solve(None)?))?;
-    let (others, done) = metered(|| Ok(problem.solve(Some(omission))?))?;
+fn on_same_problem(problem: &Problem, answer: &Answer, omission: Omission) -> Result<Saving> {
+    let (numbers, left_out) = metered(|| Ok(solve_again(problem, answer, None)?))?;
+    let (others, done) = metered(|| Ok(solve_again(problem, answer, Some(omission))?))?;
     let changes = numbers.iter().zip(&others);
     let changes = changes.map(|([number, scale], [other, _])| ((other - number) / scale).abs());
     // NaN counts as the largest.

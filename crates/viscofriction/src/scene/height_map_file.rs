@@ -24,7 +24,7 @@ pub fn height_map(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<Hei
 
 /// An array of heights, the first index along x.
 fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
-    let NpyTable { shape, values } = from_npy(contents).map_err(|error| error.to_string())?;
+    let NpyTable { shape, values } = from_npy(contents)?;
     let wrong = values.iter().position(|height| !height.is_finite());
     if let Some(index) = wrong {
         let [row, column] = [index / shape[1], index % shape[1]];

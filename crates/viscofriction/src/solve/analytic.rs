@@ -5,12 +5,9 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use friction_analytic::{
     FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
     cylinder_half_width_after_impulse, half_space_power_friction, impulse_to_depth,
-    indentation_after_impulse, kelvin_voigt_sliding, maxwell_sliding, power_sliding,
-    superposition_sliding, transient_sliding,
+    indentation_after_impulse, power_sliding, superposition_sliding, transient_sliding,
 };
-use indenters::{
-    Axisymmetric as _, Control, Cylinder, PowerProfile, PressingLoad, SlidingLoad, contact_radius,
-};
+use indenters::{Axisymmetric as _, Control, Cylinder, PowerProfile, SlidingLoad, contact_radius};
 use numerics::{Estimate, bracketed_root};
 use rheology::{Material, Viscous};
 
@@ -19,7 +16,6 @@ use super::body::Revolution;
 use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
 use super::pressing::{impulse, stiffness, unit_dashpot};
-use super::work::ClosedForm;
 use crate::scene::{Method, Model};
 
 /// Points of the load along the contact.
@@ -31,42 +27,8 @@ const SEARCHED: f64 = 1e-12;
 /// Relative rounding of the closed form.
 const ROUNDING: f64 = 1e-14;
 
-/// The answer of a closed form.
-pub(crate) fn answer(form: ClosedForm<'_>, material: &dyn Material) -> Result<Answer> {
-    match form {
-        ClosedForm::Pressed(body, load) => pressed(body, material, &load),
-        ClosedForm::CylinderPressed(cylinder, force, duration) => {
-            cylinder_pressed(cylinder, material, force, duration)
-        }
-        // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
-        ClosedForm::Elastic(body, load) => {
-            let load = PressingLoad::new(load.control(), 1.0)?;
-            pressed(body, material, &load).map(without_friction)
-        }
-        ClosedForm::ElasticCylinder(cylinder, force) => {
-            cylinder_pressed(cylinder, material, force, 1.0).map(without_friction)
-        }
-        ClosedForm::HalfSpacePower(profile, material, load) => {
-            viscous_half_space(profile, &material, &load)
-        }
-        ClosedForm::ViscousLine(body, material, load) => viscous_line(body, &material, &load),
-        ClosedForm::ViscousTransient(profile, material, load, distance) => {
-            viscous_transient(profile, &material, &load, distance)
-        }
-        ClosedForm::KelvinVoigtLine(profile, material, load) => {
-            viscoelastic_line(profile, &load, |contact| {
-                kelvin_voigt_sliding(profile, &material, contact)
-            })
-        }
-        ClosedForm::MaxwellLine(profile, material, load) => {
-            viscoelastic_line(profile, &load, |contact| {
-                maxwell_sliding(profile, &material, contact)
-            })
-        }
-    }
-}
-
-fn without_friction(pressed: Answer) -> Answer {
+/// The same where nothing is lost.
+pub(crate) fn without_friction(pressed: Answer) -> Answer {
     Answer {
         friction_coefficient: Some(Estimate::exact(0.0)),
         ..pressed
@@ -74,7 +36,11 @@ fn without_friction(pressed: Answer) -> Answer {
 }
 
 /// The stationary state on a viscous line.
-fn viscous_line(body: &Revolution, material: &Viscous, load: &SlidingLoad) -> Result<Answer> {
+pub(crate) fn viscous_line(
+    body: &Revolution,
+    material: &Viscous,
+    load: &SlidingLoad,
+) -> Result<Answer> {
     let velocity = load.velocity();
     let per_depth = 4.0 * material.viscosity() * velocity;
     let force = match load.control() {
@@ -140,7 +106,7 @@ fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> V
 }
 
 /// The stationary state of a power profile on a viscous half space, from the table of s(p).
-fn viscous_half_space(
+pub(crate) fn viscous_half_space(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
@@ -154,7 +120,7 @@ fn viscous_half_space(
 }
 
 /// Cone and paraboloid on a viscous line, a distance after first touch.
-fn viscous_transient(
+pub(crate) fn viscous_transient(
     profile: &PowerProfile,
     material: &Viscous,
     load: &SlidingLoad,
@@ -172,7 +138,7 @@ fn viscous_transient(
 }
 
 /// Cone and paraboloid on a Kelvin–Voigt or Maxwell line.
-fn viscoelastic_line(
+pub(crate) fn viscoelastic_line(
     profile: &PowerProfile,
     load: &SlidingLoad,
     sliding: impl Fn(SlidingContact) -> Result<ViscoelasticSliding, FrictionError>,
@@ -213,9 +179,14 @@ fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
 }
 
 /// A body that is pressed, in closed form or by quadrature: half space and line agree exactly.
-fn pressed(body: &Revolution, material: &dyn Material, load: &PressingLoad) -> Result<Answer> {
-    let (duration, dashpot) = (load.duration(), unit_dashpot()?);
-    let (force, depth, radius) = match load.control() {
+pub(crate) fn pressed(
+    body: &Revolution,
+    material: &dyn Material,
+    control: Control,
+    duration: f64,
+) -> Result<Answer> {
+    let dashpot = unit_dashpot()?;
+    let (force, depth, radius) = match control {
         Control::NormalForce(force) => {
             let impulse = impulse(material, force, duration)?;
             let contact = indentation_after_impulse(body, &dashpot, impulse)?;
@@ -233,7 +204,7 @@ fn pressed(body: &Revolution, material: &dyn Material, load: &PressingLoad) -> R
         }
         _ => None,
     };
-    let (force, depth) = found_beside(load.control(), [force, depth], QUADRATURE);
+    let (force, depth) = found_beside(control, [force, depth], QUADRATURE);
     let across = [-radius, radius];
     Ok(Answer {
         indentation_depth: Some(depth),
@@ -262,7 +233,7 @@ fn peak_of_power(
 }
 
 /// A cylinder that is infinite along y, under a constant force in plane strain: all forces and areas are per length.
-fn cylinder_pressed(
+pub(crate) fn cylinder_pressed(
     cylinder: &Cylinder,
     material: &dyn Material,
     force: f64,

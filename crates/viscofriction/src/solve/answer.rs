@@ -101,19 +101,6 @@ pub struct HistoryRow {
     pub friction_coefficient: f64,
 }
 
-/// Reads a quantity of an answer.
-type Quantity = fn(&Answer) -> Option<Estimate>;
-
-/// Quantities by their names in JSON and CSV, in this order, each with its error.
-const QUANTITIES: [(&str, Quantity); 6] = [
-    ("friction_coefficient", |answer| answer.friction_coefficient),
-    ("normal_force", |answer| Some(answer.normal_force)),
-    ("tangential_force", Answer::tangential_force),
-    ("indentation_depth", |answer| answer.indentation_depth),
-    ("contact_area", |answer| answer.contact_area),
-    ("peak_pressure", |answer| answer.peak_pressure),
-];
-
 /// A value that is known to a relative error.
 pub(crate) const fn within(value: f64, relative_error: f64) -> Estimate {
     Estimate {
@@ -167,12 +154,23 @@ impl Answer {
             .unwrap_or(self.normal_force)
     }
 
+    /// Quantities by their names in JSON and CSV, in this order, each with its error.
+    fn quantities(&self) -> [(&str, Option<Estimate>); 6] {
+        [
+            ("friction_coefficient", self.friction_coefficient),
+            ("normal_force", Some(self.normal_force)),
+            ("tangential_force", self.tangential_force()),
+            ("indentation_depth", self.indentation_depth),
+            ("contact_area", self.contact_area),
+            ("peak_pressure", self.peak_pressure),
+        ]
+    }
+
     /// All numbers by their names in CSV; those that are not known stay empty.
     #[must_use]
     pub fn numbers(&self) -> Vec<(String, Option<f64>)> {
         let mut numbers = Vec::new();
-        for (name, quantity) in QUANTITIES {
-            let known = quantity(self);
+        for (name, known) in self.quantities() {
             numbers.push((name.to_owned(), known.map(|known| known.value)));
             numbers.push((format!("{name}_error"), known.map(|known| known.error)));
         }
@@ -180,8 +178,7 @@ impl Answer {
         numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
-        let names = EDGES.map(str::to_owned);
-        numbers.extend(names.into_iter().zip(edges));
+        numbers.extend(EDGES.map(str::to_owned).into_iter().zip(edges));
         let error = contact.map(|contact| contact.error);
         numbers.push(("contact_box_error".to_owned(), error));
         numbers
@@ -231,13 +228,8 @@ impl ContactBox {
 
 impl Serialize for ContactBox {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (name, edge) in EDGES.into_iter().zip(self.edges()) {
-            if let Some(edge) = edge {
-                map.serialize_entry(name, &edge)?;
-            }
-        }
-        map.end()
+        let edges = EDGES.into_iter().zip(self.edges());
+        serializer.collect_map(edges.filter_map(|(name, edge)| Some((name, edge?))))
     }
 }
 
@@ -246,8 +238,8 @@ impl Serialize for Answer {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
-        for (name, quantity) in QUANTITIES {
-            if let Some(Estimate { value, error }) = quantity(self) {
+        for (name, known) in self.quantities() {
+            if let Some(Estimate { value, error }) = known {
                 map.serialize_entry(name, &value)?;
                 map.serialize_entry(&format!("{name}_error"), &error)?;
             }

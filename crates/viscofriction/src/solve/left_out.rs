@@ -21,64 +21,56 @@ pub(crate) fn plan(problem: &Problem, answer: &Answer) -> Vec<Omission> {
 }
 
 fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
-    if matches!(problem.body, Body::Cylinder(_)) {
+    let [even_along, even_across] = match &problem.body {
         // No other method answers for it, and one element along y leaves nothing to leave out.
-        return Vec::new();
-    }
-    match (answer.method, problem.motion) {
+        Body::Cylinder(_) => return Vec::new(),
+        Body::Revolution(body) => body.mirrors(),
+        Body::HeightMap(map) => map.mirrors(),
+    };
+    let mirror = |is_even: bool| is_even.then_some(Omission::MirrorHalf);
+    let candidates = match (answer.method, problem.motion) {
         (Method::Analytic, Motion::Sliding(_)) => {
-            vec![Omission::NumericalSolution, Omission::TimeSteps]
+            vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
         (Method::Analytic, Motion::Pressing(_)) => {
-            vec![Omission::NumericalSolution, Omission::HalfSpace]
+            vec![Some(Omission::NumericalSolution), Some(Omission::HalfSpace)]
         }
-        (Method::MdrSteady, _) => vec![Omission::TimeSteps],
-        (Method::MdrTransient, Motion::Pressing(_)) => vec![Omission::HalfSpace],
-        (Method::MdrTransient, Motion::Sliding(_)) => Vec::new(),
+        (Method::MdrSteady, _) => vec![Some(Omission::TimeSteps)],
+        (Method::MdrTransient, Motion::Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (Method::BemSteady, Motion::Sliding(load)) => {
-            let mut left_out = Vec::new();
-            left_out.extend(mirrors(&problem.body)[1].then_some(Omission::MirrorHalf));
-            left_out.push(outside_or_transforms(answer));
             // After a distance the friction is not yet that of the stationary state.
-            left_out.extend(
-                load.sliding_distance()
-                    .is_none()
-                    .then_some(Omission::TimeSteps),
-            );
-            left_out
+            let is_stationary = load.sliding_distance().is_none();
+            vec![
+                mirror(even_across),
+                Some(outside_or_transforms(answer)),
+                is_stationary.then_some(Omission::TimeSteps),
+            ]
         }
-        (Method::BemSteady, Motion::Pressing(_)) => Vec::new(),
-        (Method::BemTransient, Motion::Sliding(_)) => {
-            let mut left_out = Vec::new();
-            left_out.extend(mirrors(&problem.body)[1].then_some(Omission::MirrorHalf));
-            left_out.extend([Omission::OutsideContact, Omission::RowsBehind]);
-            left_out
-        }
+        (Method::BemTransient, Motion::Sliding(_)) => vec![
+            mirror(even_across),
+            Some(Omission::OutsideContact),
+            Some(Omission::RowsBehind),
+        ],
         (Method::BemTransient, Motion::Pressing(_)) => {
-            let mut left_out = vec![Omission::TimeSteps];
-            let is_even = mirrors(&problem.body) != [false; 2];
-            left_out.extend(is_even.then_some(Omission::MirrorHalf));
-            left_out.push(Omission::Gradients);
             // A depth that is held needs another force at every time.
             let constant = matches!(problem.motion.control(), Control::NormalForce(_));
-            let remembers = n_fields(&problem.material.creep()) > 1;
-            left_out.extend((constant && remembers).then_some(Omission::HistoryFields));
-            left_out
+            let remembers = constant && n_fields(&problem.material.creep()) > 1;
+            vec![
+                Some(Omission::TimeSteps),
+                mirror(even_along || even_across),
+                Some(Omission::Gradients),
+                remembers.then_some(Omission::HistoryFields),
+            ]
         }
-    }
-}
-
-/// Whether a body is its own mirror image along x and y.
-fn mirrors(body: &Body) -> [bool; 2] {
-    match body {
-        Body::Revolution(body) => body.mirrors(),
-        Body::Cylinder(cylinder) => cylinder.mirrors(),
-        Body::HeightMap(map) => map.mirrors(),
-    }
+        (Method::MdrTransient, Motion::Sliding(_)) | (Method::BemSteady, Motion::Pressing(_)) => {
+            Vec::new()
+        }
+    };
+    candidates.into_iter().flatten().collect()
 }
 
 /// A box is transformed unless its contact is factorised.
-fn outside_or_transforms(answer: &Answer) -> Omission {
+const fn outside_or_transforms(answer: &Answer) -> Omission {
     match answer.grid {
         Some(Grid::Stationary {
             factorised: true, ..

@@ -19,16 +19,15 @@ mod work;
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
 pub use error::{Result, SolveError};
-pub use numerics::ErrorParts;
 pub(crate) use offer::not_offered;
 pub use offer::{NotOffered, choose, problem_of};
 pub use omission::Omission;
 pub use problem::{Motion, Problem};
-pub use same_problem::SameProblem;
+pub use same_problem::solve_again;
 
 use self::left_out::plan;
 use self::validity::warnings;
-use self::work::{Work, work};
+use self::work::work;
 use crate::scene::{Accuracy, Method};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -45,11 +44,7 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 /// [`SolveError`] where what was asked for was not reached.
 pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
     let refused = |why| SolveError::Refused { method, why };
-    let answer = answer(
-        work(problem, method, accuracy).map_err(refused)?,
-        problem,
-        accuracy,
-    )?;
+    let answer = work(problem, method, accuracy).map_err(refused)?()?;
     let left_out = plan(problem, &answer);
     // Closed forms of pressing are those of both models.
     let model = method.model().unwrap_or(problem.model);
@@ -60,26 +55,4 @@ pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result
         ..answer
     };
     answer.finite()
-}
-
-fn answer(work: Work<'_>, problem: &Problem, accuracy: Accuracy) -> Result<Answer> {
-    let material = &*problem.material;
-    match work {
-        Work::Closed(form) => analytic::answer(form, material),
-        Work::LinePressed(body, load) => mdr::pressed(body, material, &load, accuracy),
-        Work::LineSteady(body, load, error) => mdr::stationary(body, material, &load, error),
-        Work::LineTransient(body, load) => mdr::transient(body, material, &load, accuracy),
-        Work::HalfSpacePressed(surface, load) => {
-            elements::pressed(surface, material, &load, accuracy)
-        }
-        Work::HalfSpaceSteady(surface, load) => {
-            elements::stationary(surface, material, &load, accuracy)
-        }
-        Work::HalfSpaceTransient(surface, load) => {
-            elements::transient(surface, material, &load, accuracy)
-        }
-        Work::CylinderSteady(cylinder, load) => {
-            elements::line_contact(cylinder, material, &load, accuracy)
-        }
-    }
 }

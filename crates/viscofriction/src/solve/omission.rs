@@ -1,13 +1,15 @@
 //! Parts of the work that a scene may not need.
 
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 use super::problem::Motion;
 use crate::scene::{Method, Model};
 
 /// A part of the work that was left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Omission {
     /// Elements, where there is a closed form.
     NumericalSolution,
@@ -34,19 +36,9 @@ pub enum Omission {
 impl Omission {
     /// The name in JSON with spaces for hyphens.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::NumericalSolution => "numerical solution",
-            Self::TimeSteps => "time steps",
-            Self::HalfSpace => "half space",
-            Self::MirrorHalf => "mirror half",
-            Self::OutsideContact => "outside contact",
-            Self::Transforms => "transforms",
-            Self::RowsBehind => "rows behind",
-            Self::HistoryFields => "history fields",
-            Self::Gradients => "gradients",
-            Self::Files => "files",
-        }
+    pub fn name(self) -> String {
+        let name: &str = self.into();
+        name.replace('-', " ")
     }
 
     /// Why it was not needed.

@@ -9,10 +9,7 @@
 //! ```
 
 use super::error::{Result, SolveError};
-use bem_halfspace::indent::IndentStep;
 use rheology::{Material, RheologyError, Viscous};
-
-use crate::scene::Control;
 
 /// The dashpot on which an impulse does what the material does with F J(t).
 pub(crate) fn unit_dashpot() -> Result<Viscous, RheologyError> {
@@ -32,28 +29,4 @@ pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
         return Err(SolveError::Relaxed { duration, modulus });
     }
     Ok(stiffness)
-}
-
-/// What does in a second on the dashpot of unit viscosity what the control does to the material.
-pub(crate) fn on_unit_dashpot(
-    material: &dyn Material,
-    (control, duration): (Control, f64),
-) -> Result<Control> {
-    Ok(match control {
-        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
-        depth @ Control::IndentationDepth(_) => depth,
-    })
-}
-
-/// A second of a constant force, or of a depth that grows in proportion to time.
-pub(crate) fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
-    let step = |step: usize| {
-        let time = step as f64 / n_steps as f64;
-        let control = match control {
-            Control::NormalForce(force) => Control::NormalForce(force),
-            Control::IndentationDepth(depth) => Control::IndentationDepth(time * depth),
-        };
-        IndentStep { time, control }
-    };
-    (1..=n_steps).map(step).collect()
 }

@@ -3,17 +3,18 @@
 //! Both are the same discrete problem, and are solved far more tightly than the answer needs, so that what the
 //! omission changes is not hidden.
 
-use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
-use bem_halfspace::slide::{March, Motion as Step, MotionRow, SlideOmission, follow};
-use bem_halfspace::steady::{SteadyOmission, SteadyOptions, SteadySliding, steady_on_grid};
-use bem_halfspace::{BemError, ContactOptions, GridOptions};
+use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::slide::{March, Motion as Step, SlideOmission, follow};
+use bem_halfspace::steady::{SteadyOmission, SteadyOptions, steady_on_grid};
+use bem_halfspace::{ContactOptions, GridOptions};
 use indenters::{PressingLoad, SlidingLoad, Surface, Unmirrored};
+use rheology::Material;
 
 use super::answer::{Answer, Grid};
 use super::body::Body;
 use super::error::{Result, SolveError};
 use super::omission::Omission;
-use super::pressing;
+use super::pressing::{impulse, unit_dashpot};
 use super::problem::{Motion, Problem};
 use crate::scene::{Control, Method};
 
@@ -29,192 +30,95 @@ const STEPS: usize = 8;
 /// A quantity and what it is compared relative to.
 pub(crate) type Number = [f64; 2];
 
-/// The grid behind an answer.
-#[derive(Debug)]
-pub struct SameProblem<'a> {
-    problem: &'a Problem,
-    grid: Grid,
-    method: Method,
-    /// Distance over which the answer marched, \[m].
-    marched: Option<f64>,
-}
-
-impl<'a> SameProblem<'a> {
-    /// The grid on which the answer was found last.
-    ///
-    /// # Errors
-    /// [`super::SolveError`] for an answer without a grid.
-    pub fn of(problem: &'a Problem, answer: &Answer) -> Result<Self> {
-        let last = answer.fields.history.last();
-        Ok(Self {
-            problem,
-            grid: answer.grid.ok_or(SolveError::NoGrid)?,
-            method: answer.method,
-            marched: last.map(|row| row.sliding_distance_m),
-        })
-    }
-
-    /// What the grid answers when the work of an omission is done too: quantities, each with the scale by which its changes are
-    /// judged.
-    ///
-    /// # Errors
-    /// [`super::SolveError`] of the solver, and for work that the method does not have.
-    pub fn solve(&self, kept: Option<Omission>) -> Result<Vec<Number>> {
-        match &self.problem.body {
-            Body::Revolution(body) => self.with_or_without_mirrors(body, kept),
-            Body::HeightMap(map) => self.with_or_without_mirrors(map, kept),
-            Body::Cylinder(_) => Err(SolveError::NoGrid),
-        }
-    }
-
-    const fn not_left_out(&self, omission: Omission) -> SolveError {
-        SolveError::NotLeftOut {
-            method: self.method,
-            omission,
-        }
-    }
-
-    fn with_or_without_mirrors(
-        &self,
-        surface: &dyn Surface,
-        kept: Option<Omission>,
-    ) -> Result<Vec<Number>> {
-        match kept {
-            Some(Omission::MirrorHalf) => self.solve_for(&Unmirrored(surface), None),
-            _ => self.solve_for(surface, kept),
-        }
-    }
-
-    fn solve_for(&self, surface: &dyn Surface, kept: Option<Omission>) -> Result<Vec<Number>> {
-        match (self.problem.motion, self.grid) {
-            (Motion::Pressing(load), Grid::March(grid)) => self.press(surface, &load, &grid, kept),
-            (Motion::Sliding(load), Grid::March(grid)) => self.march(surface, &load, &grid, kept),
-            (Motion::Sliding(load), Grid::Stationary { options, .. }) => {
-                self.stationary(surface, &load, &options, kept)
-            }
-            (Motion::Pressing(_), Grid::Stationary { .. }) => Err(SolveError::NoGrid),
-        }
-    }
-
-    fn stationary(
-        &self,
-        surface: &dyn Surface,
-        load: &SlidingLoad,
-        grid: &SteadyOptions,
-        kept: Option<Omission>,
-    ) -> Result<Vec<Number>> {
-        let options = SteadyOptions {
-            tolerance: STATIONARY_TOLERANCE,
-            redundant_work: match kept {
-                None => None,
-                Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
-                Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
-                Some(other) => return Err(self.not_left_out(other)),
-            },
-            ..*grid
-        };
-        let state = steady_on_grid(surface, &*self.problem.material, load, &options)?;
-        Ok(of_state(&state))
-    }
-
-    fn march(
-        &self,
-        surface: &dyn Surface,
-        load: &SlidingLoad,
-        grid: &GridOptions,
-        kept: Option<Omission>,
-    ) -> Result<Vec<Number>> {
-        let distance = load.sliding_distance().or(self.marched);
-        let load = load.after(distance.ok_or(SolveError::NoGrid)?)?;
-        let options = GridOptions {
-            contact: CONTACT,
-            redundant_work: match kept {
-                None => None,
-                Some(Omission::OutsideContact) => Some(SlideOmission::OutsideContact),
-                Some(Omission::RowsBehind) => Some(SlideOmission::RowsBehind),
-                Some(other) => return Err(self.not_left_out(other)),
-            },
-            ..*grid
-        };
-        let mut march = March::sliding(surface, &*self.problem.material, &load, &options)?;
-        let mut last = None;
-        while let Some(row) = march.step()? {
-            last = Some(row);
-        }
-        of_motion(&last.ok_or(SolveError::NoGrid)?)
-    }
-
-    fn press(
-        &self,
-        surface: &dyn Surface,
-        load: &PressingLoad,
-        grid: &GridOptions,
-        kept: Option<Omission>,
-    ) -> Result<Vec<Number>> {
-        let (control, material) = (load.control(), &*self.problem.material);
-        let pressed = pressing::on_unit_dashpot(material, (control, load.duration()))?;
-        let options = GridOptions {
-            contact: CONTACT,
-            ..*grid
-        };
-        let dashpot = pressing::unit_dashpot()?;
-        let in_steps = |n_steps: usize| {
-            let steps = pressing::in_steps(pressed, n_steps);
-            indent_history_on_grid(surface, &dashpot, &steps, &options)
-        };
-        let rows = match (kept, control) {
-            (None, _) => in_steps(1),
-            (Some(Omission::TimeSteps), _) => in_steps(STEPS),
-            (Some(Omission::Gradients), _) => press_with_slopes(surface, pressed, &options),
-            (Some(Omission::HistoryFields), Control::NormalForce(_)) => {
-                let steps = IndentStep::constant(control, &[load.duration()]);
-                indent_history_on_grid(surface, material, &steps, &options)
-            }
-            (Some(other), _) => return Err(self.not_left_out(other)),
-        }?;
-        of_press(control, &rows)
-    }
-}
-
-/// The step made as a motion over no distance, with its slopes.
-fn press_with_slopes(
-    surface: &dyn Surface,
-    pressed: Control,
-    options: &GridOptions,
-) -> Result<Vec<IndentRow>, BemError> {
-    let steps = pressing::in_steps(pressed, 1);
-    let motion = |step: &IndentStep| Step {
-        time: step.time,
-        position: 0.0,
-        control: step.control,
+/// What the grid on which the answer was found last answers when the work of an omission is done too: quantities, each with
+/// the scale by which its changes are judged.
+///
+/// # Errors
+/// [`SolveError`] for an answer without a grid, for work that the method does not have, and of the solver.
+pub fn solve_again(
+    problem: &Problem,
+    answer: &Answer,
+    kept: Option<Omission>,
+) -> Result<Vec<Number>> {
+    let surface: &dyn Surface = match &problem.body {
+        Body::Revolution(body) => body,
+        Body::HeightMap(map) => map,
+        Body::Cylinder(_) => return Err(SolveError::NoGrid),
     };
-    let motions: Vec<Step> = steps.iter().map(motion).collect();
-    let rows = follow(surface, &pressing::unit_dashpot()?, &motions, options)?;
-    let without_slopes = |row: &MotionRow| IndentRow {
-        time: row.time,
-        indentation_depth: row.indentation_depth,
-        normal_force: row.normal_force,
-        contact_area: row.contact_area,
-        n_contact: row.n_contact,
+    let unmirrored = Unmirrored(surface);
+    let (surface, kept): (&dyn Surface, _) = match kept {
+        Some(Omission::MirrorHalf) => (&unmirrored, None),
+        _ => (surface, kept),
     };
-    Ok(rows.iter().map(without_slopes).collect())
-}
-
-fn own(value: f64) -> Number {
-    [value, value]
+    let material = &*problem.material;
+    match (problem.motion, answer.grid.ok_or(SolveError::NoGrid)?) {
+        (Motion::Pressing(load), Grid::March(grid)) => press(surface, material, &load, grid, kept),
+        (Motion::Sliding(load), Grid::March(grid)) => {
+            let marched = answer.fields.history.last();
+            let marched = marched.map(|row| row.sliding_distance_m);
+            let distance = load.sliding_distance().or(marched);
+            let load = load.after(distance.ok_or(SolveError::NoGrid)?)?;
+            march(surface, material, &load, grid, kept)
+        }
+        (Motion::Sliding(load), Grid::Stationary { options, .. }) => {
+            stationary(surface, material, &load, options, kept)
+        }
+        (Motion::Pressing(_), Grid::Stationary { .. }) => Err(SolveError::NoGrid),
+    }
 }
 
 /// Friction is a difference of slopes of both signs, and compared relative to their mean modulus.
-fn of_state(state: &SteadySliding) -> Vec<Number> {
-    vec![
+fn stationary(
+    surface: &dyn Surface,
+    material: &dyn Material,
+    load: &SlidingLoad,
+    grid: SteadyOptions,
+    kept: Option<Omission>,
+) -> Result<Vec<Number>> {
+    let method = Method::BemSteady;
+    let options = SteadyOptions {
+        tolerance: STATIONARY_TOLERANCE,
+        redundant_work: match kept {
+            None => None,
+            Some(Omission::OutsideContact) => Some(SteadyOmission::OutsideContact),
+            Some(Omission::Transforms) => Some(SteadyOmission::Transforms),
+            Some(omission) => return Err(SolveError::NotLeftOut { method, omission }),
+        },
+        ..grid
+    };
+    let state = steady_on_grid(surface, material, load, &options)?;
+    Ok(vec![
         [state.friction_coefficient, state.mean_slope],
         own(state.contact_area),
         own(state.normal_force),
-    ]
+    ])
 }
 
 /// Friction relative to the slope of a body that rises by the depth over the length of the contact.
-fn of_motion(row: &MotionRow) -> Result<Vec<Number>> {
+fn march(
+    surface: &dyn Surface,
+    material: &dyn Material,
+    load: &SlidingLoad,
+    grid: GridOptions,
+    kept: Option<Omission>,
+) -> Result<Vec<Number>> {
+    let method = Method::BemTransient;
+    let options = GridOptions {
+        contact: CONTACT,
+        redundant_work: match kept {
+            None => None,
+            Some(Omission::OutsideContact) => Some(SlideOmission::OutsideContact),
+            Some(Omission::RowsBehind) => Some(SlideOmission::RowsBehind),
+            Some(omission) => return Err(SolveError::NotLeftOut { method, omission }),
+        },
+        ..grid
+    };
+    let mut march = March::sliding(surface, material, load, &options)?;
+    let mut last = None;
+    while let Some(row) = march.step()? {
+        last = Some(row);
+    }
+    let row = last.ok_or(SolveError::NoGrid)?;
     let [rear, front] = row.contact_x.ok_or(SolveError::NoGrid)?;
     let slope = row.indentation_depth.abs() / (front - rear);
     Ok(vec![
@@ -225,21 +129,80 @@ fn of_motion(row: &MotionRow) -> Result<Vec<Number>> {
     ])
 }
 
-/// Of force and depth the one that is not given.
-fn of_press(control: Control, rows: &[IndentRow]) -> Result<Vec<Number>> {
-    let last = rows.last().ok_or(SolveError::NoGrid)?;
-    let found = match control {
-        Control::NormalForce(_) => last.indentation_depth,
-        Control::IndentationDepth(_) => impulse(rows),
+/// Of depth and force, as ∫F dt in however many steps, the one that is not given.
+fn press(
+    surface: &dyn Surface,
+    material: &dyn Material,
+    load: &PressingLoad,
+    grid: GridOptions,
+    kept: Option<Omission>,
+) -> Result<Vec<Number>> {
+    let (control, duration) = (load.control(), load.duration());
+    let options = GridOptions {
+        contact: CONTACT,
+        ..grid
     };
-    Ok(vec![own(found), own(last.contact_area)])
+    // What does in a second on the dashpot of unit viscosity what the control does to the material.
+    let dashpot = unit_dashpot()?;
+    let pressed = match control {
+        Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
+        Control::IndentationDepth(_) => control,
+    };
+    let in_steps = |n_steps: usize| {
+        let steps = in_steps(pressed, n_steps);
+        indent_history_on_grid(surface, &dashpot, &steps, &options)
+    };
+    let method = Method::BemTransient;
+    let rows = match (kept, control) {
+        (None, _) => in_steps(1),
+        (Some(Omission::TimeSteps), _) => in_steps(STEPS),
+        (Some(Omission::HistoryFields), Control::NormalForce(_)) => {
+            let steps = IndentStep::constant(control, &[duration]);
+            indent_history_on_grid(surface, material, &steps, &options)
+        }
+        (Some(Omission::Gradients), _) => {
+            // A motion over no distance, with its slopes.
+            let step = Step {
+                time: 1.0,
+                position: 0.0,
+                control: pressed,
+            };
+            let rows = follow(surface, &dashpot, &[step], &options)?;
+            let row = rows.last().ok_or(SolveError::NoGrid)?;
+            let found = [row.indentation_depth, row.normal_force];
+            return Ok(of_press(control, found, row.contact_area));
+        }
+        (Some(omission), _) => return Err(SolveError::NotLeftOut { method, omission }),
+    }?;
+    let begins = std::iter::once(0.0).chain(rows.iter().map(|row| row.time));
+    let impulses = rows.iter().zip(begins);
+    let impulses = impulses.map(|(row, begin)| row.normal_force * (row.time - begin));
+    let last = rows.last().ok_or(SolveError::NoGrid)?;
+    let found = [last.indentation_depth, impulses.sum()];
+    Ok(of_press(control, found, last.contact_area))
 }
 
-/// ∫F dt, which a depth on a dashpot needs, in however many steps, \[N s].
-fn impulse(rows: &[IndentRow]) -> f64 {
-    let begins = std::iter::once(0.0).chain(rows.iter().map(|row| row.time));
-    let steps = rows.iter().zip(begins);
-    steps
-        .map(|(row, begin)| row.normal_force * (row.time - begin))
-        .sum()
+/// A second of a constant force, or of a depth that grows in proportion to time.
+fn in_steps(control: Control, n_steps: usize) -> Vec<IndentStep> {
+    let step = |step: usize| {
+        let time = step as f64 / n_steps as f64;
+        let control = match control {
+            Control::NormalForce(_) => control,
+            Control::IndentationDepth(depth) => Control::IndentationDepth(time * depth),
+        };
+        IndentStep { time, control }
+    };
+    (1..=n_steps).map(step).collect()
+}
+
+fn of_press(control: Control, [depth, impulse]: [f64; 2], area: f64) -> Vec<Number> {
+    let found = match control {
+        Control::NormalForce(_) => depth,
+        Control::IndentationDepth(_) => impulse,
+    };
+    vec![own(found), own(area)]
+}
+
+const fn own(value: f64) -> Number {
+    [value, value]
 }

@@ -1,42 +1,18 @@
 //! What a method does for a problem, or why it does not answer it.
 
-use friction_analytic::scaling_factor;
-use indenters::{Cylinder, PowerProfile, PressingLoad, SlidingLoad, Surface};
-use rheology::{KelvinVoigt, Maxwell, Viscous};
+use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
+use indenters::{Cylinder, SlidingLoad, Surface};
 
+use super::answer::Answer;
 use super::body::{Body, Revolution};
+use super::error::Result;
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
+use super::{analytic, elements, mdr};
 use crate::scene::{Accuracy, Control, Method, Model};
 
 /// What one method computes, with all that it needs.
-pub(crate) enum Work<'a> {
-    Closed(ClosedForm<'a>),
-    LinePressed(&'a Revolution, PressingLoad),
-    LineSteady(&'a Revolution, SlidingLoad, f64),
-    LineTransient(&'a Revolution, SlidingLoad),
-    HalfSpacePressed(&'a dyn Surface, PressingLoad),
-    HalfSpaceSteady(&'a dyn Surface, SlidingLoad),
-    HalfSpaceTransient(&'a dyn Surface, SlidingLoad),
-    CylinderSteady(&'a Cylinder, SlidingLoad),
-}
-
-/// A closed form or a quadrature.
-pub(crate) enum ClosedForm<'a> {
-    Pressed(&'a Revolution, PressingLoad),
-    /// Pressed under a force for a time, in plane strain.
-    CylinderPressed(&'a Cylinder, f64, f64),
-    /// Sliding on springs.
-    Elastic(&'a Revolution, SlidingLoad),
-    /// Sliding on springs under a force, in plane strain.
-    ElasticCylinder(&'a Cylinder, f64),
-    /// A power profile on a viscous half space, from the table of s(p).
-    HalfSpacePower(&'a PowerProfile, Viscous, SlidingLoad),
-    ViscousLine(&'a Revolution, Viscous, SlidingLoad),
-    ViscousTransient(&'a PowerProfile, Viscous, SlidingLoad, f64),
-    KelvinVoigtLine(&'a PowerProfile, KelvinVoigt, SlidingLoad),
-    MaxwellLine(&'a PowerProfile, Maxwell, SlidingLoad),
-}
+pub(crate) type Work<'a> = Box<dyn FnOnce() -> Result<Answer> + 'a>;
 
 /// Why a method does not answer.
 pub(crate) type Refusal = &'static str;
@@ -47,9 +23,6 @@ const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
 const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
-const ANOTHER_BODY: Refusal = "there is no closed form for this body on this material";
-const VISCOUS_ONLY: Refusal =
-    "the state before the stationary one has a closed form on a viscous material only";
 
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(
@@ -59,19 +32,22 @@ pub(crate) fn work(
 ) -> Result<Work<'_>, Refusal> {
     match (&problem.body, method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
-        (Body::Revolution(body), Method::Analytic) => {
-            closed(problem, body, accuracy).map(Work::Closed)
-        }
+        (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
         (Body::Revolution(body), Method::MdrSteady) => line_steady(problem, body, accuracy),
-        (Body::Revolution(body), Method::MdrTransient) => line_transient(problem, body),
-        (Body::Revolution(body), _) => boundary_elements(problem, body, method),
+        (Body::Revolution(body), Method::MdrTransient) => line_transient(problem, body, accuracy),
+        (Body::Revolution(body), _) => boundary_elements(problem, body, method, accuracy),
         (Body::HeightMap(map), Method::BemSteady | Method::BemTransient) => {
-            boundary_elements(problem, map, method)
+            boundary_elements(problem, map, method, accuracy)
         }
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
         ),
     }
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
+fn ready<'a>(answer: impl FnOnce() -> Result<Answer> + 'a) -> Result<Work<'a>, Refusal> {
+    Ok(Box::new(answer))
 }
 
 fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
@@ -87,7 +63,7 @@ fn has_force(problem: &Problem) -> bool {
 }
 
 fn line_contact<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     cylinder: &'a Cylinder,
     method: Method,
     accuracy: Accuracy,
@@ -106,20 +82,19 @@ fn line_contact<'a>(
         problem.model == Model::HalfSpace,
         "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
     )?;
+    let material = &*problem.material;
     match (method, problem.motion) {
         (Method::Analytic, motion) => {
             require(matches!(accuracy, Accuracy::RelativeError(_)), NO_ELEMENTS)?;
-            Ok(Work::Closed(match (motion, &problem.simple) {
-                (Motion::Pressing(load), _) => {
-                    ClosedForm::CylinderPressed(cylinder, force, load.duration())
+            let pressed =
+                move |duration| analytic::cylinder_pressed(cylinder, material, force, duration);
+            match (motion, &problem.simple) {
+                (Motion::Pressing(load), _) => ready(move || pressed(load.duration())),
+                (_, Some(Simple::Elastic)) => {
+                    ready(move || pressed(1.0).map(analytic::without_friction))
                 }
-                (_, Some(Simple::Elastic)) => ClosedForm::ElasticCylinder(cylinder, force),
-                _ => {
-                    return Err(
-                        "there is no closed form for a cylinder that slides on this material",
-                    );
-                }
-            }))
+                _ => Err("there is no closed form for a cylinder that slides on this material"),
+            }
         }
         (Method::BemSteady, Motion::Sliding(load)) => {
             require(
@@ -127,7 +102,7 @@ fn line_contact<'a>(
                 "under a line contact a half space that flows sinks the faster the longer it is, without limit",
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
-            Ok(Work::CylinderSteady(cylinder, load))
+            ready(move || elements::line_contact(cylinder, material, &load, accuracy))
         }
         (Method::BemSteady, _) => Err(NOTHING_SLIDES),
         _ => Err(
@@ -137,14 +112,18 @@ fn line_contact<'a>(
 }
 
 fn boundary_elements<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     surface: &'a dyn Surface,
     method: Method,
+    accuracy: Accuracy,
 ) -> Result<Work<'a>, Refusal> {
     let is_stationary = method == Method::BemSteady;
+    let material = &*problem.material;
     let load = match problem.motion {
         Motion::Pressing(_) if is_stationary => return Err(NOTHING_SLIDES),
-        Motion::Pressing(load) => return Ok(Work::HalfSpacePressed(surface, load)),
+        Motion::Pressing(load) => {
+            return ready(move || elements::pressed(surface, material, &load, accuracy));
+        }
         Motion::Sliding(load) => load,
     };
     if !has_force(problem) && load.sliding_distance().is_none() {
@@ -157,14 +136,14 @@ fn boundary_elements<'a>(
             "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance",
         )?;
     }
-    Ok(match is_stationary {
-        true => Work::HalfSpaceSteady(surface, load),
-        false => Work::HalfSpaceTransient(surface, load),
-    })
+    if is_stationary {
+        return ready(move || elements::stationary(surface, material, &load, accuracy));
+    }
+    ready(move || elements::transient(surface, material, &load, accuracy))
 }
 
 fn line_steady<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     body: &'a Revolution,
     accuracy: Accuracy,
 ) -> Result<Work<'a>, Refusal> {
@@ -176,37 +155,49 @@ fn line_steady<'a>(
         Accuracy::Elements(_) => {
             Err("it chooses its polynomials itself; give relative_error instead of elements")
         }
-        Accuracy::RelativeError(error) => Ok(Work::LineSteady(body, load, error)),
+        Accuracy::RelativeError(error) => {
+            ready(move || mdr::stationary(body, &*problem.material, &load, error))
+        }
     }
 }
 
-fn line_transient<'a>(problem: &Problem, body: &'a Revolution) -> Result<Work<'a>, Refusal> {
+fn line_transient<'a>(
+    problem: &'a Problem,
+    body: &'a Revolution,
+    accuracy: Accuracy,
+) -> Result<Work<'a>, Refusal> {
+    let material = &*problem.material;
     match problem.motion {
         Motion::Sliding(load) => {
             require(has_force(problem), UNDER_FORCE)?;
-            Ok(Work::LineTransient(body, load))
+            ready(move || mdr::transient(body, material, &load, accuracy))
         }
         Motion::Pressing(load) => {
             require(
                 has_force(problem),
                 "it presses with a force; analytic holds a depth",
             )?;
-            Ok(Work::LinePressed(body, load))
+            ready(move || mdr::pressed(body, material, &load, accuracy))
         }
     }
 }
 
 fn closed<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     body: &'a Revolution,
     accuracy: Accuracy,
-) -> Result<ClosedForm<'a>, Refusal> {
+) -> Result<Work<'a>, Refusal> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
+    let (control, material) = (problem.motion.control(), &*problem.material);
+    let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion, &problem.simple, problem.model) {
-        (Motion::Pressing(load), _, _) => Ok(ClosedForm::Pressed(body, load)),
-        (Motion::Sliding(load), Some(Simple::Elastic), _) => Ok(ClosedForm::Elastic(body, load)),
+        (Motion::Pressing(load), _, _) => ready(move || pressed(load.duration())),
+        // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
+        (Motion::Sliding(_), Some(Simple::Elastic), _) => {
+            ready(move || pressed(1.0).map(analytic::without_friction))
+        }
         (Motion::Sliding(load), _, Model::HalfSpace) => {
             closed_half_space(problem, body, load, asked)
         }
@@ -215,49 +206,49 @@ fn closed<'a>(
 }
 
 fn closed_line<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     body: &'a Revolution,
     load: SlidingLoad,
-) -> Result<ClosedForm<'a>, Refusal> {
+) -> Result<Work<'a>, Refusal> {
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
     };
-    match (&problem.simple, load.sliding_distance()) {
-        (Some(Simple::Viscous(material)), None) => {
-            Ok(ClosedForm::ViscousLine(body, *material, load))
+    match (&problem.simple, load.sliding_distance(), cone_or_paraboloid) {
+        (Some(Simple::Viscous(material)), None, _) => {
+            ready(move || analytic::viscous_line(body, material, &load))
         }
-        (Some(Simple::Viscous(material)), Some(distance)) => {
-            let profile = cone_or_paraboloid.ok_or(
+        (Some(Simple::Viscous(material)), Some(distance), profile) => {
+            let profile = profile.ok_or(
                 "only of cone and paraboloid the state before the stationary one has a closed form",
             )?;
             require(
                 has_force(problem),
                 "the state before the stationary one has a closed form under a force only",
             )?;
-            Ok(ClosedForm::ViscousTransient(
-                profile, *material, load, distance,
-            ))
+            ready(move || analytic::viscous_transient(profile, material, &load, distance))
         }
-        (_, Some(_)) => Err(VISCOUS_ONLY),
-        (Some(Simple::KelvinVoigt(material)), None) => {
-            let profile = cone_or_paraboloid.ok_or(ANOTHER_BODY)?;
-            Ok(ClosedForm::KelvinVoigtLine(profile, *material, load))
+        (_, Some(_), _) => {
+            Err("the state before the stationary one has a closed form on a viscous material only")
         }
-        (Some(Simple::Maxwell(material)), None) => {
-            let profile = cone_or_paraboloid.ok_or(ANOTHER_BODY)?;
-            Ok(ClosedForm::MaxwellLine(profile, *material, load))
-        }
-        _ => Err(ANOTHER_BODY),
+        (Some(Simple::KelvinVoigt(material)), None, Some(profile)) => ready(move || {
+            let sliding = |contact| kelvin_voigt_sliding(profile, material, contact);
+            analytic::viscoelastic_line(profile, &load, sliding)
+        }),
+        (Some(Simple::Maxwell(material)), None, Some(profile)) => ready(move || {
+            let sliding = |contact| maxwell_sliding(profile, material, contact);
+            analytic::viscoelastic_line(profile, &load, sliding)
+        }),
+        _ => Err("there is no closed form for this body on this material"),
     }
 }
 
 fn closed_half_space<'a>(
-    problem: &Problem,
+    problem: &'a Problem,
     body: &'a Revolution,
     load: SlidingLoad,
     asked: f64,
-) -> Result<ClosedForm<'a>, Refusal> {
+) -> Result<Work<'a>, Refusal> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, &problem.simple)
     else {
         return Err("on the half space the friction of powers on a viscous material is tabulated");
@@ -269,5 +260,5 @@ fn closed_half_space<'a>(
     )?;
     require(load.sliding_distance().is_none(), STATIONARY)?;
     require(has_force(problem), UNDER_FORCE)?;
-    Ok(ClosedForm::HalfSpacePower(profile, *material, load))
+    ready(move || analytic::viscous_half_space(profile, material, &load))
 }
