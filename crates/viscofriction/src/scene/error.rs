@@ -53,27 +53,16 @@ impl SceneError {
     }
 }
 
-/// Checks that a number is finite and greater than zero.
-///
-/// # Errors
-/// [`SceneError::Value`] otherwise.
-pub fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
+pub(crate) fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
     in_range(key, value, value > 0.0, "finite and greater than 0")
 }
 
-/// Checks that a number is finite and not negative.
-///
-/// # Errors
-/// [`SceneError::Value`] otherwise.
-pub fn not_negative(key: &str, value: f64) -> Result<f64, SceneError> {
+pub(crate) fn not_negative(key: &str, value: f64) -> Result<f64, SceneError> {
     in_range(key, value, value >= 0.0, "finite and at least 0")
 }
 
 /// Checks that a number is finite and in a range.
-///
-/// # Errors
-/// [`SceneError::Value`] otherwise.
-pub fn in_range(
+pub(crate) fn in_range(
     key: &str,
     value: f64,
     holds: bool,

@@ -3,13 +3,12 @@
 //! Tables are externally tagged, because only then an error knows the line and the key it belongs to.
 
 mod error;
-mod height_map_file;
+mod files;
 mod indenter;
 mod load;
 mod material;
 mod solve;
 mod source;
-mod table_file;
 
 use std::path::Path;
 use std::str::FromStr;
@@ -17,16 +16,17 @@ use std::str::FromStr;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use error::{SceneError, in_range, not_negative, positive};
-pub use height_map_file::height_map;
+pub use error::SceneError;
+pub(crate) use error::{in_range, positive};
+pub use files::{height_map, profile};
 pub use indenter::{Indenter, Term};
 pub use indenters::Control;
 pub use load::Load;
 pub use material::{Branch, MaterialTable};
 pub use numerics::Accuracy;
 pub use solve::{Method, Model, Solve};
-pub use source::{Source, scene_file, split_index};
-pub use table_file::profile;
+pub use source::Source;
+pub(crate) use source::{scene_file, split_index};
 
 use crate::text::WrongInput;
 

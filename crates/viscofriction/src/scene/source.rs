@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 use toml::{Table, Value};
 
 use super::{Scene, SceneError};
@@ -61,46 +61,38 @@ impl Source {
     #[must_use]
     pub fn locate(&self, error: &SceneError) -> WrongInput {
         let line = match error {
-            SceneError::Syntax { line, .. } => Some(*line),
-            other => other.key().and_then(|key| self.line_of_key(key)),
+            SceneError::Syntax { line, .. } => *line,
+            SceneError::Value { key, .. } | SceneError::At { key, .. } => self.line_of_key(key),
         };
-        let path = self.path.display();
-        WrongInput(match line {
-            Some(line) => format!("{path}:{line}: {error}"),
-            None => format!("{path}:1: {error}"),
-        })
+        WrongInput(format!("{}:{line}: {error}", self.path.display()))
     }
 
-    /// The line of a key, or of the innermost table on the way to it that is there.
-    fn line_of_key(&self, key: &str) -> Option<usize> {
-        let document = DeTable::parse(&self.text).ok()?;
-        let mut offset = None;
+    /// The line of a key, or of the innermost table on the way to it that is there; the first line without any.
+    fn line_of_key(&self, key: &str) -> usize {
+        let Ok(document) = DeTable::parse(&self.text) else {
+            return 1;
+        };
+        let mut offset = 0;
         let mut tables = Some(document.get_ref());
         for segment in key.split('.') {
             let (name, index) = split_index(segment);
-            let Some((found, value)) = tables.and_then(|table| table.get_key_value(name)) else {
+            let Some((found, mut value)) = tables.and_then(|table| table.get_key_value(name))
+            else {
                 break;
             };
-            let mut value = value;
-            offset = Some(found.span().start);
+            offset = found.span().start;
             if let Some(element) = index.and_then(|index| value.get_ref().as_array()?.get(index)) {
                 value = element;
-                offset = Some(value.span().start);
+                offset = value.span().start;
             }
-            tables = match value.get_ref() {
-                DeValue::Table(table) => Some(table),
-                _ => None,
-            };
+            tables = value.get_ref().as_table();
         }
-        offset.map(|offset| line_of(self.text.as_bytes(), offset))
+        line_of(self.text.as_bytes(), offset)
     }
 }
 
-/// The scene that keys and values describe.
-///
-/// # Errors
-/// [`SceneError::At`] for an unknown or missing key or a value of the wrong type.
-pub fn scene_file(table: Table) -> Result<Scene, SceneError> {
+/// The scene that keys and values describe, without an unknown or missing key or a value of the wrong type.
+pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
     }
@@ -109,23 +101,14 @@ pub fn scene_file(table: Table) -> Result<Scene, SceneError> {
     }
     serde_path_to_error::deserialize(table).map_err(|error| {
         let path = error.path().to_string();
-        let problem = error.inner().message().trim().to_owned();
-        SceneError::At {
-            key: full_key(&path, &problem),
-            problem,
-        }
+        let problem = error.inner().message().trim();
+        SceneError::at(full_key(&path, problem), problem)
     })
 }
 
 /// Refuses lists where tables belong, of which serde would take the values in the order of the keys.
 fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
-    let Some(table) = value.as_table() else {
-        let problem = format!(
-            "a table is needed, and not a value of type {}",
-            value.type_str()
-        );
-        return Err(SceneError::at(key, problem));
-    };
+    let table = value.as_table().ok_or_else(|| no_table(key, value))?;
     let is_kind = ["indenter", "material"].contains(&key);
     for (name, value) in table {
         let inner = format!("{key}.{name}");
@@ -133,44 +116,41 @@ fn check_tables(key: &str, value: &Value) -> Result<(), SceneError> {
             Value::Table(_) => check_tables(&inner, value)?,
             Value::Array(elements) => {
                 // Serde says itself what it needs in the place of a list of numbers.
-                let is_suspect = |element: &Value| is_kind || !is_plain(element);
+                let is_plain =
+                    |element: &Value| !matches!(element, Value::Array(_) | Value::Table(_));
                 for (index, element) in elements.iter().enumerate() {
-                    if is_suspect(element) {
+                    if is_kind || !is_plain(element) {
                         check_tables(&format!("{inner}[{index}]"), element)?;
                     }
                 }
             }
-            other if is_kind && table.len() == 1 => {
-                let problem = format!(
-                    "a table is needed, and not a value of type {}",
-                    other.type_str()
-                );
-                return Err(SceneError::at(inner, problem));
-            }
+            other if is_kind && table.len() == 1 => return Err(no_table(&inner, other)),
             _ => {}
         }
     }
     Ok(())
 }
 
-const fn is_plain(value: &Value) -> bool {
-    !matches!(value, Value::Array(_) | Value::Table(_))
+fn no_table(key: &str, value: &Value) -> SceneError {
+    let found = value.type_str();
+    let problem = format!("a table is needed, and not a value of type {found}");
+    SceneError::at(key, problem)
 }
 
 /// Indenter and material are one table each, whose name is the kind.
 fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
-    let Some(kinds) = table.get(key).and_then(Value::as_table) else {
-        return Ok(());
-    };
-    if kinds.len() == 1 {
-        return Ok(());
+    match table.get(key).and_then(Value::as_table) {
+        Some(kinds) if kinds.len() != 1 => {
+            let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
+            let found = format!("{}: {}", kinds.len(), names.join(", "));
+            let needed = format!("exactly one kind is needed, as in [{key}.kind]");
+            Err(SceneError::at(
+                key,
+                format!("{needed}, but there are {found}"),
+            ))
+        }
+        _ => Ok(()),
     }
-    let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
-    let [count, names] = [kinds.len().to_string(), names.join(", ")];
-    Err(SceneError::at(
-        key,
-        format!("exactly one kind is needed, as in [{key}.kind], but there are {count}: {names}"),
-    ))
 }
 
 /// The path with the key that is unknown or missing.
@@ -189,8 +169,7 @@ fn full_key(path: &str, problem: &str) -> String {
 }
 
 /// `branches[2]` as name and index.
-#[must_use]
-pub fn split_index(segment: &str) -> (&str, Option<usize>) {
+pub(crate) fn split_index(segment: &str) -> (&str, Option<usize>) {
     match segment.split_once('[') {
         Some((name, rest)) => (name, rest.trim_end_matches(']').parse().ok()),
         None => (segment, None),

@@ -15,7 +15,6 @@ use super::answer::{Answer, ContactBox, within};
 use super::body::Revolution;
 use super::error::{Result, SolveError};
 use super::half_space::{Simple, simple};
-use super::pressing::{impulse, stiffness, unit_dashpot};
 use crate::scene::{Method, Model};
 
 /// Points of the load along the contact.
@@ -178,14 +177,22 @@ fn front_of_force(ratio: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     bracketed_root(excess, [front, 2.0 * front])
 }
 
-/// A body that is pressed, in closed form or by quadrature: half space and line agree exactly.
+/// A body that is pressed, in closed form or by quadrature.
+///
+/// While the contact grows, or stays as it is, half space and line agree exactly (Lee & Radok 1960), and a constant force
+/// acts on every material like the impulse F J(t) on a dashpot of unit viscosity:
+///
+/// ```text
+/// 8 ∫₀^a x h̃' dx = 2 (1 − ν) F J(t)         constant force
+/// F(t) = 8 G(t)/(2 (1 − ν)) ∫₀^a x h̃' dx    constant depth, contact radius a
+/// ```
 pub(crate) fn pressed(
     body: &Revolution,
     material: &dyn Material,
     control: Control,
     duration: f64,
 ) -> Result<Answer> {
-    let dashpot = unit_dashpot()?;
+    let dashpot = Viscous::new(1.0)?;
     let (force, depth, radius) = match control {
         Control::NormalForce(force) => {
             let impulse = impulse(material, force, duration)?;
@@ -215,6 +222,22 @@ pub(crate) fn pressed(
     })
 }
 
+/// What a force that is held for a duration does to the material, as an impulse on the dashpot of unit viscosity.
+pub(crate) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+    let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
+    Ok(force * compliance)
+}
+
+/// Force at a depth that was held for a duration, over the impulse that leads to it on that dashpot, [1/s].
+fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
+    let modulus = material.relaxation_modulus(duration)?;
+    let stiffness = modulus / material.half_space_factor();
+    if !(stiffness.is_finite() && stiffness > 0.0) {
+        return Err(SolveError::Relaxed { duration, modulus });
+    }
+    Ok(stiffness)
+}
+
 /// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
 fn peak_of_power(
     profile: &PowerProfile,
@@ -240,7 +263,7 @@ pub(crate) fn cylinder_pressed(
     duration: f64,
 ) -> Result<Answer> {
     let impulse = impulse(material, force, duration)?;
-    let dashpot = unit_dashpot()?;
+    let dashpot = Viscous::new(1.0)?;
     let half_width = cylinder_half_width_after_impulse(cylinder, &dashpot, impulse)?;
     let peak_pressure = match simple(material)? {
         Some(Simple::Elastic) => Some(2.0 * FRAC_1_PI * (force / half_width)),

@@ -36,12 +36,8 @@ pub enum Revolution {
 
 impl std::fmt::Debug for Revolution {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Power(profile) => profile.fmt(formatter),
-            Self::Sum(profile) => profile.fmt(formatter),
-            Self::Sphere(sphere) => sphere.fmt(formatter),
-            Self::Other(_) => formatter.write_str("Other"),
-        }
+        let exponent = self.profile_exponent();
+        write!(formatter, "Revolution of the exponent {exponent}")
     }
 }
 
@@ -85,13 +81,11 @@ pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result
         Indenter::Superposition { terms } => Ok(Revolution::Sum(sum(terms)?)),
         Indenter::Table { file } => Ok(table_profile(&folder.join(file), read)?),
         &Indenter::Cylinder { radius } => {
-            let cylinder = Cylinder::new(radius);
-            let cylinder = cylinder.map_err(|error| refused(&indenter.key(), error))?;
-            return Ok(Body::Cylinder(cylinder));
+            let cylinder = Cylinder::new(radius).map(Body::Cylinder);
+            return cylinder.map_err(|error| refused(&indenter.key(), error));
         }
         Indenter::HeightMap { file, spacing } => {
-            let map = map(&folder.join(file), *spacing, read)?;
-            return Ok(Body::HeightMap(map));
+            return map(&folder.join(file), *spacing, read).map(Body::HeightMap);
         }
     };
     let shape = shape.map_err(|error| refused(&indenter.key(), error))?;
@@ -120,25 +114,26 @@ fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
 }
 
 fn table_profile(file: &Path, read: ReadFile) -> Result<Revolution, SceneError> {
-    let wrong = |problem| SceneError::at("indenter.table.file", problem);
-    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    profile(file, &contents).map(other).map_err(wrong)
+    let profile = read(file).and_then(|contents| profile(file, &contents).map_err(WrongInput));
+    let wrong = |WrongInput(problem)| SceneError::at("indenter.table.file", problem);
+    profile.map(other).map_err(wrong)
 }
 
 fn map(file: &Path, spacing: [f64; 2], read: ReadFile) -> Result<HeightMap, SceneError> {
     for (index, spacing) in spacing.into_iter().enumerate() {
         positive(&format!("indenter.height-map.spacing[{index}]"), spacing)?;
     }
-    let wrong = |problem| SceneError::at("indenter.height-map.file", problem);
-    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    let map = height_map(file, &contents, spacing).map_err(wrong)?;
-    if map.extent().into_iter().flatten().any(|end| end == 0.0) {
-        return Err(wrong(format!(
-            "{}: the lowest height lies on the edge of the map, where the contact would end with it",
-            file.display()
-        )));
-    }
-    Ok(map)
+    let read_map = || {
+        let map = height_map(file, &read(file)?, spacing).map_err(WrongInput)?;
+        if map.extent().into_iter().flatten().any(|end| end == 0.0) {
+            return Err(WrongInput(format!(
+                "{}: the lowest height lies on the edge of the map, where the contact would end with it",
+                file.display()
+            )));
+        }
+        Ok(map)
+    };
+    read_map().map_err(|WrongInput(problem)| SceneError::at("indenter.height-map.file", problem))
 }
 
 /// The number that the library refuses, with its key.

@@ -30,7 +30,7 @@ pub enum SolveError {
     Material(#[from] RheologyError),
     /// No method was asked.
     #[error(transparent)]
-    NotOffered(#[from] super::NotOffered),
+    NotOffered(#[from] NotOffered),
     /// The error asked for was not reached on the finest resolution.
     #[error(transparent)]
     TooCoarse(#[from] numerics::NotReached),
@@ -81,3 +81,41 @@ pub enum SolveError {
 
 /// An answer or why there is none.
 pub type Result<T, E = SolveError> = std::result::Result<T, E>;
+
+/// Why a method does not answer.
+pub(crate) type Refusal = &'static str;
+
+/// Why no method is asked.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NotOffered {
+    /// The method that the scene names does not answer it.
+    #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
+    Method {
+        /// The method.
+        method: Method,
+        /// Why it does not.
+        why: Refusal,
+        /// Methods that do.
+        offered: Vec<Method>,
+    },
+    /// No method does.
+    #[error("no method answers this scene yet: {}", reasons(refusals))]
+    AnyMethod {
+        /// Why each of them does not.
+        refusals: Vec<(Method, Refusal)>,
+    },
+}
+
+fn others(offered: &[Method]) -> String {
+    if offered.is_empty() {
+        return "no other method does either".to_owned();
+    }
+    let names: Vec<&str> = offered.iter().map(|method| method.name()).collect();
+    format!("these do: {}", names.join(", "))
+}
+
+fn reasons(refusals: &[(Method, Refusal)]) -> String {
+    let reason = |(method, why): &(Method, Refusal)| format!("{}: {why}", method.name());
+    let reasons: Vec<String> = refusals.iter().map(reason).collect();
+    reasons.join("; ")
+}

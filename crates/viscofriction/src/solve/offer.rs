@@ -1,9 +1,8 @@
 //! Which methods answer which scenes.
 
-use thiserror::Error;
-
+use super::error::{NotOffered, Refusal};
 use super::problem::Problem;
-use super::work::{Refusal, work};
+use super::work::work;
 use crate::scene::{Method, Model, SceneError, Source, scene_file};
 use crate::text::{ReadFile, WrongInput};
 
@@ -15,41 +14,6 @@ const BY_COST: [Method; 5] = [
     Method::BemSteady,
     Method::BemTransient,
 ];
-
-/// Why no method is asked.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum NotOffered {
-    /// The method that the scene names does not answer it.
-    #[error("{} does not answer this scene: {why}; {}", method.name(), others(offered))]
-    Method {
-        /// The method.
-        method: Method,
-        /// Why it does not.
-        why: Refusal,
-        /// Methods that do.
-        offered: Vec<Method>,
-    },
-    /// No method does.
-    #[error("no method answers this scene yet: {}", reasons(refusals))]
-    AnyMethod {
-        /// Why each of them does not.
-        refusals: Vec<(Method, Refusal)>,
-    },
-}
-
-fn others(offered: &[Method]) -> String {
-    if offered.is_empty() {
-        return "no other method does either".to_owned();
-    }
-    let names: Vec<&str> = offered.iter().map(|method| method.name()).collect();
-    format!("these do: {}", names.join(", "))
-}
-
-fn reasons(refusals: &[(Method, Refusal)]) -> String {
-    let reason = |(method, why): &(Method, Refusal)| format!("{}: {why}", method.name());
-    let reasons: Vec<String> = refusals.iter().map(reason).collect();
-    reasons.join("; ")
-}
 
 /// The method of the scene, or the cheapest that answers it.
 ///

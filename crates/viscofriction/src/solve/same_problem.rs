@@ -8,13 +8,13 @@ use bem_halfspace::slide::{March, Motion as Step, SlideOmission, follow};
 use bem_halfspace::steady::{SteadyOmission, SteadyOptions, steady_on_grid};
 use bem_halfspace::{ContactOptions, GridOptions};
 use indenters::{PressingLoad, SlidingLoad, Surface, Unmirrored};
-use rheology::Material;
+use rheology::{Material, Viscous};
 
+use super::analytic::impulse;
 use super::answer::{Answer, Grid};
 use super::body::Body;
 use super::error::{Result, SolveError};
 use super::omission::Omission;
-use super::pressing::{impulse, unit_dashpot};
 use super::problem::{Motion, Problem};
 use crate::scene::{Control, Method};
 
@@ -143,7 +143,7 @@ fn press(
         ..grid
     };
     // What does in a second on the dashpot of unit viscosity what the control does to the material.
-    let dashpot = unit_dashpot()?;
+    let dashpot = Viscous::new(1.0)?;
     let pressed = match control {
         Control::NormalForce(force) => Control::NormalForce(impulse(material, force, duration)?),
         Control::IndentationDepth(_) => control,

@@ -5,7 +5,7 @@ use indenters::{Cylinder, SlidingLoad, Surface};
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
-use super::error::Result;
+use super::error::{Refusal, Result};
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
 use super::{analytic, elements, mdr};
@@ -13,9 +13,6 @@ use crate::scene::{Accuracy, Control, Method, Model};
 
 /// What one method computes, with all that it needs.
 pub(crate) type Work<'a> = Box<dyn FnOnce() -> Result<Answer> + 'a>;
-
-/// Why a method does not answer.
-pub(crate) type Refusal = &'static str;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";

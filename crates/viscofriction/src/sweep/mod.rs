@@ -1,9 +1,7 @@
 //! A scene for many values of its keys.
 
 mod plan;
-mod row;
 mod vary;
 
-pub use plan::{Plan, header, identity};
-pub use row::Row;
+pub use plan::{Plan, Row, header, identity};
 pub use vary::{Shard, Vary};

@@ -1,18 +1,14 @@
-//! The points of a sweep, and the scene of each.
+//! The points of a sweep, the scene of each, and the row of its answer.
 
 use toml::{Table, Value};
 
-use super::row::Row;
 use super::vary::{MOST_POINTS, Vary};
 use crate::scene::{SceneError, Source, scene_file, split_index};
-use crate::solve::{Answer, Problem, choose, not_offered, solve};
+use crate::solve::{self, Answer, Problem, choose, not_offered, solve};
 use crate::text::{ReadFile, WrongInput};
 
 /// Keys of a scene whose values are names of files.
 const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
-
-/// The columns before and after the keys that vary.
-const BEFORE: [&str; 3] = ["sweep", "point", "points"];
 
 /// A scene and the keys that vary.
 #[derive(Debug)]
@@ -117,7 +113,9 @@ impl Plan {
     /// [`WrongInput`] as of [`Self::validate`].
     pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
         let answer = solve(&self.problem(point)?);
-        Ok(Row::new(point, identity(self, point), answer))
+        let mut fields = identity(self, point);
+        fields.extend(results(answer));
+        Ok(Row { point, fields })
     }
 
     fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
@@ -131,16 +129,10 @@ impl Plan {
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);
-            let settings: Vec<String> = self
-                .keys()
-                .zip(&values)
-                .map(|(key, value)| format!("{key} = {value:?}"))
-                .collect();
-            let number = point + 1;
-            WrongInput(format!(
-                "{message} (point {number}: {})",
-                settings.join(", ")
-            ))
+            let settings = self.keys().zip(&values);
+            let settings = settings.map(|(key, value)| format!("{key} = {value:?}"));
+            let settings = settings.collect::<Vec<_>>().join(", ");
+            WrongInput(format!("{message} (point {}: {settings})", point + 1))
         })
     }
 }
@@ -148,25 +140,62 @@ impl Plan {
 /// The names of the columns.
 #[must_use]
 pub fn header(plan: &Plan) -> Vec<String> {
-    let before = BEFORE.into_iter().chain(plan.keys()).map(str::to_owned);
-    let names = ["method", "model"].map(str::to_owned);
+    let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
+    let before = before.chain(["method", "model"]).map(str::to_owned);
     let after = ["unknowns", "failure"].map(str::to_owned);
-    let columns = Answer::columns();
-    before.chain(names).chain(columns).chain(after).collect()
+    before.chain(Answer::columns()).chain(after).collect()
+}
+
+/// One row of a sweep: which point it is, and what came out; times are not among the fields, because they differ from run to
+/// run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Row {
+    /// Counted from 0.
+    pub point: usize,
+    /// Texts in the order of the [`header`].
+    pub fields: Vec<String>,
+}
+
+impl Row {
+    /// Whether the point has no answer.
+    #[must_use]
+    pub fn failed(&self) -> bool {
+        self.fields.last().is_some_and(|why| !why.is_empty())
+    }
+}
+
+/// What comes behind the [`identity`]: the answer, or why there is none.
+fn results(answer: solve::Result<Answer>) -> Vec<String> {
+    match answer {
+        Ok(answer) => {
+            let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
+            let numbers = answer.numbers().into_iter();
+            let numbers = numbers.map(|(_, value)| value.map_or(String::new(), written));
+            let after = [answer.unknowns.to_string(), String::new()];
+            names.into_iter().chain(numbers).chain(after).collect()
+        }
+        Err(error) => {
+            let mut fields = vec![String::new(); Answer::columns().len() + 3];
+            // A row is a line.
+            fields.push(error.to_string().replace(['\n', '\r'], " "));
+            fields
+        }
+    }
+}
+
+/// A number as JSON and Rust read it back.
+fn written(value: f64) -> String {
+    format!("{value:?}")
 }
 
 /// What tells a row from every other: sweep, point counted from 1, number of points, values.
 #[must_use]
 pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
-    let values = plan.values(point);
-    [
-        plan.fingerprint.clone(),
-        (point + 1).to_string(),
-        plan.n_points().to_string(),
-    ]
-    .into_iter()
-    .chain(values.iter().map(|value| format!("{value:?}")))
-    .collect()
+    let numbers = [point + 1, plan.n_points()].map(|number| number.to_string());
+    let mut fields = vec![plan.fingerprint.clone()];
+    fields.extend(numbers);
+    fields.extend(plan.values(point).into_iter().map(written));
+    fields
 }
 
 /// Sets a key; the table it is in must be there.

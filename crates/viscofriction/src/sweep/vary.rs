@@ -20,6 +20,12 @@ pub struct Shard {
     pub count: usize,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Scale {
+    Linear,
+    Logarithmic,
+}
+
 /// More points than this are a mistake.
 pub(super) const MOST_POINTS: usize = 1_000_000;
 
@@ -35,15 +41,8 @@ impl FromStr for Vary {
         }
         let parts: Vec<&str> = values.split(':').collect();
         let values = match parts[..] {
-            [start, stop, count] => Range::new(start, stop, count)?.values(Range::linear),
-            [start, stop, count, "log"] => {
-                let range = Range::new(start, stop, count)?;
-                if !(range.start > 0.0 && range.stop > 0.0) {
-                    let needed = "START and STOP must be greater than 0 on a logarithmic scale";
-                    return Err(needed.to_owned());
-                }
-                range.values(Range::logarithmic)
-            }
+            [start, stop, count] => range([start, stop, count], Scale::Linear)?,
+            [start, stop, count, "log"] => range([start, stop, count], Scale::Logarithmic)?,
             [list] if list.contains(',') => {
                 let values = list.split(',').map(|value| number("a value", value.trim()));
                 values.collect::<Result<_, _>>()?
@@ -57,42 +56,30 @@ impl FromStr for Vary {
     }
 }
 
-/// Values between two ends, which are met exactly.
-struct Range {
-    start: f64,
-    stop: f64,
-    count: usize,
+/// COUNT values from START to STOP, which are met exactly.
+fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<f64>, String> {
+    let [start, stop] = [number("START", start)?, number("STOP", stop)?];
+    let count = whole("COUNT", count, MOST_POINTS)?;
+    if scale == Scale::Logarithmic && !(start > 0.0 && stop > 0.0) {
+        return Err("START and STOP must be greater than 0 on a logarithmic scale".to_owned());
+    }
+    let value = |index: usize| {
+        let fraction = index as f64 / (count - 1) as f64;
+        match (index, scale) {
+            (0, _) => start,
+            (index, _) if index + 1 == count => stop,
+            (_, Scale::Linear) => start + (stop - start) * fraction,
+            (_, Scale::Logarithmic) => or_power_of_ten(start * (stop / start).powf(fraction)),
+        }
+    };
+    Ok((0..count).map(value).collect())
 }
 
-impl Range {
-    fn new(start: &str, stop: &str, count: &str) -> Result<Self, String> {
-        Ok(Self {
-            start: number("START", start)?,
-            stop: number("STOP", stop)?,
-            count: whole("COUNT", count, MOST_POINTS)?,
-        })
-    }
-
-    fn values(&self, at: fn(&Self, f64) -> f64) -> Vec<f64> {
-        let value = |index: usize| match index {
-            0 => self.start,
-            index if index + 1 == self.count => self.stop,
-            index => at(self, index as f64 / (self.count - 1) as f64),
-        };
-        (0..self.count).map(value).collect()
-    }
-
-    fn linear(&self, fraction: f64) -> f64 {
-        self.start + (self.stop - self.start) * fraction
-    }
-
-    fn logarithmic(&self, fraction: f64) -> f64 {
-        let value = self.start * (self.stop / self.start).powf(fraction);
-        let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
-        // Rounding of the quotient, of its power and of the product.
-        let is_power = (value / power - 1.0).abs() <= 8.0 * f64::EPSILON;
-        if is_power { power } else { value }
-    }
+fn or_power_of_ten(value: f64) -> f64 {
+    let power = format!("1e{:.0}", value.log10()).parse().unwrap_or(value);
+    // Rounding of the quotient, of its power and of the product.
+    let is_power = (value / power - 1.0).abs() <= 8.0 * f64::EPSILON;
+    if is_power { power } else { value }
 }
 
 fn number(name: &str, text: &str) -> Result<f64, String> {

@@ -1,0 +1,140 @@
+//! The tables of numbers that a scene names: radii and heights of a profile, and grids of heights.
+
+use std::path::Path;
+
+use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
+use indenters::{HeightMap, IndenterError, PiecewiseLinearProfile};
+use serde::Deserialize;
+
+use crate::npy::{NpyTable, from_npy};
+use crate::text::line_of_record;
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    radius_m: f64,
+    height_m: f64,
+}
+
+/// A profile from the contents of a CSV file with the columns `radius_m` and `height_m`.
+///
+/// # Errors
+/// File, line and what is wrong there.
+pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, String> {
+    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let rows = rows(contents).map_err(wrong)?;
+    let radii = rows.iter().map(|(_, row)| row.radius_m).collect();
+    let heights = rows.iter().map(|(_, row)| row.height_m).collect();
+    PiecewiseLinearProfile::new(radii, heights)
+        .map_err(|error| wrong((line_of_error(&error, &rows), error.to_string())))
+}
+
+fn at(file: &Path, line: usize, problem: &str) -> String {
+    format!("{}:{line}: {problem}", file.display())
+}
+
+/// The rows and the lines they begin at, or a line and what is wrong there.
+fn rows(contents: &[u8]) -> Result<Vec<(usize, Row)>, (usize, String)> {
+    let mut reader = csv::Reader::from_reader(contents);
+    let line = |error: &csv::Error| line_of_record(contents, error.position());
+    let names = reader.headers().cloned();
+    let names = names.map_err(|error| (line(&error), problem(&error, &StringRecord::new())))?;
+    let wrong = |error: csv::Error| (line(&error), problem(&error, &names));
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(wrong)?;
+        let row = record.deserialize(Some(&names)).map_err(wrong)?;
+        rows.push((line_of_record(contents, record.position()), row));
+    }
+    Ok(rows)
+}
+
+/// What is wrong, with the name of the column.
+fn problem(error: &csv::Error, names: &StringRecord) -> String {
+    match error.kind() {
+        ErrorKind::Deserialize { err, .. } => {
+            let field = err.field().and_then(|field| usize::try_from(field).ok());
+            match field.and_then(|field| names.get(field)) {
+                Some(name) => format!("{name}: {}", err.kind()),
+                None => err.kind().to_string(),
+            }
+        }
+        ErrorKind::Utf8 { .. } => "the text is no UTF-8".to_owned(),
+        ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => format!("{expected_len} values are needed, but there are {len}"),
+        _ => error.to_string(),
+    }
+}
+
+/// The line of the row that the library refuses.
+fn line_of_error(error: &IndenterError, rows: &[(usize, Row)]) -> usize {
+    let row = match error {
+        IndenterError::NotIncreasing { index, .. } => rows.get(*index),
+        IndenterError::InvalidParameter { value, .. } => rows.iter().find(|(_, row)| {
+            let numbers = [row.radius_m, row.height_m];
+            numbers.iter().any(|other| other.total_cmp(value).is_eq())
+        }),
+        _ => rows.last(),
+    };
+    row.map_or(1, |(line, _)| *line)
+}
+
+/// A surface from the contents of a file, of NumPy if its name ends with `.npy`, of CSV otherwise.
+///
+/// # Errors
+/// File, place and what is wrong there.
+pub fn height_map(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
+    let extension = file.extension();
+    if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("npy")) {
+        of_numpy(contents, spacing).map_err(|problem| format!("{}: {problem}", file.display()))
+    } else {
+        of_csv(contents, spacing).map_err(|(line, problem)| at(file, line, &problem))
+    }
+}
+
+/// An array of heights, the first index along x.
+fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
+    let NpyTable { shape, values } = from_npy(contents)?;
+    if let Some(index) = values.iter().position(|height| !height.is_finite()) {
+        let [row, column] = [index / shape[1], index % shape[1]];
+        return Err(format!(
+            "[{row}, {column}]: a finite height in m is needed, and not {}",
+            values[index]
+        ));
+    }
+    HeightMap::new(shape, spacing, values).map_err(|error| error.to_string())
+}
+
+/// One line of heights per x, one column per y, without names; or a line and what is wrong there.
+fn of_csv(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, (usize, String)> {
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .trim(Trim::All)
+        .from_reader(contents);
+    let mut heights = Vec::new();
+    let [mut rows, mut columns, mut last] = [0, 0, 1];
+    for record in reader.records() {
+        let record = record.map_err(|error| {
+            let line = line_of_record(contents, error.position());
+            (line, problem(&error, &StringRecord::new()))
+        })?;
+        last = line_of_record(contents, record.position());
+        for (column, cell) in record.iter().enumerate() {
+            heights.push(height(column, cell).map_err(|problem| (last, problem))?);
+        }
+        columns = record.len();
+        rows += 1;
+    }
+    HeightMap::new([rows, columns], spacing, heights).map_err(|error| (last, error.to_string()))
+}
+
+fn height(column: usize, cell: &str) -> Result<f64, String> {
+    let number = cell.parse::<f64>().ok().filter(|height| height.is_finite());
+    number.ok_or_else(|| {
+        let shown = cell.chars().filter(|letter| !letter.is_control());
+        let shown: String = shown.take(40).collect();
+        let column = column + 1;
+        format!("column {column}: a finite height in m is needed, and not '{shown}'")
+    })
+}
