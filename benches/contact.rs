@@ -3,6 +3,7 @@
 
 use bem_halfspace::{BemError, ContactState};
 use benches::{ContactScene, report_error, rough_heights};
+use casebook::SquareContact;
 use criterion::{BatchSize, BenchmarkGroup, Criterion, measurement::WallTime};
 
 const TOLERANCE: f64 = 1e-9;
@@ -13,13 +14,13 @@ fn main() -> Result<(), BemError> {
         let mut scene = ContactScene::hertz(edge, 0.0)?;
         let unloaded = ContactState::new(&scene.convolution);
         let mut loaded = unloaded.clone();
-        let force = scene.force;
-        scene.force = 0.9 * force;
+        let force = scene.contact.force;
+        scene.contact.force = 0.9 * force;
         let _smaller = scene.solve_from(&mut loaded, TOLERANCE)?;
-        scene.force = force;
+        scene.contact.force = force;
         let depth = scene.solve(TOLERANCE)?.0.indentation_depth;
         let name = format!("contact/{edge}x{edge}");
-        report_error(&name, "depth", [depth, ContactScene::HERTZ_DEPTH]);
+        report_error(&name, "depth", [depth, SquareContact::HERTZ_DEPTH]);
         let mut group = criterion.benchmark_group(name);
         time(&mut group, ("cold", &unloaded), &scene);
         time(&mut group, ("warm", &loaded), &scene);

@@ -6,42 +6,29 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
 };
+use casebook::SquareContact;
 
-/// Rigid bodies on E* = 1, which for the incompressible half space is a compliance of 4.
-const COMPLIANCE: f64 = 4.0;
 const MAX_ITERATIONS: usize = 500;
-/// Contact radius of the Hertz contact on the unit square.
-const RADIUS: f64 = 0.3;
 
 /// A contact at a given force.
 #[derive(Debug)]
 pub struct ContactScene {
     /// The grid and its influence coefficients.
     pub convolution: Convolution,
-    /// Heights of the rigid body, row-major, \[m].
-    pub heights: Vec<f64>,
-    /// Normal force, \[N].
-    pub force: f64,
+    /// Body and force.
+    pub contact: SquareContact,
 }
 
 impl ContactScene {
-    /// Depth of the Hertz contact in closed form, \[m].
-    pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
-
     /// Hertz contact with the radius 0.3 on the unit square of `n` × `n` elements, free boundary, with the apex so many
     /// elements from the middle along x and y; there are two mirrors where that is zero, and none elsewhere.
     ///
     /// # Errors
     /// [`BemError`] for a number of elements that no grid has.
     pub fn hertz(n: usize, offset: f64) -> Result<Self, BemError> {
-        let edge = 1.0 / n as f64;
-        let middle = 0.5 * n as f64 + offset;
-        let centre = |index: usize| (index as f64 + 0.5 - middle) * edge;
-        let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
         Ok(Self {
-            convolution: Convolution::new(&Grid::new([n; 2], [edge; 2])?),
-            heights: (0..n * n).map(height).collect(),
-            force: 4.0 / 3.0 * RADIUS.powi(3),
+            convolution: Convolution::new(&Grid::new([n; 2], [1.0 / n as f64; 2])?),
+            contact: SquareContact::hertz(n, offset),
         })
     }
 
@@ -53,8 +40,7 @@ impl ContactScene {
         let n = heights.len().isqrt();
         Ok(Self {
             convolution: Convolution::periodic(&Grid::new([n; 2], [1.0 / n as f64; 2])?),
-            heights,
-            force: 0.05,
+            contact: SquareContact::rough(heights),
         })
     }
 
@@ -69,9 +55,9 @@ impl ContactScene {
     ) -> Result<Contact, BemError> {
         let problem = ContactProblem {
             convolution: &self.convolution,
-            separation: &self.heights,
-            compliance: COMPLIANCE,
-            control: Control::NormalForce(self.force),
+            separation: &self.contact.heights,
+            compliance: SquareContact::COMPLIANCE,
+            control: Control::NormalForce(self.contact.force),
         };
         let options = ContactOptions {
             tolerance,

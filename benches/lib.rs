@@ -11,11 +11,3 @@ pub fn report_error(name: &str, quantity: &str, [actual, exact]: [f64; 2]) {
     let error = (actual / exact - 1.0).abs();
     println!("{name}: relative error of the {quantity} {error:.1e}");
 }
-
-/// Relative difference of two fields in the mean square.
-#[must_use]
-pub fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
-    let pairs = actual.iter().zip(expected);
-    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
-    (difference / expected.iter().map(|b| b.powi(2)).sum::<f64>()).sqrt()
-}

@@ -14,7 +14,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
-use benches::{ContactScene, deviation, rough_heights};
+use benches::{ContactScene, rough_heights};
+use casebook::deviation;
 use cpu_time::ThreadTime;
 
 /// Why there is no timing.

@@ -1,4 +1,4 @@
-//! Exact reference numbers that the tests of the workspace compare with.
+//! Exact reference numbers that the tests of the workspace compare with, and contacts that are timed and measured.
 //!
 //! The table `casebook.json` was computed with 40-digit arithmetic outside this workspace, every number in two
 //! independent ways. Each case has inputs, expected values and the relative tolerance that a good f64 implementation
@@ -7,8 +7,10 @@
 
 mod assertions;
 mod bodies;
+mod contacts;
 
 pub use bodies::{GaussianDip, superposition};
+pub use contacts::{SquareContact, deviation};
 
 use std::fmt::Write as _;
 

@@ -3,7 +3,11 @@
 use std::sync::Arc;
 
 use anyhow::Result;
-use benches::{ContactScene, deviation};
+use bem_halfspace::{
+    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
+use casebook::{SquareContact, deviation};
 use viscofriction::scene::Model;
 
 use super::rough::self_affine;
@@ -22,9 +26,11 @@ pub(super) fn hertz(edges: &[usize]) -> Series {
         kind: "elements",
         resolution: Some(edge as f64),
         solve: Box::new(move || {
-            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
+            let convolution = Convolution::new(&grid(edge)?);
+            let body = SquareContact::hertz(edge, 0.0);
+            let (contact, state) = solve(&convolution, &body, TOLERANCE)?;
             Ok(Found {
-                error: deviation(&[contact.indentation_depth], &[ContactScene::HERTZ_DEPTH]),
+                error: deviation(&[contact.indentation_depth], &[SquareContact::HERTZ_DEPTH]),
                 error_bar: None,
                 unknowns: state.pressure().len(),
             })
@@ -43,17 +49,18 @@ pub(super) fn hertz(edges: &[usize]) -> Series {
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 pub(super) fn rough(edge: usize) -> Result<Series> {
-    let scene = ContactScene::periodic(self_affine(edge))?;
-    let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
-    let scene = Arc::new((scene, exact.pressure().to_vec()));
+    let body = SquareContact::rough(self_affine(edge));
+    let convolution = Convolution::periodic(&grid(edge)?);
+    let (contact, exact) = solve(&convolution, &body, REFERENCE_TOLERANCE)?;
+    let scene = Arc::new((convolution, body, exact.pressure().to_vec()));
     let run = |&tolerance: &f64| {
         let scene = Arc::clone(&scene);
         Run {
             kind: "tolerance",
             resolution: Some(tolerance),
             solve: Box::new(move || {
-                let (scene, exact) = &*scene;
-                let (_, state) = scene.solve(tolerance)?;
+                let (convolution, body, exact) = &*scene;
+                let (_, state) = solve(convolution, body, tolerance)?;
                 Ok(Found {
                     error: deviation(state.pressure(), exact),
                     error_bar: None,
@@ -71,4 +78,28 @@ pub(super) fn rough(edge: usize) -> Result<Series> {
         reference_error: contact.residual.max(REFERENCE_TOLERANCE),
         runs: TOLERANCES.iter().map(run).collect(),
     })
+}
+
+fn grid(edge: usize) -> Result<Grid> {
+    Ok(Grid::new([edge; 2], [1.0 / edge as f64; 2])?)
+}
+
+/// Solves a contact from a cold start.
+fn solve(
+    convolution: &Convolution,
+    body: &SquareContact,
+    tolerance: f64,
+) -> Result<(Contact, ContactState)> {
+    let problem = ContactProblem {
+        convolution,
+        separation: &body.heights,
+        compliance: SquareContact::COMPLIANCE,
+        control: Control::NormalForce(body.force),
+    };
+    let options = ContactOptions {
+        tolerance,
+        ..ContactOptions::default()
+    };
+    let mut state = ContactState::new(convolution);
+    Ok((solve_contact(&problem, &mut state, &options)?, state))
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use anyhow::Result;
-use benches::deviation;
+use casebook::deviation;
 use numerics::Estimate;
 use serde::Serialize;
 use viscofriction::scene::{self, Method, Model};
