@@ -43,14 +43,14 @@ pub(super) fn solve_equations(
     tolerance: f64,
 ) -> EquationSolution {
     let elements = contact.iter().copied();
-    let mut region = Region::around(mesh, elements.clone());
+    let mut region = mesh.region(elements.clone());
     let small = is_factorised(contact.len(), region.n_places());
     let redundant_work = mesh.options.redundant_work;
     if small && redundant_work != Some(SteadyOmission::Transforms) {
         return factorise(mesh, contact);
     }
     if redundant_work == Some(SteadyOmission::OutsideContact) {
-        region = Region::of_all(mesh, elements);
+        region = mesh.region_of_all(elements);
     }
     ContactEquations::new(mesh, plans, contact, region).iterate(start, tolerance)
 }
@@ -98,7 +98,7 @@ struct ContactEquations<'mesh> {
 
 impl<'mesh> ContactEquations<'mesh> {
     fn new(mesh: &'mesh Mesh, plans: &mut Plans, contact: &'mesh [usize], region: Region) -> Self {
-        let mut preconditioner = WienerHopf::new(plans, &region);
+        let mut preconditioner = WienerHopf::new(plans.inverse_factors(region.shape), &region);
         Self {
             lowered: preconditioner.loads(&vec![1.0; contact.len()], &region),
             product: Product::new(plans.kernel(region.shape), &region),

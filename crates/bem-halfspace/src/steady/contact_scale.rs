@@ -16,9 +16,10 @@
 //!
 //! where a is half the contact of a cylinder on an elastic half space.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
-use indenters::Surface;
+use indenters::{SlidingLoad, Surface};
+use rheology::Material;
 
 use crate::BemError;
 use crate::error::{positive, require};
@@ -28,6 +29,8 @@ use crate::steady::sliding_creep::SlidingCreep;
 const HALVINGS: usize = 60;
 /// Doublings of the length until there is no solution.
 const DOUBLINGS: usize = 900;
+/// Directions in which the height of a surface is averaged.
+const DIRECTIONS: u8 = 8;
 
 /// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.
 pub(super) fn depth_scale(
@@ -101,4 +104,30 @@ fn length_of_contact(
         }
     }
     Ok(upper)
+}
+
+/// D of a surface under a force, \[m].
+pub(crate) fn depth_scale_of_surface(
+    surface: &dyn Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+) -> Result<f64, BemError> {
+    let creep = SlidingCreep::new(material, load.velocity())?;
+    let force = load.require_normal_force()?;
+    let body = surface.as_axisymmetric();
+    let height = |distance| match body {
+        Some(body) => body.profile_height(distance),
+        None => mean_height(surface, distance),
+    };
+    let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
+    depth_scale(&creep, force, height, largest)
+}
+
+/// Mean height at a distance from the lowest point, \[m].
+pub(super) fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
+    let along = |direction: u8| {
+        let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
+        surface.height([distance * cosine, distance * sine])
+    };
+    (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
 }

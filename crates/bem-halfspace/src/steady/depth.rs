@@ -35,7 +35,7 @@ impl SinkingDepth {
         let scale = mesh.loading.depth_scale;
         // F_N/(4πηv) in units of D.
         let aspect = spacing[1] / spacing[0];
-        let rate = mesh.loading.creep.flow * aspect * mesh.total_load(solution);
+        let rate = mesh.loading.creep.flow * aspect * mesh.total_load(&solution.loads);
         Self {
             reference_depth: scale * (solution.depth + rate * sunken(contact_length, spacing[0])),
             reference_distance: contact_length,

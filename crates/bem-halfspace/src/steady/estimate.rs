@@ -5,17 +5,15 @@ use numerics::{Accuracy, Goal};
 use rheology::Material;
 
 use crate::BemError;
-use crate::bars::{self, ContactEstimate, Resolution, Target, peak_has_limit};
+use crate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::steady::loading::Loading;
 use crate::steady::refinement::{Problem, refine};
-use crate::steady::{RefinementOptions, SteadyOptions, SteadySliding, steady_on_grid};
+use crate::steady::solution::SteadyEstimate;
+use crate::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 
 /// Δy/Δx of a grid of a given number of elements.
 const ASPECT: f64 = 0.5;
-
-/// A stationary state with its error bars.
-pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 
 /// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth, to a
 /// relative error of the friction coefficient, and of the normal force where that is not given; or with a number of

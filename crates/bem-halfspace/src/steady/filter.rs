@@ -97,3 +97,12 @@ impl PlaneTransform {
         self.read(workspace, field, &rows);
     }
 }
+
+/// Offset of an index within a period, negative in its upper half.
+pub(super) const fn signed_offset(index: usize, period: usize) -> isize {
+    if index <= period / 2 {
+        index.cast_signed()
+    } else {
+        index.cast_signed() - period.cast_signed()
+    }
+}

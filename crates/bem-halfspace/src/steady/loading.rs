@@ -1,12 +1,12 @@
 //! The load of a stationary problem: a force, or a depth after a sliding distance.
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::PI;
 
 use indenters::{Control, SlidingLoad, Surface};
 use rheology::Material;
 
 use crate::error::{positive, require};
-use crate::steady::contact_scale::{depth_scale, scale_of_profile};
+use crate::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Footprint};
 
@@ -40,9 +40,6 @@ pub(super) struct Loading {
 /// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
 /// one.
 const STRIP: f64 = 1e5;
-
-/// Directions in which the height of a surface is averaged.
-const DIRECTIONS: u8 = 8;
 
 impl Loading {
     /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
@@ -148,15 +145,6 @@ impl Loading {
     }
 }
 
-/// Mean height at a distance from the lowest point, \[m].
-fn mean_height(surface: &dyn Surface, distance: f64) -> f64 {
-    let along = |direction: u8| {
-        let (sine, cosine) = (FRAC_PI_4 * f64::from(direction)).sin_cos();
-        surface.height([distance * cosine, distance * sine])
-    };
-    (0..DIRECTIONS).map(along).sum::<f64>() / f64::from(DIRECTIONS)
-}
-
 /// The sliding distance to which a depth belongs, \[m].
 fn distance_at_depth(
     creep: &SlidingCreep,
@@ -172,23 +160,6 @@ fn distance_at_depth(
     let is_allowed = distance >= footprint_length;
     let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
     require(is_allowed, "sliding_distance", distance, allowed)
-}
-
-/// D of a surface under a force, \[m].
-pub(crate) fn depth_scale_of_surface(
-    surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
-    load: &SlidingLoad,
-) -> Result<f64, BemError> {
-    let creep = SlidingCreep::new(material, load.velocity())?;
-    let force = load.require_normal_force()?;
-    let body = surface.as_axisymmetric();
-    let height = |distance| match body {
-        Some(body) => body.profile_height(distance),
-        None => mean_height(surface, distance),
-    };
-    let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
-    depth_scale(&creep, force, height, largest)
 }
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).

@@ -14,7 +14,6 @@ use crate::error::{positive, require};
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
-use crate::steady::pivoting::Solution;
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
@@ -99,13 +98,25 @@ impl Mesh {
             "number of elements of the footprint that may touch",
             mesh.elements.len() as f64,
         )?;
-        let all = Region::around(&mesh, 0..mesh.n_elements());
+        let all = mesh.region(0..mesh.n_elements());
         mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
     }
 
     pub(super) const fn n_elements(&self) -> usize {
         self.elements.len()
+    }
+
+    /// Some elements in the box around them.
+    pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
+        let places = elements.map(|element| self.places(element));
+        Region::within(places.clone(), places)
+    }
+
+    /// Some elements in the box around all.
+    pub(super) fn region_of_all(&self, elements: impl Iterator<Item = usize>) -> Region {
+        let all = (0..self.n_elements()).map(|element| self.places(element));
+        Region::within(all, elements.map(|element| self.places(element)))
     }
 
     /// Centre of a row (axis 0) or column (axis 1) relative to the lowest point, \[m].
@@ -291,15 +302,15 @@ impl Mesh {
     }
 
     /// Sum of the loads of the whole.
-    pub(super) fn total_load(&self, solution: &Solution) -> f64 {
+    pub(super) fn total_load(&self, loads: &[(usize, f64)]) -> f64 {
         let weighted = |(element, load): &(usize, f64)| self.weight(*element) * load;
-        solution.loads.iter().map(weighted).sum()
+        loads.iter().map(weighted).sum()
     }
 
     /// Mean of a function of ∂h/∂x weighted with the load.
-    pub(super) fn mean(&self, solution: &Solution, of_slope: fn(f64) -> f64) -> f64 {
+    pub(super) fn mean(&self, loads: &[(usize, f64)], of_slope: fn(f64) -> f64) -> f64 {
         let (mut sum, mut normal) = (0.0, 0.0);
-        for &(element, load) in &solution.loads {
+        for &(element, load) in loads {
             sum += self.weight(element) * load * of_slope(self.elements[element].slope);
             normal += self.weight(element) * load;
         }
@@ -307,13 +318,13 @@ impl Mesh {
     }
 
     /// Row, column and load of every loaded element of the whole.
-    pub(super) fn loaded(&self, solution: &Solution) -> Vec<([usize; 2], f64)> {
+    pub(super) fn loaded(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
         let with_image = |&(element, load): &(usize, f64)| {
             let [place, image] = self.places(element);
             let places = std::iter::once(place).chain((image != place).then_some(image));
             places.map(move |place| (place, load))
         };
-        solution.loads.iter().flat_map(with_image).collect()
+        loads.iter().flat_map(with_image).collect()
     }
 
     /// Whether a range of rows and one of columns lie inside the footprint, away from its boundary.
@@ -334,11 +345,11 @@ impl Mesh {
     }
 
     /// Largest rise of the body over a loaded element, in units of the depth scale.
-    pub(super) fn largest_rise(&self, solution: &Solution) -> f64 {
+    pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
         let dx = self.options.spacing[0];
         let rise = |&(element, _): &(usize, f64)| {
             (self.elements[element].slope * dx / self.loading.depth_scale).abs()
         };
-        solution.loads.iter().map(rise).fold(0.0, f64::max)
+        loads.iter().map(rise).fold(0.0, f64::max)
     }
 }

@@ -15,6 +15,7 @@
 //! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
 //! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
+mod averages;
 mod contact_equations;
 mod contact_scale;
 mod depth;
@@ -44,16 +45,17 @@ use rheology::Material;
 use crate::chunks::in_pool;
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
+pub use averages::{Average, Refinement};
+pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
-pub use estimate::{SteadyEstimate, steady, steady_refined};
+pub use estimate::{steady, steady_refined};
 pub use kernel::wake_influence;
 pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
 use loading::Loading;
-pub(crate) use loading::depth_scale_of_surface;
 use mesh::Mesh;
 use plans::Plans;
-pub use refinement::{Average, Refinement, RefinementOptions};
-pub use solution::SteadySliding;
+pub use refinement::RefinementOptions;
+pub use solution::{SteadyEstimate, SteadySliding};
 
 /// Meshes of more elements than this start from the solution on a coarser one.
 const NESTED: usize = 500;

@@ -171,7 +171,7 @@ struct State {
 
 impl<'mesh> Search<'mesh> {
     fn new(mesh: &'mesh Mesh, plans: &'mesh mut Plans, guess: Vec<(usize, f64)>) -> Self {
-        let all = Region::around(mesh, 0..mesh.n_elements());
+        let all = mesh.region(0..mesh.n_elements());
         let mut search = Self {
             mesh,
             inside: vec![false; mesh.n_elements()],

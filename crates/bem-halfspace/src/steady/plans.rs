@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::fast_length::fast_length;
 use crate::plane_transform::PlaneTransform;
-use crate::steady::filter::{Filters, Spectrum};
+use crate::steady::filter::{Filters, Spectrum, signed_offset};
 use crate::steady::sliding_creep::ElementCreep;
 use crate::steady::wake_table::WakeTable;
 use crate::steady::wiener_hopf;
@@ -79,13 +79,4 @@ fn recent<const N: usize>(
 /// A period that is fast to transform and keeps `n` elements free of their images.
 fn free_period(n: usize) -> usize {
     fast_length(2 * n - 1)
-}
-
-/// Offset of an index within a period, negative in its upper half.
-pub(super) const fn signed_offset(index: usize, period: usize) -> isize {
-    if index <= period / 2 {
-        index.cast_signed()
-    } else {
-        index.cast_signed() - period.cast_signed()
-    }
 }

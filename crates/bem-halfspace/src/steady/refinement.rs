@@ -12,9 +12,11 @@ use numerics::{ErrorParts, Estimate};
 use crate::bars::{self, FORCE, FRICTION, NAMES};
 use crate::error::{below_one, positive, require};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
+use crate::steady::averages::{Average, Refinement};
 use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
-use crate::steady::{Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve};
+use crate::steady::solution::{SteadyEstimate, SteadySliding};
+use crate::steady::{Reuse, SteadyOptions, solve};
 use crate::{BemError, Footprint};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
@@ -66,56 +68,6 @@ impl Default for RefinementOptions {
             max_unknowns: 40_000,
         }
     }
-}
-
-/// A quantity over shifted grids.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Average {
-    /// Mean.
-    pub value: f64,
-    /// Standard deviation.
-    pub scatter: f64,
-}
-
-impl Average {
-    fn of(states: &[SteadySliding], quantity: impl Fn(&SteadySliding) -> f64) -> Self {
-        let count = states.len() as f64;
-        let value = states.iter().map(&quantity).sum::<f64>() / count;
-        let squares = states.iter().map(|state| (quantity(state) - value).powi(2));
-        Self {
-            value,
-            scatter: (squares.sum::<f64>() / (count - 1.0)).sqrt(),
-        }
-    }
-
-    fn times(self, factor: f64) -> Self {
-        Self {
-            value: factor * self.value,
-            scatter: factor * self.scatter,
-        }
-    }
-}
-
-/// One refinement: averages over shifted grids; in plane strain forces and areas are per length along y.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Refinement {
-    /// Δx, \[m].
-    pub spacing: f64,
-    /// Friction coefficient.
-    pub friction_coefficient: Average,
-    /// Normal force, \[N].
-    pub normal_force: Average,
-    /// Depth after the sliding distance of the load, or the
-    /// [reference depth](crate::steady::SinkingDepth::reference_depth) without one, \[m].
-    pub indentation_depth: Average,
-    /// Area of the elements in contact, \[m²].
-    pub contact_area: Average,
-    /// Largest pressure of an element, \[Pa].
-    pub peak_pressure: Average,
-    /// Unknown pressures on the largest of the grids.
-    pub unknowns: usize,
 }
 
 /// A surface that slides, and the grids for it.

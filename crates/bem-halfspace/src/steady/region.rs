@@ -1,7 +1,5 @@
 //! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
 
-use crate::steady::mesh::Mesh;
-
 /// Elements of a mesh in their bounding box, images by mirror symmetry included.
 #[derive(Debug)]
 pub(super) struct Region {
@@ -12,34 +10,21 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// `elements` of the mesh in the box around them.
-    pub(super) fn around(mesh: &Mesh, elements: impl Iterator<Item = usize> + Clone) -> Self {
-        Self::within(mesh, elements.clone(), elements)
-    }
-
-    /// Some `elements` in the box around all of the mesh.
-    pub(super) fn of_all(mesh: &Mesh, elements: impl Iterator<Item = usize>) -> Self {
-        Self::within(mesh, 0..mesh.n_elements(), elements)
-    }
-
-    /// `elements` in the box around others that include them.
-    fn within(
-        mesh: &Mesh,
-        others: impl Iterator<Item = usize> + Clone,
-        elements: impl Iterator<Item = usize>,
+    /// Elements at some places, each with its image, in the box around others that include them.
+    pub(super) fn within(
+        occupied: impl Iterator<Item = [[usize; 2]; 2]> + Clone,
+        elements: impl Iterator<Item = [[usize; 2]; 2]>,
     ) -> Self {
-        let occupied = others.map(|element| mesh.places(element));
         let [rows, columns] = [0, 1].map(|axis| {
             let indices = occupied.clone().flatten().map(|place| place[axis]);
             let first = indices.clone().min().unwrap_or(0);
             first..indices.max().map_or(first, |last| last + 1)
         });
-        let positions = elements.map(|element| mesh.places(element));
         let width = columns.len();
         let place = |[row, column]: [usize; 2]| (row - rows.start) * width + column - columns.start;
         Self {
             shape: [rows.len(), width],
-            places: positions.map(|places| places.map(place)).collect(),
+            places: elements.map(|places| places.map(place)).collect(),
         }
     }
 

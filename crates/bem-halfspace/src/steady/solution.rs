@@ -2,7 +2,7 @@
 
 use numerics::ErrorParts;
 
-use crate::bars::{OnGrid, Quantities};
+use crate::bars::{ContactEstimate, OnGrid, Quantities};
 use crate::error::check_contact_elements;
 use crate::pressure_field::PressureField;
 use crate::steady::SteadyOptions;
@@ -10,6 +10,9 @@ use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
 use crate::{BemError, Grid};
+
+/// A stationary state with its error bars.
+pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 
 /// A stationary solution on one grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +83,7 @@ impl SteadySliding {
 
     /// Turns a solution in the units of the mesh into one in SI.
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
-        let loaded = mesh.loaded(solution);
+        let loaded = mesh.loaded(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
         if let Some(([row, column], _)) =
             loaded.iter().find(|(element, _)| mesh.faces_wall(*element))
@@ -90,7 +93,7 @@ impl SteadySliding {
                 y: mesh.centre(1, *column),
             });
         }
-        let rise = mesh.largest_rise(solution) * mesh.loading.depth_scale;
+        let rise = mesh.largest_rise(&solution.loads) * mesh.loading.depth_scale;
         if rise > mesh.loading.depth_scale {
             return Err(BemError::SlopeNotResolved {
                 rise,
@@ -106,10 +109,10 @@ impl SteadySliding {
             ]
         });
         let pressure = pressure_field(mesh, &loaded, bounds)?;
-        let total_load = mesh.total_load(solution);
+        let total_load = mesh.total_load(&solution.loads);
         Ok(Self {
-            friction_coefficient: mesh.mean(solution, |slope| slope),
-            mean_slope: mesh.mean(solution, f64::abs),
+            friction_coefficient: mesh.mean(&solution.loads, |slope| slope),
+            mean_slope: mesh.mean(&solution.loads, f64::abs),
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: loaded.len() as f64 * pressure.grid.element_area(),

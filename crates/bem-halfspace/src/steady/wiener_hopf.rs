@@ -9,12 +9,13 @@
 //! (Wiener & Hopf 1931); without end ahead of a straight rear, in the other order. The preconditioner goes from the one
 //! to the other along x in proportion to the distance from the two ends.
 
+use std::sync::Arc;
+
 use rustfft::num_complex::Complex;
 
 use crate::fast_length::fast_length;
 use crate::plane_transform::PlaneTransform;
-use crate::steady::filter::{RegionFilter, Spectrum};
-use crate::steady::plans::{Plans, signed_offset};
+use crate::steady::filter::{Filters, RegionFilter, Spectrum, signed_offset};
 use crate::steady::region::Region;
 use crate::steady::sliding_creep::{Delay, ElementCreep};
 use crate::steady::wake_table::WakeTable;
@@ -50,9 +51,10 @@ pub(super) struct WienerHopf {
 }
 
 impl WienerHopf {
-    pub(super) fn new(plans: &mut Plans, region: &Region) -> Self {
+    /// From the [`inverse_factors`] for the shape of a region.
+    pub(super) fn new(inverses: Arc<Filters<2>>, region: &Region) -> Self {
         Self {
-            inverses: RegionFilter::new(plans.inverse_factors(region.shape), region),
+            inverses: RegionFilter::new(inverses, region),
             front: region.fractions_from_rear(),
         }
     }
