@@ -5,7 +5,7 @@ use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
 use rheology::Material;
 
 use crate::BemError;
-use crate::steady::Refinement;
+use crate::averages::Refinement;
 
 /// Slowest and fastest order in which friction is assumed to converge: smooth bodies are better than the first, which is
 /// safe to assume although their outline follows the elements; below the smallest one nothing converges.

@@ -27,6 +27,7 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+mod averages;
 mod bands;
 mod bars;
 mod bounds;

@@ -15,7 +15,6 @@
 //! needs it (a march in time does the same when the pressure of a step belongs to the motion during the step), and the
 //! centre, where a spring needs it, in proportion to the loss angle at the wave length of two elements.
 
-mod averages;
 mod contact_equations;
 mod contact_scale;
 mod depth;
@@ -42,10 +41,10 @@ mod wiener_hopf;
 use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
+pub use crate::averages::{Average, Refinement};
 use crate::chunks::in_pool;
 use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
-pub use averages::{Average, Refinement};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
 pub use estimate::{steady, steady_refined};

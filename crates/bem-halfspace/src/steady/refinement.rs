@@ -9,10 +9,10 @@
 use indenters::Surface;
 use numerics::{ErrorParts, Estimate};
 
+use crate::averages::{Average, Refinement};
 use crate::bars::{self, FORCE, FRICTION, NAMES};
 use crate::error::{below_one, positive, require};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
-use crate::steady::averages::{Average, Refinement};
 use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
 use crate::steady::solution::{SteadyEstimate, SteadySliding};

@@ -11,7 +11,7 @@ pub struct Average {
 }
 
 impl Average {
-    pub(super) fn of<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
+    pub(crate) fn of<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
         let count = states.len() as f64;
         let value = states.iter().map(&quantity).sum::<f64>() / count;
         let squares = states.iter().map(|state| (quantity(state) - value).powi(2));
@@ -21,7 +21,7 @@ impl Average {
         }
     }
 
-    pub(super) fn times(self, factor: f64) -> Self {
+    pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
             scatter: factor * self.scatter,
