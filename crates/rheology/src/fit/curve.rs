@@ -1,5 +1,6 @@
 //! What was measured, over frequency or over time.
 
+use super::system::{Quantity, Row};
 use crate::RheologyError;
 use crate::error::{in_list, in_range, not_negative, positive};
 
@@ -28,13 +29,11 @@ pub struct RelaxationPoint {
 /// A measured curve, at increasing frequencies or times.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MeasuredCurve(Points);
-
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub(super) enum Points {
-    Oscillation(Vec<ModulusPoint>),
-    Relaxation(Vec<RelaxationPoint>),
+pub struct MeasuredCurve {
+    /// One for every measured number.
+    pub(super) rows: Vec<Row>,
+    /// The shortest and the longest time that the curve covers, 1/ω or t.
+    pub(super) time_window: [f64; 2],
 }
 
 impl MeasuredCurve {
@@ -44,19 +43,29 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a frequency is not
     /// greater than the one before it, or a modulus is not finite, negative, or both of a point are zero.
     pub fn oscillation(points: Vec<ModulusPoint>) -> Result<Self, RheologyError> {
+        let magnitude = |point: &ModulusPoint, last: f64| {
+            increasing("angular_frequency", point.angular_frequency, last)?;
+            not_negative("storage", point.storage)?;
+            not_negative("loss", point.loss)?;
+            positive("modulus", point.storage.hypot(point.loss))
+        };
+        let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
-            last = increasing("angular_frequency", point.angular_frequency, last)
-                .and_then(|frequency| {
-                    not_negative("storage", point.storage)?;
-                    not_negative("loss", point.loss)?;
-                    positive("modulus", point.storage.hypot(point.loss))?;
-                    Ok(frequency)
-                })
-                .map_err(in_list("points", index))?;
+            let magnitude = magnitude(point, last).map_err(in_list("points", index))?;
+            last = point.angular_frequency;
+            let row = |quantity, value| Row {
+                quantity,
+                at: last,
+                value,
+                weight: magnitude.recip(),
+            };
+            let [storage, loss] = [point.storage, point.loss];
+            rows.extend([row(Quantity::Storage, storage), row(Quantity::Loss, loss)]);
         }
-        enough(points.len())?;
-        Ok(Self(Points::Oscillation(points)))
+        let [first, last] = ends(&rows, points.len())?;
+        let time_window = [last.recip(), first.recip()];
+        Ok(Self { rows, time_window })
     }
 
     /// A curve measured in relaxation.
@@ -65,31 +74,22 @@ impl MeasuredCurve {
     /// [`RheologyError::TooFewPoints`] below two points; [`RheologyError::InvalidElement`] when a time is not greater
     /// than the one before it, or a modulus is not finite and greater than zero.
     pub fn relaxation(points: Vec<RelaxationPoint>) -> Result<Self, RheologyError> {
+        let mut rows = Vec::new();
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
-            last = increasing("time", point.time, last)
-                .and_then(|time| positive("modulus", point.modulus).map(|_| time))
+            let modulus = increasing("time", point.time, last)
+                .and_then(|_| positive("modulus", point.modulus))
                 .map_err(in_list("points", index))?;
+            last = point.time;
+            rows.push(Row {
+                quantity: Quantity::Relaxation,
+                at: last,
+                value: modulus,
+                weight: modulus.recip(),
+            });
         }
-        enough(points.len())?;
-        Ok(Self(Points::Relaxation(points)))
-    }
-
-    pub(super) const fn points(&self) -> &Points {
-        &self.0
-    }
-
-    /// The shortest and the longest time that the curve covers, 1/ω or t.
-    pub(super) fn time_window(&self) -> [f64; 2] {
-        let window = match &self.0 {
-            Points::Oscillation(points) => [points.last(), points.first()]
-                .map(|point| point.map(|p| p.angular_frequency.recip())),
-            Points::Relaxation(points) => {
-                [points.first(), points.last()].map(|point| point.map(|p| p.time))
-            }
-        };
-        // A curve has at least two points.
-        window.map(Option::unwrap_or_default)
+        let time_window = ends(&rows, points.len())?;
+        Ok(Self { rows, time_window })
     }
 }
 
@@ -99,9 +99,10 @@ fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, Rhe
     in_range(parameter, value, holds, allowed)
 }
 
-fn enough(given: usize) -> Result<(), RheologyError> {
-    if given < 2 {
-        return Err(RheologyError::TooFewPoints { needed: 2, given });
+/// The first and the last frequency or time.
+fn ends(rows: &[Row], given: usize) -> Result<[f64; 2], RheologyError> {
+    match rows {
+        [first, .., last] if given >= 2 => Ok([first.at, last.at]),
+        _ => Err(RheologyError::TooFewPoints { needed: 2, given }),
     }
-    Ok(())
 }

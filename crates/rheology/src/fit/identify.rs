@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DMatrixView, DVector};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
-use super::system::{Row, rows};
+use super::system::Row;
 use crate::error::{in_range, not_negative, positive};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
@@ -84,8 +84,8 @@ pub fn identify(
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
     let problem = Problem {
-        rows: rows(curve),
-        window: curve.time_window(),
+        rows: &curve.rows,
+        window: curve.time_window,
         ending: options.ending,
     };
     let series = match options.control {
@@ -99,13 +99,13 @@ pub fn identify(
     problem.assessed(&series)
 }
 
-struct Problem {
-    rows: Vec<Row>,
+struct Problem<'a> {
+    rows: &'a [Row],
     window: [f64; 2],
     ending: Ending,
 }
 
-impl Problem {
+impl Problem<'_> {
     /// Times equally spaced in the logarithm, from end to end of the measured window.
     fn spaced(&self, n_branches: usize) -> Vec<f64> {
         let [shortest, longest] = self.window;
@@ -156,10 +156,10 @@ impl Problem {
         let [shortest, longest] = self.window;
         let window = [shortest / WINDOW_MARGIN, longest * WINDOW_MARGIN];
         let start = self.solved(self.spaced(n_branches), 0.0)?;
-        let moved = refine(&self.rows, start.revived(), window);
+        let moved = refine(self.rows, start.revived(), window);
         let times = moved.branches.iter().map(|branch| branch.relaxation_time);
         let end = self.solved(times.collect(), 0.0)?;
-        let better = end.squares(&self.rows) < start.squares(&self.rows);
+        let better = end.squares(self.rows) < start.squares(self.rows);
         Ok(if better { end } else { start })
     }
 
@@ -169,10 +169,10 @@ impl Problem {
         let inner = (1..MAX_BRANCHES).take_while(|&k| k as f64 <= DENSE_PER_DECADE * decades);
         let dense = 2 + inner.count();
         let best = self.solved(self.spaced(dense), 0.0)?;
-        let allowed = (1.0 + tolerance).powi(2) * best.squares(&self.rows);
+        let allowed = (1.0 + tolerance).powi(2) * best.squares(self.rows);
         for n_branches in 1..dense {
             let series = self.refined(n_branches)?;
-            if series.squares(&self.rows) <= allowed {
+            if series.squares(self.rows) <= allowed {
                 return Ok(series);
             }
         }

@@ -1,13 +1,13 @@
 use proptest::prelude::*;
 use rheology::{
-    ArrheniusShift, Compressible, CreepSpectrum, Elastic, ExponentialStep, FractionalMaxwell,
-    FractionalMaxwellParameters, KelvinVoigt, Material, Maxwell, RelaxationBranch,
-    RelaxationSpectrum, RetardationElement, RheologyError, Springpot, StandardSolid, Viscous,
-    WlfShift,
+    ArrheniusShift, Compressible, CreepSpectrum, Elastic, ExponentialStep, KelvinVoigt, Material,
+    Maxwell, RelaxationBranch, RelaxationSpectrum, RetardationElement, RheologyError, Springpot,
+    StandardSolid, Viscous, WlfShift,
 };
 
 use crate::support::{
-    NEGATIVE, NOT_POSITIVE, assert_same, fixed_cases, parameters, refuses, solid,
+    NEGATIVE, NOT_POSITIVE, assert_same, fixed_cases, fractional_maxwell, parameters, refuses,
+    solid,
 };
 
 #[test]
@@ -114,13 +114,7 @@ fn times_frequencies_and_steps_outside_their_range_are_refused() {
 #[test]
 fn fractional_elements_and_their_expansions_refuse_what_has_no_series() {
     let no_exponent = [0.0, 1.0, -0.5, f64::NAN];
-    let maxwell = |[shear_modulus, relaxation_time, exponent]: [f64; 3]| {
-        FractionalMaxwell::new(FractionalMaxwellParameters {
-            shear_modulus,
-            relaxation_time,
-            exponent,
-        })
-    };
+    let maxwell = fractional_maxwell;
     refuses("coefficient", NOT_POSITIVE, |x| Springpot::new(x, 0.5));
     refuses("exponent", &no_exponent, |x| Springpot::new(1.0, x));
     refuses("shear_modulus", NOT_POSITIVE, |x| maxwell([x, 1.0, 0.5]));

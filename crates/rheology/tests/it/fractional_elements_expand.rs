@@ -1,18 +1,7 @@
 use casebook::assert_close;
-use rheology::{Elastic, FractionalMaxwell, FractionalMaxwellParameters, Material, Springpot};
+use rheology::{Elastic, Material, Springpot};
 
-fn fractional_maxwell(
-    shear_modulus: f64,
-    relaxation_time: f64,
-    exponent: f64,
-) -> FractionalMaxwell {
-    FractionalMaxwell::new(FractionalMaxwellParameters {
-        shear_modulus,
-        relaxation_time,
-        exponent,
-    })
-    .unwrap()
-}
+use crate::support::fractional_maxwell;
 
 #[test]
 fn springpot_has_its_closed_forms() {
@@ -47,7 +36,7 @@ fn fractional_maxwell_relaxes_like_the_mittag_leffler_function() {
         }
         let (exponent, x) = (case.input("a"), case.input("x"));
         let time = x.powf(exponent.recip());
-        let element = fractional_maxwell(1.0, 1.0, exponent);
+        let element = fractional_maxwell([1.0, 1.0, exponent]).unwrap();
         let expansion = element.expand([1e-3 / time, 1e3 / time], 1e-10);
         let series = expansion.unwrap().spectrum;
         case.check("E", series.relaxation_modulus(time).unwrap());
@@ -87,7 +76,8 @@ fn expansions_keep_to_the_error_asked_for_anywhere_in_the_band() {
 #[test]
 fn fractional_standard_solid_creeps_like_its_closed_form() {
     let (g1, g2, tau) = (2.0, 6.0, 3.0);
-    let expansion = fractional_maxwell(g2, tau, 0.5).expand([1e-6, 1e6], 1e-10);
+    let expansion = fractional_maxwell([g2, tau, 0.5]).unwrap();
+    let expansion = expansion.expand([1e-6, 1e6], 1e-10);
     let spring = Elastic::new(g1).unwrap().relaxation();
     let solid = expansion.unwrap().spectrum.in_parallel_with(&spring);
     let creep = solid.unwrap().to_creep().unwrap();

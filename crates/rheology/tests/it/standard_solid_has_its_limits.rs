@@ -1,8 +1,7 @@
 use casebook::assert_close;
-use proptest::prelude::*;
 use rheology::{Material, StandardSolid};
 
-use crate::support::{fixed_cases, solid};
+use crate::support::solid;
 
 /// Over 600 decades the three functions agree with one another and with their leading terms.
 #[test]
@@ -101,20 +100,4 @@ fn window_is_closed_from_its_threshold_up() {
     // rounded to 1e-16, that is to 1 % of its distance from the threshold.
     let half_width = (4.0 * 2_f64.sqrt() * 1e-14 * threshold).sqrt() / (2.0 * (1.0 + threshold));
     assert_close!(0.5 * (upper - lower) => half_width, within 0.01);
-}
-
-proptest! {
-    #![proptest_config(fixed_cases())]
-
-    /// The textbook form, where it does not cancel.
-    #[test]
-    fn creep_has_the_textbook_form(gamma in 0.1_f64..10.0, log_time in -2.0_f64..3.0, log_scale in -12.0_f64..12.0) {
-        let scale = 10_f64.powf(log_scale);
-        let (g1, g2, eta) = (gamma * scale, scale, 7.0);
-        let solid = solid([g1, g2, eta]);
-        let time = 10_f64.powf(log_time) * solid.relaxation_time();
-        let decay = (-time / solid.retardation_time()).exp();
-        let textbook = 1.0 / g1 - g2 / (g1 * (g1 + g2)) * decay;
-        assert_close!(solid.creep_compliance(time).unwrap() => textbook, within 1e-13);
-    }
 }

@@ -5,7 +5,8 @@ use std::fmt::Debug;
 use casebook::Case;
 use proptest::test_runner::{Config, RngSeed};
 use rheology::{
-    RelaxationBranch, RelaxationSpectrum, RheologyError, StandardSolid, StandardSolidParameters,
+    FractionalMaxwell, FractionalMaxwellParameters, RelaxationBranch, RelaxationSpectrum,
+    RheologyError, StandardSolid, StandardSolidParameters,
 };
 
 /// The solid of these equilibrium and Maxwell moduli and this viscosity.
@@ -19,6 +20,17 @@ pub(crate) fn parameters([g1, g2, eta]: [f64; 3]) -> StandardSolidParameters {
         maxwell_modulus: g2,
         viscosity: eta,
     }
+}
+
+/// The element of a modulus, a time and an exponent.
+pub(crate) fn fractional_maxwell(
+    [shear_modulus, relaxation_time, exponent]: [f64; 3],
+) -> Result<FractionalMaxwell, RheologyError> {
+    FractionalMaxwell::new(FractionalMaxwellParameters {
+        shear_modulus,
+        relaxation_time,
+        exponent,
+    })
 }
 
 /// The same cases in every run, and no file left behind.

@@ -42,15 +42,6 @@ impl SceneError {
             problem: problem.into(),
         }
     }
-
-    /// The key, where there is one.
-    #[must_use]
-    pub fn key(&self) -> Option<&str> {
-        match self {
-            Self::Value { key, .. } | Self::At { key, .. } => Some(key),
-            Self::Syntax { .. } => None,
-        }
-    }
 }
 
 pub(crate) fn positive(key: &str, value: f64) -> Result<f64, SceneError> {

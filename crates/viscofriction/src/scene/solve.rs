@@ -74,8 +74,6 @@ impl Model {
 
 /// Unless the scene says otherwise.
 const RELATIVE_ERROR: f64 = 1e-3;
-const ELEMENTS: std::ops::RangeInclusive<usize> = 8..=100_000;
-const THREADS: std::ops::RangeInclusive<usize> = 1..=1024;
 
 impl Method {
     /// The name in a scene file.
@@ -114,17 +112,17 @@ impl Solve {
                 "either relative_error or elements is given, not both",
             )),
             (_, Some(elements)) => {
-                let allowed = "from 8 to 100000";
-                let holds = ELEMENTS.contains(&elements);
-                in_range("solve.elements", elements as f64, holds, allowed)?;
+                let holds = (8..=100_000).contains(&elements);
+                let number = elements as f64;
+                in_range("solve.elements", number, holds, "from 8 to 100000")?;
                 Ok(Accuracy::Elements(elements))
             }
             (given, None) => {
                 let value = given.unwrap_or(RELATIVE_ERROR);
                 let holds = value > 0.0 && value <= 0.1;
                 let allowed = "greater than 0 and at most 0.1";
-                in_range("solve.relative_error", value, holds, allowed)?;
-                Ok(Accuracy::RelativeError(value))
+                let value = in_range("solve.relative_error", value, holds, allowed);
+                value.map(Accuracy::RelativeError)
             }
         }
     }
@@ -134,12 +132,11 @@ impl Solve {
     /// # Errors
     /// [`SceneError::Value`] for a number out of range.
     pub fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
-        let Some(threads) = self.threads else {
-            return Ok(None);
-        };
-        let holds = THREADS.contains(&threads);
-        in_range("solve.threads", threads as f64, holds, "from 1 to 1024")?;
-        Ok(Some(threads))
+        if let Some(threads) = self.threads {
+            let holds = (1..=1024).contains(&threads);
+            in_range("solve.threads", threads as f64, holds, "from 1 to 1024")?;
+        }
+        Ok(self.threads)
     }
 
     /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.

@@ -93,15 +93,9 @@ fn load_along(body: &Revolution, per_depth: f64, state: &StationarySliding) -> V
         return Vec::new();
     };
     let position = |index: usize| rear + (front - rear) * (index as f64 / N_POINTS as f64);
-    (0..=N_POINTS)
-        .map(|index| {
-            [
-                position(index),
-                per_depth * body.line_slope(position(index)),
-            ]
-        })
-        .filter(|[_, load]| load.is_finite())
-        .collect()
+    let load = |position: f64| [position, per_depth * body.line_slope(position)];
+    let loads = (0..=N_POINTS).map(position).map(load);
+    loads.filter(|[_, load]| load.is_finite()).collect()
 }
 
 /// The stationary state of a power profile on a viscous half space, from the table of s(p).
@@ -207,7 +201,7 @@ pub(crate) fn pressed(
     };
     let peak_pressure = match (body, simple(material)?) {
         (Revolution::Power(profile), Some(Simple::Elastic)) => {
-            peak_of_power(profile, material, radius)?
+            peak_of_power(profile, material, radius)
         }
         _ => None,
     };
@@ -239,20 +233,11 @@ fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
 }
 
 /// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
-fn peak_of_power(
-    profile: &PowerProfile,
-    material: &dyn Material,
-    radius: f64,
-) -> Result<Option<f64>> {
+fn peak_of_power(profile: &PowerProfile, material: &dyn Material, radius: f64) -> Option<f64> {
     let p = profile.exponent();
-    if p <= 1.0 {
-        return Ok(None);
-    }
     let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
     let height = profile.line_height(radius);
-    Ok(Some(
-        4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius),
-    ))
+    (p > 1.0).then(|| 4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius))
 }
 
 /// A cylinder that is infinite along y, under a constant force in plane strain: all forces and areas are per length.
@@ -265,17 +250,13 @@ pub(crate) fn cylinder_pressed(
     let impulse = impulse(material, force, duration)?;
     let dashpot = Viscous::new(1.0)?;
     let half_width = cylinder_half_width_after_impulse(cylinder, &dashpot, impulse)?;
-    let peak_pressure = match simple(material)? {
-        Some(Simple::Elastic) => Some(2.0 * FRAC_1_PI * (force / half_width)),
-        _ => None,
-    };
+    let is_elastic = simple(material)? == Some(Simple::Elastic);
+    let peak_pressure = is_elastic.then(|| 2.0 * FRAC_1_PI * (force / half_width));
+    let ends = [-half_width, half_width];
     Ok(Answer {
         is_per_length: true,
         contact_area: Some(within(2.0 * half_width, ROUNDING)),
-        contact_box: Some(ContactBox::along(
-            [-half_width, half_width],
-            ROUNDING * half_width,
-        )),
+        contact_box: Some(ContactBox::along(ends, ROUNDING * half_width)),
         peak_pressure: peak_pressure.map(|pressure| within(pressure, ROUNDING)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, Estimate::exact(force))
     })

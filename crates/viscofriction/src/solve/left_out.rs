@@ -5,9 +5,9 @@ use rheology::CreepSpectrum;
 
 use super::answer::{Answer, Grid};
 use super::body::Body;
-use super::offer::answers;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
+use super::work::work;
 use crate::scene::{Control, Method};
 
 /// What the method of the answer left out; what only another method would do counts where that answers the scene too.
@@ -15,7 +15,7 @@ pub(crate) fn plan(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut left_out = candidates(problem, answer);
     left_out.retain(|omission| {
         let other = omission.done_by(answer.model, problem.motion);
-        other.is_none_or(|method| answers(method, problem))
+        other.is_none_or(|method| work(problem, method, problem.accuracy).is_ok())
     });
     left_out
 }

@@ -59,11 +59,6 @@ fn other_model(method: Method, asked: Model) -> Option<Refusal> {
     })
 }
 
-/// Whether a method answers a problem, whichever method and model that names.
-pub(crate) fn answers(method: Method, problem: &Problem) -> bool {
-    work(problem, method, problem.accuracy).is_ok()
-}
-
 /// What a scene file asks, and the method that answers it: the one given, that of the scene, or the cheapest.
 ///
 /// # Errors

@@ -30,8 +30,9 @@ pub(crate) fn work(
     match (&problem.body, method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
-        (Body::Revolution(body), Method::MdrSteady) => line_steady(problem, body, accuracy),
-        (Body::Revolution(body), Method::MdrTransient) => line_transient(problem, body, accuracy),
+        (Body::Revolution(body), Method::MdrSteady | Method::MdrTransient) => {
+            one_dimensional(problem, body, method, accuracy)
+        }
         (Body::Revolution(body), _) => boundary_elements(problem, body, method, accuracy),
         (Body::HeightMap(map), Method::BemSteady | Method::BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
@@ -139,41 +140,31 @@ fn boundary_elements<'a>(
     ready(move || elements::transient(surface, material, &load, accuracy))
 }
 
-fn line_steady<'a>(
+fn one_dimensional<'a>(
     problem: &'a Problem,
     body: &'a Revolution,
-    accuracy: Accuracy,
-) -> Result<Work<'a>, Refusal> {
-    let Motion::Sliding(load) = problem.motion else {
-        return Err(NOTHING_SLIDES);
-    };
-    require(load.sliding_distance().is_none(), STATIONARY)?;
-    match accuracy {
-        Accuracy::Elements(_) => {
-            Err("it chooses its polynomials itself; give relative_error instead of elements")
-        }
-        Accuracy::RelativeError(error) => {
-            ready(move || mdr::stationary(body, &*problem.material, &load, error))
-        }
-    }
-}
-
-fn line_transient<'a>(
-    problem: &'a Problem,
-    body: &'a Revolution,
+    method: Method,
     accuracy: Accuracy,
 ) -> Result<Work<'a>, Refusal> {
     let material = &*problem.material;
-    match problem.motion {
-        Motion::Sliding(load) => {
+    match (method, problem.motion) {
+        (Method::MdrSteady, Motion::Sliding(load)) => {
+            require(load.sliding_distance().is_none(), STATIONARY)?;
+            let Accuracy::RelativeError(error) = accuracy else {
+                return Err(
+                    "it chooses its polynomials itself; give relative_error instead of elements",
+                );
+            };
+            ready(move || mdr::stationary(body, material, &load, error))
+        }
+        (Method::MdrSteady, Motion::Pressing(_)) => Err(NOTHING_SLIDES),
+        (_, Motion::Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
             ready(move || mdr::transient(body, material, &load, accuracy))
         }
-        Motion::Pressing(load) => {
-            require(
-                has_force(problem),
-                "it presses with a force; analytic holds a depth",
-            )?;
+        (_, Motion::Pressing(load)) => {
+            let under_force = "it presses with a force; analytic holds a depth";
+            require(has_force(problem), under_force)?;
             ready(move || mdr::pressed(body, material, &load, accuracy))
         }
     }
