@@ -81,14 +81,19 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         if kinks.is_empty() {
             return Ok(());
         }
-        let depth = self.depth(control, ROUGH_TOLERANCE)?;
-        let contacts = self.solve(depth, ROUGH_TOLERANCE)?.contacts;
-        match kinks.iter().find(|kink| kink.is_in(&contacts)) {
-            None => Ok(()),
-            Some(kink) => Err(MdrError::FrictionDiverges {
-                position: kink.position,
-            }),
-        }
+        let depth = self.depth(control, ROUGH_TOLERANCE);
+        let in_contact = match depth.and_then(|depth| self.solve(depth, ROUGH_TOLERANCE)) {
+            Ok(sweep) => kinks.iter().find(|kink| kink.is_in(&sweep.contacts)),
+            // No depth is large enough: behind the kink the line rises by all of it within the rounding of positions.
+            Err(MdrError::NonFinite {
+                value: f64::INFINITY,
+                ..
+            }) => kinks.first(),
+            Err(error) => return Err(error),
+        };
+        in_contact.map_or(Ok(()), |&SteepKink { position, .. }| {
+            Err(MdrError::FrictionDiverges { position })
+        })
     }
 
     /// Distance between the rear and the front of the contact, \[m], also where friction diverges.
