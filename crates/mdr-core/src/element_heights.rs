@@ -47,13 +47,14 @@ impl ElementHeights {
         positive("spacing", spacing)?;
         let start = lowest_candidate(line)?;
         let sampled = Self::around(line, start, spacing, height)?;
-        let lowest = sampled.lowest_index();
-        if lowest == sampled.anchor_index {
-            return Ok(sampled);
+        let is_lowest = |height: &f64| *height <= 0.0;
+        match sampled.heights.iter().position(is_lowest) {
+            Some(lowest) if !is_lowest(&sampled.heights[sampled.anchor_index]) => {
+                let refined = refine_lowest(line, sampled.position(lowest), spacing);
+                Self::around(line, refined, spacing, height)
+            }
+            _ => Ok(sampled),
         }
-        let position = sampled.position(lowest);
-        let refined = refine_lowest(line, position, spacing);
-        Self::around(line, refined, spacing, height)
     }
 
     /// So many elements that an `area` \[m²] can be displaced below the ceiling, or the whole of a finite line.
@@ -99,17 +100,6 @@ impl ElementHeights {
         let distance = n_elements as f64 * self.spacing;
         let [rear, front] = [-distance, distance].map(|offset| line.height(self.anchor + offset));
         rear.min(front) - self.lowest_height
-    }
-
-    /// The lowest element; the anchor, if it is among the lowest.
-    fn lowest_index(&self) -> usize {
-        let mut lowest = self.anchor_index;
-        for (index, height) in self.heights.iter().enumerate() {
-            if *height < self.heights[lowest] {
-                lowest = index;
-            }
-        }
-        lowest
     }
 
     fn around(

@@ -77,7 +77,7 @@ pub(super) struct Recovery {
     /// β_k, in depths.
     amplitudes: Vec<f64>,
     /// Distance ξ since then, \[m]; infinite if it was never loaded.
-    distance: f64,
+    pub(super) distance: f64,
 }
 
 impl Foundation {
@@ -283,15 +283,5 @@ impl Recovery {
             amplitudes: Vec::new(),
             distance: f64::INFINITY,
         }
-    }
-
-    /// Whether it was loaded right here.
-    pub(super) fn just_released(&self) -> bool {
-        self.distance <= 0.0
-    }
-
-    /// Lets the line move on.
-    pub(super) fn advance(&mut self, distance: f64) {
-        self.distance += distance;
     }
 }

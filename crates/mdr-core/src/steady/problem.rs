@@ -160,25 +160,18 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     /// The state in SI; the errors of its ends are not known yet.
     fn state(&self, control: Control, tolerance: f64) -> Result<SteadySliding, MdrError> {
         let depth = self.depth(control, tolerance)?;
-        let sums = self.solve(depth, tolerance)?;
-        let ends = sums.ends();
-        let Sweep {
-            load,
-            work,
-            load_error,
-            work_error,
-            mut contacts,
-            too_steep,
-            n_pieces,
-        } = sums;
-        if let Some(position) = too_steep {
+        let mut sums = self.solve(depth, tolerance)?;
+        if let Some(position) = sums.too_steep {
             return Err(MdrError::FrictionDiverges { position });
         }
-        contacts.reverse();
+        let ends = sums.ends();
+        sums.contacts.reverse();
+        let Sweep { load, work, .. } = sums;
         let force = 4.0 * self.foundation.unit * (depth * load);
         let force = finite("normal force", force, 0.0)?;
         let friction = finite("friction coefficient", depth * (work / load), 0.0)?;
-        let [load_error, work_error] = [load_error, work_error].map(|error| SAFETY * error);
+        let errors = [sums.load_error, sums.work_error];
+        let [load_error, work_error] = errors.map(|error| SAFETY * error);
         // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
         let friction_error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
         // The force grows with the depth at least in proportion.
@@ -196,8 +189,8 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             indentation_depth: estimate(depth, depth_error),
             normal_force: estimate(force, force_error),
             ends: ends.map(|end| estimate(end, 0.0)),
-            contacts,
-            n_pieces,
+            contacts: sums.contacts,
+            n_pieces: sums.n_pieces,
         })
     }
 

@@ -45,6 +45,8 @@ pub(super) struct Resolution {
 #[derive(Debug)]
 pub(super) struct Profile {
     pub(super) pieces: Vec<Piece>,
+    /// From its front to its rear, \[m].
+    pub(super) length: f64,
     /// Height of the lowest point relative to the anchor, in depths.
     pub(super) lowest: f64,
     pub(super) interpolation: Interpolation,
@@ -90,16 +92,9 @@ impl Profile {
         }
         Ok(Self {
             pieces,
+            length: builder.length,
             lowest,
             interpolation: builder.interpolation,
-        })
-    }
-
-    /// From its front to its rear, \[m].
-    pub(super) fn length(&self) -> f64 {
-        let ends = self.pieces.first().zip(self.pieces.last());
-        ends.map_or(0.0, |(front, rear)| {
-            front.segment.ends[0] - rear.segment.ends[1]
         })
     }
 }
@@ -145,6 +140,32 @@ impl Piece {
             .map(|k| [sample(k - 1), sample(k)])
             .find(|[from, to]| slope(*from) * slope(*to).signum() < 0.0)
             .and_then(|bracket| bracketed_root(slope, bracket))
+    }
+
+    /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.
+    fn straightened(mut self) -> Self {
+        let [front, rear] = [start_value(self.terms()), end_value(self.terms())];
+        self.segment.displacements = [0.0; DEGREE + 1];
+        self.segment.displacements[0] = front.midpoint(rear);
+        self.segment.displacements[1] = 0.5 * (rear - front);
+        self.segment.degree = 1;
+        self.singular = true;
+        self
+    }
+
+    /// Drops the terms that are rounding.
+    fn trim(&mut self) {
+        let Segment {
+            displacements,
+            degree,
+            ..
+        } = &mut self.segment;
+        let largest = displacements.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let noise = 2.0 * f64::EPSILON * largest;
+        while *degree > 0 && displacements[*degree].abs() <= noise {
+            displacements[*degree] = 0.0;
+            *degree -= 1;
+        }
     }
 }
 
@@ -298,31 +319,3 @@ fn remainder(coefficients: &Polynomial) -> f64 {
 
 /// Less decay from pair to pair than this is rounding, whose terms add up to nothing.
 const LEAST_DECAY: f64 = 0.25;
-
-impl Piece {
-    /// A piece that cannot be resolved is straight between its ends: a polynomial would oscillate.
-    fn straightened(mut self) -> Self {
-        let [front, rear] = [start_value(self.terms()), end_value(self.terms())];
-        self.segment.displacements = [0.0; DEGREE + 1];
-        self.segment.displacements[0] = front.midpoint(rear);
-        self.segment.displacements[1] = 0.5 * (rear - front);
-        self.segment.degree = 1;
-        self.singular = true;
-        self
-    }
-
-    /// Drops the terms that are rounding.
-    fn trim(&mut self) {
-        let Segment {
-            displacements,
-            degree,
-            ..
-        } = &mut self.segment;
-        let largest = displacements.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let noise = 2.0 * f64::EPSILON * largest;
-        while *degree > 0 && displacements[*degree].abs() <= noise {
-            displacements[*degree] = 0.0;
-            *degree -= 1;
-        }
-    }
-}

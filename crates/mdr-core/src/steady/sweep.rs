@@ -81,7 +81,7 @@ pub(super) fn sweep(foundation: &Foundation, profile: &Profile) -> Result<Sweep,
             };
         }
     }
-    march.end()
+    Ok(march.end())
 }
 
 struct March<'a> {
@@ -121,7 +121,7 @@ impl March<'_> {
 
     fn recover(&mut self, mut recovery: Recovery, segment: &Segment) -> Result<f64, MdrError> {
         let Some(t) = self.touch(&recovery, segment) else {
-            recovery.advance(segment.length);
+            recovery.distance += segment.length;
             self.surface = Surface::Free(recovery);
             return Ok(1.0);
         };
@@ -162,7 +162,7 @@ impl March<'_> {
         for t in samples() {
             if gap(t) < -ROUNDING {
                 // On the very start the gap may be closed by rounding; but no element is let go and touched at once.
-                let nearest = if recovery.just_released() { t } else { before };
+                let nearest = if recovery.distance <= 0.0 { t } else { before };
                 return Some(bracketed_root(gap, [before, t]).unwrap_or(nearest));
             }
             before = t;
@@ -182,11 +182,11 @@ impl March<'_> {
     /// Counts a touch that comes too late by a compression, because positions are rounded, as an error; a dashpot does not
     /// jump at all.
     fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
-        let length = self.profile.length();
         let [carried, resisted] = if compression > LARGEST_MISS {
             self.foundation.damping(segment.rate(t))
         } else {
-            self.foundation.resistance(segment.rate(t), length)
+            self.foundation
+                .resistance(segment.rate(t), self.profile.length)
         };
         self.sums.load_error += compression.abs() * carried;
         self.sums.work_error += compression.abs() * resisted;
@@ -223,21 +223,18 @@ impl March<'_> {
     }
 
     /// The line has passed: what is still loaded springs back.
-    fn end(mut self) -> Result<Sweep, MdrError> {
-        if let Surface::Loaded { stresses, .. } = &self.surface {
-            let last = self.profile.pieces.last();
-            if let Some(piece) = last {
-                let stresses = stresses.clone();
-                let end = piece.segment.end();
-                let end = if end.abs() < LEFT_BY_ROUNDING {
-                    self.strain(end)
-                } else {
-                    end
-                };
-                self.close(end, &stresses, piece.segment.ends[1]);
+    fn end(mut self) -> Sweep {
+        let surface = std::mem::replace(&mut self.surface, Surface::Free(Recovery::untouched()));
+        if let (Surface::Loaded { stresses, .. }, Some(piece)) =
+            (surface, self.profile.pieces.last())
+        {
+            let mut end = piece.segment.end();
+            if end.abs() < LEFT_BY_ROUNDING {
+                end = self.strain(end);
             }
+            self.close(end, &stresses, piece.segment.ends[1]);
         }
-        Ok(self.sums)
+        self.sums
     }
 }
 

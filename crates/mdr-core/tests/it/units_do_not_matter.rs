@@ -96,27 +96,16 @@ fn extreme_forces_keep_their_digits() {
         let depth = 0.25 * force;
         let friction = 4.0 / 3.0 * (2.0 * depth).sqrt();
         let state = slid(&line, &dashpot, &load(force, 1.0));
-        assert_close([state.indentation_depth.value, depth], 1e-8, 0.0, &force);
-        assert_close(
-            [state.friction_coefficient.value, friction],
-            1e-8,
-            0.0,
-            &force,
-        );
-        // Second order in the spacing.
         let row = march(&line, &dashpot, &load(force, 1.0), 50, 1e-9).last;
-        assert_close(
-            [row.indentation_depth, depth],
-            50.0_f64.powi(-2),
-            0.0,
-            &force,
-        );
-        assert_close(
-            [row.friction_coefficient, friction],
-            50.0_f64.powi(-2),
-            0.0,
-            &force,
-        );
+        // A march is of second order in the spacing.
+        for (actual, expected, tolerance) in [
+            (state.indentation_depth.value, depth, 1e-8),
+            (state.friction_coefficient.value, friction, 1e-8),
+            (row.indentation_depth, depth, 50.0_f64.powi(-2)),
+            (row.friction_coefficient, friction, 50.0_f64.powi(-2)),
+        ] {
+            assert_close([actual, expected], tolerance, 0.0, &force);
+        }
     }
 }
 
