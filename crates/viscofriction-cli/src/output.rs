@@ -171,7 +171,7 @@ pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
 }
 
 /// The file that a symbolic link names, whether or not that is there.
-pub(crate) fn followed(path: &Path) -> PathBuf {
+fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     // As many links as the system itself follows.
     for _ in 0..40 {

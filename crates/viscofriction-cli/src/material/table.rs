@@ -1,5 +1,6 @@
 //! Measurements read from a file, or the place and the reason of the first cell that is wrong.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use csv::StringRecord;
@@ -32,9 +33,6 @@ impl Table {
         contents: &[u8],
         shear_per_tension: f64,
     ) -> Result<Self, WrongInput> {
-        let wrong = |line: usize, problem: &str| {
-            WrongInput(format!("{}, line {line}: {problem}", file.display()))
-        };
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -43,10 +41,11 @@ impl Table {
         let records: Result<Vec<StringRecord>, csv::Error> = reader.records().collect();
         let records = records.map_err(|error| {
             let line = line_of_record(contents, error.position());
-            wrong(line, &error.to_string())
+            wrong_line(file, line, &error)
         })?;
         let [names, units, rows @ ..] = &records[..] else {
-            return Err(wrong(1, "a line of names and a line of units are needed"));
+            let needed = "a line of names and a line of units are needed";
+            return Err(wrong_line(file, 1, &needed));
         };
         let mut head = Head {
             file,
@@ -61,12 +60,10 @@ impl Table {
             }
         }
         if rows.len() < 2 {
-            let needed = "at least 2 measurements are needed after the lines of names and units";
             let last = records.last().map_or(1, |last| head.line(last));
-            return Err(wrong(
-                last,
-                &format!("{needed}, but there are {}", rows.len()),
-            ));
+            let needed = "at least 2 measurements are needed after the lines of names and units";
+            let problem = format!("{needed}, but there are {}", rows.len());
+            return Err(wrong_line(file, last, &problem));
         }
         let is_celsius = |column: &Column| units.get(column.place) != Some("K");
         Ok(Self {
@@ -134,11 +131,9 @@ impl Head<'_> {
         if self.find(Quantity::Time).is_some() {
             let groups = self.groups(records, &[Quantity::Time, Quantity::Relaxation])?;
             if let Some(second) = groups.get(1) {
-                return Err(WrongInput(format!(
-                    "{}, line {}: relaxation at several temperatures is not shifted: give a master curve",
-                    self.file.display(),
-                    second.line
-                )));
+                let problem =
+                    "relaxation at several temperatures is not shifted: give a master curve";
+                return Err(wrong_line(self.file, second.line, &problem));
             }
             let point = |row: Vec<f64>| RelaxationPoint {
                 time: row[0],
@@ -177,14 +172,10 @@ impl Head<'_> {
         quantities: &[Quantity],
     ) -> Result<Vec<Group>, WrongInput> {
         let needed = |quantity: &Quantity| {
-            let missing = || {
-                let what = quantity.usual();
-                WrongInput(format!(
-                    "{}, line 1: there must be a column {what}; the names are {NAMES}",
-                    self.file.display()
-                ))
-            };
-            self.find(*quantity).ok_or_else(missing)
+            let what = quantity.usual();
+            let problem = format!("there must be a column {what}; the names are {NAMES}");
+            let column = self.find(*quantity);
+            column.ok_or_else(|| wrong_line(self.file, 1, &problem))
         };
         let columns: Vec<&Column> = quantities.iter().map(needed).collect::<Result<_, _>>()?;
         let mut groups: Vec<Group> = Vec::new();
@@ -251,18 +242,22 @@ impl Head<'_> {
 
     fn wrong(&self, record: &StringRecord, place: usize, expected: &str) -> WrongInput {
         let line = self.line(record);
-        let name = self.names.get(place).unwrap_or_default();
+        let [name, cell] = [self.names, record].map(|record| record.get(place).unwrap_or_default());
+        let (column, cell) = (place + 1, shown(cell));
+        let file = self.file.display();
         WrongInput(format!(
-            "{}, line {line}, column {} ({name}): expected {expected}, but found '{}'",
-            self.file.display(),
-            place + 1,
-            shown(record.get(place).unwrap_or_default())
+            "{file}, line {line}, column {column} ({name}): expected {expected}, but found '{cell}'"
         ))
     }
 
     fn line(&self, record: &StringRecord) -> usize {
         line_of_record(self.contents, record.position())
     }
+}
+
+/// What is wrong with a whole line.
+fn wrong_line(file: &Path, line: usize, problem: &dyn Display) -> WrongInput {
+    WrongInput(format!("{}, line {line}: {problem}", file.display()))
 }
 
 impl Group {
