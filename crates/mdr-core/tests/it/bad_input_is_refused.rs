@@ -135,13 +135,8 @@ fn histories_without_a_contact_are_refused() {
 #[test]
 fn bad_numbers_of_elements_and_exponents_are_refused() {
     let with_elements = |elements: usize, exponent: f64| {
-        let (load, body) = (load_for_depth(DEPTH), power(exponent));
-        SlideOptions::with_elements(
-            elements,
-            &EquivalentLine(&body),
-            &material(VISCOSITY),
-            &load,
-        )
+        let (body, dashpot, load) = (power(exponent), material(VISCOSITY), load_for_depth(DEPTH));
+        SlideOptions::with_elements(elements, &EquivalentLine(&body), &dashpot, &load)
     };
     for elements in [0, 1, 2] {
         assert_matches!(
@@ -150,11 +145,8 @@ fn bad_numbers_of_elements_and_exponents_are_refused() {
         );
     }
     for exponent in [0.2, 0.5] {
-        assert_refused(
-            with_elements(100, exponent).err(),
-            "apex exponent",
-            exponent,
-        );
+        let error = with_elements(100, exponent).err();
+        assert_refused(error, "apex exponent", exponent);
     }
 }
 
@@ -227,13 +219,8 @@ fn a_compression_beyond_the_largest_number_is_refused() {
         spacing: 1e-3,
         ..GOOD
     };
-    let soft = Maxwell::new(1e-308, 1.0).expect("a material");
-    let result = slide_on_grid(
-        &EquivalentLine(&power(1.0)),
-        &soft,
-        &load(1.0, 1.0),
-        &options,
-    );
+    let (cone, soft) = (power(1.0), Maxwell::new(1e-308, 1.0).expect("a material"));
+    let result = slide_on_grid(&EquivalentLine(&cone), &soft, &load(1.0, 1.0), &options);
     assert_refused(result.err(), "compression", f64::INFINITY);
 }
 

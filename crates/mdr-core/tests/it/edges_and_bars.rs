@@ -73,16 +73,10 @@ fn bar_holds(
     let Ok(got) = slide(&line, material, &load, Accuracy::Elements(elements)) else {
         return;
     };
-    for (name, got, exact) in [
-        (
-            "friction",
-            got.friction_coefficient,
-            exact.friction_coefficient,
-        ),
-        ("depth", got.indentation_depth, exact.indentation_depth),
-        ("rear", got.ends[0], exact.ends[0]),
-        ("front", got.ends[1], exact.ends[1]),
-    ] {
+    let [rear, front] = got.ends;
+    let (friction, depth) = (got.friction_coefficient, got.indentation_depth);
+    let estimates = [friction, depth, got.normal_force, rear, front];
+    for (got, (name, exact)) in estimates.into_iter().zip(named(&exact)) {
         assert_agree([got, exact], &(name, elements));
     }
 }
@@ -228,12 +222,8 @@ fn a_power_at_rest_is_an_elastic_contact() {
         }
     }
     let fluid = prony([0.0, 0.0], &[(1.0, 1.0)]);
-    let refused = press(
-        &EquivalentLine(&power(2.0)),
-        &fluid,
-        Control::NormalForce(1.0),
-        1e-3,
-    );
+    let (body, force) = (power(2.0), Control::NormalForce(1.0));
+    let refused = press(&EquivalentLine(&body), &fluid, force, 1e-3);
     assert_eq!(refused, Err(MdrError::NoEquilibrium), "a fluid at rest");
 }
 
@@ -245,13 +235,10 @@ fn a_held_depth_has_the_relaxed_force() {
     let line = EquivalentLine(&body);
     let depth = Control::IndentationDepth(0.1);
     let load = PressingLoad::new(depth, 0.6).expect("a load");
-    let got = indent(&line, &material, &load, 1e-2)
-        .expect("a force")
-        .normal_force;
-    let rest = press(&line, &material, depth, 1e-10)
-        .expect("a force")
-        .normal_force;
-    let expected = rest.value * (1.0 + 2.0 * (-2.0_f64).exp());
+    let got = indent(&line, &material, &load, 1e-2).expect("a force");
+    let rest = press(&line, &material, depth, 1e-10).expect("a force");
+    let expected = rest.normal_force.value * (1.0 + 2.0 * (-2.0_f64).exp());
+    let got = got.normal_force;
     assert_agree([got, Estimate::exact(expected)], &rest);
     assert!(got.error <= 1e-2 * expected, "{got:?}");
 }

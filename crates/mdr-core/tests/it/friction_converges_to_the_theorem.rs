@@ -112,15 +112,9 @@ fn cone_is_exact_at_any_spacing() {
 }
 
 fn stationary(case: &Case, elements: usize) -> SlideRow {
-    let (body, load) = (body_of(case), load_for_depth(case.input("D")));
-    march(
-        &line_of(&*body),
-        &material(VISCOSITY),
-        &load,
-        elements,
-        1e-6,
-    )
-    .last
+    let (body, dashpot) = (body_of(case), material(VISCOSITY));
+    let load = load_for_depth(case.input("D"));
+    march(&line_of(&*body), &dashpot, &load, elements, 1e-6).last
 }
 
 /// FRI-02: the mean slope is below the integral by about 1/(4 n²), with n = 200 elements 6e-6.

@@ -124,10 +124,7 @@ fn casebook_discrete_line_is_in_balance() {
         .last;
     case.check("sum_increments", row.indentation_depth);
     let increments = case.expected_list("increments").expect("increments");
-    let loaded = increments
-        .iter()
-        .filter(|increment| **increment > 0.0)
-        .count();
+    let loaded = increments.iter().filter(|one| **one > 0.0).count();
     let (n_contact, friction) = discrete_friction(&line, depth);
     assert_eq!([row.n_contact, n_contact], [loaded; 2], "{increments:?}");
     assert_close([row.friction_coefficient, friction], 1e-11, 0.0, &row);

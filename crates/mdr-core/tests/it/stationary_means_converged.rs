@@ -43,13 +43,8 @@ fn parabola(spacing: f64, max_sliding_distance: f64) -> Result<Transient, MdrErr
         drift_tolerance: 1e-6,
         max_sliding_distance: length * max_sliding_distance,
     };
-    let load = load_for_depth(DEPTH);
-    slide_on_grid(
-        &EquivalentLine(&body),
-        &material(VISCOSITY),
-        &load,
-        &options,
-    )
+    let (dashpot, load) = (material(VISCOSITY), load_for_depth(DEPTH));
+    slide_on_grid(&EquivalentLine(&body), &dashpot, &load, &options)
 }
 
 #[test]
@@ -70,10 +65,8 @@ fn too_short_a_distance_returns_the_transient_in_the_error() {
         drift > drift_tolerance && drift < 0.3 && sliding_distance <= 2.0 * length * (1.0 + 1e-12),
         "drift {drift} over {sliding_distance}"
     );
-    let (friction, limit) = (
-        rows[79].friction_coefficient,
-        power_friction(&power(2.0), DEPTH),
-    );
+    let limit = power_friction(&power(2.0), DEPTH);
+    let friction = rows[79].friction_coefficient;
     assert!(
         friction > 0.8 * limit && friction < limit,
         "friction {friction} on the way to {limit}"
@@ -85,11 +78,8 @@ fn too_short_a_distance_returns_the_transient_in_the_error() {
         sliding_distance: 0.0,
         rows: Vec::new(),
     };
-    assert_eq!(
-        parabola(1.0 / 40.0, 0.5 / 40.0),
-        Err(expected),
-        "half a step"
-    );
+    let half_a_step = parabola(1.0 / 40.0, 0.5 / 40.0);
+    assert_eq!(half_a_step, Err(expected), "half a step");
 }
 
 #[test]

@@ -92,10 +92,8 @@ fn a_dashpot_obeys_the_theorems() {
             assert_close([state.indentation_depth.value, depth], 1e-13, 0.0, &state);
             let value = exact.friction_coefficient;
             let error = 1e-12 * value;
-            assert_agree(
-                [state.friction_coefficient, Estimate { value, error }],
-                &state,
-            );
+            let got = state.friction_coefficient;
+            assert_agree([got, Estimate { value, error }], &state);
         }
     }
 }
@@ -198,11 +196,7 @@ fn a_poisson_ratio_is_a_smaller_modulus() {
     let incompressible = slid(&EquivalentLine(&body), &solid, &load(1.6, 0.3));
     for (actual, expected) in named(&compressed).iter().zip(named(&incompressible)) {
         let factor = if actual.0 == "F" { 1.6 } else { 1.0 };
-        assert_close(
-            [factor * actual.1.value, expected.1.value],
-            1e-12,
-            0.0,
-            actual,
-        );
+        let pair = [factor * actual.1.value, expected.1.value];
+        assert_close(pair, 1e-12, 0.0, actual);
     }
 }

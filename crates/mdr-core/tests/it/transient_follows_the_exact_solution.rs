@@ -107,11 +107,7 @@ fn casebook_rows_come_out() {
         let lag = 0.5 * spacing / row.sliding_distance;
         case.check_within("mu", row.friction_coefficient, lag + 1.0 / n_contact);
         let trailing_end = case.expected("x_trail").expect("a trailing end");
-        assert_close(
-            [row.contact[0] - trailing_end, 0.0],
-            2.0,
-            spacing,
-            &case.id(),
-        );
+        let off = row.contact[0] - trailing_end;
+        assert_close([off, 0.0], 2.0, spacing, &case.id());
     }
 }

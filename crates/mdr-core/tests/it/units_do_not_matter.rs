@@ -70,10 +70,8 @@ fn the_same_question_has_the_same_answer_to_the_last_bit() {
 fn indentation_is_the_same_over_twenty_four_decades() {
     let depth = |[length, force, time]: Units| {
         let body = body(2.0, length);
-        let (line, dashpot) = (
-            EquivalentLine(&body),
-            material(50.0 * force * time / (length * length)),
-        );
+        let dashpot = material(50.0 * force * time / (length * length));
+        let line = EquivalentLine(&body);
         let times = [1.0 * time, 3.0 * time];
         let force = |_| Control::NormalForce(2.0 * force);
         let rows = indent(&line, &dashpot, &times, 0.01 * length, force).expect("a contact");
