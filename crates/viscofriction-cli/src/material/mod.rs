@@ -85,9 +85,8 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
     let (points, master) = joined(table, options).map_err(wrong)?;
     let curve = points.curve().map_err(wrong)?;
-    let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, options.overwrite, output_files::NAMES));
-    let out = out.transpose()?;
+    let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
+    let out = options.out.as_ref().map(open).transpose()?;
     let found = progress::during(format!("fitting {}", options.data.display()), || {
         let found = identify(&curve, &options.identification()).map_err(wrong_option);
         if let Points::Oscillation(points) = &points

@@ -90,9 +90,8 @@ pub(crate) struct Timed<'a> {
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
     let (problem, method) = problem_of(&source, options.method.map(Method::from), read_input)?;
-    let out = options.out.as_deref();
-    let out = out.map(|out| OutputFolder::new(out, options.overwrite, files::NAMES));
-    let out = out.transpose()?;
+    let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
+    let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();
     let task = format!("{path} by {}", method.name());
     let started = Instant::now();

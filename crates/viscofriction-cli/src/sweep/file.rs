@@ -11,7 +11,7 @@ use viscofriction::sweep::{Plan, Row, header, identity};
 
 use super::wrong_row;
 use crate::input::read_input;
-use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts};
+use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts, to_csv};
 
 /// What happens to a file that is there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -148,10 +148,8 @@ impl RowTable {
     /// The text of the file.
     pub(super) fn text(&self) -> Result<String> {
         let rows = self.rows.iter().map(|row| &row.fields);
-        std::iter::once(&self.header)
-            .chain(rows)
-            .map(|fields| line(fields))
-            .collect()
+        let lines = std::iter::once(&self.header).chain(rows);
+        lines.map(|fields| line(fields)).collect()
     }
 }
 
@@ -173,7 +171,5 @@ fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
 
 /// One record with the end of its line.
 pub(super) fn line(fields: &[String]) -> Result<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(fields)?;
-    Ok(String::from_utf8(writer.into_inner()?)?)
+    Ok(String::from_utf8(to_csv(&[], [fields])?)?)
 }

@@ -107,12 +107,8 @@ fn the_cone_of_the_paper_has_the_friction_of_equation_21() {
             value: 0.05 * PI,
             error: 1e-15,
         };
-        assert_agree(
-            method,
-            estimate(&result, "friction_coefficient"),
-            expected,
-            1e-3,
-        );
+        let friction = estimate(&result, "friction_coefficient");
+        assert_agree(method, friction, expected, 1e-3);
         assert_eq!(result["method"], method, "{result}");
         assert_eq!(result["model"], "line", "{result}");
         assert!(
@@ -194,16 +190,10 @@ fn files_read_back_to_the_same_numbers() {
     let header = usize::from(npy[8]) + 256 * usize::from(npy[9]) + 10;
     assert_eq!(header % 64, 0, "the header is padded");
     let (values, rest) = npy[header..].as_chunks();
-    let values: Vec<f64> = values
-        .iter()
-        .map(|bytes| f64::from_le_bytes(*bytes))
-        .collect();
+    let values = values.iter().map(|bytes| f64::from_le_bytes(*bytes));
     assert!(rest.is_empty(), "whole numbers");
-    assert_eq!(
-        values,
-        folder.column("pressure.csv", 2),
-        "NPY and CSV hold the same field"
-    );
+    let same = values.eq(folder.column("pressure.csv", 2));
+    assert!(same, "NPY and CSV hold the same field");
 }
 
 /// Scene and method | files beside `result.json`.
@@ -223,10 +213,8 @@ fn every_method_writes_the_files_of_what_it_knows() {
         folder.json(&format!("{line} --out out"));
         let mut names = folder.names("out");
         for name in &names {
-            let length = fs::metadata(folder.path("out").join(name))
-                .expect("a file")
-                .len();
-            assert!(length > 50, "{line}: {name} has {length} bytes");
+            let data = fs::metadata(folder.path("out").join(name)).expect("a file");
+            assert!(data.len() > 50, "{line}: {name}: {data:?}");
         }
         names.retain(|name| name != "result.json");
         assert_eq!(names.join(" "), written, "{line}");
@@ -242,11 +230,8 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
         ("3.0e-2", "2.0e-3"),
     ];
     let folder = Folder::with("unreachable", "half-space-run-in.toml", &replaced);
-    let said = folder.ends(
-        "run scene.toml",
-        1,
-        "was not reached to the relative error 1e-6",
-    );
+    let needed = "was not reached to the relative error 1e-6";
+    let said = folder.ends("run scene.toml", 1, needed);
     assert!(said.stderr.contains(": it is 0."), "{said:?}");
 }
 
