@@ -115,6 +115,7 @@ fn into_file(
             (open()?, pictures)
         }
     };
+    pictures.remove_parts();
     let there = file.points();
     points.retain(|point| !there.contains(point));
     compute(plan, &points, threads, |row| file.append(row))?;

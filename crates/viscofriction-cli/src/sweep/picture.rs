@@ -9,7 +9,7 @@ use viscofriction_plot::{
 };
 
 use super::file::RowTable;
-use crate::output::{OutputFile, picture, say};
+use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
 /// What may be drawn, as its column and as the label of its axis: friction where something slides, the depth where a force
@@ -50,6 +50,13 @@ impl PictureFiles {
     pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
         let drawn = std::fs::read_to_string(beside(rows, "svg")).unwrap_or_default();
         Self::new(rows, drawn.ends_with(&signature(fingerprint)))
+    }
+
+    /// Removes what a sweep that was killed has left of them; the caller holds the lock of the rows.
+    pub(super) fn remove_parts(&self) {
+        for file in [&self.svg, &self.png] {
+            remove_parts(folder_of(file.path()), &[&name_of(file.path())]);
+        }
     }
 
     /// Draws what can be drawn, and says why where nothing can.
