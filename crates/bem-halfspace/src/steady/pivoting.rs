@@ -61,7 +61,9 @@ pub(super) fn solve(
     let (mut residual, mut made) = (f64::MAX, 0);
     for iterations in 1..=mesh.options.max_iterations {
         let state = search.solve();
-        (residual, made) = (state.residual, iterations);
+        let sizes = state.violations.iter().map(|violation| violation.size);
+        // That of the whole problem: elements on the wrong side count too.
+        (residual, made) = (sizes.fold(state.residual, f64::max), iterations);
         if state.violations.is_empty() {
             if residual <= target {
                 return Ok(search.finish(residual, iterations));

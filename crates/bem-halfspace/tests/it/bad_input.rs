@@ -134,14 +134,6 @@ fn a_contact_that_does_not_fit_is_refused() {
 fn what_is_not_reached_says_what_was() {
     let name = "ContactNotConverged";
     let slid_once = slid(1.0, |options| options.contact.max_iterations = 1);
-    if let Err(BemError::ContactNotConverged {
-        residual,
-        tolerance,
-        ..
-    }) = slid_once
-    {
-        assert!(residual > tolerance, "residual {residual} of {tolerance}");
-    }
     assert_refused("slide", slid_once, name);
     let once = steady_with(&paraboloid(0.3), |options| options.max_iterations = 1);
     assert_refused("steady", once, name);
