@@ -1,7 +1,7 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
-use bem_halfspace::slide::{March, MarchState, MotionRow};
-use bem_halfspace::{BemError, Control};
+use bem_halfspace::slide::{March, MarchState, MotionRow, SlideOmission};
+use bem_halfspace::{BemError, Control, GridOptions};
 use indenters::{Surface, Unmirrored};
 use rheology::Material;
 
@@ -19,8 +19,20 @@ fn path(k: usize) -> (f64, f64, Control) {
 }
 
 fn march<'a>(body: &'a dyn Surface, material: &'a dyn Material, n_steps: usize) -> March<'a> {
+    march_with(None, (body, material), n_steps)
+}
+
+fn march_with<'a>(
+    redundant_work: Option<SlideOmission>,
+    (body, material): (&'a dyn Surface, &'a dyn Material),
+    n_steps: usize,
+) -> March<'a> {
     let motions = motions((1..=n_steps).map(path));
-    March::new(body, material, &motions, &squares(0.1, 1.6)).expect("a march")
+    let options = GridOptions {
+        redundant_work,
+        ..squares(0.1, 1.6)
+    };
+    March::new(body, material, &motions, &options).expect("a march")
 }
 
 /// Makes at most so many steps.
@@ -35,19 +47,27 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
         power(0.5, 1.5),
         prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
     );
-    let expected = step(&mut march(&body, &material, 32), 33);
-    assert_eq!(expected.len(), 32, "steps of the motion");
-    for interruption in [0, 1, 4, 9, 12, 19, 25, 32] {
-        let mut first = march(&body, &material, 32);
-        let mut rows = step(&mut first, interruption);
-        let state = through_text(&first.state());
-        assert_eq!(state.steps_done(), interruption, "steps in the state");
-        let mut second = march(&body, &material, 32);
-        second.resume(&state).expect("a state of the same scene");
-        let pressures = [&first, &second].map(|march| march.pressure());
-        assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
-        rows.extend(step(&mut second, 33));
-        assert_eq!(rows, expected, "interrupted after {interruption} steps");
+    // The rows behind are in the state where they are moved all the same.
+    let behind = Some(SlideOmission::RowsBehind);
+    for (work, interruptions) in [
+        (None, &[0, 1, 4, 9, 12, 19, 25, 32][..]),
+        (behind, &[4, 19]),
+    ] {
+        let new = || march_with(work, (&body, &material), 32);
+        let expected = step(&mut new(), 33);
+        assert_eq!(expected.len(), 32, "steps of the motion");
+        for &interruption in interruptions {
+            let mut first = new();
+            let mut rows = step(&mut first, interruption);
+            let state = through_text(&first.state());
+            assert_eq!(state.steps_done(), interruption, "steps in the state");
+            let mut second = new();
+            second.resume(&state).expect("a state of the same scene");
+            let pressures = [&first, &second].map(|march| march.pressure());
+            assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
+            rows.extend(step(&mut second, 33));
+            assert_eq!(rows, expected, "{work:?} after {interruption} steps");
+        }
     }
 }
 
