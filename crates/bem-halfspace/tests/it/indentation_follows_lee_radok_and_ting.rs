@@ -13,8 +13,8 @@ use indenters::PowerProfile;
 use rheology::{Compressible, Material};
 
 use crate::support::{
-    assert_close, assert_near, assert_refused, cone, elastic, every_kind_of_material, material_of,
-    paraboloid, power, pressed, prony, squares, three_elements, tight, viscous,
+    assert_close, assert_near, assert_refused, cone, elastic, every_kind_of_material, paraboloid,
+    power, pressed, prony, squares, three_elements, tight, viscous,
 };
 
 const TIMES: [f64; 5] = [1e-6, 0.05, 0.2, 0.9, 3.0];
@@ -71,10 +71,12 @@ fn depth_converges_to_the_exact_law_with_second_order() {
     let dashpot = prony([0.0, 50.0], &[]);
     let fluid = prony([0.0, 0.0], &[(40.0, 2.0), (8.0, 0.3)]);
     let compressible = Compressible::new(&fluid, 0.2).expect("a Poisson ratio");
-    let scenes: [(&dyn Material, f64); 4] = [
+    let scenes: [(&dyn Material, f64); 6] = [
+        (&dashpot, 0.75),
         (&dashpot, 1.0),
         (&dashpot, 2.0),
         (&dashpot, 4.0),
+        (&dashpot, 10.0),
         (&compressible, 2.0),
     ];
     for (material, exponent) in scenes {
@@ -168,7 +170,7 @@ fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Ve
         relative_error: 5e-3,
         ..HistoryOptions::new(options(body.line_position(largest), ELEMENTS))
     };
-    let (control, material) = (control.expect("a depth"), material_of(case));
+    let (control, material) = (control.expect("a depth"), case.material());
     let history = history((&body, &material), &control, &times, &options).expect("a history");
     assert_near(case.id(), history.time_error, 0.0, 5e-3);
     history.rows
