@@ -4,7 +4,7 @@ use bem_halfspace::Footprint;
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
 use casebook::group;
 use indenters::{Cylinder, Unmirrored};
-use rheology::{Compressible, Material};
+use rheology::Material;
 
 use crate::support::{
     Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power, prony,
@@ -123,24 +123,6 @@ fn results_are_invariant_under_a_change_of_units() {
             }
         }
     }
-}
-
-/// A Poisson ratio does what a larger force does.
-#[test]
-fn compressible_materials_carry_less() {
-    let material = three_elements(0.1, 1.0, 1.0);
-    let softer = Compressible::new(&material, 0.2).expect("a material");
-    let body = power(0.3, 1.0);
-    let numbers = |state: SteadySliding| {
-        [
-            state.friction_coefficient,
-            state.depth.reference_depth,
-            state.contact_area,
-        ]
-    };
-    let actual = Scene::new(body, softer, under_force(1.0, 0.5)).steady_on_one_grid(10.0);
-    let expected = Scene::new(body, material, under_force(1.6, 0.5)).steady_on_one_grid(10.0);
-    assert_all_close("1.6 = 2 (1 − ν)", numbers(actual), numbers(expected), 1e-9);
 }
 
 /// Both are the same discrete problem, solved to 1e-10 of the depth scale.

@@ -7,9 +7,7 @@ use casebook::{Case, group};
 use indenters::Cylinder;
 use rheology::Prony;
 
-use crate::support::{
-    assert_bar, assert_close, assert_near, material_of, three_elements, under_force,
-};
+use crate::support::{assert_bar, assert_close, assert_near, three_elements, under_force};
 
 /// A material, the speed, and the load per length of a cylinder of radius 1 with a contact of the half length 1.
 struct Scene {
@@ -94,7 +92,7 @@ fn the_residual_is_a_part_of_the_error() {
 fn a_cylinder_on_three_branches_is_that_of_the_spectral_reference() {
     for case in group("VIS-05") {
         let scene = Scene {
-            material: material_of(&case),
+            material: case.material(),
             velocity: case.input("v"),
             line_load: case.expected("line_force").expect("a load"),
         };

@@ -10,11 +10,10 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     Footprint, Grid, GridOptions, solve_contact,
 };
+pub(crate) use casebook::prony;
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use numerics::{Accuracy, Estimate};
-use rheology::{
-    Compressible, Elastic, Material, Prony, RelaxationBranch, RelaxationSpectrum, Viscous,
-};
+use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
 /// Tight enough that the active set and ten digits are those of the exact discrete solution.
 pub(crate) const TIGHT: ContactOptions = ContactOptions {
@@ -151,7 +150,11 @@ pub(crate) fn assert_refused<T>(what: impl Debug, result: Result<T, BemError>, n
     let says_why = match error {
         BemError::GridTooLarge { elements, limit } => elements > limit,
         BemError::GridTooCoarse { elements, needed } => elements < needed,
-        BemError::ContactNotConverged { residual, .. } => residual.is_finite(),
+        BemError::ContactNotConverged {
+            residual,
+            tolerance,
+            ..
+        } => residual > tolerance && residual.is_finite(),
         BemError::NotStationary {
             drift, tolerance, ..
         } => drift > tolerance,
@@ -407,31 +410,6 @@ pub(crate) fn three_elements(spring: f64, branch: f64, relaxation_time: f64) -> 
     prony([spring, 0.0], &[(branch, relaxation_time)])
 }
 
-/// A material from its relaxation: lone spring \[Pa], lone dashpot \[Pa s], and (modulus, time) of the branches.
-pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
-    let branches = branches
-        .iter()
-        .map(|&(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
-    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect());
-    Prony::new(relaxation.expect("moduli")).expect("a material")
-}
-
-/// The materials that the casebook gives by their moduli, or by the name alone.
-pub(crate) fn material_of(case: &casebook::Case) -> Prony {
-    if !case.has_input("Ge") {
-        assert_eq!(case.input_text("model"), "P3", "moduli are given");
-        return three_branches();
-    }
-    let [moduli, times] = ["G", "tau"].map(|name| case.input_list(name));
-    let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
-    let has_dashpot = case.has_input("eta");
-    let viscosity = has_dashpot.then(|| case.input("eta"));
-    prony([case.input("Ge"), viscosity.unwrap_or(0.0)], &branches)
-}
-
 /// The three-element solids of the casebook, with the modulus G1 beside G2 and its time.
 pub(crate) fn solid_of(case: &casebook::Case) -> Prony {
     three_elements(case.input("G1"), case.input("G2"), case.input("tau"))
@@ -444,11 +422,6 @@ pub(crate) fn body_of_unit_line(case: &casebook::Case) -> PowerProfile {
     } else {
         paraboloid(0.5)
     }
-}
-
-/// Model P3 of the casebook: relaxation times over nine decades.
-pub(crate) fn three_branches() -> Prony {
-    prony([1e5, 0.0], &[(5e8, 1e-6), (2e7, 0.01), (3e5, 1e3)])
 }
 
 /// One material of each kind, with moduli and times of order one.

@@ -1,4 +1,4 @@
-use casebook::{assert_matches, superposition};
+use casebook::{assert_matches, prony, superposition};
 use friction_analytic::{
     ElasticContact, FrictionError, SlidingContact, SurfaceWave, cone_depth_by_equation_15,
     cylinder_half_width_after_impulse, high_speed_friction, impulse_to_depth,
@@ -9,10 +9,10 @@ use friction_analytic::{
 use indenters::{Cylinder, IndenterError, Sphere};
 use rheology::{KelvinVoigt, Prony};
 
-use crate::support::{assert_refused, material_and_load, power, prony, viscous, with_depth};
+use crate::support::{assert_refused, material_and_load, power, viscous, with_depth};
 
 fn solid() -> Prony {
-    prony(1.0, 0.0, &[(2.0, 1.5)])
+    prony([1.0, 0.0], &[(2.0, 1.5)])
 }
 
 #[test]

@@ -1,14 +1,14 @@
-use casebook::{assert_close, assert_matches};
+use casebook::{assert_close, assert_matches, prony};
 use friction_analytic::{
     DivergenceCause, ElasticContact, FrictionError, high_speed_friction, low_speed_friction,
 };
 use indenters::{Axisymmetric, FlatCone, stretch};
 use rheology::Prony;
 
-use crate::support::{power, prony};
+use crate::support::power;
 
 fn solid([g1, g2, tau]: [f64; 3]) -> Prony {
-    prony(g1, 0.0, &[(g2, tau)])
+    prony([g1, 0.0], &[(g2, tau)])
 }
 
 const fn contact(contact_radius: f64, velocity: f64) -> ElasticContact {

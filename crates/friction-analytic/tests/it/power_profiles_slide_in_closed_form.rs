@@ -1,9 +1,9 @@
-use casebook::assert_close;
+use casebook::{assert_close, fixed_cases};
 use friction_analytic::{FrictionError, power_sliding, stationary_depth};
 use indenters::stretch;
 use proptest::prelude::*;
 
-use crate::support::{check_expected, fixed_cases, material_and_load, power, sliding, with_depth};
+use crate::support::{check_expected, material_and_load, power, sliding, with_depth};
 
 #[test]
 fn power_profiles_slide_in_closed_form() {
@@ -56,16 +56,6 @@ fn exponents_from_just_above_one_half_to_a_billion_are_answered() {
         if case.expected("mu").is_some() {
             case.check("x_d", state.contact_length());
         }
-    }
-}
-
-#[test]
-fn the_unit_system_does_not_matter() {
-    for case in casebook::group("EXT-06") {
-        let (material, load) = sliding(&case);
-        let state = power_sliding(&power(case.input("c"), 2.0), &material, &load).unwrap();
-        case.check("mu", state.friction_coefficient);
-        case.check("d", state.indentation_depth);
     }
 }
 

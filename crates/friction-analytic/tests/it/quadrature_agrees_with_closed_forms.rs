@@ -1,11 +1,11 @@
-use casebook::{assert_close, superposition};
+use casebook::{assert_close, fixed_cases, superposition};
 use friction_analytic::{
     FrictionError, StationarySliding, axisymmetric_sliding, power_sliding, superposition_sliding,
 };
 use indenters::{Axisymmetric, IndenterError, RoundTippedCone, Sphere, Superposition};
 use proptest::prelude::*;
 
-use crate::support::{Bare, fixed_cases, power, with_depth};
+use crate::support::{Bare, power, with_depth};
 
 fn slide(body: &(impl Axisymmetric + ?Sized), depth: f64) -> StationarySliding {
     let (material, load) = with_depth(depth);

@@ -5,8 +5,7 @@ use std::fmt::Debug;
 use casebook::Case;
 use friction_analytic::FrictionError;
 use indenters::{Axisymmetric, IndenterError, Kink, PowerProfile, ProfilePoint, SlidingLoad};
-use proptest::test_runner::{Config, RngSeed};
-use rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Viscous};
+use rheology::Viscous;
 
 /// The material and load of a row with inputs `F`, `eta` and `v`.
 pub(crate) fn sliding(case: &Case) -> (Viscous, SlidingLoad) {
@@ -33,18 +32,6 @@ pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
     PowerProfile::new(coefficient, exponent).expect("a power")
 }
 
-/// A material of a spring, a dashpot and branches of modulus and relaxation time.
-pub(crate) fn prony(spring: f64, dashpot: f64, branches: &[(f64, f64)]) -> Prony {
-    let branches = branches
-        .iter()
-        .map(|&(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
-    let relaxation = RelaxationSpectrum::new(spring, dashpot, branches.collect());
-    Prony::new(relaxation.expect("a spectrum")).expect("a material")
-}
-
 /// Checks those of the numbers that the row expects.
 pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
     let is_expected = |(name, _): &&(&str, f64)| case.expected(name).is_some();
@@ -67,16 +54,6 @@ pub(crate) fn assert_refused<T: Debug>(name: &str, result: Result<T, FrictionErr
             | FrictionError::Indenter(IndenterError::InvalidParameter { parameter, .. }),
         ) => assert_eq!(parameter, name, "the refused parameter"),
         other => panic!("{other:?} instead of a refused {name}"),
-    }
-}
-
-/// The same cases in every run, and no file left behind.
-pub(crate) fn fixed_cases(cases: u32) -> Config {
-    Config {
-        cases,
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..Config::default()
     }
 }
 

@@ -1,11 +1,11 @@
-use casebook::{Case, assert_close, assert_matches};
+use casebook::{Case, assert_close, assert_matches, fixed_cases};
 use indenters::{
     AnalyticLine, EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line,
     leading_edge, leading_edge_with, leading_indices, running_minimum,
 };
 use proptest::prelude::*;
 
-use crate::support::{fixed_seed, sampled, table};
+use crate::support::{sampled, table};
 
 /// The line e (x³/3 − 3x²/2 + 2x) on [0, 3], in a unit of length, or run through backwards.
 fn cubic(case: &Case, unit: f64) -> impl RigidLine {
@@ -149,7 +149,7 @@ fn a_body_without_an_end_is_referred_to_its_radius() {
 }
 
 proptest! {
-    #![proptest_config(fixed_seed())]
+    #![proptest_config(fixed_cases(256))]
 
     #[test]
     fn sampled_edges_hold_the_definition(heights in prop::collection::vec(0_u8..12, 2..30)) {

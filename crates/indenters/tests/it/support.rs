@@ -5,17 +5,6 @@ use indenters::{
     Axisymmetric, FlatCone, Hyperboloid, IndenterError, PiecewiseLinearProfile, PowerProfile,
     RoundTippedCone, SampledLine, Sphere, TruncatedParaboloid,
 };
-use proptest::test_runner::{Config, RngSeed};
-
-/// The same examples on every machine.
-pub(crate) fn fixed_seed() -> Config {
-    Config {
-        cases: 256,
-        failure_persistence: None,
-        rng_seed: RngSeed::Fixed(2014),
-        ..Config::default()
-    }
-}
 
 pub(crate) fn boxed<S: Axisymmetric + 'static>(
     shape: Result<S, IndenterError>,

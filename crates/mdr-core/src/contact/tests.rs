@@ -1,7 +1,7 @@
 //! One instant: the forces are compressive, act only on touched elements, and balance the normal force to rounding.
 
+use casebook::fixed_cases;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 use super::*;
 
@@ -63,12 +63,7 @@ fn depth_by_sorting(touch_depths: &[f64], needed: f64) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 512,
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(fixed_cases(512))]
 
     #[test]
     fn any_chain_is_in_balance(

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use casebook::Case;
+pub(crate) use casebook::{fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
     Axisymmetric, Control, EquivalentLine, FlatCone, Hyperboloid, PowerProfile, RigidLine,
@@ -14,11 +15,7 @@ use mdr_core::{
 };
 use numerics::Estimate;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
-use rheology::{
-    Material, Prony, RelaxationBranch, RelaxationSpectrum, StandardSolid, StandardSolidParameters,
-    Viscous,
-};
+use rheology::{Material, Prony, StandardSolid, StandardSolidParameters, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
 pub(crate) const VISCOSITY: f64 = 50.0;
@@ -26,16 +23,6 @@ pub(crate) const DEPTH: f64 = 0.1;
 
 /// Relative error asked of stationary states.
 pub(crate) const ASKED: f64 = 1e-8;
-
-/// The same cases in every run, and no file left behind.
-pub(crate) fn fixed_cases(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
-}
 
 /// A length, modulus or time between 10^-n and 10^n.
 pub(crate) fn decades(n: f64) -> impl Strategy<Value = f64> {
@@ -57,17 +44,6 @@ pub(crate) fn load_for_depth(depth: f64) -> SlidingLoad {
 
 pub(crate) fn material(viscosity: f64) -> Viscous {
     Viscous::new(viscosity).expect("a positive viscosity")
-}
-
-/// A generalised Maxwell material.
-pub(crate) fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
-    let branches = branches.iter().map(|(modulus, time)| RelaxationBranch {
-        modulus: *modulus,
-        relaxation_time: *time,
-    });
-    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect())
-        .expect("moduli");
-    Prony::new(relaxation).expect("a material")
 }
 
 /// A power profile.
@@ -255,14 +231,7 @@ pub(crate) fn model(name: &str) -> Prony {
         "Maxwell" => prony([0.0, 0.0], &[(1e6, 0.02)]),
         "SLS" => prony([0.1, 0.0], &[(1.0, 1.0)]),
         "W4" => prony([1.0, 0.0], &[(2.0, 10.0), (5.0, 1.0), (10.0, 0.1)]),
-        "P3" => prony([1e5, 0.0], &[(5e8, 1e-6), (2e7, 0.01), (3e5, 1e3)]),
-        "P10" => {
-            let moduli = [3e8, 2.5e8, 1.8e8, 9e7, 3e7, 8e6, 2e6, 6e5, 2e5, 5e4];
-            let times = (0..10).map(|k| 10.0_f64.powf(-8.0 + 1.5 * f64::from(k)));
-            let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
-            prony([2e5, 0.0], &branches)
-        }
-        other => panic!("unknown model {other:?}"),
+        other => casebook::model(other),
     }
 }
 
@@ -279,16 +248,7 @@ pub(crate) fn material_of(case: &Case) -> Box<dyn Material> {
             });
             return Box::new(solid.expect("a solid"));
         }
-        _ if case.has_input("Ge") => {
-            let [moduli, times] = ["G", "tau"].map(|name| case.input_list(name));
-            let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
-            let viscosity = if case.has_input("eta") {
-                case.input("eta")
-            } else {
-                0.0
-            };
-            prony([case.input("Ge"), viscosity], &branches)
-        }
+        _ if case.has_input("Ge") => case.material(),
         _ => model(case.input_text("model")),
     })
 }

@@ -1,9 +1,9 @@
 use std::f64::consts::FRAC_2_PI;
 
 use casebook::{Case, assert_close};
-use rheology::{CreepSpectrum, Elastic, KelvinVoigt, Material, Maxwell, Prony, Viscous};
+use rheology::{CreepSpectrum, Elastic, KelvinVoigt, Material, Maxwell, Viscous};
 
-use crate::support::{assert_same, casebook_spectrum, solid};
+use crate::support::{assert_same, solid};
 
 fn material(case: &Case) -> Box<dyn Material> {
     let input = |name| case.input(name);
@@ -17,7 +17,7 @@ fn material(case: &Case) -> Box<dyn Material> {
             let [g1, g2, tau] = ["G1", "G2", "tau"].map(input);
             Box::new(solid([g1, g2, tau * g2]))
         }
-        _ => Box::new(Prony::new(casebook_spectrum(case)).unwrap()),
+        _ => Box::new(case.material()),
     }
 }
 
@@ -138,7 +138,7 @@ fn integral_over_logarithm(centre: f64, integrand: impl Fn(f64) -> f64) -> f64 {
 #[test]
 fn storage_and_loss_obey_kramers_and_kronig() {
     for case in casebook::group("RHE-06") {
-        let material = casebook_spectrum(&case);
+        let material = case.material().relaxation();
         let loss = |x: f64| material.complex_modulus(x).unwrap().loss;
         if case.expected("int_Gloss_dlnw").is_some() {
             case.check("int_Gloss_dlnw", integral_over_logarithm(1.0, loss));

@@ -1,3 +1,4 @@
+use casebook::fixed_cases;
 use proptest::prelude::*;
 use rheology::{
     ArrheniusShift, Compressible, CreepSpectrum, Elastic, ExponentialStep, KelvinVoigt, Material,
@@ -6,8 +7,7 @@ use rheology::{
 };
 
 use crate::support::{
-    NEGATIVE, NOT_POSITIVE, assert_same, fixed_cases, fractional_maxwell, parameters, refuses,
-    solid,
+    NEGATIVE, NOT_POSITIVE, assert_same, fractional_maxwell, parameters, refuses, solid,
 };
 
 #[test]
@@ -158,7 +158,7 @@ fn the_message_names_parameter_value_and_range() {
 }
 
 proptest! {
-    #![proptest_config(fixed_cases())]
+    #![proptest_config(fixed_cases(256))]
 
     /// Whatever is accepted answers with numbers.
     #[test]

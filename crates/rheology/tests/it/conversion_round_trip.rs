@@ -1,10 +1,10 @@
-use casebook::assert_close;
+use casebook::{assert_close, fixed_cases};
 use proptest::prelude::*;
 use rheology::{
     CreepSpectrum, Material, Prony, RelaxationBranch, RelaxationSpectrum, RetardationElement,
 };
 
-use crate::support::{fixed_cases, spectrum};
+use crate::support::spectrum;
 
 /// What surrounds the branches: lone spring and lone dashpot, each absent, weak or strong.
 fn frame() -> impl Strategy<Value = (f64, f64)> {
@@ -64,7 +64,7 @@ fn scaled(material: &RelaxationSpectrum, modulus: f64, time: f64) -> RelaxationS
 }
 
 proptest! {
-    #![proptest_config(fixed_cases())]
+    #![proptest_config(fixed_cases(256))]
 
     /// G* J* = 1, each evaluated from its own spectrum, in any units.
     #[test]

@@ -2,11 +2,9 @@
 
 use std::fmt::Debug;
 
-use casebook::Case;
-use proptest::test_runner::{Config, RngSeed};
 use rheology::{
-    FractionalMaxwell, FractionalMaxwellParameters, RelaxationBranch, RelaxationSpectrum,
-    RheologyError, StandardSolid, StandardSolidParameters,
+    FractionalMaxwell, FractionalMaxwellParameters, Material, RelaxationSpectrum, RheologyError,
+    StandardSolid, StandardSolidParameters,
 };
 
 /// The solid of these equilibrium and Maxwell moduli and this viscosity.
@@ -33,30 +31,9 @@ pub(crate) fn fractional_maxwell(
     })
 }
 
-/// The same cases in every run, and no file left behind.
-pub(crate) fn fixed_cases() -> Config {
-    Config {
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..Config::default()
-    }
-}
-
-/// The Prony spectrum of a case: Ge, G and tau, or the name of a model.
-pub(crate) fn casebook_spectrum(case: &Case) -> RelaxationSpectrum {
-    if !case.has_input("Ge") {
-        return named_spectrum(case.input_text("model"));
-    }
-    let (moduli, times) = (case.input_list("G"), case.input_list("tau"));
-    spectrum(case.input("Ge"), 0.0, &moduli, &times)
-}
-
 /// The spectrum of a named casebook model.
-pub(crate) fn named_spectrum(model: &str) -> RelaxationSpectrum {
-    let cases = casebook::group("RHE-05");
-    let mut models = cases.iter().filter(|case| case.has_input("Ge"));
-    let case = models.find(|case| case.input_text("model") == model);
-    casebook_spectrum(case.expect("the model is in RHE-05"))
+pub(crate) fn named_spectrum(name: &str) -> RelaxationSpectrum {
+    casebook::model(name).relaxation()
 }
 
 /// A relaxation spectrum from lists of moduli and times.
@@ -66,13 +43,8 @@ pub(crate) fn spectrum(
     moduli: &[f64],
     times: &[f64],
 ) -> RelaxationSpectrum {
-    let pairs = moduli.iter().zip(times);
-    let branches = pairs.map(|(&modulus, &relaxation_time)| RelaxationBranch {
-        modulus,
-        relaxation_time,
-    });
-    RelaxationSpectrum::new(equilibrium, viscosity, branches.collect())
-        .expect("the moduli and times are legal")
+    let pairs = moduli.iter().copied().zip(times.iter().copied());
+    casebook::prony([equilibrium, viscosity], &pairs.collect::<Vec<_>>()).relaxation()
 }
 
 /// Asserts that two numbers are the same, to the last bit.

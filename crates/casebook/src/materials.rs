@@ -1,0 +1,51 @@
+//! The materials that rows name.
+
+use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+
+use crate::{Case, group};
+
+/// The material of a lone spring \[Pa], a lone dashpot \[Pa s], and branches of modulus \[Pa] and relaxation time \[s].
+///
+/// # Panics
+/// When a number is out of its range.
+#[must_use]
+pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
+    let branches = branches
+        .iter()
+        .map(|&(modulus, relaxation_time)| RelaxationBranch {
+            modulus,
+            relaxation_time,
+        });
+    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect());
+    Prony::new(relaxation.expect("moduli")).expect("a material")
+}
+
+/// A model that rows name, `"P3"` or `"P10"`, by its numbers in group RHE-05.
+///
+/// # Panics
+/// When there is none of this name.
+#[must_use]
+pub fn model(name: &str) -> Prony {
+    let rows = group("RHE-05").into_iter();
+    let mut rows = rows.filter(|row| row.has_input("Ge"));
+    let row = rows.find(|row| row.input_text("model") == name);
+    row.expect("a model of RHE-05").material()
+}
+
+impl Case {
+    /// The material whose moduli the row gives, or else that of the model that it names.
+    ///
+    /// # Panics
+    /// When it has neither.
+    #[must_use]
+    pub fn material(&self) -> Prony {
+        if !self.has_input("Ge") {
+            return model(self.input_text("model"));
+        }
+        let [moduli, times] = ["G", "tau"].map(|name| self.input_list(name));
+        let branches: Vec<(f64, f64)> = moduli.into_iter().zip(times).collect();
+        let has_dashpot = self.has_input("eta");
+        let viscosity = has_dashpot.then(|| self.input("eta"));
+        prony([self.input("Ge"), viscosity.unwrap_or(0.0)], &branches)
+    }
+}
