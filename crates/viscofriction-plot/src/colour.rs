@@ -52,6 +52,12 @@ const LEVELS: u8 = 100;
 const BAR_WIDTH: f64 = 14.0;
 
 impl ColourScale {
+    /// Scale of a quantity over a range.
+    pub fn new(label: impl Into<String>, range: [f64; 2]) -> Self {
+        let label = label.into();
+        Self { label, range }
+    }
+
     /// Refuses a range or a value that has no colour.
     pub(crate) fn validate(
         &self,

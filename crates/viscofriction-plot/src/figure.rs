@@ -63,13 +63,16 @@ struct Column {
 }
 
 impl Figure {
+    /// Figure of panels of one kind with so many side by side.
+    pub fn new<P: Into<Panel>>(panels: impl IntoIterator<Item = P>, columns: usize) -> Self {
+        let panels = panels.into_iter().map(P::into).collect();
+        Self { panels, columns }
+    }
+
     /// Figure of a single panel.
     #[must_use]
     pub fn single(panel: impl Into<Panel>) -> Self {
-        Self {
-            panels: vec![panel.into()],
-            columns: 1,
-        }
+        Self::new([panel], 1)
     }
 
     fn layout(&self) -> Result<Vec<Column>, PlotError> {

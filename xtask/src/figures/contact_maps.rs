@@ -15,10 +15,7 @@ const SHARE: usize = 2;
 const ARC: u32 = 90;
 
 pub(super) fn figure(contacts: &[Contact]) -> Figure {
-    Figure {
-        panels: contacts.iter().map(|contact| map(contact).into()).collect(),
-        columns: 2,
-    }
+    Figure::new(contacts.iter().map(map), 2)
 }
 
 /// What the maps show, with the length of the contact along its middle and its breadth.
@@ -58,10 +55,7 @@ fn map(contact: &Contact) -> Map {
         y: Axis::linear("y / contact length", WINDOW[1]),
         columns: cells[0],
         values: values.collect(),
-        colours: ColourScale {
-            label: "P / mean P".into(),
-            range: [0.0, BRIGHTEST],
-        },
+        colours: ColourScale::new("P / mean P", [0.0, BRIGHTEST]),
         proportions: Proportions::True,
         overlays: vec![
             outline(contact),

@@ -156,12 +156,8 @@ fn approach_chart(approaches: &[Approach; 2]) -> Chart {
 
 fn pressure_maps(approaches: &[Approach; 2]) -> Figure {
     let maps = approaches.iter().zip(INDENTERS);
-    Figure {
-        panels: maps
-            .map(|(approach, (name, _))| pressure_map(approach, name).into())
-            .collect(),
-        columns: 2,
-    }
+    let maps = maps.map(|(approach, (name, _))| pressure_map(approach, name));
+    Figure::new(maps, 2)
 }
 
 fn pressure_map(approach: &Approach, name: &str) -> Map {
@@ -189,10 +185,7 @@ fn pressure_map(approach: &Approach, name: &str) -> Map {
         y: axis(1, "y / contact length"),
         columns: rows,
         values: (0..rows * columns).map(value).collect(),
-        colours: ColourScale {
-            label: "log₁₀ (P / mean P)".into(),
-            range: [lowest, highest],
-        },
+        colours: ColourScale::new("log₁₀ (P / mean P)", [lowest, highest]),
         overlays: Vec::new(),
         proportions: Proportions::True,
     }

@@ -7,7 +7,7 @@ use crate::figures::factors::PAPER;
 use crate::output::points;
 use crate::scaling::{MAX_UNKNOWNS, Node, scaling_factor};
 use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
 };
 
 pub(super) const FILE: &str = "scaling_function.csv";
@@ -80,10 +80,7 @@ pub(super) fn figure(rows: &[Node]) -> Figure {
         Axis::log10("relative error bar", [1e-6, 1e-3]),
         vec![curve(|row| row.error / row.scaling_factor)],
     );
-    Figure {
-        panels: vec![Panel::from(function), Panel::from(errors)],
-        columns: 1,
-    }
+    Figure::new([function, errors], 1)
 }
 
 pub(super) fn caption(rows: &[Node]) -> String {

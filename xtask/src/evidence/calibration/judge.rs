@@ -9,18 +9,14 @@ use super::requests::Requests;
 use super::scenes::{Label, Scene};
 use crate::evidence::request::{Reference, Request, presses};
 
-/// A scene, a method, and one bar.
-pub(super) type Row = (Label, Name, Bar);
-
-/// What the table calls a method.
-#[derive(Debug, Clone, Default, Serialize)]
-pub(super) struct Name {
-    pub(super) method: String,
-}
+/// A scene, and one bar.
+pub(super) type Row = (Label, Bar);
 
 /// One bar; all errors are absolute.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct Bar {
+    /// What the table calls the method.
+    pub(super) method: String,
     /// Unit of `asked`.
     asked_kind: &'static str,
     asked: f64,
@@ -58,11 +54,12 @@ impl Bar {
 const SHARP: f64 = 1.0 / 3.0;
 
 /// A result or a reference that could not be computed.
-pub(super) type Refusal = (Label, Name, Reason);
+pub(super) type Refusal = (Label, Reason);
 
-/// Why it could not.
+/// By what method, and why it could not.
 #[derive(Debug, Clone, Default, Serialize)]
 pub(super) struct Reason {
+    pub(super) method: String,
     reason: String,
 }
 
@@ -123,13 +120,12 @@ impl Judged {
                 Ok(reference) => bar(scene, request, reference),
                 Err(error) => Err(anyhow!("no reference: {error:#}")),
             };
-            let (label, method) = (scene.label.clone(), name(request, scene));
+            let label = scene.label.clone();
             match bar {
-                Ok(bar) => self.rows.push((label, Name { method }, bar)),
+                Ok(bar) => self.rows.push((label, bar)),
                 Err(error) => {
-                    let reason = format!("{error:#}");
-                    let refusal = (label, Name { method }, Reason { reason });
-                    self.refusals.push(refusal);
+                    let (method, reason) = (name(request, scene), format!("{error:#}"));
+                    self.refusals.push((label, Reason { method, reason }));
                 }
             }
         }
@@ -140,6 +136,7 @@ fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
     let (got, expected) = (request.solve(&scene.file)?.known, reference.known);
     let deviation = (got.value - expected.value).abs();
     Ok(Bar {
+        method: name(request, scene),
         asked_kind: request.kind(),
         asked: request.number(),
         value: got.value,

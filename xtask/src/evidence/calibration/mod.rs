@@ -23,23 +23,14 @@ use judge::{Bar, Judged, Row, judge};
 use requests::{FULL, QUICK, Requests};
 
 /// Which scenes.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct Options {
     /// Number of scenes, from 1 to 100000 [default: 300, quick 40].
     #[arg(long, value_name = "N")]
     scenes: Option<usize>,
-    /// Which scenes; the same seed gives the same ones.
-    #[arg(long, default_value_t = SEED)]
-    seed: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            scenes: None,
-            seed: SEED,
-        }
-    }
+    /// Which scenes; the same seed gives the same ones [default: 2014].
+    #[arg(long)]
+    seed: Option<u64>,
 }
 
 const SEED: u64 = 2014;
@@ -59,7 +50,7 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         let problem = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
         return Err(WrongInput(problem).into());
     }
-    let mut random = Random::new(options.seed);
+    let mut random = Random::new(options.seed.unwrap_or(SEED));
     let mut scenes = Vec::new();
     for number in 1..=count {
         let scene = scenes::scene(number, &mut random)?;
@@ -85,16 +76,16 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
 /// One line per method: how many bars hold, and how wide they are.
 fn table(judged: &Judged) -> comfy_table::Table {
     let mut methods: BTreeMap<&str, Vec<&Bar>> = BTreeMap::new();
-    for (_, name, bar) in &judged.rows {
-        methods.entry(&name.method).or_default().push(bar);
+    for (_, bar) in &judged.rows {
+        methods.entry(&bar.method).or_default().push(bar);
     }
     let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
     let lines = methods.into_iter().map(|(method, bars)| {
         let refused = judged.refusals.iter();
-        let refused = refused.filter(|(_, name, _)| name.method == method).count();
-        line(method, &bars, refused)
+        let refused = refused.filter(|(_, reason)| reason.method == method);
+        line(method, &bars, refused.count())
     });
-    let all: Vec<&Bar> = judged.rows.iter().map(|(_, _, bar)| bar).collect();
+    let all: Vec<&Bar> = judged.rows.iter().map(|(_, bar)| bar).collect();
     markdown_table(
         header.split('|'),
         lines.chain([line("all", &all, judged.refusals.len())]),
@@ -184,7 +175,7 @@ fn figure(rows: &[Row]) -> Figure {
 }
 
 /// Relative bar and deviation; an elastic body has no friction to which they could be related.
-fn point((_, _, bar): &Row) -> Option<(Method, [f64; 2])> {
+fn point((_, bar): &Row) -> Option<(Method, [f64; 2])> {
     let value = bar.reference.abs();
     let point = [bar.error_bar, bar.deviation].map(|error| (error / value).max(FLOOR));
     let drawn = value > bar.error_bar && point.iter().all(|error| error.is_finite());

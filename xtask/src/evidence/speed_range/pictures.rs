@@ -97,12 +97,9 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
                 circles.labelled(format!("{}, half space", curve.label)),
             ]);
         }
-        chart.into()
+        chart
     };
-    Figure {
-        panels: EXPONENTS.map(panel).into(),
-        columns: 2,
-    }
+    Figure::new(EXPONENTS.map(panel), 2)
 }
 
 /// The ratio of half space and line over speed, one panel per profile.
@@ -123,13 +120,10 @@ pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
             };
             chart.series.push(series.labelled(curve.label));
         }
-        Ok(chart.into())
+        Ok(chart)
     };
     let panels: Result<Vec<_>> = EXPONENTS.into_iter().map(panel).collect();
-    Ok(Figure {
-        panels: panels?,
-        columns: 2,
-    })
+    Ok(Figure::new(panels?, 2))
 }
 
 /// Friction over its prediction, the border of ten per cent, and the window in which tan δ > 1 at ω = v/a.
@@ -151,26 +145,22 @@ pub(super) fn validity(
             let borders = borders.iter();
             let borders = borders.filter(|at| same(at.exponent, exponent) && at.model == model);
             let model = model.name().replace('-', " ");
-            let map = Map {
+            panels.push(Map {
                 title: Some(format!("{}, {model}", name(exponent))),
                 x: map_axis("log₁₀ (vτ/a)", extent.map_speeds),
                 y: map_axis("log₁₀ γ", extent.map_ratios),
                 columns: extent.map_speeds.values().count(),
                 values: quotients.map(Some).collect(),
-                colours: ColourScale {
-                    label: "friction / prediction".into(),
-                    range: [0.0, highest],
-                },
+                colours: ColourScale::new("friction / prediction", [0.0, highest]),
                 overlays: [window.clone()]
                     .into_iter()
                     .chain(outline(borders))
                     .collect(),
                 proportions: Proportions::True,
-            };
-            panels.push(map.into());
+            });
         }
     }
-    Ok(Figure { panels, columns: 2 })
+    Ok(Figure::new(panels, 2))
 }
 
 /// Every value in the middle of its cell.

@@ -4,7 +4,6 @@
 mod case;
 mod cone_on_solid;
 mod contacts;
-mod direct_sum;
 mod families;
 mod half_space;
 mod judge;
@@ -121,10 +120,7 @@ fn picture(families: &[&[Finding]], rows: &[Finding]) -> Figure {
     Figure::single(Matrix {
         title: Some(format!("{accurate} cases are accurate")),
         rows: families.iter().map(|rows| matrix_row(rows)).collect(),
-        colours: ColourScale {
-            label: "log₁₀ of deviation / tolerance".into(),
-            range: [DARKEST, 0.0],
-        },
+        colours: ColourScale::new("log₁₀ of deviation / tolerance", [DARKEST, 0.0]),
         legend: vec![
             (
                 Colour::Grey,

@@ -4,12 +4,11 @@ use viscofriction::scene::{Method, Model};
 
 use super::series::Row;
 use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
 };
 
 /// Errors of references that are drawn; smaller ones do not matter.
 const VISIBLE: f64 = 1e-9;
-const COLUMNS: usize = 2;
 
 /// The scenes of one picture; all panels have the same axes.
 pub(super) fn figure(rows: &[&Row]) -> Figure {
@@ -21,10 +20,7 @@ pub(super) fn figure(rows: &[&Row]) -> Figure {
         Axis::decades("relative error", errors),
     ];
     let scenes = rows.chunk_by(|one, other| one.scene == other.scene);
-    Figure {
-        panels: scenes.map(|rows| Panel::from(chart(rows, &axes))).collect(),
-        columns: COLUMNS,
-    }
+    Figure::new(scenes.map(|rows| chart(rows, &axes)), 2)
 }
 
 fn point(row: &Row) -> [f64; 2] {
