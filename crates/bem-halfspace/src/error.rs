@@ -1,6 +1,7 @@
 //! Wrong input, and what was reached when a solution was not.
 
 use indenters::IndenterError;
+use numerics::InvalidParameter;
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -8,15 +9,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BemError {
     /// A parameter is not a number, or outside the range it may take.
-    #[error("{parameter} must be {allowed}, but is {value}")]
-    InvalidParameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
     /// A field does not have one value per element.
     #[error("{field} has {length} values, but the grid has {elements} elements")]
     LengthMismatch {
@@ -210,42 +204,4 @@ pub(crate) fn check_contact_elements(elements: usize) -> Result<(), BemError> {
         elements,
         needed: MIN_CONTACT_ELEMENTS,
     })
-}
-
-/// Checks a parameter.
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] unless the value `is_allowed`.
-pub(crate) const fn require(
-    is_allowed: bool,
-    parameter: &'static str,
-    value: f64,
-    allowed: &'static str,
-) -> Result<f64, BemError> {
-    if is_allowed {
-        return Ok(value);
-    }
-    Err(BemError::InvalidParameter {
-        parameter,
-        value,
-        allowed,
-    })
-}
-
-/// Checks that a value is finite and greater than zero.
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, BemError> {
-    let is_allowed = value.is_finite() && value > 0.0;
-    require(is_allowed, parameter, value, "finite and greater than 0")
-}
-
-/// Checks that a relative error or tolerance lies between 0 and 1.
-///
-/// # Errors
-/// [`BemError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn below_one(parameter: &'static str, value: f64) -> Result<f64, BemError> {
-    let is_allowed = value > 0.0 && value < 1.0;
-    require(is_allowed, parameter, value, "between 0 and 1")
 }

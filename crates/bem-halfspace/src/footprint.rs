@@ -1,10 +1,10 @@
 //! Where contact may occur, seen from the indenter.
 
 use indenters::{Control, SlidingLoad, Surface};
+use numerics::{InvalidParameter, positive};
 use rheology::Material;
 
 use crate::BemError;
-use crate::error::positive;
 use crate::grid::elements_along;
 use crate::steady::depth_scale_of_surface;
 
@@ -56,7 +56,7 @@ impl Footprint {
         if radius < body.max_radius() || body.profile_height(radius) >= height {
             return Ok(footprint);
         }
-        Err(nowhere_as_high(height))
+        Err(nowhere_as_high(height).into())
     }
 
     /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends
@@ -70,7 +70,7 @@ impl Footprint {
         if [x, y].into_iter().flatten().all(f64::is_finite) && x[0] < x[1] && y[0] < y[1] {
             return Ok(Self { x, y });
         }
-        Err(nowhere_as_high(height))
+        Err(nowhere_as_high(height).into())
     }
 
     /// With room for two elements at the boundary, where a steep body leaves none.
@@ -113,8 +113,8 @@ impl Footprint {
     }
 }
 
-fn nowhere_as_high(height: f64) -> BemError {
-    BemError::InvalidParameter {
+fn nowhere_as_high(height: f64) -> InvalidParameter {
+    InvalidParameter {
         parameter: "indentation depth",
         value: height,
         allowed: "a height that the surface reaches all around at a finite distance greater than 0",

@@ -1,8 +1,8 @@
 //! Rectangular elements in a regular grid.
 
 use crate::BemError;
-use crate::error::positive;
 use crate::mirror::Mirror;
+use numerics::positive;
 
 /// More elements than this would not fit into the memory of a large machine.
 const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;

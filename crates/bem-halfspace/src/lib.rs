@@ -59,6 +59,7 @@ pub use grid::Grid;
 pub use indent::{indent, indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, PressingLoad, SlidingLoad};
 pub use influence::influence;
+pub use numerics::InvalidParameter;
 pub use resolution::GridOptions;
 pub use slide::{PressureField, slide, slide_on_grid};
 pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};

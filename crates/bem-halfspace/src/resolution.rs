@@ -1,9 +1,9 @@
 //! Elements, where they are, and how exactly the contact on them is solved.
 
 use crate::bounds::Bounds;
-use crate::error::positive;
 use crate::mirror::Mirror;
 use crate::{BemError, ContactOptions, Footprint};
+use numerics::positive;
 
 /// A part of the work of a march that is left out where a problem does not need it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -11,11 +11,12 @@
 //! is the same in both models.
 
 use indenters::{Axisymmetric, contact_radius};
+use numerics::positive;
 use rheology::Material;
 
 use crate::FrictionError;
 use crate::axisymmetric::{refuse_divergence, slope_energy};
-use crate::error::{positive, representable};
+use crate::error::representable;
 use crate::indentation::known_moment;
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 

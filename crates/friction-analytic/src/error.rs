@@ -1,6 +1,7 @@
 //! Why friction, depth or a contact cannot be given.
 
 use indenters::IndenterError;
+use numerics::InvalidParameter;
 use thiserror::Error;
 
 /// Why the friction integral has no finite value.
@@ -39,15 +40,8 @@ pub enum FrictionError {
     #[error(transparent)]
     Indenter(#[from] IndenterError),
     /// A parameter is not a number, or outside the range it may take.
-    #[error("{parameter} must be {allowed}, but is {value}")]
-    InvalidParameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
     /// The integral of the squared slope is infinite, though depth and contact exist.
     #[error(
         "the friction of the one-dimensional model is infinite: {cause}; \
@@ -141,33 +135,6 @@ pub enum FrictionError {
         /// F/(4 η v), (12), \[m].
         stationary_depth: f64,
     },
-}
-
-/// Checks that `value` is one that its parameter may take.
-pub(crate) fn in_range(
-    parameter: &'static str,
-    value: f64,
-    holds: bool,
-    allowed: &'static str,
-) -> Result<f64, FrictionError> {
-    if holds {
-        return Ok(value);
-    }
-    Err(FrictionError::InvalidParameter {
-        parameter,
-        value,
-        allowed,
-    })
-}
-
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
-    let holds = value.is_finite() && value > 0.0;
-    in_range(parameter, value, holds, "finite and greater than 0")
-}
-
-pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, FrictionError> {
-    let holds = value.is_finite() && value >= 0.0;
-    in_range(parameter, value, holds, "finite and at least 0")
 }
 
 /// Checks that a result which is positive on paper is so in floating-point numbers.

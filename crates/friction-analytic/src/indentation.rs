@@ -10,11 +10,11 @@
 use std::f64::consts::PI;
 
 use indenters::{Axisymmetric, Cylinder, PowerProfile, contact_radius};
-use numerics::{Estimate, bracketed_root};
+use numerics::{Estimate, bracketed_root, not_negative};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::{not_negative, representable};
+use crate::error::representable;
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 

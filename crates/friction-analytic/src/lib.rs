@@ -61,6 +61,7 @@ pub use indentation::{
     power_indentation_after_impulse,
 };
 pub use line::line_sliding;
+pub use numerics::InvalidParameter;
 pub use power::power_sliding;
 pub use scaling::{half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};

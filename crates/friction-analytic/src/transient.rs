@@ -12,14 +12,14 @@
 //!
 //! This is the solution of the balance behind (15) with the load of the trailing flank, which (15) leaves out.
 
-use numerics::bracketed_root;
+use numerics::{bracketed_root, in_range, not_negative};
 use std::f64::consts::LN_2;
 
 use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::{in_range, not_negative, representable};
+use crate::error::representable;
 use crate::power::Shape;
 use crate::stationary::depth_under_force;
 

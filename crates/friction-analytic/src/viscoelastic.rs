@@ -11,11 +11,11 @@
 //! The integrals are written so that nothing cancels at any ratio of l and x_r.
 
 use indenters::PowerProfile;
-use numerics::bracketed_root;
+use numerics::{bracketed_root, positive};
 use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;
-use crate::error::{positive, representable};
+use crate::error::representable;
 use crate::pieces::{accepted, over_pieces};
 use crate::power::Shape;
 

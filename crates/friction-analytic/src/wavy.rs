@@ -13,10 +13,11 @@
 //! The pressure leads every wave by the loss angle at its own frequency, and waves of different wave vector do not
 //! disturb each other; see Persson (2001), J. Chem. Phys. 115, 3840.
 
+use numerics::{in_range, positive};
 use rheology::{ComplexModulus, Material};
 
 use crate::FrictionError;
-use crate::error::{in_range, positive, representable};
+use crate::error::representable;
 
 /// A sinusoidal line in motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

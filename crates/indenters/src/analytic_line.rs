@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::error::finite;
 use crate::table::increasing;
 use crate::{IndenterError, RigidLine};
+use numerics::finite;
 
 /// A rigid line whose height and slope are functions of the position.
 #[derive(Clone)]

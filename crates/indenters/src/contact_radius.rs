@@ -4,10 +4,9 @@
 //! h̃(a) = d,   h̃ rising on [0, a]
 //! ```
 
-use crate::error::{in_range, positive};
 use crate::leading_edge::crossing;
 use crate::{Axisymmetric, EquivalentLine, IndenterError};
-use numerics::bracketed_root;
+use numerics::{InvalidParameter, bracketed_root, in_range, positive};
 
 /// Step of the search, the eighth part of an octave.
 const STEP: f64 = 1.090_507_732_665_257_7;
@@ -54,7 +53,7 @@ pub fn contact_radius(
         let turn = search.turning_point([inner, outer])?;
         let reached = turn.unwrap_or(outer);
         if search.line(reached)? >= depth {
-            return crossing(&EquivalentLine(body), [inner, reached], depth);
+            return Ok(crossing(&EquivalentLine(body), [inner, reached], depth)?);
         }
         if turn.is_some() {
             return Err(search.turns_down_at(reached));
@@ -69,14 +68,14 @@ struct Search<'a, P: ?Sized> {
 }
 
 impl<P: Axisymmetric + ?Sized> Search<'_, P> {
-    fn line(&self, x: f64) -> Result<f64, IndenterError> {
+    fn line(&self, x: f64) -> Result<f64, InvalidParameter> {
         let value = self.body.line_height(x);
         let holds = !value.is_nan();
         in_range("height of the equivalent line", value, holds, "a number")
     }
 
     /// A radius below the contact radius, inside which the line rises like its leading power.
-    fn apex_side(&self) -> Result<f64, IndenterError> {
+    fn apex_side(&self) -> Result<f64, InvalidParameter> {
         // Where the descent begins has no influence on what it finds; 1 m stands for "anywhere".
         let first_kink = self.body.kinks().first().map(|kink| kink.radius);
         let end = Some(self.body.max_radius()).filter(|end| end.is_finite());
@@ -99,7 +98,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
             }
             x *= 0.5;
         }
-        candidate.ok_or(IndenterError::InvalidParameter {
+        candidate.ok_or(InvalidParameter {
             parameter: "depth",
             value: self.depth,
             allowed: "greater than the height of the line at the smallest positive radius",
@@ -107,7 +106,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
     }
 
     /// The highest point inside the interval when the line falls somewhere in it.
-    fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
+    fn turning_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let Some(falling) = self.falling_point([inner, outer])? else {
             return Ok(None);
         };
@@ -126,7 +125,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         in_range("slope of the equivalent line", turn, holds, "a number").map(Some)
     }
 
-    fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, IndenterError> {
+    fn falling_point(&self, [inner, outer]: [f64; 2]) -> Result<Option<f64>, InvalidParameter> {
         let [mut start, mut end] = [inner, outer];
         while !self.falls(end)? {
             let lost = self.line(start)? - self.line(end)?;
@@ -145,7 +144,7 @@ impl<P: Axisymmetric + ?Sized> Search<'_, P> {
         Ok(Some(end))
     }
 
-    fn falls(&self, x: f64) -> Result<bool, IndenterError> {
+    fn falls(&self, x: f64) -> Result<bool, InvalidParameter> {
         Ok(x * self.body.line_slope(x) < -ROUNDING * self.line(x)?)
     }
 

@@ -1,20 +1,14 @@
 //! Why an indenter, its load or a geometric problem is refused.
 
+use numerics::InvalidParameter;
 use thiserror::Error;
 
 /// Why an indenter, a load or a geometric problem is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum IndenterError {
     /// A parameter is not a number, or outside the range it may take.
-    #[error("{parameter} must be {allowed}, but is {value}")]
-    InvalidParameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
     /// Two lists that belong together have different lengths.
     #[error("{first} has {first_length} entries but {second} has {second_length}")]
     LengthMismatch {
@@ -111,31 +105,4 @@ pub enum IndenterError {
         /// The relative error asked for.
         relative_tolerance: f64,
     },
-}
-
-/// Checks that `value` is one that its parameter may take.
-pub(crate) fn in_range(
-    parameter: &'static str,
-    value: f64,
-    holds: bool,
-    allowed: &'static str,
-) -> Result<f64, IndenterError> {
-    if holds {
-        return Ok(value);
-    }
-    Err(IndenterError::InvalidParameter {
-        parameter,
-        value,
-        allowed,
-    })
-}
-
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
-    let holds = value.is_finite() && value > 0.0;
-    in_range(parameter, value, holds, "finite and greater than 0")
-}
-
-pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, IndenterError> {
-    let holds = value.is_finite();
-    in_range(parameter, value, holds, "finite")
 }

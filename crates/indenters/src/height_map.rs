@@ -4,9 +4,9 @@
 //! h = (1 − s)(1 − t) h_ij + s (1 − t) h_(i+1)j + (1 − s) t h_i(j+1) + s t h_(i+1)(j+1)        0 ≤ s, t ≤ 1 in a cell
 //! ```
 
-use crate::error::{finite, positive};
 use crate::table::at_least_two;
 use crate::{IndenterError, Surface};
+use numerics::{finite, positive};
 
 /// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
 ///

@@ -6,9 +6,8 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-use crate::error::{finite, positive};
 use crate::{IndenterError, RigidLine};
-use numerics::integrate;
+use numerics::{finite, integrate, positive};
 
 /// How often intervals may be halved, all in all, in search of kinks that the line does not name; one kink takes about 30.
 const MAX_BISECTIONS: usize = 1000;

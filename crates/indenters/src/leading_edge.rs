@@ -7,9 +7,8 @@
 //!
 //! The paper writes Definition 2 with d instead of `h_0 + d`; its proof of Theorem 3 uses `h_0 + d`.
 
-use crate::error::{finite, positive};
 use crate::{IndenterError, RigidLine};
-use numerics::bracketed_root;
+use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
 /// Intervals of the domain of a line that are searched for one turning point each, unless the caller chooses.
 const SAMPLES: usize = 1024;
@@ -155,9 +154,9 @@ pub(crate) fn crossing(
     line: &(impl RigidLine + ?Sized),
     ends: [f64; 2],
     height: f64,
-) -> Result<f64, IndenterError> {
+) -> Result<f64, InvalidParameter> {
     let excess = |x: f64| line.height(x) - height;
-    bracketed_root(excess, ends).ok_or(IndenterError::InvalidParameter {
+    bracketed_root(excess, ends).ok_or(InvalidParameter {
         parameter: "height of the line",
         value: line.height(0.5 * (ends[0] + ends[1])),
         allowed: "continuous and finite",

@@ -67,6 +67,7 @@ pub use inverse_abel::inverse_abel;
 pub use leading_edge::{ContactLine, LeadingEdge, contact_line, leading_edge, leading_edge_with};
 pub use line::{EquivalentLine, RigidLine};
 pub use load::{Control, PressingLoad, SlidingLoad};
+pub use numerics::InvalidParameter;
 pub use piecewise_linear::PiecewiseLinearProfile;
 pub use power::PowerProfile;
 pub use round_tipped::{Hyperboloid, RoundTippedCone};

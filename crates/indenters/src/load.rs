@@ -1,7 +1,7 @@
 //! How the rigid body is pressed and moved.
 
 use crate::IndenterError;
-use crate::error::positive;
+use numerics::{InvalidParameter, positive};
 
 /// What is prescribed normal to the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ pub enum Control {
 }
 
 impl Control {
-    fn checked(self) -> Result<Self, IndenterError> {
+    fn checked(self) -> Result<Self, InvalidParameter> {
         match self {
             Self::NormalForce(force) => positive("normal_force", force).map(Self::NormalForce),
             Self::IndentationDepth(depth) => {

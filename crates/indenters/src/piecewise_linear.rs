@@ -4,10 +4,10 @@
 //! h̃(x) = x Σ m_i [arcsin(min(r_(i+1), x) / x) − arcsin(min(r_i, x) / x)]        m_i slope of piece i
 //! ```
 
-use crate::error::in_range;
 use crate::right_triangle::{arc_sine_difference, leg};
 use crate::table::check_table;
 use crate::{Axisymmetric, IndenterError, Kink, LinePoint, ProfilePoint, surface_of_revolution};
+use numerics::in_range;
 
 /// A body of revolution with a straight profile between the rows of a table; it ends at the last radius.
 ///

@@ -5,8 +5,8 @@
 //! h̃(x) = κ(p) c |x|^p         (8)
 //! ```
 
-use crate::error::positive;
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
+use numerics::positive;
 
 /// A body of revolution `h(r) = c r^p` with any p > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -24,7 +24,7 @@ macro_rules! shape {
             /// greater than zero.
             pub fn new($($parameter: f64),+) -> Result<Self, $crate::IndenterError> {
                 Ok(Self {
-                    $($parameter: $crate::error::positive(stringify!($parameter), $parameter)?,)+
+                    $($parameter: numerics::positive(stringify!($parameter), $parameter)?,)+
                 })
             }
 

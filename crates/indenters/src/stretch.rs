@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use crate::IndenterError;
-use crate::error::positive;
+use numerics::positive;
 
 /// Above this argument the ratio of gamma functions is summed by its asymptotic series; below it Γ is far from
 /// overflow.

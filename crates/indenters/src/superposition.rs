@@ -4,9 +4,9 @@
 //! h(r) = Σ c_k r^(p_k)        h̃(x) = Σ κ(p_k) c_k |x|^(p_k)
 //! ```
 
-use crate::error::{in_range, positive};
 use crate::power::scaled_power;
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
+use numerics::{in_range, positive};
 
 /// One term `coefficient · r^exponent` of a [`Superposition`].
 #[derive(Debug, Clone, Copy, PartialEq)]

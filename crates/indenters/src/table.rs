@@ -1,7 +1,7 @@
 //! What every table of positions and heights must fulfil.
 
 use crate::IndenterError;
-use crate::error::finite;
+use numerics::finite;
 
 /// Checks that both lists are finite and equally long, have two rows, and that the positions, which have a name, increase.
 ///

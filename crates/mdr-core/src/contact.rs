@@ -10,7 +10,7 @@
 
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
-use crate::error::positive;
+use numerics::positive;
 
 /// What one element does in one step.
 #[derive(Debug, Clone, Copy)]

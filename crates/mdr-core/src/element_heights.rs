@@ -4,9 +4,9 @@
 //! falls between two steps and never inside one, so that the slopes on its two sides are not mixed.
 
 use indenters::RigidLine;
+use numerics::{in_range, positive};
 
 use crate::MdrError;
-use crate::error::positive;
 
 /// The most elements that a chain may have.
 pub(crate) const MAX_ELEMENTS: usize = 1 << 22;
@@ -109,13 +109,8 @@ impl ElementHeights {
         height: f64,
     ) -> Result<Self, MdrError> {
         let resolved = anchor + spacing > anchor && anchor - spacing < anchor;
-        if !resolved {
-            return Err(MdrError::InvalidParameter {
-                parameter: "spacing",
-                value: spacing,
-                allowed: "large enough to tell neighbouring positions on the line apart",
-            });
-        }
+        let allowed = "large enough to tell neighbouring positions on the line apart";
+        in_range("spacing", spacing, resolved, allowed)?;
         let anchor_height = checked_height(line, anchor)?;
         let ray = |step| Ray {
             line,

@@ -1,7 +1,7 @@
 //! Why a problem is refused, or has no solution.
 
 use indenters::IndenterError;
-use numerics::NotReached;
+use numerics::{InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -11,15 +11,8 @@ use crate::SlideRow;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MdrError {
     /// A parameter is not a number, or outside the range it may take.
-    #[error("{parameter} must be {allowed}, but is {value}")]
-    InvalidParameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
     /// A list has no entries.
     #[error("{list} must have at least one entry")]
     Empty {
@@ -192,51 +185,6 @@ pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrE
         n_contact,
         needed: MIN_CONTACT,
         spacing,
-    })
-}
-
-/// Checks that `value` is finite and greater than zero.
-///
-/// # Errors
-/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(value);
-    }
-    Err(MdrError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite and greater than 0",
-    })
-}
-
-/// Checks that `value` is finite and not negative.
-///
-/// # Errors
-/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(value);
-    }
-    Err(MdrError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "finite and not negative",
-    })
-}
-
-/// Checks that `value` lies between 0 and 1.
-///
-/// # Errors
-/// [`MdrError::InvalidParameter`] naming `parameter` otherwise.
-pub(crate) fn fraction(parameter: &'static str, value: f64) -> Result<f64, MdrError> {
-    if value > 0.0 && value < 1.0 {
-        return Ok(value);
-    }
-    Err(MdrError::InvalidParameter {
-        parameter,
-        value,
-        allowed: "between 0 and 1",
     })
 }
 

@@ -42,6 +42,7 @@ pub use error::MdrError;
 pub use indent::{
     IndentOptions, IndentRow, IndentStep, Indentation, indent, indent_history, indent_on_grid,
 };
+pub use numerics::InvalidParameter;
 pub use press::{Pressed, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_on_grid};
 pub use steady::{SteadySliding, steady};

@@ -5,11 +5,10 @@
 //! ```
 
 use indenters::{Control, RigidLine};
-use numerics::Estimate;
+use numerics::{Estimate, between_zero_and_one};
 use rheology::{Elastic, Material};
 
 use crate::MdrError;
-use crate::error::fraction;
 use crate::steady::{Problem, SteadySliding};
 
 /// A contact at rest.
@@ -40,7 +39,7 @@ pub fn press(
     control: Control,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
-    let relative_error = fraction("relative_error", relative_error)?;
+    let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let modulus = material.relaxation().equilibrium_modulus();
     if modulus == 0.0 {
         return Err(MdrError::NoEquilibrium);

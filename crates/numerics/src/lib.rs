@@ -1,4 +1,5 @@
-//! Mathematics without physics: integrals, roots, Legendre polynomials, and refinement to a stated error.
+//! Mathematics without physics: integrals, roots, Legendre polynomials, refinement to a stated error,
+//! checks of numbers.
 //!
 //! ```
 //! use numerics::{Accuracy, Goal, NotReached, Quantity, no_other_error, refine};
@@ -22,6 +23,7 @@
 
 mod error_parts;
 mod estimate;
+mod invalid_parameter;
 mod legendre;
 mod quadrature;
 mod refinement;
@@ -29,6 +31,9 @@ mod root;
 
 pub use error_parts::ErrorParts;
 pub use estimate::Estimate;
+pub use invalid_parameter::{
+    InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
+};
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use quadrature::{integrate, integrate_from_ends};
 pub use refinement::{Accuracy, Goal, NotReached, Quantity, Refined, no_other_error, refine};

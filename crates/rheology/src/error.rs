@@ -1,20 +1,14 @@
 //! What can be wrong with a material.
 
+use numerics::InvalidParameter;
 use thiserror::Error;
 
 /// Why a material, or an argument of one of its functions, is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RheologyError {
     /// A parameter is not a number, or outside the range it may take.
-    #[error("{parameter} must be {allowed}, but is {value}")]
-    InvalidParameter {
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
     /// A parameter of one member of a list is not a number, or outside the range it may take.
     #[error("{parameter} of {list}[{index}] must be {allowed}, but is {value}")]
     InvalidElement {
@@ -85,52 +79,20 @@ pub enum RheologyError {
     },
 }
 
-/// Checks that `value` is one that its parameter may take.
-pub(crate) fn in_range(
-    parameter: &'static str,
-    value: f64,
-    holds: bool,
-    allowed: &'static str,
-) -> Result<f64, RheologyError> {
-    if holds {
-        return Ok(value);
-    }
-    Err(RheologyError::InvalidParameter {
+/// Puts the place in a list into the error about one of its members.
+pub(crate) fn in_list(
+    list: &'static str,
+    index: usize,
+) -> impl Fn(InvalidParameter) -> RheologyError {
+    move |InvalidParameter {
+              parameter,
+              value,
+              allowed,
+          }| RheologyError::InvalidElement {
+        list,
+        index,
         parameter,
         value,
         allowed,
-    })
-}
-
-pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
-    let holds = value.is_finite() && value > 0.0;
-    in_range(parameter, value, holds, "finite and greater than 0")
-}
-
-pub(crate) fn not_negative(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
-    let holds = value.is_finite() && value >= 0.0;
-    in_range(parameter, value, holds, "finite and at least 0")
-}
-
-pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, RheologyError> {
-    let holds = value.is_finite();
-    in_range(parameter, value, holds, "finite")
-}
-
-/// Puts the place in a list into the error about one of its members.
-pub(crate) fn in_list(list: &'static str, index: usize) -> impl Fn(RheologyError) -> RheologyError {
-    move |error| match error {
-        RheologyError::InvalidParameter {
-            parameter,
-            value,
-            allowed,
-        } => RheologyError::InvalidElement {
-            list,
-            index,
-            parameter,
-            value,
-            allowed,
-        },
-        other => other,
     }
 }

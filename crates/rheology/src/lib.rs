@@ -46,6 +46,7 @@ pub use material::Material;
 pub use materials::elementary::{Elastic, KelvinVoigt, Maxwell, Viscous};
 pub use materials::generalised::{Compressible, Prony};
 pub use materials::standard_solid::{LossPeak, StandardSolid, StandardSolidParameters};
+pub use numerics::InvalidParameter;
 pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;

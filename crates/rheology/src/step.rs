@@ -7,8 +7,8 @@
 //! ```
 //! In both, history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
 
-use crate::error::positive;
 use crate::{CreepSpectrum, RelaxationSpectrum, RheologyError};
+use numerics::positive;
 
 /// Coefficients of a step of fixed length.
 ///

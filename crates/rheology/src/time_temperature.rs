@@ -6,8 +6,8 @@
 //! ```
 //! (Williams, Landel & Ferry 1955, J. Am. Chem. Soc. 77, 3701, DOI 10.1021/ja01619a008)
 
-use crate::error::{finite, positive};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
+use numerics::{finite, positive};
 
 /// Gas constant R, [J/(mol K)].
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;

@@ -25,10 +25,10 @@ use std::f64::consts::PI;
 
 use crate::chunks::in_pool;
 use crate::convolution::Surroundings;
-use crate::error::{positive, require};
 use crate::{BemError, Convolution};
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;
+use numerics::{InvalidParameter, finite, in_range, positive};
 pub(crate) use problem::Solved;
 use problem::{Accuracy, LoadProblem};
 use solve::solve_loads;
@@ -151,11 +151,11 @@ fn map_force(control: Control, other: impl Fn(f64) -> f64) -> Control {
 }
 
 impl ContactOptions {
-    pub(crate) fn validate(&self) -> Result<(), BemError> {
+    pub(crate) fn validate(&self) -> Result<(), InvalidParameter> {
         let value = self.tolerance;
         let is_allowed = value > 0.0 && value <= MAX_TOLERANCE;
         let allowed = "greater than 0 and at most 1e-2";
-        require(is_allowed, "contact tolerance", value, allowed).map(drop)
+        in_range("contact tolerance", value, is_allowed, allowed).map(drop)
     }
 }
 
@@ -172,10 +172,11 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
         {
             let is_allowed = value < heights.iter().sum::<f64>() / heights.len() as f64;
             let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
-            require(is_allowed, "indentation_depth", value, allowed).map(drop)
+            in_range("indentation_depth", value, is_allowed, allowed)?;
         }
-        _ => Ok(()),
+        _ => {}
     }
+    Ok(())
 }
 
 /// Checks that a field has one value per element.
@@ -210,20 +211,18 @@ pub(crate) fn check_heights(
     }
     let has_body = heights.iter().any(|height| height.is_finite());
     let allowed = "below infinity in at least one element";
-    require(has_body, field, f64::INFINITY, allowed).map(drop)
+    in_range(field, f64::INFINITY, has_body, allowed)?;
+    Ok(())
 }
 
 /// Checks a force or depth that is given.
-pub(crate) fn check_control(control: Control) -> Result<(), BemError> {
-    let checked = match control {
+pub(crate) fn check_control(control: Control) -> Result<f64, InvalidParameter> {
+    match control {
         Control::NormalForce(value) => {
             let is_allowed = value.is_finite() && value >= 0.0;
             let allowed = "finite and not negative (there is no adhesion)";
-            require(is_allowed, "normal_force", value, allowed)
+            in_range("normal_force", value, is_allowed, allowed)
         }
-        Control::IndentationDepth(value) => {
-            require(value.is_finite(), "indentation_depth", value, "finite")
-        }
-    };
-    checked.map(drop)
+        Control::IndentationDepth(value) => finite("indentation_depth", value),
+    }
 }

@@ -3,10 +3,10 @@
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
 use indenters::{Control, Surface};
+use numerics::{between_zero_and_one, positive};
 use rheology::{CreepSpectrum, Material};
 
 use super::{IndentRow, IndentStep, indent_history_on_grid};
-use crate::error::{below_one, positive};
 use crate::{BemError, GridOptions};
 
 /// Force or depth over time, and the times at which the state is wanted.
@@ -126,7 +126,7 @@ pub fn indent_history(
     history: &ControlHistory<'_>,
     options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
-    let relative_error = below_one("relative_error", options.relative_error)?;
+    let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
     let times = history.times;
     let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
         let steps = subdivided(history, n);

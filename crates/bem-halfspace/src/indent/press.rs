@@ -5,11 +5,11 @@
 //! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
 
 use indenters::{Control, PressingLoad, Surface, contact_radius};
-use numerics::{Accuracy, ErrorParts, Goal};
+use numerics::{Accuracy, ErrorParts, Goal, positive};
 use rheology::{Elastic, Material};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
-use crate::error::{check_contact_elements, positive};
+use crate::error::check_contact_elements;
 use crate::plan::GridPlan;
 use crate::pressure_field::PressureField;
 use crate::stepping::{March, Motion};

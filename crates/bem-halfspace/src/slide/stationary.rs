@@ -9,9 +9,9 @@
 //! On a solid it does so exponentially, once the distance is longer than v λ for every retardation time λ.
 
 use indenters::{SlidingLoad, Surface};
+use numerics::{between_zero_and_one, positive};
 use rheology::Material;
 
-use crate::error::{below_one, positive};
 use crate::slide::{March, SlideRow, Transient};
 use crate::{BemError, GridOptions};
 
@@ -153,7 +153,7 @@ pub fn slide_to_stationary(
     options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
-    below_one("stationary tolerance", stationary.tolerance)?;
+    between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
     let mut march = March::sliding(&surface, material, load, options)?;
     let flows = march.material.creep.fluidity() > 0.0;

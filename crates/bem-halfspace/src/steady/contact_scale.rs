@@ -19,10 +19,10 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use indenters::{SlidingLoad, Surface};
+use numerics::{in_range, positive};
 use rheology::Material;
 
 use crate::BemError;
-use crate::error::{positive, require};
 use crate::steady::sliding_creep::SlidingCreep;
 
 /// Halvings of the logarithm of the length: all the digits there are.
@@ -41,13 +41,13 @@ pub(super) fn depth_scale(
 ) -> Result<f64, BemError> {
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
-        return positive("F_N / (4 η v)", depth);
+        return Ok(positive("F_N / (4 η v)", depth)?);
     }
     let depth = |length: f64| -> Result<f64, BemError> {
         Ok(0.25 * normal_force * (creep.compliance(length)? / length))
     };
     let length = length_of_contact(height, depth, largest)?;
-    positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)
+    Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
 }
 
 /// D of a profile, and the distance a from its lowest point at which it is as high, \[m].
@@ -61,7 +61,7 @@ pub(super) fn scale_of_profile(
     let fluidity = creep.fluidity();
     let allowed =
         "0 under a line load: a surface that flows sinks the faster the longer the line is";
-    require(fluidity <= 0.0, "fluidity", fluidity, allowed)?;
+    in_range("fluidity", fluidity, fluidity <= 0.0, allowed)?;
     let height = |distance: f64| {
         let [rear, front] = [-distance, distance].map(|x| profile.height([x, 0.0]));
         0.5 * (rear + front)

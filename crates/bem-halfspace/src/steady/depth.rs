@@ -1,10 +1,10 @@
 //! How deep a body lies that slides for ever.
 
 use crate::BemError;
-use crate::error::{positive, require};
 use crate::steady::loading::sunken;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
+use numerics::{in_range, positive};
 
 /// Depth of the lowest point below the undeformed surface, which never stops to grow where the material flows.
 ///
@@ -62,7 +62,7 @@ impl SinkingDepth {
         positive("sliding_distance", sliding_distance)?;
         let is_allowed = sliding_distance >= self.reference_distance;
         let allowed = "at least the length of the contact";
-        require(is_allowed, "sliding_distance", sliding_distance, allowed)?;
+        in_range("sliding_distance", sliding_distance, is_allowed, allowed)?;
         Ok(self.at(Some(sliding_distance)))
     }
 }

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use indenters::{Control, SlidingLoad, Surface};
+use numerics::{in_range, positive};
 use rheology::Material;
 
-use crate::error::{positive, require};
 use crate::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Footprint};
@@ -159,7 +159,7 @@ fn distance_at_depth(
     };
     let is_allowed = distance >= footprint_length;
     let allowed = "longer than the footprint, because the depth is known only after the contact has become stationary";
-    require(is_allowed, "sliding_distance", distance, allowed)
+    Ok(in_range("sliding_distance", distance, is_allowed, allowed)?)
 }
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).

@@ -9,8 +9,8 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use indenters::Surface;
+use numerics::{in_range, positive};
 
-use crate::error::{positive, require};
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
@@ -69,7 +69,7 @@ impl Mesh {
         positive("spacing along y", options.spacing[1])?;
         for value in options.phase {
             let is_allowed = (-0.5..=0.5).contains(&value);
-            require(is_allowed, "phase", value, "between -1/2 and 1/2")?;
+            in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
         }
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {

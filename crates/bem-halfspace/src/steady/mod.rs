@@ -39,11 +39,11 @@ mod wake_table;
 mod wiener_hopf;
 
 use indenters::{SlidingLoad, Surface};
+use numerics::{between_zero_and_one, positive};
 use rheology::Material;
 
 pub use crate::averages::{Average, Refinement};
 use crate::chunks::in_pool;
-use crate::error::{below_one, positive};
 use crate::{BemError, Footprint};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
@@ -153,7 +153,7 @@ fn solve(
     reuse: &mut Reuse,
 ) -> Result<SteadySliding, BemError> {
     positive("max_iterations", options.max_iterations as f64)?;
-    below_one("tolerance", options.tolerance)?;
+    between_zero_and_one("tolerance", options.tolerance)?;
     let mesh = Mesh::new(surface, loading, options, &mut reuse.plans)?;
     if reuse.solution.is_none() && mesh.n_elements() > NESTED && mesh.resolves_body(COARSER) {
         let coarse = SteadyOptions {

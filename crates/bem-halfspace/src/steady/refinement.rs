@@ -7,11 +7,10 @@
 //! bar.
 
 use indenters::Surface;
-use numerics::{ErrorParts, Estimate};
+use numerics::{ErrorParts, Estimate, between_zero_and_one, in_range, positive};
 
 use crate::averages::{Average, Refinement};
 use crate::bars::{self, FORCE, FRICTION, NAMES};
-use crate::error::{below_one, positive, require};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
@@ -84,7 +83,7 @@ pub(super) fn refine(
     problem: &Problem,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    let relative_error = below_one("relative_error", options.relative_error)?;
+    let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
     let mut grids = Grids {
         problem,
@@ -129,7 +128,7 @@ fn limit(
 fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
     // The friction of a sharper apex alone is infinite, as in the one-dimensional model.
-    require(order > 0.0, "apex exponent", apex_exponent, "above 1/2")?;
+    in_range("apex exponent", apex_exponent, order > 0.0, "above 1/2")?;
     Ok(order)
 }
 

@@ -9,10 +9,10 @@
 
 use std::f64::consts::PI;
 
+use numerics::positive;
 use rheology::{CreepSpectrum, Material};
 
 use crate::BemError;
-use crate::error::positive;
 
 /// A material at a sliding speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,10 +93,8 @@ impl SlidingCreep {
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
     pub(super) fn compliance(&self, length: f64) -> Result<f64, BemError> {
         let parts = self.parts(length)?;
-        positive(
-            "compliance over a length",
-            self.half_space_factor * total(&parts),
-        )
+        let compliance = self.half_space_factor * total(&parts);
+        Ok(positive("compliance over a length", compliance)?)
     }
 
     /// The creep over elements of the length Δx.

@@ -2,6 +2,7 @@
 
 use std::ops::{Range, RangeBounds};
 
+use numerics::{InvalidParameter, finite, in_range};
 use rheology::ExponentialStep;
 
 use super::March;
@@ -102,12 +103,8 @@ impl March<'_> {
             ("memory", &state.memory, n_values),
         ] {
             check_length(field, values.len(), elements)?;
-            if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
-                return Err(BemError::InvalidParameter {
-                    parameter: field,
-                    value,
-                    allowed: "finite",
-                });
+            for value in values {
+                finite(field, *value)?;
             }
         }
         Ok((ContactBox::of(&self.window.convolution, bounds)?, rows))
@@ -119,13 +116,7 @@ fn within(
     parameter: &'static str,
     value: usize,
     range: impl RangeBounds<usize>,
-) -> Result<(), BemError> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    Err(BemError::InvalidParameter {
-        parameter,
-        value: value as f64,
-        allowed: "inside the scene that is resumed",
-    })
+) -> Result<f64, InvalidParameter> {
+    let allowed = "inside the scene that is resumed";
+    in_range(parameter, value as f64, range.contains(&value), allowed)
 }

@@ -1,10 +1,10 @@
 //! Sliding, one step after the other.
 
 use indenters::{Control, SlidingLoad, Surface};
+use numerics::positive;
 use rheology::Material;
 
 use super::{March, Motion, MotionRow, Route};
-use crate::error::positive;
 use crate::grid::elements_along;
 use crate::{BemError, Grid, GridOptions};
 

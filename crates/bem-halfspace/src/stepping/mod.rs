@@ -22,11 +22,11 @@ use std::fmt;
 use std::ops::Range;
 
 use indenters::{Control, Surface};
+use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
-use crate::error::positive;
 use crate::pressure_field::PressureField;
 use crate::resolution::{Layout, SlideOmission};
 use crate::{BemError, Grid, GridOptions};
@@ -413,5 +413,5 @@ fn height_scale(material: &HalfSpace, route: &Route, spacing: f64) -> Result<f64
     if scale == 0.0 {
         return Ok(spacing);
     }
-    positive("height scale F α / (4 Δx)", scale)
+    Ok(positive("height scale F α / (4 Δx)", scale)?)
 }

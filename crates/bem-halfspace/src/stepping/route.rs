@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use indenters::Control;
+use numerics::{finite, positive};
 
 use super::Motion;
 use crate::BemError;
 use crate::contact::check_control;
-use crate::error::positive;
 use crate::grid::whole;
 
 /// One step of the path, seen from the elements.
@@ -139,14 +139,7 @@ impl Route {
 
 /// The nearest element to a position, and the distance from its centre, in elements.
 fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
-    if !position.is_finite() {
-        return Err(BemError::InvalidParameter {
-            parameter: "position",
-            value: position,
-            allowed: "finite",
-        });
-    }
-    let elements = position / spacing;
+    let elements = finite("position", position)? / spacing;
     let cell = elements.round();
     let offset = elements - cell;
     // A whole number must not become a fraction by rounding, or results would depend on the unit of length.

@@ -12,6 +12,7 @@
 use std::f64::consts::PI;
 
 use indenters::Surface;
+use numerics::{InvalidParameter, in_range};
 
 use crate::BemError;
 use crate::stepping::{Leg, March};
@@ -96,16 +97,9 @@ impl Slopes {
     }
 }
 
-fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, BemError> {
+fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, InvalidParameter> {
     let slope = surface.gradient(position)[0];
-    if slope.is_nan() {
-        return Err(BemError::InvalidParameter {
-            parameter: "slope of the surface",
-            value: slope,
-            allowed: "a number",
-        });
-    }
-    Ok(slope)
+    in_range("slope of the surface", slope, !slope.is_nan(), "a number")
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.

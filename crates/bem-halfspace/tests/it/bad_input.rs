@@ -269,7 +269,7 @@ fn speeds_beyond_all_numbers_are_refused_or_answered() {
                 );
             }
             Err(error) => assert!(
-                matches!(error, BemError::InvalidParameter { .. }),
+                matches!(error, BemError::InvalidParameter(_)),
                 "v = {velocity:e}: {error}"
             ),
         }

@@ -168,7 +168,7 @@ pub(crate) fn assert_refused<T>(what: impl Debug, result: Result<T, BemError>, n
     assert!(says_why, "{what:?}: {error}");
     let in_full = format!("{error:?}");
     let found = match error {
-        BemError::InvalidParameter { parameter, .. } => Some(parameter),
+        BemError::InvalidParameter(invalid) => Some(invalid.parameter),
         _ => in_full.split(' ').next(),
     };
     assert_eq!(found, Some(name), "{what:?}: {error}");

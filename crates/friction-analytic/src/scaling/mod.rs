@@ -8,10 +8,9 @@
 mod scaling_table;
 
 use indenters::{PowerProfile, SlidingLoad};
-use numerics::Estimate;
+use numerics::{Estimate, in_range};
 use rheology::Viscous;
 
-use crate::error::in_range;
 use crate::{FrictionError, power_sliding};
 use scaling_table::NODES;
 

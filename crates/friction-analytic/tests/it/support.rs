@@ -50,9 +50,9 @@ pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
 pub(crate) fn assert_refused<T: Debug>(name: &str, result: Result<T, FrictionError>) {
     match result {
         Err(
-            FrictionError::InvalidParameter { parameter, .. }
-            | FrictionError::Indenter(IndenterError::InvalidParameter { parameter, .. }),
-        ) => assert_eq!(parameter, name, "the refused parameter"),
+            FrictionError::InvalidParameter(invalid)
+            | FrictionError::Indenter(IndenterError::InvalidParameter(invalid)),
+        ) => assert_eq!(invalid.parameter, name, "the refused parameter"),
         other => panic!("{other:?} instead of a refused {name}"),
     }
 }

@@ -159,10 +159,7 @@ fn depths_beyond_the_numbers_are_refused() {
     let low = contact_radius(&flat, 0.5);
     assert_matches!(
         low,
-        Err(IndenterError::InvalidParameter {
-            parameter: "depth",
-            ..
-        })
+        Err(IndenterError::InvalidParameter(invalid)) if invalid.parameter == "depth"
     );
     let high = contact_radius(&flat, 2.0);
     assert_matches!(high, Err(IndenterError::NotHighEnough { available, .. }) if available < 1.01);

@@ -105,7 +105,7 @@ fn grids_that_do_not_fit_are_refused() {
         let result = new([2, 2], spacing, &heights);
         assert_matches!(
             result,
-            Err(IndenterError::InvalidParameter { .. }),
+            Err(IndenterError::InvalidParameter(_)),
             "{spacing:?} {heights:?}"
         );
     }

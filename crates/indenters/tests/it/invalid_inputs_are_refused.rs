@@ -3,18 +3,18 @@ use std::fmt::Debug;
 use casebook::assert_matches;
 use indenters::{
     AnalyticLine, Axisymmetric, Cylinder, FlatCone, FlatPunch, Hyperboloid, IndenterError,
-    PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone, SampledLine, SlidingLoad,
-    Sphere, Superposition, TruncatedParaboloid, contact_line, contact_radius, inverse_abel,
-    leading_edge, stretch,
+    InvalidParameter, PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone,
+    SampledLine, SlidingLoad, Sphere, Superposition, TruncatedParaboloid, contact_line,
+    contact_radius, inverse_abel, leading_edge, stretch,
 };
 
 const BAD: [f64; 6] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
 fn assert_names<T: Debug>(result: Result<T, IndenterError>, name: &str, bad: f64) {
     match result {
-        Err(IndenterError::InvalidParameter {
+        Err(IndenterError::InvalidParameter(InvalidParameter {
             parameter, value, ..
-        }) => {
+        })) => {
             assert_eq!(parameter, name, "the refused value was {bad}");
             assert_eq!(value.to_bits(), bad.to_bits(), "value named for {name}");
         }
@@ -195,9 +195,6 @@ fn lines_need_a_finite_domain_and_finite_heights() {
     let result = leading_edge(&pole);
     assert_matches!(
         result,
-        Err(IndenterError::InvalidParameter {
-            parameter: "height of the line",
-            ..
-        })
+        Err(IndenterError::InvalidParameter(invalid)) if invalid.parameter == "height of the line"
     );
 }

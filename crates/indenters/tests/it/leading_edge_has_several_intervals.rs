@@ -144,7 +144,8 @@ fn a_body_without_an_end_is_referred_to_its_radius() {
     let result = leading_edge(&EquivalentLine(&cone));
     assert_matches!(
         result,
-        Err(IndenterError::InvalidParameter { parameter: "end of the domain", value, .. }) if value == f64::NEG_INFINITY
+        Err(IndenterError::InvalidParameter(invalid))
+            if invalid.parameter == "end of the domain" && invalid.value == f64::NEG_INFINITY
     );
 }
 

@@ -10,12 +10,13 @@
 //! lengths, because the load of an element is held over a step.
 
 use indenters::{Control, PressingLoad, RigidLine};
+use numerics::{not_negative, positive};
 use rheology::{ExponentialStep, Material};
 
 use crate::MdrError;
 use crate::chain::Chain;
 use crate::element_heights::ElementHeights;
-use crate::error::{enough_elements, finite, not_negative, positive};
+use crate::error::{enough_elements, finite};
 
 /// Numerics of normal indentation.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,7 @@
 //! The chain in motion.
 
 use indenters::{Control, RigidLine, SlidingLoad};
+use numerics::positive;
 use rheology::Material;
 
 use super::row::SlideRow;
@@ -8,7 +9,7 @@ use crate::MdrError;
 use crate::chain::{Chain, Contact, is_elastic};
 use crate::compensated::CompensatedSum;
 use crate::element_heights::ElementHeights;
-use crate::error::{enough_elements, finite, positive};
+use crate::error::{enough_elements, finite};
 
 /// A line moving over a chain. All lists run from the rear to the front of the line.
 pub(super) struct March {

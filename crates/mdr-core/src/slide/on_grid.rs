@@ -13,13 +13,14 @@
 //! too short for the depth of another material is begun anew, twice as high.
 
 use indenters::{RigidLine, SlidingLoad};
+use numerics::{between_zero_and_one, in_range, positive};
 use rheology::{ExponentialStep, Material};
 
 use super::march::{March, Stepped, Unresolved};
 use super::row::SlideRow;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
-use crate::error::{enough_elements, finite, fraction, positive};
+use crate::error::{enough_elements, finite};
 use crate::steady::Problem;
 
 /// Numerics of sliding.
@@ -53,15 +54,10 @@ impl SlideOptions {
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         let value = line.apex_exponent();
-        if value <= 0.5 && material.relaxation().viscosity() > 0.0 {
-            // On any chain the friction is finite, but it grows without limit on refinement.
-            let allowed = "above 1/2, where the friction integral (16) converges";
-            return Err(MdrError::InvalidParameter {
-                parameter: "apex exponent",
-                value,
-                allowed,
-            });
-        }
+        // On any chain the friction is finite, but it grows without limit on refinement.
+        let diverges = value <= 0.5 && material.relaxation().viscosity() > 0.0;
+        let allowed = "above 1/2, where the friction integral (16) converges";
+        in_range("apex exponent", value, !diverges, allowed)?;
         let problem = Problem::new(line, material, load.velocity())?;
         let length = problem.contact_span(load.control())?;
         let mut spacing = length / elements.max(1) as f64;
@@ -78,7 +74,7 @@ impl SlideOptions {
 
     fn check(&self) -> Result<(), MdrError> {
         positive("spacing", self.spacing)?;
-        fraction("drift_tolerance", self.drift_tolerance)?;
+        between_zero_and_one("drift_tolerance", self.drift_tolerance)?;
         positive("max_sliding_distance", self.max_sliding_distance)?;
         Ok(())
     }

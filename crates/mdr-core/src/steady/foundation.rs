@@ -7,13 +7,13 @@
 //! Displacements are in units of the depth and moduli in one of the material, and with them w. ξ is the distance by which the line has moved on. The stresses e_i decompose into the modes of free recovery like
 //! into eigenvectors: with the relaxation times as poles, both directions are sums over 1/(L_k − l_i).
 
+use numerics::positive;
 use rheology::Material;
 
 use super::branch::{BranchStress, MAX_TERMS, branch_stress};
 use super::legendre::{derivative, square_integral, start_value, value};
 use super::segment::Segment;
 use crate::MdrError;
-use crate::error::positive;
 
 /// What a change of the displacement does to its rate in the mean over a segment, times 2 √2 from the square.
 const SENSITIVITY: f64 = 8.0;

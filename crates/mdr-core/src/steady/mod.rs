@@ -24,11 +24,10 @@ mod steep_kinks;
 mod sweep;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::Estimate;
+use numerics::{Estimate, between_zero_and_one};
 use rheology::Material;
 
 use crate::MdrError;
-use crate::error::fraction;
 pub(crate) use problem::Problem;
 pub(crate) use steep_kinks::has_steep_kinks;
 
@@ -70,7 +69,7 @@ pub fn steady(
     load: &SlidingLoad,
     relative_error: f64,
 ) -> Result<SteadySliding, MdrError> {
-    let relative_error = fraction("relative_error", relative_error)?;
+    let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let control = load.require_stationary()?;
     let problem = Problem::new(line, material, load.velocity())?;
     problem.check_kinks(control)?;

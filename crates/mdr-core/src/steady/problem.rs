@@ -1,7 +1,7 @@
 //! A line on a foundation at one speed, and the depth at which it carries a force.
 
 use indenters::{Control, RigidLine};
-use numerics::Estimate;
+use numerics::{Estimate, positive};
 use rheology::Material;
 
 use super::SteadySliding;
@@ -12,7 +12,7 @@ use super::range::{Edge, Range, vertical_edge};
 use super::steep_kinks::SteepKink;
 use super::sweep::{Sweep, sweep};
 use crate::MdrError;
-use crate::error::{finite, positive};
+use crate::error::finite;
 
 /// Relative error of friction and force by rounding; larger than any seen.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
@@ -100,7 +100,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
     pub(crate) fn contact_span(&self, control: Control) -> Result<f64, MdrError> {
         let depth = self.depth(control, LENGTH_TOLERANCE)?;
         let [rear, front] = self.solve(depth, LENGTH_TOLERANCE)?.ends();
-        positive("contact length", front - rear)
+        Ok(positive("contact length", front - rear)?)
     }
 
     /// The depth that is prescribed, or that carries the force.

@@ -46,10 +46,8 @@ fn newton(_: f64) -> Control {
 
 fn assert_refused(error: Option<MdrError>, name: &str, bad: f64) {
     match error {
-        Some(MdrError::InvalidParameter {
-            parameter, value, ..
-        }) => assert_eq!(
-            (parameter, value.to_bits()),
+        Some(MdrError::InvalidParameter(invalid)) => assert_eq!(
+            (invalid.parameter, invalid.value.to_bits()),
             (name, bad.to_bits()),
             "name and value of the refused {name} = {bad}"
         ),

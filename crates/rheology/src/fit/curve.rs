@@ -2,7 +2,8 @@
 
 use super::system::{Quantity, Row};
 use crate::RheologyError;
-use crate::error::{in_list, in_range, not_negative, positive};
+use crate::error::in_list;
+use numerics::{InvalidParameter, in_range, not_negative, positive};
 
 /// Moduli at one frequency of oscillation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -93,7 +94,7 @@ impl MeasuredCurve {
     }
 }
 
-fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, RheologyError> {
+fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, InvalidParameter> {
     let holds = value.is_finite() && value > last;
     let allowed = "finite, greater than 0 and greater than the one before";
     in_range(parameter, value, holds, allowed)

@@ -1,12 +1,12 @@
 //! The Prony series behind a measured curve.
 
 use nalgebra::{DMatrix, DMatrixView, DVector};
+use numerics::{InvalidParameter, in_range, not_negative, positive};
 
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
 use super::system::Row;
-use crate::error::{in_range, not_negative, positive};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// What happens after a long time.
@@ -228,7 +228,7 @@ fn second_differences(columns: &DMatrixView<f64>) -> DMatrix<f64> {
     })
 }
 
-fn legal(n_branches: usize) -> Result<usize, RheologyError> {
+fn legal(n_branches: usize) -> Result<usize, InvalidParameter> {
     let holds = (1..=MAX_BRANCHES).contains(&n_branches);
     in_range("n_branches", n_branches as f64, holds, "from 1 to 200").map(|_| n_branches)
 }

@@ -10,8 +10,8 @@
 use std::f64::consts::PI;
 use std::iter::successors;
 
-use crate::error::{in_range, positive};
 use crate::{ComplexModulus, RelaxationBranch, RelaxationSpectrum, RheologyError};
+use numerics::{InvalidParameter, in_range, positive};
 
 /// A Prony series, and how far it is from what it stands for.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ fn validate([low, high]: [f64; 2], relative_error: f64) -> Result<(), RheologyEr
 }
 
 /// Checks that the exponent of a fractional element is neither that of a spring nor that of a dashpot.
-pub(super) fn fractional_exponent(exponent: f64) -> Result<f64, RheologyError> {
+pub(super) fn fractional_exponent(exponent: f64) -> Result<f64, InvalidParameter> {
     let holds = (0.01..=0.99).contains(&exponent);
     in_range("exponent", exponent, holds, "from 0.01 to 0.99")
 }

@@ -9,8 +9,8 @@
 use std::f64::consts::PI;
 
 use super::expansion::{Continuous, PronyExpansion, fractional_exponent};
-use crate::error::{not_negative, positive};
 use crate::{ComplexModulus, RheologyError};
+use numerics::{not_negative, positive};
 
 /// What a [`FractionalMaxwell`] is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -7,8 +7,8 @@
 use std::f64::consts::PI;
 
 use super::expansion::{Continuous, PronyExpansion, fractional_exponent};
-use crate::error::{not_negative, positive};
 use crate::{ComplexModulus, RheologyError};
+use numerics::{not_negative, positive};
 
 /// A power law between spring (a = 0) and dashpot (a = 1).
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,11 +4,11 @@
 //! σ = 2 η dε/dt        (3), the linear viscous law of the paper
 //! ```
 
-use crate::error::positive;
 use crate::{
     CreepSpectrum, Material, RelaxationBranch, RelaxationSpectrum, RetardationElement,
     RheologyError,
 };
+use numerics::positive;
 
 /// A material of positive parameters: its type, its constructor and what gives them back.
 macro_rules! elementary {

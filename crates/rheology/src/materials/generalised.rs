@@ -1,7 +1,7 @@
 //! Materials given by a spectrum, or by another material.
 
-use crate::error::in_range;
 use crate::{CreepSpectrum, Material, RelaxationSpectrum, RheologyError};
+use numerics::in_range;
 
 /// A material of any number of elements, incompressible: its relaxation modulus is a Prony series.
 #[derive(Debug, Clone, PartialEq)]

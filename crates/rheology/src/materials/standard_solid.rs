@@ -10,11 +10,11 @@
 
 use std::f64::consts::SQRT_2;
 
-use crate::error::positive;
 use crate::{
     CreepSpectrum, Material, RelaxationBranch, RelaxationSpectrum, RetardationElement,
     RheologyError,
 };
+use numerics::positive;
 
 /// What a [`StandardSolid`] is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,7 @@
 use super::decays::normal_form;
 use crate::RheologyError;
 use crate::complex::{ComplexCompliance, debye};
-use crate::error::not_negative;
+use numerics::not_negative;
 
 /// One Kelvin–Voigt element: a spring and a dashpot in parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,8 @@
 //! Normal form of a list of decays: times increasing and distinct, no amplitude zero.
 
 use crate::RheologyError;
-use crate::error::{in_list, not_negative, positive};
+use crate::error::in_list;
+use numerics::{not_negative, positive};
 
 /// Times closer than this, relatively, are one.
 ///

@@ -8,7 +8,7 @@
 use super::decays::normal_form;
 use crate::RheologyError;
 use crate::complex::{ComplexModulus, debye};
-use crate::error::not_negative;
+use numerics::not_negative;
 
 /// One Maxwell branch: a spring and a dashpot in series.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
-use rheology::RheologyError;
 use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MasterCurve, MeasuredCurve, ModulusPoint,
     RelaxationPoint, identify,
 };
+use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
 
 use crate::input::read_input;
@@ -205,11 +205,11 @@ fn shear_per_tension(poisson_ratio: f64) -> Result<f64, WrongInput> {
 /// An option that the library refuses is the user's; that a fit does not converge is not.
 fn wrong_option(error: RheologyError) -> anyhow::Error {
     match error {
-        RheologyError::InvalidParameter {
+        RheologyError::InvalidParameter(InvalidParameter {
             parameter,
             value,
             allowed,
-        } => {
+        }) => {
             let option = match parameter {
                 "n_branches" => "--branches",
                 "tolerance" => "--parsimony",

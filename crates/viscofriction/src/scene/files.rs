@@ -71,9 +71,11 @@ fn problem(error: &csv::Error, names: &StringRecord) -> String {
 fn line_of_error(error: &IndenterError, rows: &[(usize, Row)]) -> usize {
     let row = match error {
         IndenterError::NotIncreasing { index, .. } => rows.get(*index),
-        IndenterError::InvalidParameter { value, .. } => rows.iter().find(|(_, row)| {
+        IndenterError::InvalidParameter(refused) => rows.iter().find(|(_, row)| {
             let numbers = [row.radius_m, row.height_m];
-            numbers.iter().any(|other| other.total_cmp(value).is_eq())
+            numbers
+                .iter()
+                .any(|other| other.total_cmp(&refused.value).is_eq())
         }),
         _ => rows.last(),
     };

@@ -139,14 +139,10 @@ fn map(file: &Path, spacing: [f64; 2], read: ReadFile) -> Result<HeightMap, Scen
 /// The number that the library refuses, with its key.
 fn refused(table: &str, error: IndenterError) -> SceneError {
     match error {
-        IndenterError::InvalidParameter {
-            parameter,
-            value,
-            allowed,
-        } => SceneError::Value {
-            key: format!("{table}.{parameter}"),
-            value,
-            allowed,
+        IndenterError::InvalidParameter(refused) => SceneError::Value {
+            key: format!("{table}.{}", refused.parameter),
+            value: refused.value,
+            allowed: refused.allowed,
         },
         other => SceneError::at(table, other.to_string()),
     }

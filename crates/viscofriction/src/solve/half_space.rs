@@ -62,15 +62,13 @@ fn in_shear(table: &MaterialTable) -> Result<Box<dyn Material>, RheologyError> {
 /// The number that the library refuses; a derived one belongs to the whole table.
 fn refused(table: &str, error: RheologyError) -> SceneError {
     match error {
-        RheologyError::InvalidParameter {
-            parameter,
-            value,
-            allowed,
-        } if KEYS.contains(&parameter) => SceneError::Value {
-            key: format!("{table}.{parameter}"),
-            value,
-            allowed,
-        },
+        RheologyError::InvalidParameter(refused) if KEYS.contains(&refused.parameter) => {
+            SceneError::Value {
+                key: format!("{table}.{}", refused.parameter),
+                value: refused.value,
+                allowed: refused.allowed,
+            }
+        }
         RheologyError::InvalidElement {
             list,
             index,

@@ -7,6 +7,7 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     influence, solve_contact,
 };
+use numerics::InvalidParameter;
 
 use super::case::{Case, Comparison, Finding, cases, compare, refused};
 
@@ -179,7 +180,10 @@ pub(super) fn unusual_heights() -> Vec<Case> {
     };
     let control = |control: Control| {
         let solved = with_corner(1.0, control)?;
-        refused!(solved => BemError::InvalidParameter { parameter: "normal_force" | "indentation_depth", .. })
+        refused!(solved => BemError::InvalidParameter(InvalidParameter {
+            parameter: "normal_force" | "indentation_depth",
+            ..
+        }))
     };
     cases! {
         "NaN" => corner(f64::NAN);
@@ -218,5 +222,5 @@ fn a_hole() -> Result<Finding> {
 fn no_body() -> Result<Finding> {
     let (grid, force) = (Grid::new([9, 9], [1.0, 1.0])?, Control::NormalForce(1.0));
     let solved = solved(&grid, &[f64::INFINITY; 81], force);
-    refused!(solved => BemError::InvalidParameter { parameter: "separation", .. })
+    refused!(solved => BemError::InvalidParameter(InvalidParameter { parameter: "separation", .. }))
 }

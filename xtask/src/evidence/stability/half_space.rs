@@ -12,7 +12,7 @@ use friction_analytic::{
     high_speed_friction, low_speed_friction,
 };
 use indenters::{Control, FlatCone, PowerProfile, RoundTippedCone, SlidingLoad, Surface};
-use numerics::Estimate;
+use numerics::{Estimate, InvalidParameter};
 use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
 use super::case::{Comparison, Finding, compare, refused};
@@ -87,7 +87,7 @@ pub(super) fn round_tip(tip: f64) -> Result<Finding> {
 
 pub(super) fn too_sharp() -> Result<Finding> {
     let got = refined(&PowerProfile::new(0.4, 0.5)?, &dashpot()?);
-    refused!(got => BemError::InvalidParameter { parameter: "apex exponent", .. })
+    refused!(got => BemError::InvalidParameter(InvalidParameter { parameter: "apex exponent", .. }))
 }
 
 /// At its rim the body rises within a hundredth of its radius and less; the elements allowed are larger.

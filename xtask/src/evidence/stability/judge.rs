@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn only_numbers_within_their_tolerance_and_expected_errors_are_right() {
         let invalid =
-            || finding(|| refused!(Viscous::new(0.0) => RheologyError::InvalidParameter { .. }));
+            || finding(|| refused!(Viscous::new(0.0) => RheologyError::InvalidParameter(_)));
         let other = |viscosity| {
             finding(move || refused!(Viscous::new(viscosity) => RheologyError::NoStiffness))
         };

@@ -136,7 +136,7 @@ fn line(scene: Scene, expected: Expected) -> Result<Finding> {
     let Dashpot { material, load } = scene.dashpot()?;
     let got = state(&scene.profile()?, &material, &load);
     if expected == Expected::Refusal {
-        return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
+        return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?;
     let [depth, friction] = [got.indentation_depth, got.friction_coefficient];
@@ -149,7 +149,7 @@ fn march(scene: Scene, expected: Expected) -> Result<Finding> {
     let Dashpot { material, load } = scene.dashpot()?;
     let got = marched(&scene.profile()?, &material, &load, ELEMENTS);
     if expected == Expected::Refusal {
-        return refused!(got => MdrError::InvalidParameter { .. } | MdrError::NonFinite { .. });
+        return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?.last;
     // Second order in the spacing: the mean slope over a step beside the slope.
@@ -161,7 +161,7 @@ fn half_space(scene: Scene, expected: Expected) -> Result<Finding> {
     let (profile, dashpot) = (scene.profile()?, scene.dashpot()?);
     if expected == Expected::Refusal {
         let got = refined(&profile, &dashpot);
-        return refused!(got => BemError::InvalidParameter { .. });
+        return refused!(got => BemError::InvalidParameter(_));
     }
     beside_table(&profile, &profile, &dashpot, 0.0)
 }

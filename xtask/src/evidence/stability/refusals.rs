@@ -10,6 +10,7 @@ use indenters::{
     SlidingLoad, Sphere,
 };
 use mdr_core::{IndentOptions, MdrError, SlideOptions};
+use numerics::InvalidParameter;
 use rheology::{
     ExponentialStep, Material, RelaxationBranch, RelaxationSpectrum, RheologyError, Viscous,
 };
@@ -62,22 +63,22 @@ pub(super) fn grids() -> Vec<Case> {
 }
 
 pub(super) fn viscosity(value: f64) -> Result<Finding> {
-    refused!(Viscous::new(value) => RheologyError::InvalidParameter { parameter: "viscosity", .. })
+    refused!(Viscous::new(value) => RheologyError::InvalidParameter(InvalidParameter { parameter: "viscosity", .. }))
 }
 
 pub(super) fn load(force: f64, velocity: f64) -> Result<Finding> {
     let load = SlidingLoad::new(force, velocity);
-    refused!(load => IndenterError::InvalidParameter { parameter: "normal_force" | "velocity", .. })
+    refused!(load => IndenterError::InvalidParameter(InvalidParameter { parameter: "normal_force" | "velocity", .. }))
 }
 
 pub(super) fn exponent(value: f64) -> Result<Finding> {
     let profile = PowerProfile::new(1.0, value);
-    refused!(profile => IndenterError::InvalidParameter { parameter: "exponent", .. })
+    refused!(profile => IndenterError::InvalidParameter(InvalidParameter { parameter: "exponent", .. }))
 }
 
 pub(super) fn time_step(value: f64) -> Result<Finding> {
     let step = ExponentialStep::creep(&Viscous::new(1.0)?.creep(), value);
-    refused!(step => RheologyError::InvalidParameter { parameter: "time_step", .. })
+    refused!(step => RheologyError::InvalidParameter(InvalidParameter { parameter: "time_step", .. }))
 }
 
 pub(super) fn relaxation_time(relaxation_time: f64) -> Result<Finding> {
@@ -108,7 +109,7 @@ fn flat_punch() -> Result<Finding> {
     let Dashpot { material, load } = unit_dashpot()?;
     let options = RefinementOptions::default();
     let state = steady_refined(&FlatPunch::new(1.0)?, &material, &load, &options);
-    refused!(state => BemError::VerticalWall { .. } | BemError::InvalidParameter { .. } | BemError::Indenter(_))
+    refused!(state => BemError::VerticalWall { .. } | BemError::InvalidParameter(_) | BemError::Indenter(_))
 }
 
 fn too_short_a_distance() -> Result<Finding> {
@@ -158,7 +159,7 @@ fn no_tolerance() -> Result<Finding> {
     let mut options = GridOptions::new([0.05; 2], Footprint::square(2.0));
     options.contact.tolerance = 0.0;
     let state = marched(&options)?;
-    refused!(state => BemError::InvalidParameter { parameter: "contact tolerance", .. })
+    refused!(state => BemError::InvalidParameter(InvalidParameter { parameter: "contact tolerance", .. }))
 }
 
 fn error_not_reached() -> Result<Finding> {
