@@ -43,6 +43,16 @@ fn power_profiles_slide_in_closed_form() {
 }
 
 #[test]
+fn the_system_of_units_does_not_matter() {
+    for case in casebook::group("EXT-06") {
+        let (material, load) = sliding(&case);
+        let state = power_sliding(&power(case.input("c"), 2.0), &material, &load).unwrap();
+        case.check("mu", state.friction_coefficient);
+        case.check("d", state.indentation_depth);
+    }
+}
+
+#[test]
 fn exponents_from_just_above_one_half_to_a_billion_are_answered() {
     for case in casebook::group("EXT-03") {
         let p = case.input("p");
