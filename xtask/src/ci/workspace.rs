@@ -19,7 +19,7 @@ friction-analytic: viscofriction-numerics indenters rheology thiserror serde?
 mdr-core: viscofriction-numerics indenters rheology thiserror rayon? serde?
 bem-halfspace: viscofriction-numerics indenters rheology faer realfft rustfft thiserror rayon? serde?
 viscofriction: viscofriction-numerics indenters rheology friction-analytic mdr-core bem-halfspace
-               csv schemars serde serde_json serde_path_to_error thiserror toml
+               csv schemars serde serde_json serde_path_to_error strum thiserror toml
 viscofriction-plot: colorous resvg thiserror ttf-parser xmlwriter
 viscofriction-cli: rheology viscofriction viscofriction-plot *
 ";
