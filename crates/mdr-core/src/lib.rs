@@ -2,7 +2,7 @@
 //! that do not feel each other, a chain of dashpots in Kürschner 2014, Sect. 3 and 4, and here of any linear viscoelastic
 //! [`Material`](rheology::Material).
 //!
-//! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the way there from first touch, [`indent`](indent())
+//! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first touch, [`indent`](indent())
 //! pressing for a time, [`press`](press()) the contact at rest; each gives its numbers with their errors. The functions
 //! `…_on_grid` march on one stated resolution. A body of revolution is given by its
 //! [`EquivalentLine`](indenters::EquivalentLine), or any other [`RigidLine`](indenters::RigidLine) as it is.

@@ -138,7 +138,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
 
     /// Friction, depth, rear and front.
     ///
-    /// The friction of a step belongs to its middle; on the way to the stationary state the end is half a step further.
+    /// The friction of a step belongs to its middle; before the stationary state the end is half a step further.
     fn values(&self, transient: &Transient) -> [f64; 4] {
         let last = &transient.last;
         let friction = match transient.rows[..] {

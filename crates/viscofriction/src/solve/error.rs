@@ -69,6 +69,9 @@ pub enum SolveError {
     /// The answer says nothing of the grid behind it, which is to be solved again.
     #[error("the answer has no grid to solve again")]
     NoGrid,
+    /// On the grid of an answer, solved again far more tightly, the body ends without contact.
+    #[error("solved again, the grid of the answer ends without contact")]
+    NoContact,
     /// Work that the method does not have, and so cannot leave out.
     #[error("{} does not leave out {}", method.name(), omission.name())]
     NotLeftOut {

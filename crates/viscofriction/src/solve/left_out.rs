@@ -10,7 +10,8 @@ use super::problem::{Motion, Problem};
 use super::work::work;
 use crate::scene::{Control, Method};
 
-/// What the method of the answer left out; what only another method would do counts where that answers the scene too.
+/// What the method of the answer left out. Work that only another method would do is named where that method answers the
+/// scene too.
 pub(crate) fn plan(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut left_out = candidates(problem, answer);
     left_out.retain(|omission| {

@@ -118,8 +118,8 @@ fn march(
     while let Some(row) = march.step()? {
         last = Some(row);
     }
-    let row = last.ok_or(SolveError::NoGrid)?;
-    let [rear, front] = row.contact_x.ok_or(SolveError::NoGrid)?;
+    let row = last.ok_or(SolveError::NoContact)?;
+    let [rear, front] = row.contact_x.ok_or(SolveError::NoContact)?;
     let slope = row.indentation_depth.abs() / (front - rear);
     Ok(vec![
         [row.tangential_force / row.normal_force, slope],
@@ -168,7 +168,7 @@ fn press(
                 control: pressed,
             };
             let rows = follow(surface, &dashpot, &[step], &options)?;
-            let row = rows.last().ok_or(SolveError::NoGrid)?;
+            let row = rows.last().ok_or(SolveError::NoContact)?;
             let found = [row.indentation_depth, row.normal_force];
             return Ok(of_press(control, found, row.contact_area));
         }
@@ -177,7 +177,7 @@ fn press(
     let begins = std::iter::once(0.0).chain(rows.iter().map(|row| row.time));
     let impulses = rows.iter().zip(begins);
     let impulses = impulses.map(|(row, begin)| row.normal_force * (row.time - begin));
-    let last = rows.last().ok_or(SolveError::NoGrid)?;
+    let last = rows.last().ok_or(SolveError::NoContact)?;
     let found = [last.indentation_depth, impulses.sum()];
     Ok(of_press(control, found, last.contact_area))
 }

@@ -62,12 +62,6 @@ impl Plan {
         })
     }
 
-    /// The scene.
-    #[must_use]
-    pub const fn source(&self) -> &Source {
-        &self.source
-    }
-
     /// Number of points, all combinations of the values.
     #[must_use]
     pub fn n_points(&self) -> usize {
