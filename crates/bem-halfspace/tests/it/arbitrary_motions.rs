@@ -142,19 +142,3 @@ fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
         "depth {last} after {first}, the dent reaches {dent}"
     );
 }
-
-/// A given depth, reached by force control before, needs that force.
-#[test]
-fn force_and_depth_control_agree() {
-    let options = tight(squares(0.15, 1.6));
-    let path = (1..=12).map(|k| (0.1 * f64::from(k), 0.13 * f64::from(k)));
-    let pressed = moved(path, &solid(), &options);
-    let held = |row: &MotionRow| Control::IndentationDepth(row.indentation_depth);
-    let path = pressed.iter();
-    let motions = motions(path.map(|row| (row.time, row.position, held(row))));
-    let held = follow(&paraboloid(0.5), &solid(), &motions, &options).expect("rows");
-    assert_same_rows(&held, &pressed, 1.0, 1e-8);
-    for row in &held {
-        assert_close(row, row.normal_force, FORCE, 1e-8);
-    }
-}

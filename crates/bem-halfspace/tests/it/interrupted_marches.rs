@@ -18,11 +18,7 @@ fn path(k: usize) -> (f64, f64, Control) {
     (0.1 * k_th, (0.07 * k_th).min(1.9), control)
 }
 
-fn march<'a>(body: &'a dyn Surface, material: &'a dyn Material, n_steps: usize) -> March<'a> {
-    march_with(None, (body, material), n_steps)
-}
-
-fn march_with<'a>(
+fn march<'a>(
     redundant_work: Option<SlideOmission>,
     (body, material): (&'a dyn Surface, &'a dyn Material),
     n_steps: usize,
@@ -53,7 +49,7 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
         (None, &[0, 1, 4, 9, 12, 19, 25, 32][..]),
         (behind, &[4, 19]),
     ] {
-        let new = || march_with(work, (&body, &material), 32);
+        let new = || march(work, (&body, &material), 32);
         let expected = step(&mut new(), 33);
         assert_eq!(expected.len(), 32, "steps of the motion");
         for &interruption in interruptions {
@@ -90,9 +86,9 @@ fn a_state_of_another_scene_is_refused() {
         prony([0.2, 0.0], &[(2.0, 0.3)]),
         prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
     ];
-    let mut first = march(&body, &one, 32);
+    let mut first = march(None, (&body, &one), 32);
     step(&mut first, 3);
-    let refused = march(&body, &two, 32).resume(&first.state());
+    let refused = march(None, (&body, &two), 32).resume(&first.state());
     assert!(
         matches!(
             refused,
@@ -103,12 +99,12 @@ fn a_state_of_another_scene_is_refused() {
         ),
         "{refused:?}"
     );
-    let refused = march(&body, &one, 2).resume(&first.state());
+    let refused = march(None, (&body, &one), 2).resume(&first.state());
     assert_refused("two steps", refused, "steps done");
     // The footprint of one has both sides, that of the other one.
     let elastic = elastic(2.0);
-    let mut mirrored = march(&body, &elastic, 32);
-    let mut all = march(&whole, &elastic, 32);
+    let mut mirrored = march(None, (&body, &elastic), 32);
+    let mut all = march(None, (&whole, &elastic), 32);
     for march in [&mut mirrored, &mut all] {
         step(march, 1);
     }
@@ -122,7 +118,7 @@ fn a_state_of_another_scene_is_refused() {
 #[test]
 fn a_state_with_an_impossible_box_is_refused() {
     let (body, elastic) = (power(0.5, 1.5), elastic(2.0));
-    let mut march = march(&body, &elastic, 32);
+    let mut march = march(None, (&body, &elastic), 32);
     step(&mut march, 1);
     let mut state = serde_json::to_value(march.state()).expect("a value");
     state["contact_box"][0][0] = serde_json::json!(usize::MAX);

@@ -1,0 +1,342 @@
+//! The discrete contact problem has one solution, and both controls find it: on bodies of the casebook, in the smallest
+//! contacts, and as a dense active-set method and reciprocity have it; with refinement it tends to the exact pressures,
+//! displacements and forces of axisymmetric bodies.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::{Contact, ContactState, Control, influence};
+use casebook::{Case, group};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+
+use crate::support::{Pressing, assert_close, assert_near, cone, count, difference, paraboloid};
+
+fn pressing(case: &Case) -> Pressing {
+    let body = match case.input_text("shape") {
+        "paraboloid" => paraboloid(0.5 / case.input("R")),
+        _ => cone(case.input("slope")),
+    };
+    Pressing::centred(&body, count(case, "N"), 1.0)
+}
+
+#[test]
+fn contact_at_given_depth_or_force_is_the_unique_discrete_solution() {
+    for case in group("BEM-04") {
+        let (n, body) = (count(&case, "N"), pressing(&case));
+        let (contact, state) = body.solve(Control::IndentationDepth(case.input("d")));
+        case.check("F", contact.normal_force);
+        case.check_within("n_contact", contact.n_contact as f64, 0.0);
+        case.check("p_centre", state.pressure()[n / 2 * n + n / 2]);
+        let force = case.expected("F").expect("a force");
+        let (contact, _) = body.solve(Control::NormalForce(force));
+        assert_close(case.id(), contact.indentation_depth, case.input("d"), 1e-9);
+        case.check_within("n_contact", contact.n_contact as f64, 0.0);
+    }
+}
+
+/// The force on a body is the work of the pressure under a flat punch of the same contact (casebook BEM-06, Betti), and
+/// that of the paraboloid and the cone is the exact one to second order.
+#[test]
+fn the_force_follows_from_the_flat_punch() {
+    let radius = 20.0;
+    let cases = group("BEM-06").into_iter();
+    for case in cases.filter(|case| case.expected("F").is_some()) {
+        let (body, depth) = if case.has_input("R") {
+            let curvature = 1.0 / case.input("R");
+            (paraboloid(0.5 * curvature), curvature)
+        } else {
+            let slope = case.input("tan_theta");
+            (cone(slope), 0.5 * PI * slope)
+        };
+        let body = Pressing::centred(&body, 48, 1.0 / radius);
+        let (contact, state) = body.solve(Control::IndentationDepth(depth));
+        let mut punch = body.clone();
+        punch.heights.fill(f64::INFINITY);
+        for &element in state.contact() {
+            punch.heights[element] = 0.0;
+        }
+        let (_, unit) = punch.solve(Control::IndentationDepth(1.0));
+        let pairs = unit.pressure().iter().zip(&body.heights);
+        let work: f64 = pairs.map(|(p, height)| p * (depth - height)).sum();
+        let force = work * body.convolution.grid().element_area();
+        assert_close(case.id(), force, contact.normal_force, 1e-11);
+        case.check_within("F", force, 1.0 / (radius * radius));
+    }
+}
+
+/// A flat square punch of N × N elements has the stiffness of the dense solution.
+#[test]
+fn stiffness_of_a_square_punch() {
+    for case in group("BEM-03").iter().filter(|case| case.has_input("N")) {
+        let n = count(case, "N");
+        let punch = Pressing::on_unit_elements([n, n], &vec![0.0; n * n]);
+        let (contact, state) = punch.solve(Control::IndentationDepth(1.0));
+        case.check("F_over_GdL", contact.normal_force / n as f64);
+        if case.expected("p_centre_over_G").is_some() {
+            case.check("p_centre_over_G", state.pressure()[n * n / 2]);
+        }
+    }
+}
+
+fn contact(shape: [usize; 2], heights: &[f64], control: Control) -> (Contact, ContactState) {
+    Pressing::on_unit_elements(shape, heights).solve(control)
+}
+
+/// One element has the stiffness of its self-influence, and two isolated ones share the load: where there is no body
+/// (height +∞) there is no contact.
+#[test]
+fn the_smallest_contacts_are_those_of_the_casebook() {
+    let deep = Control::IndentationDepth(1.0);
+    let (one, _) = contact([1, 1], &[0.0], deep);
+    let (at_force, _) = contact([1, 1], &[0.0], Control::NormalForce(one.normal_force));
+    assert_near("depth", at_force.indentation_depth, 1.0, 1e-14);
+    let mut heights = [f64::INFINITY; 6];
+    (heights[0], heights[5]) = (0.0, 0.0);
+    let (two, state) = contact([6, 1], &heights, deep);
+    assert_eq!(state.contact(), [0, 5], "only elements with a body");
+    let cases = group("EXT-02");
+    for (id, name, force) in [
+        ("BEM single cell h=1 G=1 d=1", "F", one.normal_force),
+        (
+            "two equal isolated cells at distance 5h, h=1 G=1 d=1",
+            "F_total",
+            two.normal_force,
+        ),
+    ] {
+        let case = cases
+            .iter()
+            .find(|case| case.id() == format!("EXT-02/{id}"));
+        case.expect("a case of this name").check(name, force);
+    }
+}
+
+#[test]
+fn without_force_or_depth_nothing_is_in_contact() {
+    let heights = [0.3, 0.0, 0.2];
+    let (unloaded, state) = contact([3, 1], &heights, Control::NormalForce(0.0));
+    let pressure = state.pressure();
+    assert!(pressure.iter().all(|value| *value == 0.0), "{pressure:?}");
+    assert_near("touch", unloaded.indentation_depth, 0.0, f64::MIN_POSITIVE);
+    let (held, _) = contact([1, 3], &heights, Control::IndentationDepth(-0.1));
+    for contact in [unloaded, held] {
+        let carried = (contact.n_contact, contact.normal_force);
+        assert_eq!(carried, (0, 0.0), "{contact:?}");
+    }
+}
+
+fn coefficient(n: usize, to: usize, from: usize) -> f64 {
+    let distance = |a: usize, b: usize| a as f64 - b as f64;
+    let offset = [distance(to / n, from / n), distance(to % n, from % n)];
+    influence(offset, [1.0, 1.0]) / (4.0 * PI)
+}
+
+/// Pressures at the given depth: factorises the influence matrix of the contact (faer) and changes the active set until
+/// there is neither tension nor penetration; it shares only the influence coefficient with the solver.
+fn dense_solution(heights: &[f64], n: usize, depth: f64) -> Vec<f64> {
+    let mut contact: Vec<usize> = (0..n * n).filter(|&to| heights[to] < depth).collect();
+    for _ in 0..100 {
+        let size = contact.len();
+        let entry = |i: usize, j: usize| coefficient(n, contact[i], contact[j]);
+        let right = Mat::from_fn(size, 1, |i, _| depth - heights[contact[i]]);
+        let factors = Mat::from_fn(size, size, entry).llt(Side::Lower);
+        let solution = factors.expect("positive definite").solve(&right);
+        let mut pressure = vec![0.0; n * n];
+        for (i, &element) in contact.iter().enumerate() {
+            pressure[element] = solution[(i, 0)];
+        }
+        let is_next = |&to: &usize| {
+            let displacements = contact
+                .iter()
+                .map(|&from| coefficient(n, to, from) * pressure[from]);
+            let gap = || heights[to] + displacements.sum::<f64>() - depth;
+            pressure[to] > 0.0 || !contact.contains(&to) && gap() < 0.0
+        };
+        let next: Vec<usize> = (0..n * n).filter(is_next).collect();
+        if next == contact {
+            return pressure;
+        }
+        contact = next;
+    }
+    panic!("the reference did not find its active set");
+}
+
+/// Two bumps of different height and an inclined, wavy ground.
+#[test]
+fn several_patches_without_symmetry_are_those_of_a_dense_method() {
+    let n = 16;
+    let height = |index: usize| {
+        let (x, y) = ((index / n) as f64 - 4.0, (index % n) as f64 - 3.0);
+        let far = ((x - 6.0).powi(2) + 2.0 * (y - 7.0).powi(2)).mul_add(0.03, 0.15);
+        (0.02 * (x * x + 1.5 * y * y + x * y)).min(far) + 0.01 * (x + 2.0 * y).sin()
+    };
+    let heights: Vec<f64> = (0..n * n).map(height).collect();
+    for depth in [0.02, 0.3, 0.9] {
+        let expected = dense_solution(&heights, n, depth);
+        for control in [
+            Control::IndentationDepth(depth),
+            Control::NormalForce(expected.iter().sum()),
+        ] {
+            let (contact, state) = contact([n, n], &heights, control);
+            assert_close(control, contact.indentation_depth, depth, 1e-10);
+            // Relative to the largest pressure, which is less than the force on unit elements.
+            let error = difference(state.pressure(), &expected);
+            assert_near(control, error, 0.0, 1e-10);
+        }
+    }
+}
+
+/// The height of a body over the radius, infinite where there is no body, and its depth at the contact radius 1.
+struct Body {
+    height: Box<dyn Fn(f64) -> f64>,
+    depth: f64,
+}
+
+impl Body {
+    fn new(depth: f64, height: impl Fn(f64) -> f64 + 'static) -> Self {
+        let height = Box::new(height);
+        Self { height, depth }
+    }
+
+    fn of(case: &Case) -> Self {
+        match case.input_text("shape") {
+            "paraboloid" => {
+                let curvature = 1.0 / case.input("R");
+                Self::new(curvature, move |r| 0.5 * curvature * r * r)
+            }
+            "cone" => Self::cone(case.input("tan_theta")),
+            "flat punch" => Self::flat_punch(case.input("d")),
+            other => panic!("{other} is not in the table"),
+        }
+    }
+
+    fn cone(slope: f64) -> Self {
+        Self::new(0.5 * PI * slope, move |r| slope * r)
+    }
+
+    fn flat_punch(depth: f64) -> Self {
+        Self::new(depth, |r| if r <= 1.0 { 0.0 } else { f64::INFINITY })
+    }
+
+    /// Contact on elements of the given edge around the axis, and the element with its centre at (`offset`, 0).
+    ///
+    /// The solver works with unit elements; heights and depth are in units of the edge too, so that pressures are not
+    /// scaled.
+    fn contact_with(&self, offset: f64, spacing: f64) -> (Contact, ContactState, usize) {
+        let margin = (1.1 / spacing).ceil();
+        let before = margin + (offset / spacing).ceil();
+        let behind = (margin - (offset / spacing).floor()).max(0.0);
+        let columns = 2.0 * margin + 1.0;
+        let counts = [before + behind + 1.0, columns, before * columns + margin];
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "small counts"
+        )]
+        let [rows, columns, element] = counts.map(|count| count as usize);
+        let height = |index: usize| {
+            let x = ((index / columns) as f64 - before) * spacing + offset;
+            let y = ((index % columns) as f64 - margin) * spacing;
+            (self.height)(x.hypot(y)) / spacing
+        };
+        let heights: Vec<f64> = (0..rows * columns).map(height).collect();
+        let control = Control::IndentationDepth(self.depth / spacing);
+        let body = Pressing::on_unit_elements([rows, columns], &heights);
+        let (contact, state) = body.solve(control);
+        (contact, state, element)
+    }
+}
+
+fn order(errors: [f64; 2], refinement: f64) -> f64 {
+    (errors[0] / errors[1]).abs().ln() / refinement.ln()
+}
+
+#[test]
+fn pressures_converge_to_the_exact_ones_with_second_order() {
+    for case in group("BEM-01") {
+        let Some(exact) = case.expected("p") else {
+            continue;
+        };
+        let (shape, radius) = (case.input_text("shape"), case.input("r"));
+        // On the apex of the cone the pressure is infinite.
+        if shape == "cone" && radius < 0.01 {
+            continue;
+        }
+        let errors = [16.0, 32.0].map(|elements| {
+            let (_, state, element) = Body::of(&case).contact_with(radius, 1.0 / elements);
+            state.pressure()[element] / exact - 1.0
+        });
+        // At the edge of the punch the pressure is infinite, and the edge consists of whole elements.
+        let (least, largest) = match shape {
+            "flat punch" => (0.9, 1e-2),
+            _ => (1.7, 1e-3),
+        };
+        let order = order(errors, 2.0);
+        assert!(
+            order > least && errors[1].abs() < largest,
+            "{}: order {order}, errors {errors:?}",
+            case.id()
+        );
+    }
+}
+
+#[test]
+fn the_surface_outside_the_contact_moves_as_it_should() {
+    let cases = group("BEM-01").into_iter();
+    for case in cases.filter(|case| case.expected("u").is_some()) {
+        let (shape, radius) = (case.input_text("shape"), case.input("r"));
+        // The surface beside the punch is infinitely steep.
+        if shape == "flat punch" && (1.0..1.1).contains(&radius) {
+            continue;
+        }
+        let spacing = 1.0 / 32.0;
+        let (_, state, element) = Body::of(&case).contact_with(radius, spacing);
+        // In the contact it is given by the body; outside it errs like the force.
+        let largest = match shape {
+            _ if radius < 1.0 => 1e-12,
+            "flat punch" => 1e-2,
+            _ => 1e-4,
+        };
+        case.check_within("u", state.displacement()[element] * spacing, largest);
+    }
+}
+
+/// The pressure of the element on the apex grows with refinement like the mean of the exact pressure over the element,
+/// twice the slope times ln 2 for half the edge, beyond which it is by a constant.
+#[test]
+fn the_pressure_on_the_apex_of_a_cone_grows_like_the_logarithm() {
+    let cases = group("BEM-01").into_iter();
+    let cases = cases.filter(|case| case.has_input("a_over_h"));
+    let excess = cases.map(|case| {
+        let body = Body::cone(case.input("tan_theta"));
+        let (_, state, element) = body.contact_with(0.0, 1.0 / case.input("a_over_h"));
+        state.pressure()[element] - case.expected("p_cell_average").expect("a mean")
+    });
+    let excess: Vec<f64> = excess.collect();
+    let changes: Vec<f64> = excess.windows(2).map(|pair| pair[0] - pair[1]).collect();
+    let mut pairs = changes.windows(2);
+    assert!(
+        pairs.all(|pair| pair[1].abs() < 0.35 * pair[0].abs())
+            && changes.last().is_some_and(|change| change.abs() < 1e-4),
+        "second order towards a constant: {excess:?}"
+    );
+}
+
+/// The edge lies where whole elements have it; mean square over positions of the axis within an element.
+#[test]
+fn the_force_of_a_flat_punch_converges_with_first_order() {
+    let punch = Body::flat_punch(1.0);
+    let errors = [8.0, 32.0].map(|elements| {
+        let squares = [0.0, 0.13, 0.29, 0.41].map(|position: f64| {
+            let spacing = 1.0 / (elements + position);
+            let (contact, ..) = punch.contact_with(position * spacing, spacing);
+            // F = 8 G d a.
+            (contact.normal_force * spacing * spacing / 8.0 - 1.0).powi(2)
+        });
+        (squares.iter().sum::<f64>() / 4.0).sqrt()
+    });
+    let order = order(errors, 4.0);
+    assert!(
+        order > 0.8 && errors[1] < 1e-2,
+        "order {order}, errors {errors:?}"
+    );
+}

@@ -1,0 +1,299 @@
+//! The error bars of friction, depth, force, area, ends and largest pressure hold, and are of use, at a force and at a
+//! depth; what is out of reach says what was reached.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
+use bem_halfspace::{BemError, indent, press, slide};
+use friction_analytic::{half_space_power_friction, impulse_to_depth};
+use indenters::{
+    Control, FlatCone, FlatPunch, PowerProfile, PressingLoad, Sphere, Surface, TruncatedParaboloid,
+    contact_radius,
+};
+use numerics::{Accuracy, Estimate};
+use rheology::{Compressible, Material};
+
+use crate::support::{
+    Scene, after, assert_bar, assert_bars_agree, assert_close, assert_ends, assert_near, at_depth,
+    carried, cone, elastic, paraboloid, power, prony, under_force, viscous,
+};
+
+/// Bodies of revolution, whose contact radius at a depth the one-dimensional model has exactly.
+fn bodies() -> Vec<(String, Box<dyn Surface>)> {
+    let sphere = Sphere::new(1.0).expect("a body");
+    let flat = TruncatedParaboloid::new(0.1, 0.5).expect("a body");
+    let flat_cone = FlatCone::new(0.1, 0.5).expect("a body");
+    let mut bodies: Vec<(String, Box<dyn Surface>)> = vec![
+        ("sphere".to_owned(), Box::new(sphere)),
+        ("paraboloid with flat end".to_owned(), Box::new(flat)),
+        ("cone with flat end".to_owned(), Box::new(flat_cone)),
+    ];
+    for exponent in [1.0, 1.5, 2.0, 4.0] {
+        bodies.push((format!("r^{exponent}"), Box::new(power(0.5, exponent))));
+    }
+    bodies
+}
+
+#[test]
+fn the_bars_of_an_elastic_contact_hold() {
+    let material = Compressible::new(&elastic(3.0), 0.3).expect("a ratio");
+    let depth = 0.02;
+    for (name, body) in &bodies() {
+        // The surface is 2 (1 − ν) times as compliant as that of an incompressible half space.
+        let profile = body.as_axisymmetric().expect("a body of revolution");
+        let force = impulse_to_depth(profile, &viscous(1.0), depth).expect("a force") * 3.0 / 1.4;
+        let radius = contact_radius(profile, depth).expect("a radius");
+        for accuracy in [Accuracy::Elements(24), 5e-3.into()] {
+            for control in [
+                Control::IndentationDepth(depth),
+                Control::NormalForce(force),
+            ] {
+                let got = press(body, &material, control, accuracy).expect("a contact");
+                let what = (name, control, accuracy);
+                assert_bar(what, got.normal_force, force, 0.2);
+                let got_depth = got.indentation_depth.expect("a depth");
+                assert_bar(what, got_depth, depth, 0.2);
+                // Of sixteen elements along the contact some touch or not by chance.
+                assert_bar(what, got.contact_area, PI * radius * radius, 1.0);
+                let ends = [got.finest.contact_x, got.finest.contact_y];
+                assert_ends(what, ends, [[-radius, radius]; 2], got.contact_box_error);
+                if let (Control::NormalForce(_), Some(field)) = (control, &got.finest.pressure) {
+                    assert_close(what, carried(field), force, 1e-9);
+                }
+                assert!(got.finest.pressure.is_some(), "{what:?}: a pressure");
+            }
+        }
+    }
+}
+
+/// Hertz: p₀ = 3F/(2πa²).
+#[test]
+fn the_largest_pressure_has_a_bar_where_it_has_a_limit() {
+    let (depth, radius) = (0.01, 0.1);
+    let control = Control::IndentationDepth(depth);
+    let scene = Scene::new(paraboloid(0.5), elastic(3.0), at_depth(depth, 1.0));
+    let pressed = |body: &dyn Surface, accuracy| {
+        let pressed = press(body, &scene.material, control, accuracy);
+        pressed.expect("a contact").peak_pressure
+    };
+    // F = (16/3) G √R d^(3/2), R = 1.
+    let force = 16.0 * depth.powf(1.5);
+    let expected = 1.5 * force / (PI * radius * radius);
+    for accuracy in [Accuracy::Elements(16), Accuracy::Elements(50), 2e-3.into()] {
+        let peak = pressed(&scene.body, accuracy).expect("a limit");
+        assert_bar("pressed", peak, expected, 0.5);
+        let sliding = scene.steady(accuracy);
+        let peak = sliding.peak_pressure.expect("a limit");
+        assert_bar("sliding", peak, expected, 0.5);
+        assert_bar("area", sliding.contact_area, PI * depth, 0.3);
+        assert_bar("force", sliding.normal_force, force, 0.2);
+        let (ends, allowed) = (
+            [sliding.finest.contact_x, sliding.finest.contact_y],
+            sliding.contact_box_error,
+        );
+        assert_ends(accuracy, ends, [[-radius, radius]; 2], allowed);
+    }
+    let (apex, rim): (PowerProfile, _) = (cone(0.3), FlatPunch::new(0.3).expect("a body"));
+    let without = [&apex as &dyn Surface, &rim].map(|body| pressed(body, Accuracy::Elements(16)));
+    assert_eq!(without, [None; 2], "an apex and a rim");
+}
+
+/// A held depth relaxes like G(t); a constant force makes the depth of the elastic body of compliance J(t).
+#[test]
+fn pressing_for_a_time_scales_an_elastic_contact() {
+    let solid = prony([1.0, 0.0], &[(4.0, 0.5)]);
+    let (body, grid) = (paraboloid(0.5), Accuracy::Elements(16));
+    let pressed = |control| {
+        let load = PressingLoad::new(control, 0.4).expect("a load");
+        indent(&body, &solid, &load, grid).expect("a contact")
+    };
+    let held = Control::IndentationDepth(0.01);
+    let spring = elastic(1.0 + 4.0 * (-0.8_f64).exp());
+    let expected = press(&body, &spring, held, grid).expect("a contact");
+    let force = pressed(held).normal_force.value;
+    assert_close("force", force, expected.normal_force.value, 1e-12);
+    let pressure = pressed(Control::NormalForce(0.1)).finest.pressure;
+    assert_eq!(pressure, None, "under a force");
+}
+
+/// A march and the direct solution, with nothing in common but the elements.
+#[test]
+fn marches_and_stationary_solutions_agree_within_their_bars() {
+    let scene = Scene::unit(2.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.1)]);
+    let materials: [(_, &dyn Material); 2] = [("dashpot", &scene.material), ("solid", &solid)];
+    for (name, material) in materials {
+        let march = slide(&scene.body, material, &scene.load, Accuracy::Elements(12));
+        let march = march.expect("a march");
+        let direct = Scene::new(scene.body, material, scene.load).steady(1e-3);
+        for (what, one, other) in [
+            (
+                "friction",
+                march.friction_coefficient,
+                direct.friction_coefficient,
+            ),
+            ("area", march.contact_area, direct.contact_area),
+            ("force", march.normal_force, direct.normal_force),
+        ] {
+            assert_bars_agree((name, what), one, other);
+            assert!(one.error < 0.6 * one.value, "{name}, {what}: {one:?}");
+        }
+        let last = march.finest.last();
+        assert_ends(
+            name,
+            [last.contact_x, last.contact_y],
+            [direct.finest.contact_x, direct.finest.contact_y],
+            march.contact_box_error + direct.contact_box_error,
+        );
+        let depths = [march.indentation_depth, direct.indentation_depth];
+        for depth in depths {
+            assert_eq!(depth.is_some(), name == "solid", "{name}: a depth");
+        }
+    }
+}
+
+/// Compares every quantity and the ends of the contact of two states within their bars.
+fn compare(what: (f64, Accuracy), coarse: &SteadyEstimate, fine: &SteadyEstimate) {
+    let quantities = |state: &SteadyEstimate| {
+        [
+            ("friction", Some(state.friction_coefficient)),
+            ("area", Some(state.contact_area)),
+            ("depth", state.indentation_depth),
+            ("peak pressure", state.peak_pressure),
+        ]
+    };
+    for ((name, one), (_, other)) in quantities(coarse).into_iter().zip(quantities(fine)) {
+        assert_eq!(one.is_some(), other.is_some(), "{what:?}: {name}");
+        if let Some((one, other)) = one.zip(other) {
+            assert_bars_agree((what, name), one, other);
+        }
+    }
+    let ends = |state: &SteadyEstimate| [state.finest.contact_x, state.finest.contact_y];
+    let allowed = coarse.contact_box_error + fine.contact_box_error;
+    assert_ends(what, ends(coarse), ends(fine), allowed);
+}
+
+#[test]
+fn error_bars_hold_against_finer_solutions() {
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let given = [Accuracy::Elements(12), Accuracy::Elements(30), 1e-2.into()];
+    let table: [(f64, f64, f64); 4] = [
+        (1.0, 1e-3, 1e-4),
+        (1.5, 1e-3, 5e-5),
+        (2.0, 1e-3, 8e-5),
+        (3.0, 4e-3, 1e-3),
+    ];
+    for (exponent, coarse, fine) in table {
+        let dashpot = Scene::unit(exponent);
+        let [coarse_state, fine_state] = [coarse, fine].map(|error| dashpot.steady(error));
+        compare((exponent, coarse.into()), &coarse_state, &fine_state);
+        assert!(
+            fine_state.refinements.len() > coarse_state.refinements.len(),
+            "p = {exponent}: nothing was refined"
+        );
+        let solid = Scene::new(dashpot.body, &solid, dashpot.load);
+        let fine_state = solid.steady(5e-4);
+        for accuracy in given {
+            compare((exponent, accuracy), &solid.steady(accuracy), &fine_state);
+        }
+    }
+}
+
+/// The depth is that of the one-dimensional model, which is exact here: the force is the impulse on a dashpot.
+#[test]
+fn an_elastic_body_slides_without_friction_at_its_exact_depth() {
+    for exponent in [1.0, 2.0, 3.0] {
+        let (body, depth) = (power(0.3, exponent), 0.2);
+        let force = impulse_to_depth(&body, &viscous(2.0), depth).expect("a force");
+        let estimate = Scene::new(body, elastic(2.0), under_force(force, 0.7)).steady(1e-3);
+        let friction = estimate.friction_coefficient;
+        assert_near(exponent, friction.value, 0.0, friction.error);
+        assert_near(exponent, friction.error, 0.0, 1e-8);
+        let got = estimate.indentation_depth.expect("a depth");
+        assert_near(exponent, got.value, depth, got.error.min(1e-3 * depth));
+    }
+}
+
+#[test]
+fn force_and_depth_control_agree_on_one_grid() {
+    let (solid, fluid) = (
+        prony([0.1, 0.0], &[(1.0, 1.0)]),
+        prony([0.0, 0.0], &[(1.0, 1.0)]),
+    );
+    for material in [&solid, &fluid] {
+        let by_force = Scene::new(paraboloid(1.0), material, under_force(1.0, 0.5));
+        let options = by_force.steady_options(8.0);
+        let expected = by_force.steady_on(&options);
+        let depth = expected.depth.after(1e3).expect("a depth");
+        let load = after(at_depth(depth, 0.5), 1e3);
+        let actual = Scene { load, ..by_force }.steady_on(&options);
+        assert_near(material, actual.normal_force, 1.0, 1e-8);
+        let ratio = actual.friction_coefficient / expected.friction_coefficient;
+        assert_near(material, ratio, 1.0, 1e-8);
+    }
+}
+
+#[test]
+fn the_friction_at_a_depth_is_that_under_its_force() {
+    let scene = Scene::unit(2.0);
+    let load = scene.load_over(1e3);
+    let pressed = Scene { load, ..scene }.steady(1e-3);
+    let depth = pressed.indentation_depth.expect("a depth after a distance");
+    let held = at_depth(depth.value, load.velocity());
+    let load = after(held, 1e3 * scene.contact_length());
+    let held = Scene { load, ..scene }.steady(1e-3);
+    // The force follows the depth with a power between 1 and 2.
+    let allowed = held.normal_force.error + 2.0 * depth.error / depth.value * 0.5;
+    assert_near("force", held.normal_force.value, 0.5, allowed);
+    let [held, pressed] = [held, pressed].map(|estimate| estimate.friction_coefficient);
+    let allowed = held.error + pressed.error + 1e-3 * pressed.value;
+    assert_near("friction", held.value, pressed.value, allowed);
+}
+
+/// Refuses to refine beyond some unknowns, and returns what was reached.
+fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usize) -> Estimate {
+    let options = RefinementOptions {
+        relative_error,
+        max_unknowns,
+        aspect: if relative_error < 1e-5 {
+            1.0
+        } else {
+            RefinementOptions::default().aspect
+        },
+    };
+    let result = steady_refined(&scene.body, &scene.material, &scene.load, &options);
+    let Err(BemError::NotReached {
+        quantity,
+        value,
+        error,
+        ..
+    }) = result
+    else {
+        panic!("{result:?} with {max_unknowns} unknowns");
+    };
+    let at_depth = matches!(scene.load.control(), Control::IndentationDepth(_));
+    assert_eq!(
+        quantity == "normal force [N]",
+        at_depth,
+        "what was not reached"
+    );
+    assert!(error > relative_error * value, "{value} ± {error}");
+    Estimate { value, error }
+}
+
+#[test]
+fn an_error_out_of_reach_says_what_was_reached() {
+    let cusp = reached(
+        &Scene::unit(0.6),
+        RefinementOptions::default().relative_error,
+        150,
+    );
+    assert!(cusp.value.is_finite(), "{cusp:?} next to p = 1/2");
+    // Starts on a grid that resolves its flank. The table was computed on grids more than ten times as fine.
+    let steep = Scene::unit(32.0);
+    let expected = half_space_power_friction(&steep.body, &steep.material, &steep.load);
+    let expected = expected.expect("an exponent of the table").value;
+    assert_bar("r^32", reached(&steep, 1e-6, 400), expected, 0.05);
+    let held = Scene::new(paraboloid(0.5), elastic(3.0), at_depth(0.01, 1.0));
+    assert_bar("force", reached(&held, 1e-6, 400), 0.016, 1.1);
+}
