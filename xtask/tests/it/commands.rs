@@ -55,7 +55,7 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
         ),
         (
             "evidence stationary --table colours",
-            "possible values: growth, speed, error-bars",
+            "possible values: growth, error-bars",
         ),
         ("evidence calibration --scenes 0", "from 1 to 100000"),
         ("evidence stability --only nonsense", "is in no case"),

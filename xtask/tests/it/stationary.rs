@@ -34,9 +34,8 @@ fn error_bars_are_compared_with_finer_solutions() {
 }
 
 #[test]
-fn growth_and_speed_are_measured_with_their_errors() {
-    let line = "stationary --table growth --table speed";
-    let evidence = Evidence::quick("growth-and-speed", line);
+fn growth_is_measured_with_its_error() {
+    let evidence = Evidence::quick("growth", "stationary --table growth");
     let growth = evidence.rows("growth");
     let printed = &evidence.printed;
     let elements = growth.iter().map(|row| number(row, "elements_in_contact"));
@@ -53,14 +52,6 @@ fn growth_and_speed_are_measured_with_their_errors() {
         let half = number(row, "elements_in_contact") / number(row, "unknowns");
         assert!((half - 2.0).abs() < 0.1, "mirror symmetry: {row:?}");
     }
-    let speed = evidence.rows("speed");
-    let march = speed.last().expect("the march in time");
-    assert_eq!(march["solver"], "march in time", "{march:?}");
-    assert!(
-        number(march, "deviation") <= number(march, "relative_error_asked"),
-        "the march is as exact as asked: {march:?}"
-    );
-    for said in ["exponent of growth", "of the processor time of the march"] {
-        assert!(printed.contains(said), "expected '{said}' in {printed}");
-    }
+    let said = "exponent of growth";
+    assert!(printed.contains(said), "expected '{said}' in {printed}");
 }

@@ -2,7 +2,6 @@
 
 mod error_bars;
 mod growth;
-mod speed;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
@@ -11,23 +10,14 @@ use super::{Report, Table};
 use crate::output::WrongInput;
 
 /// What is measured, and how far.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(super) struct Options {
-    /// Elements in contact on the largest grid of the table of growth, between 2e3 and 1e7.
-    #[arg(long, default_value_t = LARGEST, value_name = "N")]
-    largest: f64,
+    /// Elements in contact on the largest grid of the table of growth, between 2e3 and 1e7 [default: 1e5, quick 4e3].
+    #[arg(long, value_name = "N")]
+    largest: Option<f64>,
     /// Table to make; may be given several times [default: all].
     #[arg(long = "table", value_enum, value_name = "TABLE")]
     tables: Vec<Part>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            largest: LARGEST,
-            tables: Vec::new(),
-        }
-    }
 }
 
 /// One of the tables.
@@ -35,8 +25,6 @@ impl Default for Options {
 enum Part {
     /// Time and memory over the size of the grid.
     Growth,
-    /// Time to an error, by the stationary solver and by the march in time.
-    Speed,
     /// Error bars against much finer solutions.
     ErrorBars,
 }
@@ -47,21 +35,20 @@ const QUICK_LARGEST: f64 = 4e3;
 
 /// Makes the tables asked for; a quick run takes a dozen cheap cases and small grids only.
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
-    let asked = options.largest;
-    if !(2e3..=1e7).contains(&asked) {
-        let problem = format!("--largest must be between 2e3 and 1e7, but is {asked}");
+    let usual = if quick { QUICK_LARGEST } else { LARGEST };
+    let largest = options.largest.unwrap_or(usual);
+    if !(2e3..=1e7).contains(&largest) {
+        let problem = format!("--largest must be between 2e3 and 1e7, but is {largest}");
         return Err(WrongInput(problem).into());
     }
-    let largest = if quick { QUICK_LARGEST } else { asked };
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
     // Growth comes first, because the memory that it reports is the largest that the process has had.
-    for part in [Part::Growth, Part::Speed, Part::ErrorBars] {
+    for part in [Part::Growth, Part::ErrorBars] {
         if !options.tables.is_empty() && !options.tables.contains(&part) {
             continue;
         }
         let (table, summary) = match part {
             Part::Growth => growth::measure(largest)?,
-            Part::Speed => speed::measure(quick)?,
             Part::ErrorBars => error_bars::measure(quick)?,
         };
         tables.push(table);
