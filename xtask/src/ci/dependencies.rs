@@ -9,7 +9,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use super::cargo::{cargo_output, workspace_root};
-use super::workspace::Workspace;
+use super::workspace::{Package, Workspace};
 use crate::output::{print_line, write_atomically};
 
 /// Arguments of the command.
@@ -33,32 +33,41 @@ const DIRECT: &str = "
 |---|---|---|
 ";
 
+const WITHIN: &str = "
+| crate | of this workspace | of this workspace, in tests | optional |
+|---|---|---|---|
+";
+
 /// Counts, builds, and writes the page.
 pub(crate) fn measure(options: &Dependencies) -> Result<()> {
     let page = committed()?;
     let text = page.split("\n| ").next().unwrap_or_default();
     let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
-    for library in Workspace::read()?.libraries() {
+    let workspace = Workspace::read()?;
+    for library in workspace.libraries() {
         let rows = rows(library)?;
         let seconds = processor_seconds_to_build(library)?;
         crates += &format!("{} {seconds:.0} |\n", rows[0]);
         direct += &rows[1..].concat();
     }
-    let page = [text, &crates, &direct].concat();
+    let within: String = workspace.packages.iter().map(Package::row).collect();
+    let page = [text, &crates, &direct, WITHIN, &within].concat();
     write_atomically(&options.out, page.as_bytes())?;
     print_line(&format!("written to {}", options.out.display()))
 }
 
-/// Compares the counts of the committed page with those of now.
+/// Compares what the committed page says with what is so now.
 pub(super) fn check(workspace: &Workspace) -> Result<()> {
     let page = committed()?;
+    let mut rows: Vec<String> = workspace.packages.iter().map(Package::row).collect();
     for library in workspace.libraries() {
-        for row in rows(library)? {
-            ensure!(
-                page.contains(row.as_str()),
-                "{COMMITTED} lacks {row:?}; `cargo xtask dependencies --out {COMMITTED}` makes it current"
-            );
-        }
+        rows.extend(self::rows(library)?);
+    }
+    for row in rows {
+        ensure!(
+            page.contains(row.as_str()),
+            "{COMMITTED} lacks {row:?}; `cargo xtask dependencies --out {COMMITTED}` makes it current"
+        );
     }
     Ok(())
 }

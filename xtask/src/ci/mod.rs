@@ -15,7 +15,7 @@ use anyhow::{Context, Result, ensure};
 use crate::figures;
 use cargo::Cargo;
 pub(crate) use dependencies::{Dependencies, measure};
-use workspace::Workspace;
+use workspace::{Workspace, check_lengths};
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.
 pub(crate) fn run() -> Result<()> {
@@ -29,7 +29,7 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
     let workspace = Workspace::read()?;
     let all = "--release --workspace --all-features";
     step("format", || cargo.run("fmt --all --check"))?;
-    step("architecture", || workspace.check())?;
+    step("length of files", check_lengths)?;
     step("dependencies", || dependencies::check(&workspace))?;
     step("clippy", || {
         cargo.run(&format!("clippy {all} --all-targets -- --deny=warnings"))

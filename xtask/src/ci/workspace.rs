@@ -1,4 +1,4 @@
-//! What `cargo metadata` says about the workspace, and the rules of `docs/architecture.md` that follow from it.
+//! What `cargo metadata` says about the workspace, and how long its files are.
 
 use std::fs;
 use std::path::PathBuf;
@@ -9,36 +9,18 @@ use serde::Deserialize;
 
 use super::cargo::{cargo_output, workspace_root};
 
-/// What each published crate may depend on: a new dependency is a decision, made here and in its manifest together.
-/// Those with a question mark must be optional; with a star the crate may use any of others.
-const ALLOWED: &str = "
-viscofriction-numerics: thiserror serde?
-indenters: viscofriction-numerics libm thiserror serde?
-rheology: viscofriction-numerics libm thiserror nalgebra? serde?
-friction-analytic: viscofriction-numerics indenters rheology thiserror serde?
-mdr-core: viscofriction-numerics indenters rheology thiserror rayon? serde?
-bem-halfspace: viscofriction-numerics indenters rheology faer realfft rustfft thiserror rayon? serde?
-viscofriction: viscofriction-numerics indenters rheology friction-analytic mdr-core bem-halfspace
-               csv schemars serde serde_json serde_path_to_error strum thiserror toml
-viscofriction-plot: colorous resvg thiserror ttf-parser xmlwriter
-viscofriction-cli: rheology viscofriction viscofriction-plot *
-";
-
-/// What the tests of a published crate may use besides; the closed forms are the oracle of both solvers.
-const IN_TESTS: [&str; 3] = ["casebook", "friction-analytic", "indenters"];
-
 /// Files are split before they get longer; their unit tests do not count.
 const MOST_LINES: usize = 500;
 
 /// The published crates of the workspace, as cargo knows them.
 #[derive(Debug, Deserialize)]
 pub(super) struct Workspace {
-    packages: Vec<Package>,
+    pub(super) packages: Vec<Package>,
     target_directory: PathBuf,
 }
 
 #[derive(Debug, Deserialize)]
-struct Package {
+pub(super) struct Package {
     name: String,
     /// The registries where it may be published; none when it may be anywhere.
     publish: Option<Vec<String>>,
@@ -50,7 +32,6 @@ struct Package {
 struct Dependency {
     name: String,
     kind: Option<String>,
-    rename: Option<String>,
     optional: bool,
     /// Its folder, for a crate of the workspace.
     path: Option<PathBuf>,
@@ -85,14 +66,6 @@ impl Workspace {
         let folder = self.target_directory.join("release/examples");
         examples.map(move |name| folder.join(name))
     }
-
-    /// Checks who depends on whom, and how long files are; the error lists all that breaks a rule.
-    pub(super) fn check(&self) -> Result<()> {
-        let mut broken: Vec<String> = self.packages.iter().flat_map(Package::broken).collect();
-        broken.extend(long_files()?);
-        ensure!(broken.is_empty(), "{}", broken.join("\n"));
-        Ok(())
-    }
 }
 
 impl Package {
@@ -103,90 +76,35 @@ impl Package {
         wanted.map(|target| &*target.name)
     }
 
-    fn broken(&self) -> Vec<String> {
-        let Some((_, rule)) = ALLOWED.split_once(&format!("\n{}: ", self.name)) else {
-            return vec![format!("`{}` has no rule in {}", self.name, file!())];
+    /// A row of the page: what it depends on within the workspace, what its tests use of it besides, and what is
+    /// optional.
+    pub(super) fn row(&self) -> String {
+        let names = |is_wanted: fn(&Dependency) -> bool| {
+            let wanted = self.dependencies.iter().filter(|own| is_wanted(own));
+            let names: Vec<String> = wanted.map(|own| format!("`{}`", own.name)).collect();
+            names.join(" ")
         };
-        // The rule ends where the name of the next crate begins.
-        let names = rule.split_whitespace();
-        let allowed: Vec<&str> = names.take_while(|name| !name.ends_with(':')).collect();
-        let refused = self.dependencies.iter().filter_map(|dependency| {
-            let why = dependency.refused(&allowed)?;
-            Some(format!("{}: `{}` {why}", self.name, dependency.name))
-        });
-        refused.collect()
+        let ours = names(|own| own.path.is_some() && own.kind.is_none());
+        let tests = names(|own| own.path.is_some() && own.kind.is_some());
+        let optional = names(|own| own.optional);
+        format!("| `{}` | {ours} | {tests} | {optional} |\n", self.name)
     }
 }
 
-impl Dependency {
-    /// Why it is not allowed, if it is not.
-    fn refused(&self, allowed: &[&str]) -> Option<&'static str> {
-        let name = &*self.name;
-        let is_allowed = |name: &str| allowed.contains(&name);
-        let in_tests = self.kind.as_deref() == Some("dev");
-        let is_free = self.path.is_none() && (in_tests || is_allowed("*"));
-        if self.rename.is_some() && self.path.is_none() {
-            Some("is renamed, which hides what it is")
-        } else if is_free || is_allowed(name) || (in_tests && IN_TESTS.contains(&name)) {
-            None
-        } else if is_allowed(&format!("{name}?")) {
-            (!self.optional).then_some("must be optional")
-        } else {
-            Some("is not allowed")
-        }
-    }
-}
-
-fn long_files() -> Result<Vec<String>> {
+/// Checks how long files are; the error lists all that are too long.
+pub(super) fn check_lengths() -> Result<()> {
     let mut git = Command::new("git");
     git.args(["ls-files", "*.rs"]).current_dir(workspace_root());
     let files = String::from_utf8(git.output().context("git ls-files")?.stdout)?;
-    let mut long = Vec::new();
+    let mut long = String::new();
     for file in files.lines() {
         let text = fs::read_to_string(workspace_root().join(file)).context(file.to_owned())?;
         let code = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
         let lines = code.lines().count();
         if lines > MOST_LINES {
-            long.push(format!("{file} has {lines} lines without unit tests"));
+            long += &format!("\n{file} has {lines} lines without unit tests");
         }
     }
-    Ok(long)
-}
-
-#[cfg(test)]
-mod unit_tests {
-    use super::Dependency;
-
-    #[test]
-    fn only_what_the_table_allows_is_allowed() {
-        let [forbidden, needed] = [Some("is not allowed"), Some("must be optional")];
-        let cases = [
-            ("libm", None),
-            ("csv", forbidden),
-            ("build cc", forbidden),
-            ("serde", needed),
-            ("serde optional", None),
-            ("mdr-core", forbidden),
-            ("casebook", forbidden),
-            ("dev casebook", None),
-            ("dev proptest", None),
-            ("dev mdr-core", forbidden),
-        ];
-        for (words, expected) in cases {
-            let has = |word: &str| words.split(' ').any(|own| own == word);
-            let kind = ["dev", "build"].into_iter().find(|kind| has(kind));
-            let dependency = Dependency {
-                name: words
-                    .trim_start_matches("dev ")
-                    .replace(" optional", "")
-                    .replace("build ", ""),
-                kind: kind.map(str::to_owned),
-                rename: None,
-                optional: has("optional"),
-                path: (has("casebook") || has("mdr-core")).then(Default::default),
-            };
-            let got = dependency.refused(&["libm", "serde?"]);
-            assert_eq!(got, expected, "{words}");
-        }
-    }
+    ensure!(long.is_empty(), "{long}");
+    Ok(())
 }
