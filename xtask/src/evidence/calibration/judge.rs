@@ -4,8 +4,7 @@ use anyhow::{Result, anyhow};
 use serde::Serialize;
 use viscofriction::scene::{Method, Model};
 
-use super::reference::{of_closed_form, reference};
-use super::requests::Requests;
+use super::reference::reference;
 use super::scenes::{Label, Scene};
 use crate::evidence::request::{Reference, Request, presses};
 
@@ -63,34 +62,14 @@ pub(super) struct Reason {
     reason: String,
 }
 
-/// What comes of scenes.
-#[derive(Debug, Default)]
-pub(super) struct Judged {
-    pub(super) rows: Vec<Row>,
-    pub(super) refusals: Vec<Refusal>,
-    /// Reasons for what is not computed.
-    pub(super) left_out: Vec<&'static str>,
-}
+/// What comes of a request.
+pub(super) type Verdict = (Label, Result<Bar, Reason>);
 
-impl Judged {
-    pub(super) fn merged(parts: Vec<Self>) -> Self {
-        let mut merged = Self::default();
-        for part in parts {
-            merged.rows.extend(part.rows);
-            merged.refusals.extend(part.refusals);
-            merged.left_out.extend(part.left_out);
-        }
-        merged
-    }
-}
-
-/// Solves a scene by every method that can, closed forms first, which are compared with no other closed form.
-pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
-    let mut judged = Judged::default();
-    judged.left_out.clone_from(&requests.left_out);
-    for model in [Model::Line, Model::HalfSpace] {
-        let of_model = requests.made.iter().filter(|made| made.model == model);
-        let errors = of_model.clone().filter(|request| !request.is_by_elements());
+/// Solves a scene by every method that can.
+pub(super) fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Verdict>> {
+    let mut verdicts = Vec::new();
+    for of_model in requests.chunk_by(|one, other| one.model == other.model) {
+        let errors = of_model.iter().filter(|request| !request.is_by_elements());
         let least = errors.map(Request::number).fold(1e-2, f64::min);
         let mut offered = Vec::new();
         for request in of_model {
@@ -98,38 +77,29 @@ pub(super) fn judge(scene: &Scene, requests: &Requests) -> Result<Judged> {
                 offered.push(request);
             }
         }
-        let is_closed = |request: &&Request| request.method == Method::Analytic;
-        let (closed, others): (Vec<_>, Vec<_>) = offered.into_iter().partition(is_closed);
-        if !closed.is_empty() {
-            let reference = of_closed_form(scene, model, least).transpose();
-            if let Some(reference) = reference {
-                judged.add(scene, &closed, &reference);
+        let is_closed = |request: &Request| request.method == Method::Analytic;
+        for alike in offered.chunk_by(|one, other| is_closed(one) == is_closed(other)) {
+            if let Some(reference) = reference(scene, alike[0], least).transpose() {
+                let verdict = |request: &&_| {
+                    let bar = judged(scene, request, &reference);
+                    (scene.label.clone(), bar)
+                };
+                verdicts.extend(alike.iter().map(verdict));
             }
         }
-        if !others.is_empty() {
-            judged.add(scene, &others, &reference(scene, model, least));
-        }
     }
-    Ok(judged)
+    Ok(verdicts)
 }
 
-impl Judged {
-    fn add(&mut self, scene: &Scene, requests: &[&Request], reference: &Result<Reference>) {
-        for request in requests {
-            let bar = match reference {
-                Ok(reference) => bar(scene, request, reference),
-                Err(error) => Err(anyhow!("no reference: {error:#}")),
-            };
-            let label = scene.label.clone();
-            match bar {
-                Ok(bar) => self.rows.push((label, bar)),
-                Err(error) => {
-                    let (method, reason) = (name(request, scene), format!("{error:#}"));
-                    self.refusals.push((label, Reason { method, reason }));
-                }
-            }
-        }
-    }
+fn judged(scene: &Scene, request: &Request, reference: &Result<Reference>) -> Result<Bar, Reason> {
+    let bar = match reference {
+        Ok(reference) => bar(scene, request, reference),
+        Err(error) => Err(anyhow!("no reference: {error:#}")),
+    };
+    bar.map_err(|error| Reason {
+        method: name(request, scene),
+        reason: format!("{error:#}"),
+    })
 }
 
 fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {

@@ -19,8 +19,8 @@ use crate::meter::median;
 use crate::output::{WrongInput, markdown_table};
 use crate::random::Random;
 use crate::tasks::in_parallel;
-use judge::{Bar, Judged, Row, judge};
-use requests::{FULL, QUICK, Requests};
+use judge::{Bar, Refusal, Row, judge};
+use requests::{FULL, QUICK, requests};
 
 /// Which scenes.
 #[derive(Debug, Default, Args)]
@@ -54,41 +54,47 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let mut scenes = Vec::new();
     for number in 1..=count {
         let scene = scenes::scene(number, &mut random)?;
-        let requests = Requests::new(&mut random, &scene, &extent);
+        let requests = requests(&mut random, &scene, &extent);
         scenes.push((scene, requests));
     }
     let judged = in_parallel("calibration", &scenes, |(scene, requests)| {
         judge(scene, requests)
     })?;
-    let judged = Judged::merged(judged);
+    let (mut rows, mut refusals) = (Vec::new(), Vec::new());
+    for (label, bar) in judged.into_iter().flatten() {
+        match bar {
+            Ok(bar) => rows.push((label, bar)),
+            Err(reason) => refusals.push((label, reason)),
+        }
+    }
     Ok(Report {
         name: "calibration",
         tables: vec![
-            Table::new("calibration", &judged.rows)?,
-            Table::new("calibration_refused", &judged.refusals)?,
+            Table::new("calibration", &rows)?,
+            Table::new("calibration_refused", &refusals)?,
         ],
-        pictures: vec![("calibration", figure(&judged.rows))],
-        summary: format!("{}\n{}", table(&judged), left_out(&judged.left_out)),
+        pictures: vec![("calibration", figure(&rows))],
+        summary: table(&rows, &refusals).to_string(),
         failure: None,
     })
 }
 
 /// One line per method: how many bars hold, and how wide they are.
-fn table(judged: &Judged) -> comfy_table::Table {
+fn table(rows: &[Row], refusals: &[Refusal]) -> comfy_table::Table {
     let mut methods: BTreeMap<&str, Vec<&Bar>> = BTreeMap::new();
-    for (_, bar) in &judged.rows {
+    for (_, bar) in rows {
         methods.entry(&bar.method).or_default().push(bar);
     }
     let header = "method|results|bars that hold|with a sharp reference|of these within the bar alone|median of bar/deviation|worst deviation/bar|refused";
     let lines = methods.into_iter().map(|(method, bars)| {
-        let refused = judged.refusals.iter();
+        let refused = refusals.iter();
         let refused = refused.filter(|(_, reason)| reason.method == method);
         line(method, &bars, refused.count())
     });
-    let all: Vec<&Bar> = judged.rows.iter().map(|(_, bar)| bar).collect();
+    let all: Vec<&Bar> = rows.iter().map(|(_, bar)| bar).collect();
     markdown_table(
         header.split('|'),
-        lines.chain([line("all", &all, judged.refusals.len())]),
+        lines.chain([line("all", &all, refusals.len())]),
     )
 }
 
@@ -125,18 +131,6 @@ fn short(value: f64) -> String {
         _ if value == 0.0 || (1e-2..1e4).contains(&value) => format!("{value:.2}"),
         _ => format!("{value:.0e}"),
     }
-}
-
-/// What was left out, and how often.
-fn left_out(reasons: &[&'static str]) -> String {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for reason in reasons {
-        *counts.entry(reason).or_default() += 1;
-    }
-    let lines = counts
-        .iter()
-        .map(|(reason, count)| format!("- {count} × {reason}\n"));
-    format!("\nleft out:\n{}", lines.collect::<String>())
 }
 
 /// Smaller relative errors are drawn here.
@@ -186,16 +180,11 @@ fn point((_, bar): &Row) -> Option<(Method, [f64; 2])> {
 mod tests {
     use viscofriction_plot::draw;
 
-    use super::judge::Refusal;
     use super::*;
 
     #[test]
     fn where_every_request_is_refused_cells_are_empty_and_the_picture_has_no_points() {
-        let refused = Judged {
-            refusals: vec![Refusal::default()],
-            ..Judged::default()
-        };
-        let printed = table(&refused).to_string();
+        let printed = table(&[], &[Refusal::default()]).to_string();
         let cells = printed.lines().last().map(|line| line.split('|'));
         let cells: Vec<&str> = cells.into_iter().flatten().map(str::trim).collect();
         let expected = ["", "all", "0", "", "0", "", "", "", "1", ""];

@@ -15,25 +15,25 @@ const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
 /// How much smaller the error of the half space is than that asked for.
 const FINER: f64 = 0.1;
 
-/// The reference of the methods of a model; `asked` is the smallest error that is asked of any of them.
-pub(super) fn reference(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {
+/// What a request is compared with, if there is anything; `asked` is the smallest error that is asked of its model.
+///
+/// A closed form is compared with no other that the same method gives.
+pub(super) fn reference(scene: &Scene, request: &Request, asked: f64) -> Result<Option<Reference>> {
     let asked = FINER * asked;
-    let closed_form = Request::to_error(model, Method::Analytic, asked);
-    if closed_form.is_offered(&scene.file)? {
-        return closed_form.reference(&scene.file, ROUNDING);
+    if request.method == Method::Analytic {
+        if presses(&scene.file) {
+            return power_pressed(&scene.file);
+        }
+        if scene.file.solve.sliding_distance.is_some() {
+            return Ok(None);
+        }
+    } else {
+        let closed_form = Request::to_error(request.model, Method::Analytic, asked);
+        if closed_form.is_offered(&scene.file)? {
+            return closed_form.reference(&scene.file, ROUNDING).map(Some);
+        }
     }
-    numerical(scene, model, asked)
-}
-
-/// The reference of a closed form, if there is one.
-pub(super) fn of_closed_form(scene: &Scene, model: Model, asked: f64) -> Result<Option<Reference>> {
-    if presses(&scene.file) {
-        return power_pressed(&scene.file);
-    }
-    if scene.file.solve.sliding_distance.is_some() {
-        return Ok(None);
-    }
-    numerical(scene, model, FINER * asked).map(Some)
+    numerical(scene, request.model, asked).map(Some)
 }
 
 fn numerical(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {

@@ -46,51 +46,26 @@ const PRESSED: [usize; 3] = [16, 32, 64];
 /// Closed forms are asked for this, so that the table of s(p) takes part.
 const CLOSED: Accuracy = Accuracy::RelativeError(1e-2);
 
-/// What is asked of a scene, and why some is not.
-#[derive(Debug, Default)]
-pub(super) struct Requests {
-    /// Not every one is offered there.
-    pub(super) made: Vec<Request>,
-    /// One reason per request that is left out.
-    pub(super) left_out: Vec<&'static str>,
-}
-
-const SLOW: &str = "a chain to an error at a cusp or an edge, where errors fall too slowly";
-const SLOW_EDGE: &str = "the half space at an edge, where errors fall too slowly for a reference";
-const NO_REFERENCE: &str =
-    "the half space before the stationary state, of which there is no reference";
-const EXPENSIVE: &str = "the half space in the scenes between, because it costs most";
-
-impl Requests {
-    pub(super) fn new(random: &mut Random, scene: &Scene, extent: &Extent) -> Self {
-        let mut requests = Self::default();
-        if presses(&scene.file) {
-            requests.made = pressed(random);
-            return requests;
-        }
-        for request in line(random, extent) {
-            let is_slow = request.method == Method::MdrTransient && !request.is_by_elements();
-            requests.add(request, (scene.is_sharp() && is_slow).then_some(SLOW));
-        }
-        let why_not = if scene.file.solve.sliding_distance.is_some() {
-            Some(NO_REFERENCE)
-        } else if !scene.label.number.is_multiple_of(extent.half_space_every) {
-            Some(EXPENSIVE)
-        } else {
-            scene.has_edge().then_some(SLOW_EDGE)
-        };
-        for request in half_space(random, scene, extent) {
-            requests.add(request, why_not);
-        }
-        requests
+/// What is asked of a scene, by model, closed forms first; not every one is offered there.
+///
+/// Left out is what costs too much or has no reference: a chain to an error at a cusp or an edge, where errors fall too
+/// slowly; the half space at an edge, before the stationary state, and in the scenes between.
+pub(super) fn requests(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Request> {
+    if presses(&scene.file) {
+        return pressed(random);
     }
-
-    fn add(&mut self, request: Request, why_not: Option<&'static str>) {
-        match why_not {
-            None => self.made.push(request),
-            Some(reason) => self.left_out.push(reason),
-        }
+    let is_slow = |request: &Request| {
+        request.method == Method::MdrTransient && !request.is_by_elements() && scene.is_sharp()
+    };
+    let mut requests = line(random, extent);
+    requests.retain(|request| !is_slow(request));
+    let on_half_space = half_space(random, scene, extent);
+    let is_stationary = scene.file.solve.sliding_distance.is_none();
+    let is_turn = scene.label.number.is_multiple_of(extent.half_space_every);
+    if is_stationary && is_turn && !scene.has_edge() {
+        requests.extend(on_half_space);
     }
+    requests
 }
 
 /// Both models are the same where nothing slides.
