@@ -1,7 +1,5 @@
 //! Contacts of one instant on a given grid.
 
-use std::sync::Arc;
-
 use anyhow::Result;
 use bem_halfspace::{
     Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
@@ -12,7 +10,7 @@ use viscofriction::scene::Model;
 
 use super::rough::self_affine;
 use super::scenes::HERTZ;
-use super::series::{DEPTH, Found, Run, Series};
+use super::series::{DEPTH, Found, Measured, Row};
 
 /// Tolerance of the Hertz contact, far below the error of its grids.
 const TOLERANCE: f64 = 1e-9;
@@ -21,63 +19,64 @@ const TOLERANCES: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10];
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 
 /// The depth of the Hertz contact on grids with these edges; the convolution is made in the time that is measured.
-pub(super) fn hertz(edges: &[usize]) -> Series {
-    let run = |&edge: &usize| Run {
-        kind: "elements",
-        resolution: Some(edge as f64),
-        solve: Box::new(move || {
+pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
+    for &edge in edges {
+        let run = Row {
+            scene: HERTZ,
+            quantity: DEPTH,
+            resolution_kind: "elements",
+            resolution: Some(edge as f64),
+            reference: "closed form".to_owned(),
+            reference_error: f64::EPSILON,
+            ..row()
+        };
+        measured.add(run, || {
             let convolution = Convolution::new(&grid(edge)?);
             let body = SquareContact::hertz(edge, 0.0);
             let (contact, state) = solve(&convolution, &body, TOLERANCE)?;
-            Ok(Found {
-                error: deviation(&[contact.indentation_depth], &[SquareContact::HERTZ_DEPTH]),
-                error_bar: None,
-                unknowns: state.pressure().len(),
-            })
-        }),
-    };
-    Series {
-        scene: HERTZ,
-        model: Model::HalfSpace,
-        quantity: DEPTH,
-        method: None,
-        reference: "closed form".to_owned(),
-        reference_error: f64::EPSILON,
-        runs: edges.iter().map(run).collect(),
+            let depth = [contact.indentation_depth];
+            Ok(found(&state, &depth, &[SquareContact::HERTZ_DEPTH]))
+        });
     }
 }
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
-pub(super) fn rough(edge: usize) -> Result<Series> {
+pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
     let body = SquareContact::rough(self_affine(edge));
     let convolution = Convolution::periodic(&grid(edge)?);
     let (contact, exact) = solve(&convolution, &body, REFERENCE_TOLERANCE)?;
-    let scene = Arc::new((convolution, body, exact.pressure().to_vec()));
-    let run = |&tolerance: &f64| {
-        let scene = Arc::clone(&scene);
-        Run {
-            kind: "tolerance",
+    for tolerance in TOLERANCES {
+        let run = Row {
+            scene: "rough surface",
+            quantity: "pressure",
+            resolution_kind: "tolerance",
             resolution: Some(tolerance),
-            solve: Box::new(move || {
-                let (convolution, body, exact) = &*scene;
-                let (_, state) = solve(convolution, body, tolerance)?;
-                Ok(Found {
-                    error: deviation(state.pressure(), exact),
-                    error_bar: None,
-                    unknowns: state.pressure().len(),
-                })
-            }),
-        }
-    };
-    Ok(Series {
-        scene: "rough surface",
-        model: Model::HalfSpace,
-        quantity: "pressure",
-        method: None,
-        reference: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
-        reference_error: contact.residual.max(REFERENCE_TOLERANCE),
-        runs: TOLERANCES.iter().map(run).collect(),
-    })
+            reference: format!("the same grid to {REFERENCE_TOLERANCE:e}"),
+            reference_error: contact.residual.max(REFERENCE_TOLERANCE),
+            ..row()
+        };
+        measured.add(run, || {
+            let (_, state) = solve(&convolution, &body, tolerance)?;
+            Ok(found(&state, state.pressure(), exact.pressure()))
+        });
+    }
+    Ok(())
+}
+
+fn row() -> Row {
+    Row {
+        model: Model::HalfSpace.name(),
+        method: "bem contact".to_owned(),
+        ..Row::default()
+    }
+}
+
+fn found(state: &ContactState, values: &[f64], exact: &[f64]) -> Found {
+    Found {
+        error: deviation(values, exact),
+        error_bar: None,
+        unknowns: state.pressure().len(),
+    }
 }
 
 fn grid(edge: usize) -> Result<Grid> {

@@ -14,7 +14,7 @@ use super::{Report, Table};
 use crate::output::{markdown_table, points};
 use crate::tasks::in_turn;
 use scenes::{QUICK_SCENES, SCENES, Scene};
-use series::{Row, Series, series_of};
+use series::{Measured, Row};
 
 /// How much is measured.
 #[derive(Debug)]
@@ -56,19 +56,11 @@ const PRINTED: [(f64, &str); 5] = [
 /// Measures on one thread; a quick run takes a few scenes at coarse resolutions only, each timed once.
 pub(super) fn report(quick: bool) -> Result<Report> {
     let extent = if quick { QUICK } else { FULL };
-    let mut refused = Vec::new();
-    let planned = in_turn("references", extent.scenes, |scene| {
-        series_of(scene, extent.runs, &mut refused)
-    });
-    let mut series: Vec<Series> = planned?.into_iter().flatten().collect();
-    series.push(contacts::hertz(extent.edges));
-    series.push(contacts::rough(extent.rough_edge)?);
     // On one thread processor time is the time on an idle machine.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let measure = |series: &Series| Ok(series.measure(extent.timed_once, &mut refused));
-    let measured = pool.install(|| in_turn("work and precision", &series, measure))?;
-    let fits: Vec<Fit> = measured.iter().filter_map(|rows| Fit::of(rows)).collect();
-    let rows: Vec<&Row> = measured.iter().flatten().collect();
+    let Measured { rows, refused, .. } = pool.install(|| measure(&extent))?;
+    let series = || rows.chunk_by(Row::is_of_series);
+    let fits: Vec<Fit> = series().map(Fit::of).collect();
     let (sliding, at_rest): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.slides());
     Ok(Report {
         name: "work_precision",
@@ -80,9 +72,22 @@ pub(super) fn report(quick: bool) -> Result<Report> {
             ("work_precision_sliding", picture::figure(&sliding)),
             ("work_precision_at_rest", picture::figure(&at_rest)),
         ],
-        summary: format!("{}{}", table(&measured), refused.concat()),
+        summary: format!("{}{refused}", table(fits.iter().zip(series()))),
         failure: None,
     })
+}
+
+fn measure(extent: &Extent) -> Result<Measured> {
+    let mut measured = Measured {
+        once: extent.timed_once,
+        ..Measured::default()
+    };
+    in_turn("work and precision", extent.scenes, |scene| {
+        measured.add_scene(scene, extent.runs)
+    })?;
+    contacts::hertz(&mut measured, extent.edges);
+    contacts::rough(&mut measured, extent.rough_edge)?;
+    Ok(measured)
 }
 
 /// How one method converges on one scene, and what that costs.
@@ -105,9 +110,9 @@ struct Fit {
 }
 
 impl Fit {
-    /// The fit of the runs of one series.
-    fn of(rows: &[Row]) -> Option<Self> {
-        let first = rows.first()?;
+    /// The fit of the runs of one series, of which there is one at least.
+    fn of(rows: &[Row]) -> Self {
+        let first = &rows[0];
         let resolved = rows.iter().filter(|row| row.is_resolved());
         let errors = resolved.filter_map(|row| Some([row.fineness()?, row.error]));
         let errors: Vec<[f64; 2]> = errors.collect();
@@ -118,7 +123,7 @@ impl Fit {
             |row| row.processor_seconds,
         );
         let [order, cost] = [clear_exponent(&errors), clear_exponent(&costs)];
-        Some(Self {
+        Self {
             scene: first.scene,
             model: first.model,
             method: first.method.clone(),
@@ -128,16 +133,15 @@ impl Fit {
             order_error: order.map(|order| order.error),
             cost_exponent: cost.map(|cost| cost.value),
             cost_exponent_error: cost.map(|cost| cost.error),
-        })
+        }
     }
 }
 
 /// Order, exponent of cost, and the time to an error: one row per series, one column per error.
-fn table(measured: &[Vec<Row>]) -> comfy_table::Table {
+fn table<'a>(series: impl Iterator<Item = (&'a Fit, &'a [Row])>) -> comfy_table::Table {
     let header = ["scene", "model", "method", "over", "order", "cost exponent"];
     let header = header.into_iter().chain(PRINTED.map(|(_, name)| name));
-    let rows = measured.iter().filter_map(|series| {
-        let fit = Fit::of(series)?;
+    let rows = series.map(|(fit, rows)| {
         let cells = [
             fit.scene.to_owned(),
             fit.model.to_owned(),
@@ -146,8 +150,8 @@ fn table(measured: &[Vec<Row>]) -> comfy_table::Table {
             exponent(fit.order, fit.order_error),
             exponent(fit.cost_exponent, fit.cost_exponent_error),
         ];
-        let times = PRINTED.map(|(error, _)| time_to(series, error));
-        Some(cells.into_iter().chain(times).collect::<Vec<_>>())
+        let times = PRINTED.map(|(error, _)| time_to(rows, error));
+        cells.into_iter().chain(times).collect::<Vec<_>>()
     });
     markdown_table(header, rows)
 }

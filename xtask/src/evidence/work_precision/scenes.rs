@@ -59,36 +59,40 @@ const GRIDS: [usize; 5] = [6, 12, 24, 48, 96];
 const MARCHES: [usize; 5] = [6, 8, 12, 16, 24];
 const PRESSED: [usize; 5] = [16, 32, 64, 128, 256];
 
-/// Series of resolutions, by model; without sliding both models are the same, and all results are of the half space.
-pub(super) fn requests(presses: bool) -> Vec<(Model, Vec<Vec<Request>>)> {
+/// Series of at most `runs` resolutions, closed forms first in each model; without sliding both models are the same, and
+/// all results are of the half space.
+pub(super) fn requests(presses: bool, runs: usize) -> Vec<Request> {
+    let errors = |model, method, values: &[f64]| {
+        series(runs, values, |error| {
+            Request::to_error(model, method, error)
+        })
+    };
+    let elements = |model, method, values: &[usize]| {
+        let accuracy = Accuracy::Elements;
+        series(runs, values, |count| {
+            Request::new(model, method, accuracy(count))
+        })
+    };
     if presses {
-        let pressed = vec![
+        return [
             errors(Model::HalfSpace, Method::Analytic, &[CLOSED]),
             elements(Model::HalfSpace, Method::MdrTransient, &LINES),
             elements(Model::HalfSpace, Method::BemTransient, &PRESSED),
-        ];
-        return vec![(Model::HalfSpace, pressed)];
+        ]
+        .concat();
     }
-    let line = vec![
+    [
         errors(Model::Line, Method::Analytic, &[CLOSED]),
         errors(Model::Line, Method::MdrSteady, &LINE_ERRORS),
         elements(Model::Line, Method::MdrTransient, &LINES),
-    ];
-    let half_space = vec![
         errors(Model::HalfSpace, Method::Analytic, &[CLOSED]),
         errors(Model::HalfSpace, Method::BemSteady, &HALF_SPACE_ERRORS),
         elements(Model::HalfSpace, Method::BemSteady, &GRIDS),
         elements(Model::HalfSpace, Method::BemTransient, &MARCHES),
-    ];
-    vec![(Model::Line, line), (Model::HalfSpace, half_space)]
+    ]
+    .concat()
 }
 
-fn errors(model: Model, method: Method, errors: &[f64]) -> Vec<Request> {
-    let request = |&error| Request::to_error(model, method, error);
-    errors.iter().map(request).collect()
-}
-
-fn elements(model: Model, method: Method, counts: &[usize]) -> Vec<Request> {
-    let request = |&count| Request::new(model, method, Accuracy::Elements(count));
-    counts.iter().map(request).collect()
+fn series<T: Copy>(runs: usize, values: &[T], request: impl Fn(T) -> Request) -> Vec<Request> {
+    values.iter().take(runs).copied().map(request).collect()
 }
