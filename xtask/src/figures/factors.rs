@@ -45,7 +45,7 @@ pub(super) struct Row {
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
         let factor = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?;
-        row(exponent, paper, factor.friction_ratio)
+        row(exponent, paper, factor.estimate())
     })
 }
 

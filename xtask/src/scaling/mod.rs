@@ -2,6 +2,8 @@
 
 mod table;
 
+use std::time::Instant;
+
 use anyhow::{Context, Result, bail};
 use bem_halfspace::steady::RefinementOptions;
 use clap::ValueEnum;
@@ -27,22 +29,26 @@ pub(crate) enum Format {
     Json,
 }
 
-#[derive(Debug, Serialize)]
-struct Row {
+/// s_p, and what it took.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct ScalingFactor {
     exponent: f64,
+    /// Friction of the half space over that of the line.
     scaling_factor: f64,
+    /// Absolute.
     error: f64,
+    /// Unknown pressures on the finest grid.
     unknowns: usize,
     seconds: f64,
 }
 
-/// s_p.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ScalingFactor {
-    /// Friction of the half space over that of the line, with its absolute error.
-    pub(crate) friction_ratio: Estimate,
-    /// Unknown pressures on the finest grid.
-    pub(crate) unknowns: usize,
+impl ScalingFactor {
+    pub(crate) const fn estimate(&self) -> Estimate {
+        Estimate {
+            value: self.scaling_factor,
+            error: self.error,
+        }
+    }
 }
 
 /// Computes the factors and prints them as they are asked for.
@@ -54,7 +60,7 @@ pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> R
     };
     validate(exponents, relative_error)?;
     let rows = in_parallel("scaling factors", exponents, |&exponent| {
-        timed(exponent, relative_error)
+        scaling_factor(exponent, relative_error, MAX_UNKNOWNS)
     })?;
     match format {
         Format::Table => println!("{}", table(&rows)),
@@ -79,19 +85,7 @@ fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
     Err(WrongInput(problem))
 }
 
-fn timed(exponent: f64, relative_error: f64) -> Result<Row> {
-    let start = std::time::Instant::now();
-    let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
-    Ok(Row {
-        exponent,
-        scaling_factor: factor.friction_ratio.value,
-        error: factor.friction_ratio.error,
-        unknowns: factor.unknowns,
-        seconds: start.elapsed().as_secs_f64(),
-    })
-}
-
-fn table(rows: &[Row]) -> Table {
+fn table(rows: &[ScalingFactor]) -> Table {
     let lines = rows.iter().map(|row| {
         [
             row.exponent.to_string(),
@@ -110,6 +104,7 @@ pub(crate) fn scaling_factor(
     relative_error: f64,
     max_unknowns: usize,
 ) -> Result<ScalingFactor> {
+    let start = Instant::now();
     let scene = Scene::unit(exponent)?;
     let line = scene.theory()?.friction_coefficient;
     let options = RefinementOptions {
@@ -121,15 +116,18 @@ pub(crate) fn scaling_factor(
     let half_space = as_far_as_reached(scene.friction(&options))
         .with_context(|| format!("scaling factor of p = {exponent}"))?;
     let friction = half_space.friction;
-    let (value, error) = (friction.value / line, friction.error / line);
+    let (scaling_factor, error) = (friction.value / line, friction.error / line);
     let Some(unknowns) = half_space.unknowns else {
         bail!(
-            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {value} \
+            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {scaling_factor} \
              with an error of {error:.1e}"
         )
     };
     Ok(ScalingFactor {
-        friction_ratio: Estimate { value, error },
+        exponent,
+        scaling_factor,
+        error,
         unknowns,
+        seconds: start.elapsed().as_secs_f64(),
     })
 }

@@ -80,7 +80,7 @@ fn exponent(index: usize) -> f64 {
 fn node(exponent: f64) -> Result<Node> {
     let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
-    Ok(Node::new(exponent, factor.friction_ratio))
+    Ok(Node::new(exponent, factor.estimate()))
 }
 
 /// The source file, as rustfmt would leave it.
