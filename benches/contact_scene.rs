@@ -44,15 +44,11 @@ impl ContactScene {
         })
     }
 
-    /// Solves the contact from the pressure in a state.
+    /// Solves the contact from a cold start.
     ///
     /// # Errors
     /// Those of [`solve_contact`].
-    pub fn solve_from(
-        &self,
-        state: &mut ContactState,
-        tolerance: f64,
-    ) -> Result<Contact, BemError> {
+    pub fn solve(&self, tolerance: f64) -> Result<(Contact, ContactState), BemError> {
         let problem = ContactProblem {
             convolution: &self.convolution,
             separation: &self.contact.heights,
@@ -63,17 +59,8 @@ impl ContactScene {
             tolerance,
             max_iterations: MAX_ITERATIONS,
         };
-        solve_contact(&problem, state, &options)
-    }
-
-    /// Solves the contact from a cold start.
-    ///
-    /// # Errors
-    /// Those of [`solve_contact`].
-    pub fn solve(&self, tolerance: f64) -> Result<(Contact, ContactState), BemError> {
         let mut state = ContactState::new(&self.convolution);
-        let contact = self.solve_from(&mut state, tolerance)?;
-        Ok((contact, state))
+        Ok((solve_contact(&problem, &mut state, &options)?, state))
     }
 }
 
