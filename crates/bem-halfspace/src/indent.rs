@@ -14,7 +14,7 @@ use rheology::Material;
 use crate::error::check_contact_elements;
 use crate::stepping::{March, Motion};
 use crate::{BemError, GridOptions};
-pub use history::{ControlHistory, HistoryOptions, IndentHistory, PiecewiseLinear, indent_history};
+pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub use press::{PressEstimate, PressSolution, indent, indent_on_grid, press, press_on_grid};
 
 /// One step of a history; its control holds from the step before, so that a change of it is a jump.
@@ -64,12 +64,13 @@ pub fn indent_history_on_grid(
     steps: &[IndentStep],
     options: &GridOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
-    let motions = steps.iter().map(|step| Motion {
+    let motion = |step: &IndentStep| Motion {
         time: step.time,
         position: 0.0,
         control: step.control,
-    });
-    let mut march = March::through(&surface, material, motions, options)?;
+    };
+    let motions: Vec<Motion> = steps.iter().map(motion).collect();
+    let mut march = March::new(&surface, material, &motions, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
     while let Some(row) = march.advance()? {

@@ -3,27 +3,11 @@
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
 use indenters::{Control, Surface};
-use numerics::{between_zero_and_one, positive};
+use numerics::between_zero_and_one;
 use rheology::{CreepSpectrum, Material};
 
 use super::{IndentRow, IndentStep, indent_history_on_grid};
 use crate::{BemError, GridOptions};
-
-/// Force or depth over time, and the times at which the state is wanted.
-#[derive(Clone, Copy)]
-pub struct ControlHistory<'a> {
-    /// Force or depth at a time \[s].
-    pub control: &'a dyn Fn(f64) -> Control,
-    /// Increasing times \[s] from above zero; jumps and kinks of the control belong among them.
-    pub times: &'a [f64],
-}
-
-impl std::fmt::Debug for ControlHistory<'_> {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut fields = formatter.debug_struct("ControlHistory");
-        fields.field("times", &self.times).finish_non_exhaustive()
-    }
-}
 
 /// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,60 +46,9 @@ pub struct IndentHistory {
     pub steps_per_row: usize,
 }
 
-/// A force or a depth that is straight between points of time.
-#[derive(Debug, Clone)]
-pub struct PiecewiseLinear {
-    /// (time, value), by increasing time.
-    points: Vec<(f64, f64)>,
-    control: fn(f64) -> Control,
-}
-
-impl PiecewiseLinear {
-    /// A force \[N] through `points` (time, force); constant before the first and after the last.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for no points, and for times that do not increase.
-    pub fn force(points: &[(f64, f64)]) -> Result<Self, BemError> {
-        Self::through(points, Control::NormalForce)
-    }
-
-    /// A depth \[m] through `points` (time, depth); constant before the first and after the last.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for no points, and for times that do not increase.
-    pub fn depth(points: &[(f64, f64)]) -> Result<Self, BemError> {
-        Self::through(points, Control::IndentationDepth)
-    }
-
-    fn through(points: &[(f64, f64)], control: fn(f64) -> Control) -> Result<Self, BemError> {
-        positive("number of points", points.len() as f64)?;
-        for pair in points.windows(2) {
-            positive("time between two points", pair[1].0 - pair[0].0)?;
-        }
-        Ok(Self {
-            points: points.to_vec(),
-            control,
-        })
-    }
-
-    /// Force or depth at a time \[s].
-    #[must_use]
-    pub fn at(&self, time: f64) -> Control {
-        let after = self.points.partition_point(|(then, _)| *then < time);
-        let last = self.points.len() - 1;
-        let [(t0, v0), (t1, v1)] =
-            [after.saturating_sub(1), after.min(last)].map(|k| self.points[k]);
-        let part = if t1 > t0 {
-            (time - t0) / (t1 - t0)
-        } else {
-            0.0
-        };
-        (self.control)(v0 + part.clamp(0.0, 1.0) * (v1 - v0))
-    }
-}
-
-/// Presses `surface` into an undeformed half space as a history says, and halves the steps between its times until the
-/// error asked for is met.
+/// Presses `surface` into an undeformed half space by a force or depth that is a function of time \[s], and halves the
+/// steps between the `times` at which the state is wanted until the error asked for is met; jumps and kinks of the
+/// control belong among these times, which increase from above zero.
 ///
 /// # Errors
 /// [`BemError::TimeNotResolved`] when the error asked for is not met with the steps allowed; otherwise like
@@ -123,13 +56,13 @@ impl PiecewiseLinear {
 pub fn indent_history(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
-    history: &ControlHistory<'_>,
+    control: impl Fn(f64) -> Control,
+    times: &[f64],
     options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
-    let times = history.times;
     let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
-        let steps = subdivided(history, n);
+        let steps = subdivided(&control, times, n);
         let rows = indent_history_on_grid(surface, material, &steps, &options.grid)?;
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
@@ -169,11 +102,15 @@ pub fn indent_history(
     })
 }
 
+/// From each of the times, and zero, to the next.
+fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
+    let starts = std::iter::once(&0.0).chain(times);
+    starts.zip(times).map(|(&start, &end)| [start, end])
+}
+
 /// `n` equal steps to each of the times.
-fn subdivided(history: &ControlHistory<'_>, n: usize) -> Vec<IndentStep> {
-    let starts = std::iter::once(0.0).chain(history.times.iter().copied());
-    let intervals = starts.zip(history.times);
-    let steps = intervals.flat_map(|(start, &end)| {
+fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<IndentStep> {
+    let ends = intervals(times).flat_map(|[start, end]| {
         (1..=n).map(move |k| {
             if k == n {
                 end
@@ -182,12 +119,11 @@ fn subdivided(history: &ControlHistory<'_>, n: usize) -> Vec<IndentStep> {
             }
         })
     });
-    steps
-        .map(|time| IndentStep {
-            time,
-            control: (history.control)(time),
-        })
-        .collect()
+    let step = |time| IndentStep {
+        time,
+        control: control(time),
+    };
+    ends.map(step).collect()
 }
 
 /// The contact is that of the finer rows, because elements touch or do not, and no force becomes a pull, because the
@@ -204,9 +140,8 @@ fn extrapolated(coarse: &[IndentRow], fine: &[IndentRow]) -> Vec<IndentRow> {
 /// The effect of elements that yield faster than a step: their time relative to that between two rows, by their part of
 /// the compliance. No comparison of steps that are all longer would show it.
 fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, BemError> {
-    let starts = std::iter::once(0.0).chain(times.iter().copied());
     let mut largest = 0.0_f64;
-    for (start, end) in starts.zip(times) {
+    for [start, end] in intervals(times) {
         let interval = end - start;
         let compliance = creep.creep_compliance(interval)?;
         for element in creep.elements() {

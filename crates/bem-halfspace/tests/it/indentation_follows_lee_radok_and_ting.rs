@@ -4,8 +4,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::indent::{
-    ControlHistory, HistoryOptions, IndentHistory, IndentRow, IndentStep, PiecewiseLinear,
-    indent_history, indent_history_on_grid,
+    HistoryOptions, IndentRow, IndentStep, indent_history, indent_history_on_grid,
 };
 use bem_halfspace::{BemError, Control, GridOptions};
 use casebook::{Case, group};
@@ -142,36 +141,22 @@ fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
     }
 }
 
-/// Rows of a paraboloid at some times under a force or depth that changes in time.
-fn history(
-    (body, material): (&PowerProfile, &dyn Material),
-    control: &PiecewiseLinear,
-    times: &[f64],
-    options: &HistoryOptions,
-) -> Result<IndentHistory, BemError> {
-    let control = ControlHistory {
-        control: &|time| control.at(time),
-        times,
-    };
-    indent_history(body, material, &control, options)
-}
-
 /// A depth that rises with the speed V up to the time `turn` and falls again, until `end`.
 fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Vec<IndentRow> {
     let body = match name {
         "cone" => cone(case.input("tan_theta")),
         _ => paraboloid(0.5 / case.input("R")),
     };
-    let largest = case.input("V") * turn;
-    let control = PiecewiseLinear::depth(&[(0.0, 0.0), (turn, largest), (2.0 * turn, 0.0)]);
+    let speed = case.input("V");
+    let control = |time: f64| Control::IndentationDepth(speed * (turn - (time - turn).abs()));
     let times = (1..=n_rows).map(|k| end * k as f64 / n_rows as f64);
     let times: Vec<f64> = times.collect();
     let options = HistoryOptions {
         relative_error: 5e-3,
-        ..HistoryOptions::new(options(body.line_position(largest), ELEMENTS))
+        ..HistoryOptions::new(options(body.line_position(speed * turn), ELEMENTS))
     };
-    let (control, material) = (control.expect("a depth"), case.material());
-    let history = history((&body, &material), &control, &times, &options).expect("a history");
+    let history = indent_history(&body, &case.material(), control, &times, &options);
+    let history = history.expect("a history");
     assert_near(case.id(), history.time_error, 0.0, 5e-3);
     history.rows
 }
@@ -263,7 +248,7 @@ fn a_body_that_is_lifted_and_pressed_again_meets_the_recovered_surface() {
 #[test]
 fn the_estimated_error_of_the_steps_holds() {
     let (body, material) = (paraboloid(0.5), three_elements(1.0, 4.0, 0.5));
-    let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]).expect("a force");
+    let control = |time: f64| Control::NormalForce(1.0 - (time - 1.0).abs());
     let [coarse, fine] = [1e-2, 2e-4].map(|relative_error| {
         let options = HistoryOptions {
             grid: options(0.8, 10.0),
@@ -271,7 +256,7 @@ fn the_estimated_error_of_the_steps_holds() {
             max_steps: 512,
         };
         let times = [0.5, 1.0, 1.5, 1.9];
-        history((&body, &material), &control, &times, &options).expect("a history")
+        indent_history(&body, &material, control, &times, &options).expect("a history")
     });
     let steps = [&coarse, &fine].map(|history| history.steps_per_row);
     assert!(steps[1] > steps[0], "{steps:?} steps");
@@ -288,13 +273,12 @@ fn the_estimated_error_of_the_steps_holds() {
 fn steps_that_are_too_long_for_the_footprint_are_halved_as_often_as_allowed() {
     let (body, fluid) = (paraboloid(0.5), prony([0.0, 1.0], &[]));
     // Half of the impulse that a single step would have: a³ = 3 R/16 ∫ F dt.
-    let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 3.0)]).expect("a force");
+    let rising = |force: f64| move |time: f64| Control::NormalForce(force * time);
     let radius = (3.0_f64 / 16.0 * 1.5).cbrt();
     let grid = squares(radius / 10.0, 1.15 * radius);
     let options = HistoryOptions::new(grid);
-    let rows = history((&body, &fluid), &control, &[1.0], &options)
-        .expect("a history")
-        .rows;
+    let history = indent_history(&body, &fluid, rising(3.0), &[1.0], &options);
+    let rows = history.expect("a history").rows;
     assert_close("depth", rows[0].indentation_depth, radius * radius, 5e-3);
     let options = HistoryOptions {
         grid: squares(0.8 / 6.0, 1.04),
@@ -302,8 +286,7 @@ fn steps_that_are_too_long_for_the_footprint_are_halved_as_often_as_allowed() {
         max_steps: 4,
     };
     let maxwell = prony([0.0, 0.0], &[(4.0, 0.5)]);
-    let control = PiecewiseLinear::force(&[(0.0, 0.0), (1.0, 1.0)]).expect("a force");
-    let coarse = history((&body, &maxwell), &control, &[1.0], &options);
+    let coarse = indent_history(&body, &maxwell, rising(1.0), &[1.0], &options);
     if let Err(BemError::TimeNotResolved { steps, error, .. }) = coarse {
         assert_eq!(steps, 4, "steps");
         assert_near("error", error, 0.0, 0.1);
