@@ -164,6 +164,9 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
         assert_refused(bad, pressed, name);
         assert_refused(bad, steady_with(&broken, |_| ()), name);
     }
+    let endless = IndentStep::constant(FORCE, &[1e300]);
+    let overflow = indent_history_on_grid(&scene.body, &scene.material, &endless, &options);
+    assert!(overflow.is_err(), "{overflow:?}");
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
     let moved = slide_on_grid(&punch, &scene.material, &load, &options);
     assert_refused("punch", moved, "VerticalWall");
@@ -207,28 +210,6 @@ fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
         let name = "number of elements of the footprint that may touch";
         assert_refused(y, solved, name);
     }
-}
-
-#[test]
-fn presses_out_of_range_are_refused() {
-    let scene = Scene::unit(2.0);
-    let options = scene.options(8.0);
-    let pressed = |force: f64, times: &[f64]| {
-        let steps = IndentStep::constant(Control::NormalForce(force), times);
-        indent_history_on_grid(&scene.body, &scene.material, &steps, &options)
-    };
-    for bad in BAD {
-        assert_bad(bad, pressed(1.0, &[bad]), "time step");
-    }
-    for times in [[1e-3, 1e-3], [2e-3, 1e-3]] {
-        assert_refused(times, pressed(1.0, &times), "time step");
-    }
-    assert_refused("never", pressed(1.0, &[]), "number of steps");
-    for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_bad(bad, pressed(bad, &[1.0]), "normal_force");
-    }
-    let overflow = pressed(1.0, &[1e300]);
-    assert!(overflow.is_err(), "{overflow:?}");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use bem_halfspace::{Contact, ContactState, Control, influence};
 use casebook::{Case, group};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
+use indenters::{FlatPunch, Surface};
 
 use crate::support::{Pressing, assert_close, assert_near, cone, count, difference, paraboloid};
 
@@ -41,14 +42,8 @@ fn the_force_follows_from_the_flat_punch() {
     let radius = 20.0;
     let cases = group("BEM-06").into_iter();
     for case in cases.filter(|case| case.expected("F").is_some()) {
-        let (body, depth) = if case.has_input("R") {
-            let curvature = 1.0 / case.input("R");
-            (paraboloid(0.5 * curvature), curvature)
-        } else {
-            let slope = case.input("tan_theta");
-            (cone(slope), 0.5 * PI * slope)
-        };
-        let body = Pressing::centred(&body, 48, 1.0 / radius);
+        let Body { surface, depth } = Body::of(&case);
+        let body = Pressing::centred(&surface, 48, 1.0 / radius);
         let (contact, state) = body.solve(Control::IndentationDepth(depth));
         let mut punch = body.clone();
         punch.heights.fill(f64::INFINITY);
@@ -185,36 +180,30 @@ fn several_patches_without_symmetry_are_those_of_a_dense_method() {
     }
 }
 
-/// The height of a body over the radius, infinite where there is no body, and its depth at the contact radius 1.
+/// A body, and its depth at the contact radius 1.
 struct Body {
-    height: Box<dyn Fn(f64) -> f64>,
+    surface: Box<dyn Surface>,
     depth: f64,
 }
 
 impl Body {
-    fn new(depth: f64, height: impl Fn(f64) -> f64 + 'static) -> Self {
-        let height = Box::new(height);
-        Self { height, depth }
-    }
-
     fn of(case: &Case) -> Self {
-        match case.input_text("shape") {
-            "paraboloid" => {
-                let curvature = 1.0 / case.input("R");
-                Self::new(curvature, move |r| 0.5 * curvature * r * r)
-            }
-            "cone" => Self::cone(case.input("tan_theta")),
-            "flat punch" => Self::flat_punch(case.input("d")),
-            other => panic!("{other} is not in the table"),
+        if case.has_input("R") {
+            let depth = 1.0 / case.input("R");
+            let surface = Box::new(paraboloid(0.5 * depth));
+            return Self { surface, depth };
         }
-    }
-
-    fn cone(slope: f64) -> Self {
-        Self::new(0.5 * PI * slope, move |r| slope * r)
+        if case.has_input("tan_theta") {
+            let slope = case.input("tan_theta");
+            let (surface, depth) = (Box::new(cone(slope)), 0.5 * PI * slope);
+            return Self { surface, depth };
+        }
+        Self::flat_punch(case.input("d"))
     }
 
     fn flat_punch(depth: f64) -> Self {
-        Self::new(depth, |r| if r <= 1.0 { 0.0 } else { f64::INFINITY })
+        let surface = Box::new(FlatPunch::new(1.0).expect("a body"));
+        Self { surface, depth }
     }
 
     /// Contact on elements of the given edge around the axis, and the element with its centre at (`offset`, 0).
@@ -236,7 +225,7 @@ impl Body {
         let height = |index: usize| {
             let x = ((index / columns) as f64 - before) * spacing + offset;
             let y = ((index % columns) as f64 - margin) * spacing;
-            (self.height)(x.hypot(y)) / spacing
+            self.surface.height([x, y]) / spacing
         };
         let heights: Vec<f64> = (0..rows * columns).map(height).collect();
         let control = Control::IndentationDepth(self.depth / spacing);
@@ -307,7 +296,7 @@ fn the_pressure_on_the_apex_of_a_cone_grows_like_the_logarithm() {
     let cases = group("BEM-01").into_iter();
     let cases = cases.filter(|case| case.has_input("a_over_h"));
     let excess = cases.map(|case| {
-        let body = Body::cone(case.input("tan_theta"));
+        let body = Body::of(&case);
         let (_, state, element) = body.contact_with(0.0, 1.0 / case.input("a_over_h"));
         state.pressure()[element] - case.expected("p_cell_average").expect("a mean")
     });

@@ -2,20 +2,13 @@
 //! mirror symmetric bodies follow one side of the mirror, and know the other.
 
 use bem_halfspace::slide::{March, Motion, MotionRow, PressureField};
-use bem_halfspace::{
-    Contact, ContactOptions, ContactState, Control, Convolution, Footprint, Grid, GridOptions,
-};
+use bem_halfspace::{Contact, ContactState, Control, Convolution, Footprint, Grid, GridOptions};
 use indenters::{HeightMap, Surface, Unmirrored};
 use rheology::Material;
 
 use crate::support::{
     Formula, Pressing, assert_all_close, assert_near, cone, difference, every_kind_of_material,
     motions, prony, three_elements, tight,
-};
-
-const OPTIONS: ContactOptions = ContactOptions {
-    tolerance: 1e-11,
-    max_iterations: 500,
 };
 
 struct Scene {
@@ -48,13 +41,9 @@ fn scenes(shape: [usize; 2]) -> [Scene; 6] {
         let height = |[row, column]: [f64; 2]| {
             height(from_middle(row, shape[0]), from_middle(column, shape[1]))
         };
-        let body = Pressing {
-            options: OPTIONS,
-            ..Pressing::new(convolution.clone(), height)
-        };
         Scene {
             name,
-            body,
+            body: Pressing::new(convolution.clone(), height),
             control,
         }
     })

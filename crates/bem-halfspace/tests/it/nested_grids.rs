@@ -79,19 +79,6 @@ fn the_guess_does_not_matter() {
     }
 }
 
-/// A guess with load only where there is no body, on a grid too small for a box.
-#[test]
-fn a_guess_without_a_body_counts_as_none() {
-    let mut body = Pressing::on_unit_elements([4; 2], &[0.0; 16]);
-    body.heights[0] = f64::INFINITY;
-    let mut state = ContactState::new(&body.convolution);
-    state.pressure_mut()[0] = 1.0;
-    let contact = body.solve_from(&mut state, Control::NormalForce(1.0));
-    let contact = contact.expect("a contact");
-    assert_eq!(contact.n_contact, 15, "{contact:?}");
-    assert_near("force", contact.normal_force, 1.0, 1e-14);
-}
-
 /// The displacement is that of the pressure on the whole grid, and nothing penetrates outside the box either.
 #[test]
 fn distant_summits_are_found_outside_the_box() {
