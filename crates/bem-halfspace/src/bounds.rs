@@ -14,6 +14,12 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
+    /// Of no element.
+    pub(crate) const EMPTY: Self = Self {
+        lower: [0; 2],
+        upper: [0; 2],
+    };
+
     pub(crate) const fn around(element: [usize; 2]) -> Self {
         Self {
             lower: element,
@@ -34,20 +40,15 @@ impl Bounds {
         is: impl Fn([usize; 2]) -> bool + Sync,
     ) -> Option<Self> {
         let bands = Bands::new(shape);
-        let in_row = |row: usize| {
-            let columns = 0..shape[1];
-            let first = columns.clone().find(|&column| is([row, column]))?;
-            let last = columns.rev().find(|&column| is([row, column]))?;
-            Some(Self {
-                lower: [row, first],
-                upper: [row + 1, last + 1],
-            })
+        let in_band = |band| {
+            let elements = bands.elements(band);
+            let elements = elements.map(|index| [index / shape[1], index % shape[1]]);
+            Self::of(elements.filter(|element| is(*element)))
         };
         let both = |left: Option<Self>, right: Option<Self>| match (left, right) {
             (Some(left), Some(right)) => Some(left.union(&right)),
             (left, right) => left.or(right),
         };
-        let in_band = |band| bands.rows(band).map(in_row).fold(None, both);
         bands.gather(in_band, both)
     }
 
@@ -87,6 +88,11 @@ impl Bounds {
     pub(crate) const fn row_range(&self, row: usize, columns: usize) -> Range<usize> {
         let start = (self.lower[0] + row) * columns;
         start + self.lower[1]..start + self.upper[1]
+    }
+
+    /// Position of an element of the field in the box, row-major.
+    pub(crate) const fn place(&self, [row, column]: [usize; 2]) -> usize {
+        (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
     }
 
     /// Copies what lies inside the box from a field with `columns` columns.

@@ -189,19 +189,14 @@ pub enum BemError {
     Material(#[from] RheologyError),
 }
 
-/// Elements of a contact along x and across it, whichever are fewer, that give it a meaningful friction.
-pub(crate) const MIN_CONTACT_ELEMENTS: usize = 3;
-
-/// Checks that a contact covers enough elements.
+/// Checks that a contact covers enough elements, along x or across it, whichever are fewer, for a meaningful friction.
 ///
 /// # Errors
 /// [`BemError::GridTooCoarse`] otherwise.
-pub(crate) fn check_contact_elements(elements: usize) -> Result<(), BemError> {
-    if elements >= MIN_CONTACT_ELEMENTS {
+pub(crate) const fn check_contact_elements(elements: usize) -> Result<(), BemError> {
+    let needed = 3;
+    if elements >= needed {
         return Ok(());
     }
-    Err(BemError::GridTooCoarse {
-        elements,
-        needed: MIN_CONTACT_ELEMENTS,
-    })
+    Err(BemError::GridTooCoarse { elements, needed })
 }

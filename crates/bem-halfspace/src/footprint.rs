@@ -8,6 +8,9 @@ use crate::BemError;
 use crate::grid::elements_along;
 use crate::steady::depth_scale_of_surface;
 
+/// Heights up to this many depth scales may touch, as under a cusp.
+pub(crate) const HIGHEST: f64 = 2.0;
+
 /// The rectangle around the lowest point of the indenter, which lies at [0, 0], in which contact may occur, \[m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -47,10 +50,10 @@ impl Footprint {
             Control::NormalForce(_) => depth_scale_of_surface(&surface, material, load)?,
         };
         let Some(body) = surface.as_axisymmetric() else {
-            return Self::below(surface, 2.0 * depth);
+            return Self::below(surface, HIGHEST * depth);
         };
         let sharp = body.profile_exponent() < 0.75;
-        let height = if sharp { 2.0 } else { 1.5 } * depth;
+        let height = if sharp { HIGHEST } else { 1.5 } * depth;
         let footprint = Self::below(surface, height)?;
         let [_, radius] = footprint.x;
         if radius < body.max_radius() || body.profile_height(radius) >= height {

@@ -45,6 +45,7 @@ mod plan;
 mod plane_transform;
 mod pressure_field;
 mod rectangle;
+mod reductions;
 mod resolution;
 pub mod slide;
 pub mod steady;

@@ -3,8 +3,9 @@
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
 use rheology::{Elastic, Material};
 
+use crate::BemError;
+use crate::footprint::{Footprint, HIGHEST};
 use crate::steady::depth_scale_of_surface;
-use crate::{BemError, Footprint};
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids.
 const COARSEST: f64 = 5.0;
@@ -12,8 +13,6 @@ const COARSEST: f64 = 5.0;
 const RESOLVED: f64 = 0.3;
 /// Refinements by √2 at most; the limit of unknowns ends most before.
 pub(crate) const MAX_REFINEMENTS: i32 = 24;
-/// Heights up to this many depth scales may touch, as under a cusp.
-const HIGHEST: f64 = 2.0;
 /// Contact length of the one-dimensional model of a paraboloid over the length on which it is below a depth scale.
 const SHORTER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
@@ -34,32 +33,29 @@ impl GridPlan {
         material: &(impl Material + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
-        if let Some(body) = surface.as_axisymmetric() {
-            let depth = match load.control() {
-                Control::NormalForce(_) => depth_scale_of_surface(surface, material, load)?,
-                Control::IndentationDepth(depth) => depth,
-            };
-            return Self::of_body(body, Footprint::sliding(surface, material, load)?, depth);
-        }
-        match load.control() {
-            Control::NormalForce(_) => {
-                let depth = depth_scale_of_surface(surface, material, load)?;
-                Self::below(surface, depth, HIGHEST * depth)
-            }
-            Control::IndentationDepth(depth) => Self::below(surface, depth, depth),
+        let depth = match load.control() {
+            Control::NormalForce(_) => depth_scale_of_surface(surface, material, load)?,
+            Control::IndentationDepth(depth) => depth,
+        };
+        let footprint = Footprint::sliding(surface, material, load)?;
+        match surface.as_axisymmetric() {
+            Some(body) => Self::of_body(body, footprint, depth),
+            None => Ok(Self::of_surface(surface, footprint, depth)),
         }
     }
 
     /// For a body that is pressed into an elastic half space of unit shear modulus, incompressible.
     pub(crate) fn pressed(surface: &dyn Surface, control: Control) -> Result<Self, BemError> {
-        match control {
+        let [depth, highest] = match control {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, 1.0)?;
                 let depth = depth_scale_of_surface(surface, &Elastic::new(1.0)?, &load)?;
-                Self::below(surface, depth, HIGHEST * depth)
+                [depth, HIGHEST * depth]
             }
-            Control::IndentationDepth(depth) => Self::below(surface, depth, depth),
-        }
+            Control::IndentationDepth(depth) => [depth; 2],
+        };
+        let footprint = Footprint::below(surface, highest)?;
+        Ok(Self::of_surface(surface, footprint, depth))
     }
 
     fn of_body(
@@ -84,14 +80,14 @@ impl GridPlan {
         Ok(plan)
     }
 
-    /// For a surface whose contact is about as long as the surface is below `depth`, and lies below `highest`, \[m].
-    fn below(surface: &dyn Surface, depth: f64, highest: f64) -> Result<Self, BemError> {
+    /// For a surface whose contact is about as long as the surface is below `depth`, \[m].
+    fn of_surface(surface: &dyn Surface, footprint: Footprint, depth: f64) -> Self {
         let [rear, front] = surface.extent_below(depth)[0];
-        Ok(Self {
-            footprint: Footprint::below(surface, highest)?,
+        Self {
+            footprint,
             coarsest_spacing: SHORTER * (0.5 * (front - rear)) / COARSEST,
             apex_exponent: surface.apex_exponent(),
-        })
+        }
     }
 
     /// Δx after so many refinements by √2, \[m].

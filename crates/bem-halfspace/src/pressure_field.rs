@@ -1,6 +1,7 @@
 //! Pressure on the elements of a grid.
 
-use crate::Grid;
+use crate::bounds::Bounds;
+use crate::{BemError, Grid};
 
 /// Pressure over the contact at the end of a simulation.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +17,24 @@ pub struct PressureField {
 }
 
 impl PressureField {
+    /// The sum of the pressures of elements in a box, of which the first has its centre at `origin`.
+    pub(crate) fn over(
+        bounds: &Bounds,
+        (spacing, origin): ([f64; 2], [f64; 2]),
+        loaded: impl Iterator<Item = ([usize; 2], f64)>,
+    ) -> Result<Self, BemError> {
+        let grid = Grid::new(bounds.shape(), spacing)?;
+        let mut pressure = vec![0.0; grid.n_elements()];
+        for (element, value) in loaded {
+            pressure[bounds.place(element)] += value;
+        }
+        Ok(Self {
+            grid,
+            origin,
+            pressure,
+        })
+    }
+
     /// Largest pressure of an element, \[Pa].
     #[must_use]
     pub fn largest(&self) -> f64 {

@@ -32,7 +32,7 @@ pub(super) fn solve_in_front_of_mirrors(
     MirrorWeights::of(&front.convolution).apply(&mut front.state.load);
     let images = images(mirrors);
     let control = map_force(problem.control, |total| total / images);
-    let solved = front.solve_to(control, accuracy);
+    let solved = front.solve(control, accuracy);
     front.unfold([&mut state.load, &mut state.displacement], whole);
     state.front = Some(front);
     solved.map(|solved| Solved {

@@ -16,8 +16,8 @@ use crate::contact::fields::Fields;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::preconditioner::Weights;
 use crate::contact::problem::{Accuracy, LoadProblem, Solved};
-use crate::contact::reductions::sum;
 use crate::contact::{ContactState, Control};
+use crate::reductions::sum;
 use crate::{BemError, Convolution, ConvolutionWorkspace};
 use heights::{Heights, Violations};
 

@@ -13,11 +13,9 @@ mod far_loads;
 mod fields;
 mod folded;
 mod iteration;
-mod listed;
 mod mirror_weights;
 mod preconditioner;
 mod problem;
-mod reductions;
 mod solve;
 mod state;
 
@@ -29,8 +27,8 @@ use crate::{BemError, Convolution};
 use folded::solve_in_front_of_mirrors;
 use indenters::Control;
 use numerics::{InvalidParameter, finite, in_range, positive};
-pub(crate) use problem::Solved;
-use problem::{Accuracy, LoadProblem};
+use problem::LoadProblem;
+pub(crate) use problem::{Accuracy, Solved};
 use solve::solve_loads;
 pub(crate) use state::ContactBox;
 pub use state::ContactState;
@@ -106,16 +104,6 @@ pub fn solve_contact(
     state: &mut ContactState,
     options: &ContactOptions,
 ) -> Result<Contact, BemError> {
-    in_pool(problem.convolution.grid().n_elements(), || {
-        solve_here(problem, state, options)
-    })
-}
-
-fn solve_here(
-    problem: &ContactProblem,
-    state: &mut ContactState,
-    options: &ContactOptions,
-) -> Result<Contact, BemError> {
     validate(problem, state)?;
     options.validate()?;
     // With x = α P / (4π) the displacement is K x, and the unknown has no unit.
@@ -127,10 +115,13 @@ fn solve_here(
         separation: problem.separation,
         control: map_force(problem.control, |force| force * load_per_pressure / area),
     };
-    state.prepare_for(problem.convolution);
-    state.take_guess(grid, load_per_pressure);
-    let solved = solve_in_front_of_mirrors(loads, state, &options.into());
-    state.scale_load(grid, 1.0 / load_per_pressure);
+    let solved = in_pool(grid.n_elements(), || {
+        state.prepare_for(problem.convolution);
+        state.take_guess(grid, load_per_pressure);
+        let solved = solve_in_front_of_mirrors(loads, state, &options.into());
+        state.scale_load(grid, 1.0 / load_per_pressure);
+        solved
+    });
     state.list_contact();
     let solved = solved?;
     Ok(Contact {

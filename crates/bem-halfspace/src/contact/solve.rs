@@ -8,7 +8,7 @@ use crate::contact::iteration::Iteration;
 use crate::contact::mirror_weights::MirrorWeights;
 use crate::contact::problem::{Accuracy, LoadProblem, Solved};
 use crate::contact::state::{ContactBox, ContactState};
-use crate::contact::{ContactOptions, Control, map_force};
+use crate::contact::{Control, map_force};
 use crate::convolution::Surroundings;
 
 /// A box is used where it has fewer elements than this part of the grid: with its margin and the product on the whole grid
@@ -58,7 +58,7 @@ fn solve_around(
     };
     let columns = grid.shape()[1];
     inner.take_from([problem.separation, &state.load], columns);
-    let solved = inner.solve_to(problem.control, accuracy);
+    let solved = inner.solve(problem.control, accuracy);
     inner.give_load_to(&mut state.load, columns);
     let bounds = inner.bounds;
     state.inner = Some(inner);
@@ -111,16 +111,6 @@ impl ContactBox {
     pub(crate) fn solve(
         &mut self,
         control: Control,
-        options: &ContactOptions,
-    ) -> Result<Solved, BemError> {
-        in_pool(self.bounds.n_elements(), || {
-            self.solve_to(control, &options.into())
-        })
-    }
-
-    pub(super) fn solve_to(
-        &mut self,
-        control: Control,
         accuracy: &Accuracy,
     ) -> Result<Solved, BemError> {
         let problem = LoadProblem {
@@ -128,7 +118,9 @@ impl ContactBox {
             separation: &self.separation,
             control,
         };
-        solve_loads(problem, &mut self.state, accuracy)
+        in_pool(self.bounds.n_elements(), || {
+            solve_loads(problem, &mut self.state, accuracy)
+        })
     }
 }
 

@@ -146,11 +146,9 @@ impl ContactBox {
     /// A box of other bounds that starts from the load of this one.
     pub(crate) fn moved_to(&self, bounds: Bounds) -> Result<Self, BemError> {
         let mut moved = Self::of(&self.convolution, bounds)?;
-        let columns = bounds.shape()[1];
         for (element, load) in self.loaded_elements() {
             if bounds.contains(element) {
-                let [row, column] = [element[0] - bounds.lower[0], element[1] - bounds.lower[1]];
-                moved.state.load[row * columns + column] = load;
+                moved.state.load[bounds.place(element)] = load;
             }
         }
         Ok(moved)

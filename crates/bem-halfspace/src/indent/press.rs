@@ -59,12 +59,8 @@ pub fn press(
     control: Control,
     accuracy: impl Into<Accuracy>,
 ) -> Result<PressEstimate, BemError> {
-    estimate(
-        &surface,
-        &Spring::at_rest(material)?,
-        control,
-        accuracy.into(),
-    )
+    let spring = Spring::at_rest(material)?;
+    estimate(&surface, &spring, control, accuracy.into())
 }
 
 /// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
@@ -78,12 +74,8 @@ pub fn indent(
     load: &PressingLoad,
     accuracy: impl Into<Accuracy>,
 ) -> Result<PressEstimate, BemError> {
-    estimate(
-        &surface,
-        &Spring::after(material, load)?,
-        load.control(),
-        accuracy.into(),
-    )
+    let spring = Spring::after(material, load)?;
+    estimate(&surface, &spring, load.control(), accuracy.into())
 }
 
 /// Like [`press`], on one grid.
@@ -179,8 +171,7 @@ impl Spring {
             position: 0.0,
             control: self.scaled(control)?,
         };
-        let once = std::iter::once(motion);
-        let mut march = March::through(surface, &Elastic::new(1.0)?, once, options)?;
+        let mut march = March::new(surface, &Elastic::new(1.0)?, &[motion], options)?;
         let row = march.first()?;
         check_contact_elements(march.elements_across())?;
         let [contact_x, contact_y] = march.contact_edges();

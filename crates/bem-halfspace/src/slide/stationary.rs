@@ -156,7 +156,7 @@ pub fn slide_to_stationary(
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
     let mut march = March::sliding(&surface, material, load, options)?;
-    let flows = march.material.creep.fluidity() > 0.0;
+    let flows = march.creep.fluidity() > 0.0;
     let mut rows = Vec::new();
     let mut limits = Limits::default();
     let mut change = 1.0;

@@ -85,7 +85,7 @@ impl Transient {
         if let Some(force) = load.normal_force() {
             let contact_length = length as f64 * pressure.grid.spacing()[0];
             let time = contact_length / load.velocity();
-            let depth_scale = march.material.depth_scale(force, contact_length, time)?;
+            let depth_scale = march.depth_scale(force, contact_length, time)?;
             let rise = march.largest_rise();
             if rise > depth_scale {
                 return Err(BemError::SlopeNotResolved { rise, depth_scale });

@@ -9,6 +9,7 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
+use crate::reductions::add;
 use crate::steady::SteadyOmission;
 use crate::steady::filter::Product;
 use crate::steady::krylov::minimal_residual;
@@ -64,25 +65,27 @@ fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
 fn factorise(mesh: &Mesh, contact: &[usize]) -> EquationSolution {
     let n = contact.len();
     let control = mesh.control();
-    let matrix = Mat::from_fn(n + 1, n + 1, |row, column| match (row < n, column < n) {
+    let matrix = |row, column| match (row < n, column < n) {
         (true, true) => mesh.influence(contact[row], contact[column]),
         (true, false) => -1.0,
         (false, true) => control.load * mesh.weight(contact[column]),
         (false, false) => control.depth,
-    });
-    let right = Mat::from_fn(n + 1, 1, |row, _| {
-        if row < n {
-            -mesh.height(contact[row])
-        } else {
-            control.right
-        }
-    });
-    let solution = matrix.partial_piv_lu().solve(&right);
+    };
+    let heights = contact.iter().map(|&element| -mesh.height(element));
+    let mut loads = solve_dense(matrix, heights.chain([control.right]).collect());
     EquationSolution {
-        loads: (0..n).map(|row| solution[(row, 0)]).collect(),
-        depth: solution[(n, 0)],
+        depth: loads.remove(n),
+        loads,
         factorised: true,
     }
+}
+
+/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation.
+pub(super) fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Vec<f64> {
+    let n = right.len();
+    let right = Mat::from_fn(n, 1, |row, _| right[row]);
+    let solution = Mat::from_fn(n, n, entry).partial_piv_lu().solve(&right);
+    (0..n).map(|row| solution[(row, 0)]).collect()
 }
 
 /// The equations of one contact, for iteration.
@@ -121,9 +124,7 @@ impl<'mesh> ContactEquations<'mesh> {
             self.displacements_below(&loads, depth)
         });
         let (load_steps, depth_step) = self.correct(&correction);
-        for (load, step) in loads.iter_mut().zip(load_steps) {
-            *load += step;
-        }
+        add(&mut loads, 1.0, &load_steps);
         depth += depth_step;
         EquationSolution {
             loads,
@@ -142,18 +143,10 @@ impl<'mesh> ContactEquations<'mesh> {
         // A change of depth changes the force with hardly any residual.
         let missing = control.right / control.load - self.total(&loads);
         let change = missing / self.total(&self.lowered);
-        for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
-            *load += change * lowered;
-        }
+        add(&mut loads, change, &self.lowered);
         let moved = self.product.apply(0, &loads, &self.region);
-        let heights = self
-            .contact
-            .iter()
-            .map(|&element| self.mesh.height(element));
-        let depth = moved
-            .iter()
-            .zip(heights)
-            .map(|(moved, height)| moved + height);
+        let moved = self.contact.iter().zip(moved);
+        let depth = moved.map(|(&element, moved)| moved + self.mesh.height(element));
         let mean = depth.sum::<f64>() / self.contact.len() as f64;
         (loads, mean)
     }
@@ -172,15 +165,13 @@ impl<'mesh> ContactEquations<'mesh> {
         let mut loads = self.preconditioner.loads(residual, &self.region);
         let depth = -control.load * self.total(&loads)
             / (control.depth + control.load * self.total(&self.lowered));
-        for (load, lowered) in loads.iter_mut().zip(&self.lowered) {
-            *load += depth * lowered;
-        }
+        add(&mut loads, depth, &self.lowered);
         (loads, depth)
     }
 
     /// Sum of the loads of the whole.
     fn total(&self, loads: &[f64]) -> f64 {
-        let weighted = |(&element, load): (&usize, &f64)| self.mesh.weight(element) * load;
-        self.contact.iter().zip(loads).map(weighted).sum()
+        let elements = self.contact.iter().copied();
+        self.mesh.total_load(elements.zip(loads.iter().copied()))
     }
 }

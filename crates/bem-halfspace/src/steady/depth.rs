@@ -35,7 +35,8 @@ impl SinkingDepth {
         let scale = mesh.loading.depth_scale;
         // F_N/(4πηv) in units of D.
         let aspect = spacing[1] / spacing[0];
-        let rate = mesh.loading.creep.flow * aspect * mesh.total_load(&solution.loads);
+        let rate =
+            mesh.loading.creep.flow * aspect * mesh.total_load(solution.loads.iter().copied());
         Self {
             reference_depth: scale * (solution.depth + rate * sunken(contact_length, spacing[0])),
             reference_distance: contact_length,

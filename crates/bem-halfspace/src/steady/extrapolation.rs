@@ -2,12 +2,6 @@
 
 use numerics::Estimate;
 
-/// Before anything is known.
-const UNKNOWN: Estimate = Estimate {
-    value: 0.0,
-    error: f64::MAX,
-};
-
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
 /// The error of a grid falls with the spacing to the power `order`, and with the next power after that. Each power is
@@ -16,10 +10,11 @@ const UNKNOWN: Estimate = Estimate {
 pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     let once = eliminate(values, order);
     let twice = eliminate(&once, next_order(order));
-    let unknown = values.last().map_or(UNKNOWN, |value| Estimate {
-        value: *value,
+    let value = values.last().copied().unwrap_or(f64::MAX);
+    let unknown = Estimate {
+        value,
         error: value.abs(),
-    });
+    };
     let first = judge(&once, values).filter(|_| order >= 1.0);
     match (first, judge(&twice, &once)) {
         (Some(first), Some(second)) if second.error >= 0.5 * first.error => first,

@@ -1,5 +1,7 @@
 //! The generalised minimal residual method (Saad & Schultz 1986), preconditioned from the right.
 
+use crate::reductions::{add, dot};
+
 /// Directions tried before the method gives up; a preconditioned contact needs some tens.
 const MAX_DIRECTIONS: usize = 150;
 
@@ -108,20 +110,6 @@ fn rotate([cosine, sine]: [f64; 2], column: &mut [f64], row: usize) {
     column[row + 1] = cosine * lower - sine * upper;
 }
 
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    left.iter()
-        .zip(right)
-        .map(|(left, right)| left * right)
-        .sum()
-}
-
 fn norm(vector: &[f64]) -> f64 {
     dot(vector, vector).sqrt()
-}
-
-/// `sum += factor · term`.
-fn add(sum: &mut [f64], factor: f64, term: &[f64]) {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        *sum += factor * term;
-    }
 }

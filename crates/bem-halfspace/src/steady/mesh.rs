@@ -11,6 +11,7 @@ use std::sync::Arc;
 use indenters::Surface;
 use numerics::{in_range, positive};
 
+use crate::bounds::Bounds;
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
 use crate::steady::loading::{Equation, GridLoading, Loading};
@@ -292,19 +293,16 @@ impl Mesh {
     pub(super) fn balance(&self, loads: &mut [f64]) {
         let control = self.control();
         if control.depth == 0.0 {
-            let weighted = loads
-                .iter()
-                .enumerate()
-                .map(|(element, load)| self.weight(element) * load);
-            let scale = control.right / (control.load * weighted.sum::<f64>());
+            let total = self.total_load(loads.iter().copied().enumerate());
+            let scale = control.right / (control.load * total);
             loads.iter_mut().for_each(|load| *load *= scale);
         }
     }
 
     /// Sum of the loads of the whole.
-    pub(super) fn total_load(&self, loads: &[(usize, f64)]) -> f64 {
-        let weighted = |(element, load): &(usize, f64)| self.weight(*element) * load;
-        loads.iter().map(weighted).sum()
+    pub(super) fn total_load(&self, loads: impl IntoIterator<Item = (usize, f64)>) -> f64 {
+        let weighted = |(element, load)| self.weight(element) * load;
+        loads.into_iter().map(weighted).sum()
     }
 
     /// Mean of a function of ∂h/∂x weighted with the load.
@@ -327,12 +325,12 @@ impl Mesh {
         loads.iter().flat_map(with_image).collect()
     }
 
-    /// Whether a range of rows and one of columns lie inside the footprint, away from its boundary.
-    pub(super) fn holds(&self, bounds: [[usize; 2]; 2]) -> bool {
-        bounds
-            .iter()
-            .zip(self.limits)
-            .all(|(bound, limit)| bound[0] > limit[0] && bound[1] < limit[1])
+    /// Whether a box lies inside the footprint, away from its boundary.
+    pub(super) fn holds(&self, bounds: &Bounds) -> bool {
+        (0..2).all(|axis| {
+            let [first, last] = self.limits[axis];
+            bounds.lower[axis] > first && bounds.upper[axis] <= last
+        })
     }
 
     /// Whether the element ahead of a loaded one ends in a vertical wall, or the one behind it where that may touch.

@@ -63,11 +63,6 @@ const COARSER: f64 = 2.0;
 /// Tolerance of a solution that is only a start.
 const COARSE_TOLERANCE: f64 = 1e-6;
 
-/// Tolerance of [`SteadyOptions::new`].
-const TOLERANCE: f64 = 1e-9;
-/// Iterations of [`SteadyOptions::new`].
-const MAX_ITERATIONS: usize = 500;
-
 /// One grid for a stationary solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -92,15 +87,16 @@ pub struct SteadyOptions {
 }
 
 impl SteadyOptions {
-    /// A grid with the lowest point over the centre of an element, solved to a tolerance of 1e-9.
+    /// A grid with the lowest point over the centre of an element, solved to a tolerance of 1e-9 with at most 500 active
+    /// sets.
     #[must_use]
     pub const fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
         Self {
             spacing,
             phase: [0.0; 2],
             footprint,
-            tolerance: TOLERANCE,
-            max_iterations: MAX_ITERATIONS,
+            tolerance: 1e-9,
+            max_iterations: 500,
             redundant_work: None,
         }
     }

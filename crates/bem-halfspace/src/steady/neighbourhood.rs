@@ -5,8 +5,8 @@
 //! and the depth stay.
 
 use faer::Mat;
-use faer::linalg::solvers::Solve;
 
+use crate::steady::contact_equations::solve_dense;
 use crate::steady::mesh::Mesh;
 
 /// Elements on every side of a violation that take part.
@@ -100,16 +100,13 @@ impl Neighbourhood {
         let contact: Vec<usize> = (0..inside.len())
             .filter(|&element| inside[element])
             .collect();
-        let n = contact.len();
         let mut loads = vec![0.0; inside.len()];
-        if n > 0 {
-            let matrix = Mat::from_fn(n, n, |to, from| {
-                self.influence[(contact[to], contact[from])]
-            });
-            let right = Mat::from_fn(n, 1, |to, _| -self.gaps[contact[to]]);
-            let solution = matrix.partial_piv_lu().solve(&right);
-            for (row, element) in contact.into_iter().enumerate() {
-                loads[element] = solution[(row, 0)];
+        if !contact.is_empty() {
+            let influence = |to, from| self.influence[(contact[to], contact[from])];
+            let right = contact.iter().map(|&element| -self.gaps[element]);
+            let solution = solve_dense(influence, right.collect());
+            for (&element, load) in contact.iter().zip(solution) {
+                loads[element] = load;
             }
         }
         loads

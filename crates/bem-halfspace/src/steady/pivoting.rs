@@ -7,7 +7,7 @@
 //! 1974), until there is progress again. Early active sets are solved roughly, the last one to the tolerance.
 
 use crate::BemError;
-use crate::steady::contact_equations::{EquationSolution, solve_equations};
+use crate::steady::contact_equations::solve_equations;
 use crate::steady::filter::Product;
 use crate::steady::mesh::Mesh;
 use crate::steady::neighbourhood::solve_neighbourhood;
@@ -198,22 +198,13 @@ impl<'mesh> Search<'mesh> {
             .filter(|&element| self.inside[element])
             .collect();
         let start = contact.iter().map(|&element| self.loads[element]).collect();
-        let EquationSolution {
-            loads,
-            depth,
-            factorised,
-        } = solve_equations(
-            self.mesh,
-            self.plans,
-            &contact,
-            start,
-            self.tolerance / PEAK,
-        );
+        let tolerance = self.tolerance / PEAK;
+        let solved = solve_equations(self.mesh, self.plans, &contact, start, tolerance);
         self.loads.fill(0.0);
-        for (&element, load) in contact.iter().zip(loads) {
+        for (&element, load) in contact.iter().zip(solved.loads) {
             self.loads[element] = load;
         }
-        (self.depth, self.factorised) = (depth, factorised);
+        (self.depth, self.factorised) = (solved.depth, solved.factorised);
         self.drop_slight_tension();
         self.state()
     }
@@ -258,8 +249,10 @@ impl<'mesh> Search<'mesh> {
             })
         };
         State {
-            violations: (0..gaps.len())
-                .map(|element| (element, gaps[element]))
+            violations: gaps
+                .iter()
+                .copied()
+                .enumerate()
                 .filter_map(violation)
                 .collect(),
             gaps,

@@ -304,26 +304,22 @@ impl Grids<'_> {
 
     /// The solution on a grid, or on a slightly finer one where pivoting cycles.
     fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
-        let mut solution = solve(
-            self.problem.surface,
-            &self.problem.loading,
-            options,
-            &mut self.reuse,
-        );
+        let Problem {
+            surface, loading, ..
+        } = self.problem;
+        let mut solve_on = |spacing| {
+            let options = SteadyOptions {
+                spacing,
+                ..*options
+            };
+            solve(*surface, loading, &options, &mut self.reuse)
+        };
+        let mut solution = solve_on(options.spacing);
         for finer in FINER {
             if !matches!(solution, Err(BemError::ContactNotConverged { .. })) {
                 break;
             }
-            let other = SteadyOptions {
-                spacing: self.problem.loading.scaled(options.spacing, finer),
-                ..*options
-            };
-            solution = solve(
-                self.problem.surface,
-                &self.problem.loading,
-                &other,
-                &mut self.reuse,
-            );
+            solution = solve_on(loading.scaled(options.spacing, finer));
         }
         solution
     }

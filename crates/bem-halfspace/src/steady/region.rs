@@ -1,5 +1,7 @@
 //! The bounding box of a set of elements, and how a vector over the set becomes a field over the box.
 
+use crate::bounds::Bounds;
+
 /// Elements of a mesh in their bounding box, images by mirror symmetry included.
 #[derive(Debug)]
 pub(super) struct Region {
@@ -12,18 +14,13 @@ pub(super) struct Region {
 impl Region {
     /// Elements at some places, each with its image, in the box around others that include them.
     pub(super) fn within(
-        occupied: impl Iterator<Item = [[usize; 2]; 2]> + Clone,
+        occupied: impl Iterator<Item = [[usize; 2]; 2]>,
         elements: impl Iterator<Item = [[usize; 2]; 2]>,
     ) -> Self {
-        let [rows, columns] = [0, 1].map(|axis| {
-            let indices = occupied.clone().flatten().map(|place| place[axis]);
-            let first = indices.clone().min().unwrap_or(0);
-            first..indices.max().map_or(first, |last| last + 1)
-        });
-        let width = columns.len();
-        let place = |[row, column]: [usize; 2]| (row - rows.start) * width + column - columns.start;
+        let bounds = Bounds::of(occupied.flatten()).unwrap_or(Bounds::EMPTY);
+        let place = |place| bounds.place(place);
         Self {
-            shape: [rows.len(), width],
+            shape: bounds.shape(),
             places: elements.map(|places| places.map(place)).collect(),
         }
     }

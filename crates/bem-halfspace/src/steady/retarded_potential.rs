@@ -9,6 +9,7 @@
 use std::collections::VecDeque;
 
 use crate::influence;
+use crate::reductions::dot;
 use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
 use crate::steady::sliding_creep::ElementCreep;
 
@@ -111,14 +112,9 @@ impl RetardedPotential {
 
     /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
     fn push_row(&mut self, x: f64) {
-        let mut row = if self.rows.len() == 2 * KEPT {
-            self.rows.pop_back().unwrap_or_default()
-        } else {
-            Vec::new()
-        };
-        row.clear();
-        row.extend((0..self.n_columns).map(|column| self.potential(x, column)));
-        self.rows.push_front(row);
+        self.rows.truncate(2 * KEPT - 1);
+        let row = (0..self.n_columns).map(|column| self.potential(x, column));
+        self.rows.push_front(row.collect());
     }
 
     /// The values at the first row: the integral over everything ahead of it.
@@ -305,14 +301,6 @@ fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     let middle = 0.5 * (start + end);
     divide([start, middle], clearance, panels);
     divide([middle, end], clearance, panels);
-}
-
-fn dot(weights: &[f64], potentials: &[f64]) -> f64 {
-    weights
-        .iter()
-        .zip(potentials)
-        .map(|(weight, potential)| weight * potential)
-        .sum()
 }
 
 #[cfg(test)]

@@ -2,14 +2,15 @@
 
 use numerics::ErrorParts;
 
+use crate::BemError;
 use crate::bars::{ContactEstimate, OnGrid, Quantities};
+use crate::bounds::Bounds;
 use crate::error::check_contact_elements;
 use crate::pressure_field::PressureField;
 use crate::steady::SteadyOptions;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
-use crate::{BemError, Grid};
 
 /// A stationary state with its error bars.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
@@ -104,12 +105,15 @@ impl SteadySliding {
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
             [
-                mesh.centre(axis, bounds[axis][0]) - half,
-                mesh.centre(axis, bounds[axis][1]) + half,
+                mesh.centre(axis, bounds.lower[axis]) - half,
+                mesh.centre(axis, bounds.upper[axis] - 1) + half,
             ]
         });
-        let pressure = pressure_field(mesh, &loaded, bounds)?;
-        let total_load = mesh.total_load(&solution.loads);
+        let origin = [0, 1].map(|axis| mesh.centre(axis, bounds.lower[axis]));
+        let unit = mesh.loading.pressure_unit();
+        let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
+        let pressure = PressureField::over(&bounds, (spacing, origin), pressures)?;
+        let total_load = mesh.total_load(solution.loads.iter().copied());
         Ok(Self {
             friction_coefficient: mesh.mean(&solution.loads, |slope| slope),
             mean_slope: mesh.mean(&solution.loads, f64::abs),
@@ -127,43 +131,18 @@ impl SteadySliding {
     }
 }
 
-/// The pressure over the bounding box of the contact.
-fn pressure_field(
-    mesh: &Mesh,
-    loaded: &[([usize; 2], f64)],
-    bounds: [[usize; 2]; 2],
-) -> Result<PressureField, BemError> {
-    let shape = bounds.map(|[first, last]| last + 1 - first);
-    let grid = Grid::new(shape, mesh.options.spacing)?;
-    let unit = mesh.loading.pressure_unit();
-    let mut pressure = vec![0.0; grid.n_elements()];
-    for ([row, column], load) in loaded {
-        pressure[(row - bounds[0][0]) * shape[1] + column - bounds[1][0]] = load * unit;
-    }
-    Ok(PressureField {
-        grid,
-        origin: [0, 1].map(|axis| mesh.centre(axis, bounds[axis][0])),
-        pressure,
-    })
-}
-
-/// First and last loaded row and column.
-fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<[[usize; 2]; 2], BemError> {
-    let mut bounds = [[usize::MAX, 0]; 2];
-    for (position, _) in loaded {
-        for (bound, index) in bounds.iter_mut().zip(position) {
-            *bound = [bound[0].min(*index), bound[1].max(*index)];
-        }
-    }
-    if !mesh.holds(bounds) {
+/// The box around the loaded elements, if that is inside the footprint and covers enough elements.
+fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, BemError> {
+    let bounds = Bounds::of(loaded.iter().map(|(element, _)| *element));
+    let bounds = bounds.unwrap_or(Bounds::EMPTY);
+    if bounds != Bounds::EMPTY && !mesh.holds(&bounds) {
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
-    let lengths = bounds.map(|[first, last]| (last + 1).saturating_sub(first));
-    let elements = if mesh.loading.is_strip {
-        lengths[0]
+    let [rows, columns] = bounds.shape();
+    check_contact_elements(if mesh.loading.is_strip {
+        rows
     } else {
-        lengths[0].min(lengths[1])
-    };
-    check_contact_elements(elements)?;
+        rows.min(columns)
+    })?;
     Ok(bounds)
 }

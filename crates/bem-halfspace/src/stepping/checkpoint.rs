@@ -72,7 +72,7 @@ impl March<'_> {
         };
         let last = self.route.legs[last];
         self.time_step = last.time_step;
-        self.step = ExponentialStep::creep(&self.material.creep, self.time_step)?;
+        self.step = ExponentialStep::creep(&self.creep, self.time_step)?;
         self.sample(last.offset)
     }
 

@@ -4,7 +4,7 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::positive;
 use rheology::Material;
 
-use super::{March, Motion, MotionRow, Route};
+use super::{March, MeanSlopes, Motion, MotionRow, Route};
 use crate::grid::elements_along;
 use crate::{BemError, Grid, GridOptions};
 
@@ -28,7 +28,9 @@ impl<'a> March<'a> {
         motions: &[Motion],
         options: &GridOptions,
     ) -> Result<Self, BemError> {
-        Self::through(surface, material, motions.iter().copied(), options)
+        let spacing = positive("spacing along x", options.spacing[0])?;
+        let route = Route::through(motions.iter().copied(), spacing, None)?;
+        Self::on(route, surface, material, options)
     }
 
     /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load: under a force in
@@ -45,16 +47,26 @@ impl<'a> March<'a> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = load.sliding_distance();
         let distance = distance.ok_or(BemError::SlidingDistanceMissing { why: MARCH_ENDS })?;
-        if let Control::IndentationDepth(_) = load.control() {
-            let motions = motions(load, spacing, distance)?;
-            return Self::new(surface, material, &motions, options);
-        }
-        let n_steps = elements_along(distance, spacing)?;
-        let even = [false, surface.mirrors()[1]];
-        let [rows, columns] = options.layout(even)?.followed();
-        // Refused before so many steps are made.
-        Grid::new([rows + n_steps, columns], options.spacing)?;
-        let route = Route::straight(n_steps, spacing, load.velocity(), load.control())?;
+        let motion = |position: f64| Motion {
+            time: position / load.velocity(),
+            position,
+            control: load.control(),
+        };
+        let route = match load.control() {
+            Control::NormalForce(_) => {
+                let n_steps = elements_along(distance, spacing)?;
+                let even = [false, surface.mirrors()[1]];
+                let [rows, columns] = options.layout(even)?.followed();
+                // Refused before so many steps are made.
+                Grid::new([rows + n_steps, columns], options.spacing)?;
+                let ends = (1..=n_steps).map(|step| step as f64 * spacing);
+                let time_step = Some(spacing / load.velocity());
+                Route::through(ends.map(motion), spacing, time_step)?
+            }
+            Control::IndentationDepth(_) => {
+                Route::through(ends_at(distance, spacing)?.map(motion), spacing, None)?
+            }
+        };
         Self::on(route, surface, material, options)
     }
 
@@ -68,9 +80,7 @@ impl<'a> March<'a> {
         let Some(mut row) = self.advance()? else {
             return Ok(None);
         };
-        let mut slopes = std::mem::take(&mut self.slopes);
-        self.means = slopes.over(self, &self.route.legs[self.steps_done - 1])?;
-        self.slopes = slopes;
+        self.means = MeanSlopes::over(self, &self.route.legs[self.steps_done - 1])?;
         row.tangential_force = row.normal_force * self.means.met;
         row.tangential_force_end_of_step = row.normal_force * self.means.end;
         Ok(Some(row))
@@ -87,20 +97,15 @@ impl<'a> March<'a> {
     }
 }
 
-/// Steps of one element; the last, of a half to one and a half, ends at the distance.
-fn motions(load: &SlidingLoad, spacing: f64, distance: f64) -> Result<Vec<Motion>, BemError> {
+/// Ends of steps of one element; the last, of a half to one and a half, ends at the distance.
+fn ends_at(distance: f64, spacing: f64) -> Result<impl Iterator<Item = f64>, BemError> {
     if distance > MOST_STEPS * spacing {
         return Err(BemError::TooManySteps {
             steps: distance / spacing,
             limit: MOST_STEPS,
         });
     }
-    let ends = (1_u32..).map(|step| f64::from(step) * spacing);
-    let before = ends.take_while(|position| *position < distance - 0.5 * spacing);
-    let motion = |position: f64| Motion {
-        time: position / load.velocity(),
-        position,
-        control: load.control(),
-    };
-    Ok(before.chain([distance]).map(motion).collect())
+    let ends = (1_u32..).map(move |step| f64::from(step) * spacing);
+    let before = ends.take_while(move |position| *position < distance - 0.5 * spacing);
+    Ok(before.chain([distance]))
 }

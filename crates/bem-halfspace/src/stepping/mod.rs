@@ -29,11 +29,11 @@ use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
 use crate::pressure_field::PressureField;
 use crate::resolution::{Layout, SlideOmission};
-use crate::{BemError, Grid, GridOptions};
+use crate::{BemError, GridOptions};
 pub use checkpoint::MarchState;
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
-use slopes::{MeanSlopes, Slopes};
+use slopes::MeanSlopes;
 use window::Window;
 
 /// An indenter that moves over a half space, step by step.
@@ -41,7 +41,9 @@ pub struct March<'a> {
     surface: &'a dyn Surface,
     options: GridOptions,
     layout: Layout,
-    pub(crate) material: HalfSpace,
+    pub(crate) creep: CreepSpectrum,
+    /// 2 (1 − ν).
+    half_space_factor: f64,
     route: Route,
     steps_done: usize,
     step: ExponentialStep,
@@ -55,7 +57,6 @@ pub struct March<'a> {
     contact_box: ContactBox,
     /// Unit of heights, \[m].
     scale: f64,
-    slopes: Slopes,
     means: MeanSlopes,
 }
 
@@ -65,46 +66,7 @@ impl fmt::Debug for March<'_> {
     }
 }
 
-/// The creep of the surface of a half space.
-#[derive(Debug, Clone)]
-pub(crate) struct HalfSpace {
-    pub(crate) creep: CreepSpectrum,
-    /// 2 (1 − ν).
-    factor: f64,
-}
-
-impl HalfSpace {
-    /// F_N J(L/v) / (4 L), the depth that a force makes in the time L/v in which it passes a contact of length L:
-    /// F_N/(4ηv) on a dashpot, \[m].
-    pub(crate) fn depth_scale(
-        &self,
-        normal_force: f64,
-        length: f64,
-        time: f64,
-    ) -> Result<f64, BemError> {
-        let compliance = self.creep.creep_compliance(time)?;
-        Ok(0.25 * normal_force * (self.factor * compliance) / length)
-    }
-}
-
 impl<'a> March<'a> {
-    /// From an undeformed half space at time zero, where the lowest point is over the centre of an element at position
-    /// zero.
-    pub(crate) fn through(
-        surface: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
-        motions: impl Iterator<Item = Motion>,
-        options: &GridOptions,
-    ) -> Result<Self, BemError> {
-        let spacing = positive("spacing along x", options.spacing[0])?;
-        Self::on(
-            Route::through(motions, spacing)?,
-            surface,
-            material,
-            options,
-        )
-    }
-
     fn on(
         route: Route,
         surface: &'a dyn Surface,
@@ -114,12 +76,9 @@ impl<'a> March<'a> {
         let [along_x, along_y] = surface.mirrors();
         let layout = options.layout([along_x && route.rests(), along_y])?;
         let [dx, dy] = options.spacing;
-        let material = HalfSpace {
-            creep: material.creep(),
-            factor: material.half_space_factor(),
-        };
+        let creep = material.creep();
         let time_step = route.legs[0].time_step;
-        let step = ExponentialStep::creep(&material.creep, time_step)?;
+        let step = ExponentialStep::creep(&creep, time_step)?;
         let route = match step.n_fields() {
             0 => route.without_memory(),
             _ => route,
@@ -130,8 +89,9 @@ impl<'a> March<'a> {
             surface,
             options: *options,
             layout,
-            scale: height_scale(&material, &route, dx)?,
-            material,
+            scale: 0.0,
+            creep,
+            half_space_factor: material.half_space_factor(),
             route,
             steps_done: 0,
             step,
@@ -141,9 +101,9 @@ impl<'a> March<'a> {
             separation: vec![0.0; layout.followed().iter().product()],
             contact_box: ContactBox::of(&window.convolution, Bounds::around([0; 2]))?,
             window,
-            slopes: Slopes::default(),
             means: MeanSlopes::default(),
         };
+        march.scale = march.height_scale()?;
         march.sample(march.route.legs[0].offset)?;
         march.contact_box = march.box_at_lowest(&march.heights)?;
         Ok(march)
@@ -193,23 +153,17 @@ impl<'a> March<'a> {
     pub fn pressure(&self) -> Result<PressureField, BemError> {
         let unit = 4.0 * PI * self.scale / self.options.spacing[0] / self.compliance();
         let bounds = self.contact_bounds();
-        let columns = bounds.shape()[1];
-        let mut pressure = vec![0.0; bounds.n_elements()];
-        for (element, load) in self.loaded_elements() {
-            for [row, column] in self.layout.images_of(element) {
-                let index = (row - bounds.lower[0]) * columns + column - bounds.lower[1];
-                pressure[index] += load * unit;
-            }
-        }
         let spacing = self.options.spacing;
-        Ok(PressureField {
-            grid: Grid::new(bounds.shape(), spacing)?,
-            origin: [
-                self.along(bounds.lower[0], self.sampled_offset) * spacing[0],
-                self.across(bounds.lower[1]),
-            ],
-            pressure,
-        })
+        let origin = [
+            self.along(bounds.lower[0], self.sampled_offset) * spacing[0],
+            self.across(bounds.lower[1]),
+        ];
+        let images = |(element, load)| {
+            let images = self.layout.images_of(element);
+            images.map(move |image| (image, load * unit))
+        };
+        let loaded = self.loaded_elements().flat_map(images);
+        PressureField::over(&bounds, (spacing, origin), loaded)
     }
 
     /// Ends along x and y of the box of the footprint around all loaded elements, relative to the lowest point, \[m].
@@ -234,7 +188,7 @@ impl<'a> March<'a> {
 
     /// The compliance of the last step, \[1/Pa].
     fn compliance(&self) -> f64 {
-        self.material.factor * self.step.response()
+        self.half_space_factor * self.step.response()
     }
 
     /// Goes to the end of the next step, without the forces along x; none after the last.
@@ -253,7 +207,7 @@ impl<'a> March<'a> {
         self.set_time_step(leg.time_step)?;
         self.sample(leg.offset)?;
         self.set_separation(leg.row);
-        let row = match self.depth_without_contact(leg.control) {
+        let row = match self.depth_without_contact(leg.end.control) {
             Some(depth) => self.free(leg, depth)?,
             None => self.press(leg)?,
         };
@@ -272,8 +226,8 @@ impl<'a> March<'a> {
             .sum();
         let edges = (n_contact > 0).then(|| self.contact_edges());
         MotionRow {
-            time: leg.time,
-            position: leg.position,
+            time: leg.end.time,
+            position: leg.end.position,
             indentation_depth: 0.0,
             normal_force: 0.0,
             tangential_force: 0.0,
@@ -299,7 +253,7 @@ impl<'a> March<'a> {
             return Ok(());
         }
         let before = self.step.response();
-        self.step = ExponentialStep::creep(&self.material.creep, time_step)?;
+        self.step = ExponentialStep::creep(&self.creep, time_step)?;
         self.time_step = time_step;
         // The same pressure is another load now.
         let ratio = self.step.response() / before;
@@ -391,27 +345,36 @@ impl<'a> March<'a> {
             ..self.row(leg)
         })
     }
-}
 
-/// A height that the scene has: F α / (4 Δx), which is F_N/(4ηv) on a dashpot, or a depth that is given.
-fn height_scale(material: &HalfSpace, route: &Route, spacing: f64) -> Result<f64, BemError> {
-    let mut scale = 0.0_f64;
-    let mut last = (f64::NAN, 0.0);
-    for leg in &route.legs {
-        let height = match leg.control {
-            Control::IndentationDepth(depth) => depth.abs(),
-            Control::NormalForce(force) => {
-                if leg.time_step.total_cmp(&last.0).is_ne() {
-                    let step = ExponentialStep::creep(&material.creep, leg.time_step)?;
-                    last = (leg.time_step, step.response());
+    /// A height that the scene has: F α / (4 Δx), which is F_N/(4ηv) on a dashpot, or a depth that is given.
+    fn height_scale(&self) -> Result<f64, BemError> {
+        let spacing = self.options.spacing[0];
+        let mut scale = 0.0_f64;
+        for leg in &self.route.legs {
+            let height = match leg.end.control {
+                Control::IndentationDepth(depth) => depth.abs(),
+                Control::NormalForce(force) => {
+                    let step = ExponentialStep::creep(&self.creep, leg.time_step)?;
+                    0.25 * force * self.half_space_factor * step.response() / spacing
                 }
-                0.25 * force * material.factor * last.1 / spacing
-            }
-        };
-        scale = scale.max(height);
+            };
+            scale = scale.max(height);
+        }
+        if scale == 0.0 {
+            return Ok(spacing);
+        }
+        Ok(positive("height scale F α / (4 Δx)", scale)?)
     }
-    if scale == 0.0 {
-        return Ok(spacing);
+
+    /// F_N J(L/v) / (4 L), the depth that a force makes in the time L/v in which it passes a contact of length L:
+    /// F_N/(4ηv) on a dashpot, \[m].
+    pub(crate) fn depth_scale(
+        &self,
+        normal_force: f64,
+        length: f64,
+        time: f64,
+    ) -> Result<f64, BemError> {
+        let compliance = self.half_space_factor * self.creep.creep_compliance(time)?;
+        Ok(0.25 * normal_force * compliance / length)
     }
-    Ok(positive("height scale F α / (4 Δx)", scale)?)
 }

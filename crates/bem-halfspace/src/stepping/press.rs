@@ -20,8 +20,9 @@ impl March<'_> {
         let mut enlarged = false;
         loop {
             self.fill_box();
-            let control = self.scaled(leg.control);
-            let solved = self.contact_box.solve(control, &self.options.contact)?;
+            let control = self.scaled(leg.end.control);
+            let accuracy = (&self.options.contact).into();
+            let solved = self.contact_box.solve(control, &accuracy)?;
             self.find_increment(leg.row);
             let contact = self.loaded_bounds();
             if let Some(outside) = self.penetration(leg.row, solved.indentation_depth) {
@@ -35,12 +36,12 @@ impl March<'_> {
                 continue;
             }
             if let Some(contact) = contact {
-                self.check_footprint(&self.layout.unfolded(&contact), leg.position)?;
+                self.check_footprint(&self.layout.unfolded(&contact), leg.end.position)?;
                 self.tighten(&contact)?;
             }
             return Ok(MotionRow {
                 indentation_depth: solved.indentation_depth * self.scale,
-                normal_force: match leg.control {
+                normal_force: match leg.end.control {
                     Control::NormalForce(force) => force,
                     Control::IndentationDepth(_) => solved.total_load / self.load_per_force(),
                 },

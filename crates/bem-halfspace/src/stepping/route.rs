@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use indenters::Control;
 use numerics::{finite, positive};
 
 use super::Motion;
@@ -13,20 +12,16 @@ use crate::grid::whole;
 /// One step of the path, seen from the elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
-    /// Time at the end, \[s].
-    pub(crate) time: f64,
+    /// What is given at the end.
+    pub(crate) end: Motion,
     /// Duration, \[s].
     pub(crate) time_step: f64,
-    /// Position of the lowest point at the end, \[m].
-    pub(crate) position: f64,
     /// Row under the lowest point at the end, from the rearmost one of the whole path.
     pub(crate) row: usize,
     /// Distance of the lowest point from the centre of that row, in elements, at most a half.
     pub(crate) offset: f64,
     /// Motion during the step, in elements.
     pub(crate) advance: f64,
-    /// What is given at the end.
-    pub(crate) control: Control,
 }
 
 /// All steps, and which rows those to come pass.
@@ -38,7 +33,8 @@ pub(crate) struct Route {
 }
 
 impl Route {
-    /// The path through the ends of motions, from a centre of an element at time and position zero.
+    /// The path through the ends of motions, from a centre of an element at time and position zero; steps that are equally
+    /// long have the same `time_step`, to the last bit.
     ///
     /// # Errors
     /// [`BemError::InvalidParameter`] for no ends, times that do not increase from above zero, or positions and
@@ -46,71 +42,31 @@ impl Route {
     pub(crate) fn through(
         motions: impl Iterator<Item = Motion>,
         spacing: f64,
+        time_step: Option<f64>,
     ) -> Result<Self, BemError> {
-        let mut legs = Vec::new();
-        let mut cells = Vec::new();
+        let (mut legs, mut cells) = (Vec::new(), Vec::new());
         let (mut time_before, mut cell_before, mut offset_before) = (0.0, 0.0, 0.0);
-        for motion in motions {
-            let Motion {
-                time,
-                position,
-                control,
-            } = motion;
-            let time_step = positive("time step", time - time_before)?;
-            let [cell, offset] = place(position, spacing)?;
-            check_control(control)?;
+        for end in motions {
+            let time_step = time_step.unwrap_or(end.time - time_before);
+            let time_step = positive("time step", time_step)?;
+            let [cell, offset] = place(end.position, spacing)?;
+            check_control(end.control)?;
             legs.push(Leg {
-                time,
+                end,
                 time_step,
-                position,
                 row: 0,
                 offset,
                 advance: (cell - cell_before) + (offset - offset_before),
-                control,
             });
             cells.push(cell);
-            (time_before, cell_before, offset_before) = (time, cell, offset);
+            (time_before, cell_before, offset_before) = (end.time, cell, offset);
         }
-        Self::of(legs, &cells)
-    }
-
-    /// Whole elements at a constant speed under a constant force.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for a duration or a force out of range, or no steps.
-    pub(crate) fn straight(
-        n_steps: usize,
-        spacing: f64,
-        velocity: f64,
-        control: Control,
-    ) -> Result<Self, BemError> {
-        let time_step = positive("time step", spacing / velocity)?;
-        check_control(control)?;
-        let cells: Vec<f64> = (1..=n_steps).map(|step| step as f64).collect();
-        let leg = |&cell: &f64| Leg {
-            time: cell * spacing / velocity,
-            time_step,
-            position: cell * spacing,
-            row: 0,
-            offset: 0.0,
-            advance: 1.0,
-            control,
-        };
-        Self::of(cells.iter().map(leg).collect(), &cells)
-    }
-
-    fn of(mut legs: Vec<Leg>, cells: &[f64]) -> Result<Self, BemError> {
         positive("number of steps", legs.len() as f64)?;
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);
         for (leg, cell) in legs.iter_mut().zip(cells) {
             leg.row = whole(cell - lowest)?;
         }
-        let mut spans: Vec<[usize; 2]> = legs.iter().map(|leg| [leg.row; 2]).collect();
-        for leg in (1..spans.len()).rev() {
-            let [low, high] = spans[leg];
-            let before = &mut spans[leg - 1];
-            *before = [before[0].min(low), before[1].max(high)];
-        }
+        let spans = spans(&legs);
         Ok(Self { legs, spans })
     }
 
@@ -135,6 +91,17 @@ impl Route {
         let span = self.spans.get(first);
         span.map_or(0..0, |[low, high]| *low..high + n_rows)
     }
+}
+
+/// Lowest and highest row from each leg on.
+fn spans(legs: &[Leg]) -> Vec<[usize; 2]> {
+    let mut spans: Vec<[usize; 2]> = legs.iter().map(|leg| [leg.row; 2]).collect();
+    for leg in (1..spans.len()).rev() {
+        let [low, high] = spans[leg];
+        let before = &mut spans[leg - 1];
+        *before = [before[0].min(low), before[1].max(high)];
+    }
+    spans
 }
 
 /// The nearest element to a position, and the distance from its centre, in elements.

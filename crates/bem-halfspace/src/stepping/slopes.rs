@@ -11,8 +11,7 @@
 
 use std::f64::consts::PI;
 
-use indenters::Surface;
-use numerics::{InvalidParameter, in_range};
+use numerics::in_range;
 
 use crate::BemError;
 use crate::stepping::{Leg, March};
@@ -30,25 +29,16 @@ pub(super) struct MeanSlopes {
     pub(super) largest: f64,
 }
 
-/// Slopes over the footprint, found when they are first needed.
-#[derive(Debug, Default)]
-pub(super) struct Slopes {
-    chord: Chord,
-    /// The slope that is met and that at the end of the step, per element.
-    known: Vec<Option<[f64; 2]>>,
-}
-
-impl Slopes {
-    /// Means over the step that has been made.
-    pub(super) fn over(&mut self, march: &March<'_>, leg: &Leg) -> Result<MeanSlopes, BemError> {
+impl MeanSlopes {
+    /// Over the step that has been made.
+    pub(super) fn over(march: &March<'_>, leg: &Leg) -> Result<Self, BemError> {
         let chord = Chord::new(elastic_share(march, leg)?, leg);
-        self.turn_to(chord, march.layout.shape);
-        let mut sum = MeanSlopes::default();
+        let mut sum = Self::default();
         let mut normal = 0.0;
         // Images fore and aft have the opposite slope.
         let has_image = !march.layout.mirrors[0].is_none();
         for (element, load) in march.loaded_elements() {
-            let [met, end] = self.at(march, element)?;
+            let [met, end] = slopes_at(march, &chord, element)?;
             if !has_image {
                 sum.met += load * met;
                 sum.end += load * end;
@@ -60,51 +50,38 @@ impl Slopes {
         if normal == 0.0 {
             return Ok(sum);
         }
-        Ok(MeanSlopes {
+        Ok(Self {
             met: sum.met / normal,
             end: sum.end / normal,
             steepness: sum.steepness / normal,
             ..sum
         })
     }
-
-    /// Forgets the slopes of another chord.
-    fn turn_to(&mut self, chord: Chord, [rows, columns]: [usize; 2]) {
-        if self.known.is_empty() || self.chord != chord {
-            self.chord = chord;
-            self.known.clear();
-            self.known.resize(rows * columns, None);
-        }
-    }
-
-    fn at(&mut self, march: &March<'_>, [row, column]: [usize; 2]) -> Result<[f64; 2], BemError> {
-        let index = row * march.layout.shape[1] + column;
-        if let Some(known) = self.known[index] {
-            return Ok(known);
-        }
-        let spacing = march.options.spacing[0];
-        let here = march.along(row, march.sampled_offset);
-        let y = march.across(column);
-        let height = |place: f64| march.surface.height([place * spacing, y]);
-        let met = self.chord.rise(here, height) / spacing;
-        let x = here * spacing;
-        if !met.is_finite() {
-            return Err(BemError::VerticalWall { x, y });
-        }
-        let slopes = [met, checked_gradient(march.surface, [x, y])?];
-        self.known[index] = Some(slopes);
-        Ok(slopes)
-    }
 }
 
-fn checked_gradient(surface: &dyn Surface, position: [f64; 2]) -> Result<f64, InvalidParameter> {
-    let slope = surface.gradient(position)[0];
-    in_range("slope of the surface", slope, !slope.is_nan(), "a number")
+/// The slope that an element meets and that at the end of the step.
+fn slopes_at(
+    march: &March<'_>,
+    chord: &Chord,
+    [row, column]: [usize; 2],
+) -> Result<[f64; 2], BemError> {
+    let spacing = march.options.spacing[0];
+    let here = march.along(row, march.sampled_offset);
+    let y = march.across(column);
+    let height = |place: f64| march.surface.height([place * spacing, y]);
+    let met = chord.rise(here, height) / spacing;
+    let x = here * spacing;
+    if !met.is_finite() {
+        return Err(BemError::VerticalWall { x, y });
+    }
+    let end = march.surface.gradient([x, y])[0];
+    in_range("slope of the surface", end, !end.is_nan(), "a number")?;
+    Ok([met, end])
 }
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
 fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
-    let creep = &march.material.creep;
+    let creep = &march.creep;
     let Leg {
         advance, time_step, ..
     } = *leg;
@@ -136,10 +113,7 @@ fn langevin(y: f64) -> f64 {
 }
 
 /// A piece of the body around the place that an element meets, in elements.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Chord {
-    /// Where the elements stand under the body.
-    offset: f64,
     centre: f64,
     length: f64,
 }
@@ -148,7 +122,6 @@ impl Chord {
     fn new(elastic_share: f64, leg: &Leg) -> Self {
         let part = 0.5 * (1.0 - elastic_share);
         Self {
-            offset: leg.offset,
             centre: part * leg.advance,
             // The mean over the way of a dashpot; the element alone for a spring.
             length: (2.0 * part * leg.advance.abs()).max(1.0),

@@ -1,10 +1,9 @@
 //! Directions of the conjugate gradients.
 
 use crate::contact::Control;
-use crate::contact::fields::Fields;
+use crate::contact::fields::{Fields, Listed};
 use crate::contact::iteration::Iteration;
-use crate::contact::listed::Listed;
-use crate::contact::reductions::sum;
+use crate::reductions::sum;
 
 impl Iteration<'_> {
     /// Moves the load along a direction conjugate to the previous ones to where the residual does no work.

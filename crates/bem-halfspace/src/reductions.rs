@@ -4,7 +4,7 @@ const ACCUMULATORS: usize = 8;
 
 /// Reduces `start` and the terms of all numbers of equally long lists by `pick`; the order, and with it the rounding
 /// of a sum, depends on their length alone.
-pub(super) fn reduce<const N: usize>(
+pub(crate) fn reduce<const N: usize>(
     lists: [&[f64]; N],
     start: f64,
     term: impl Fn([f64; N]) -> f64,
@@ -24,12 +24,12 @@ pub(super) fn reduce<const N: usize>(
 }
 
 /// Sum of the terms of all numbers of equally long lists.
-pub(super) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
+pub(crate) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
     reduce(lists, 0.0, term, |sum, term| sum + term)
 }
 
 /// The largest term of all numbers of equally long lists, but at least `start`; none may be NaN.
-pub(super) fn largest<const N: usize>(
+pub(crate) fn largest<const N: usize>(
     lists: [&[f64]; N],
     start: f64,
     term: impl Fn([f64; N]) -> f64,
@@ -38,17 +38,23 @@ pub(super) fn largest<const N: usize>(
 }
 
 /// The larger of two numbers of which none is NaN; faster than `f64::max`.
-pub(super) fn larger(left: f64, right: f64) -> f64 {
+pub(crate) fn larger(left: f64, right: f64) -> f64 {
     if left > right { left } else { right }
 }
 
 /// The lower of two numbers; the first where the second is NaN.
-pub(super) fn lower(left: f64, right: f64) -> f64 {
+pub(crate) fn lower(left: f64, right: f64) -> f64 {
     if right < left { right } else { left }
 }
 
+/// Sum of products, in the order of the lists.
+pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
+    let pairs = left.iter().zip(right);
+    pairs.map(|(left, right)| left * right).sum()
+}
+
 /// Adds a multiple.
-pub(super) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+pub(crate) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * value;
     }
