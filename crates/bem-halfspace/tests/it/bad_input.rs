@@ -113,10 +113,15 @@ fn a_contact_that_does_not_fit_is_refused() {
         let fine = steady_with(&body, |options| options.spacing = [spacing; 2]);
         assert_refused(spacing, fine, "GridTooLarge");
     }
-    let coarse = slid(8.0, |options| options.spacing = [length; 2]);
-    assert_refused("slide", coarse, "GridTooCoarse");
-    let coarse = steady_with(&body, |options| options.spacing = [length; 2]);
-    assert_refused("steady", coarse, "GridTooCoarse");
+    for spacing in [length, 1e12 * length] {
+        let half_width = 10.0 * spacing;
+        let coarse = slid(8.0 * spacing / length, |options| {
+            *options = squares(spacing, half_width);
+        });
+        assert_refused(spacing, coarse, "GridTooCoarse");
+        let coarse = steady_in(&body, spacing, half_width);
+        assert_refused(spacing, coarse, "GridTooCoarse");
+    }
     let beyond = slid(4.0, |grid| grid.footprint = Footprint::square(0.7 * length));
     assert_refused("slide", beyond, "ContactReachesBoundary");
     let beyond = steady_in(&body, length / 6.0, 0.8 * length);
@@ -173,6 +178,8 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
     let punch = FlatPunch::new(0.3).expect("a punch");
     let name = "number of elements of the footprint that may touch";
     assert_refused("punch", steady_in(&punch, 0.02, 0.6), name);
+    let on_any_grid = steady(&punch, &scene.material, &scene.load, 1e-3);
+    assert_refused("punch", on_any_grid, "indentation depth");
     let beyond_its_equator = steady_in(&Sphere::new(0.05).expect("a body"), 0.01, 0.2);
     assert_refused("sphere", beyond_its_equator, "VerticalWall");
     let steep = steady_in(&power(1.0, 1000.0), 0.1, 1.5);
@@ -284,6 +291,10 @@ fn contacts_out_of_range_are_refused() {
     );
     let nowhere = solve(&[f64::INFINITY; 6], 1.0, FORCE);
     assert_refused("no body", nowhere, "separation");
+    for bad in [f64::NAN, f64::NEG_INFINITY] {
+        let broken = solve(&[0.0, bad, 0.0, 0.0, 0.0, 0.0], 1.0, FORCE);
+        assert_refused(bad, broken, "InvalidHeight");
+    }
     for bad in BAD {
         assert_bad(bad, solve(&[0.0; 6], bad, FORCE), "compliance");
         let grid = Grid::new([4, 4], [1.0, bad]);

@@ -7,8 +7,8 @@ use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
 
 use crate::support::{
-    Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power, prony,
-    slid, squares, three_elements, under_force, viscous,
+    Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power,
+    pressed, prony, slid, squares, three_elements, tight, under_force, viscous,
 };
 
 /// μ / (c^(1/p) (F/(ηv))^(1−1/p)) for random scenes over many decades (casebook BEM-07).
@@ -88,6 +88,18 @@ fn stationary<M: Material>(scene: &Scene<M>, [length, stress, _]: Units) -> Vec<
     ]
 }
 
+/// The end of three steps under a constant force.
+fn press<M: Material>(scene: &Scene<M>, [length, stress, time]: Units) -> Vec<f64> {
+    let times = [0.1, 1.0, 10.0].map(|moment| moment * time);
+    let force = 0.5 * stress * length * length;
+    let options = tight(squares(0.1 * length, 2.0 * length));
+    let rows = pressed(&scene.body, &scene.material, (force, &times), &options);
+    vec![
+        rows[2].indentation_depth / length,
+        rows[2].contact_area / length / length,
+    ]
+}
+
 fn line([length, stress, time]: Units) -> Vec<f64> {
     let material = three_elements(0.1 * stress, stress, time);
     let load = under_force(stress * length, length / time);
@@ -103,9 +115,10 @@ fn results_are_invariant_under_a_change_of_units() {
         let [_, stress, time] = units;
         scene(three_elements(0.1 * stress, stress, 0.5 * time), units)
     };
-    let solvers: [(_, &Solver); 6] = [
+    let solvers: [(_, &Solver); 7] = [
         ("march on a dashpot", &|units| march(&dashpot(units), units)),
         ("march on a solid", &|units| march(&solid(units), units)),
+        ("pressed", &|units| press(&solid(units), units)),
         ("dashpot", &|units| stationary(&dashpot(units), units)),
         ("solid", &|units| stationary(&solid(units), units)),
         ("at a depth", &|units| {

@@ -168,3 +168,25 @@ fn rows_that_are_left_out_change_nothing() {
         "other rows are left as they are"
     );
 }
+
+/// 2 b asinh(a/b) + 2 a asinh(b/a) in the middle of an element of edges a and b, a neighbour as the difference of longer
+/// elements; far away 1/r + h²/(24 r³) times the area, with an error of the order (h/r)⁴.
+#[test]
+fn slender_and_far_elements_keep_their_digits() {
+    for decade in -12..=12 {
+        let aspect = 10_f64.powi(decade);
+        let middle = |x: f64| 2.0 * (aspect * (x / aspect).asinh() + x * (aspect / x).asinh());
+        let own = influence([0.0; 2], [1.0, aspect]);
+        assert_close(aspect, own, middle(1.0), 1e-14);
+        let neighbour = influence([1.0, 0.0], [1.0, aspect]);
+        // The difference loses a digit or two where the elements are long.
+        let expected = 0.5 * (middle(3.0) - middle(1.0));
+        assert_close(aspect, neighbour, expected, 2e-13);
+    }
+    for decade in 4..=12 {
+        let distance = 10_f64.powi(decade);
+        let expected = (1.0 + 1.0 / (24.0 * distance * distance)) / distance;
+        let far = influence([distance, 0.0], [1.0, 1.0]);
+        assert_close(distance, far, expected, 1e-14);
+    }
+}

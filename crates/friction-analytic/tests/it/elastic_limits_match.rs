@@ -48,9 +48,22 @@ fn elastic_limits_match() {
 /// μ_slow = (η v/G₁) κ c p (p + 1)/(2p − 1) a^(p − 2), μ_fast = (α/(G_g v)) κ c 2p/(2p + 1) a^p.
 #[test]
 fn power_profiles_have_both_limits_in_closed_form() {
-    let (g1, g2, tau, a, v, c) = (0.2, 3.0, 0.5, 0.7, 2.0, 0.4);
+    for [length, stress, time] in [
+        [1.0, 1.0, 1.0],
+        [1e-12, 1e12, 1e12],
+        [1e12, 1e12, 1e-12],
+        [1e-12, 1e-12, 1e-12],
+    ] {
+        power_profiles_have_both_limits([length, stress, time]);
+    }
+}
+
+fn power_profiles_have_both_limits([length, stress, time]: [f64; 3]) {
+    let (g1, g2, tau) = (0.2 * stress, 3.0 * stress, 0.5 * time);
+    let (a, v) = (0.7 * length, 2.0 * length / time);
     let solid = solid([g1, g2, tau]);
     for p in [0.3, 0.51, 0.75, 1.0, 1.5, 2.0, 4.0, 10.0] {
+        let c = 0.4 * length.powf(1.0 - p);
         let profile = power(c, p);
         let kc = profile.stretch() * c;
         let fast = high_speed_friction(&profile, &solid, contact(a, v)).unwrap();

@@ -108,6 +108,10 @@ fn histories_without_a_contact_are_refused() {
         })
     );
     assert_matches!(
+        press(&[1.0], 1e-12, newton),
+        Err(MdrError::TooManyElements { .. })
+    );
+    assert_matches!(
         press(&[1.0], 0.01, |_| Control::IndentationDepth(f64::NAN)),
         Err(MdrError::NonFinite {
             quantity: "indentation depth",

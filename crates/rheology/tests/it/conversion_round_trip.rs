@@ -14,7 +14,7 @@ fn frame() -> impl Strategy<Value = (f64, f64)> {
 
 /// One to 100 branches over 15 decades of time, moduli over six; some times repeated, some beside another one.
 fn spectra() -> impl Strategy<Value = RelaxationSpectrum> {
-    let branch = (-9.0_f64..6.0, -3.0_f64..3.0, 0_u8..4, -9.0_f64..-1.0);
+    let branch = (-9.0_f64..6.0, -3.0_f64..3.0, 0_u8..4, -15.0_f64..-1.0);
     (frame(), prop::collection::vec(branch, 1..=100)).prop_map(|((spring, dashpot), branches)| {
         let (mut moduli, mut times) = (Vec::new(), Vec::new());
         for (log_time, log_modulus, kind, log_gap) in branches {

@@ -46,7 +46,7 @@ fn fractional_maxwell_relaxes_like_the_mittag_leffler_function() {
 /// The error is the one stated, on frequencies between those where it was measured.
 #[test]
 fn expansions_keep_to_the_error_asked_for_anywhere_in_the_band() {
-    for exponent in [0.02, 0.3, 0.5, 0.7, 0.95] {
+    for exponent in [0.01, 0.3, 0.5, 0.7, 0.99] {
         for error in [1e-1, 1e-3, 1e-6, 1e-9] {
             let springpot = Springpot::new(1e7, exponent).unwrap();
             let expansion = springpot.expand([1e-6, 1e6], error).unwrap();
