@@ -9,7 +9,7 @@ fn no_stiff_or_extreme_case_is_wrong() {
     let count = |verdict: &str| rows.iter().filter(|row| row["verdict"] == verdict).count();
     let counts = ["accurate", "refused", "wrong"].map(count);
     assert!(
-        counts[0] > 200 && counts[1] > 20 && counts[2] == 0,
+        counts[0] > 150 && counts[1] > 15 && counts[2] == 0,
         "accurate, refused, wrong: {counts:?}"
     );
     for row in rows.iter().filter(|row| row["verdict"] == "accurate") {
@@ -22,7 +22,7 @@ fn no_stiff_or_extreme_case_is_wrong() {
 #[test]
 fn cases_can_be_chosen() {
     let folder = folder("stability-chosen");
-    let case = "creep of Kelvin–Voigt in steps, Δt/λ = 1e-12";
+    let case = "line, cone on Maxwell, vτ/x_r = 1e-12";
     let chosen = run([
         "evidence",
         "stability",
@@ -33,6 +33,6 @@ fn cases_can_be_chosen() {
     ]);
     let printed = text(&chosen.stdout);
     assert_eq!(chosen.status.code(), Some(0), "{printed}");
-    let row = "| creep of Kelvin–Voigt in steps | Δt/λ      | 1     |";
+    let row = "| line, cone on Maxwell | vτ/x_r    | 1     |";
     assert!(printed.contains(row), "{printed}");
 }

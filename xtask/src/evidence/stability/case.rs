@@ -1,18 +1,24 @@
-//! A case: a computation at the edge of what is possible, and what it must come to.
+//! A case: a computation at the edge of what is possible, what it must come to, and what it is worth.
 
+use std::any::Any;
 use std::fmt::{Debug, Display};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use serde::Serialize;
 
-/// Cases that differ in one parameter, or in one kind of input.
+use crate::tasks::in_parallel;
+
+/// Cases that differ in one parameter.
 pub(super) struct Family {
     /// What is computed.
     pub(super) name: &'static str,
     /// What differs from case to case.
     pub(super) parameter: &'static str,
-    pub(super) cases: Vec<Case>,
+    pub(super) values: Vec<f64>,
     pub(super) cost: Cost,
+    pub(super) run: Box<dyn Fn(f64) -> Result<Row> + Send + Sync>,
 }
 
 /// What a family costs; a quick run leaves the costly ones out.
@@ -20,13 +26,6 @@ pub(super) struct Family {
 pub(super) enum Cost {
     Cheap,
     Costly,
-}
-
-/// One case of a family.
-pub(super) struct Case {
-    /// Value of the parameter.
-    pub(super) value: String,
-    pub(super) run: Box<dyn Fn() -> Result<Finding> + Send + Sync>,
 }
 
 /// What a case is worth.
@@ -42,147 +41,48 @@ pub(super) enum Verdict {
     Wrong,
 }
 
-impl Verdict {
-    fn provided(self, right: bool) -> Self {
-        if right { self } else { Self::Wrong }
-    }
-}
-
-/// A case in the table: what it came to, and, of [`judge`](super::judge), which one it is.
+/// A case in the table: what it came to, and, of [`judge`], which one it is.
 #[derive(Debug, Clone, Default, Serialize)]
-pub(super) struct Finding {
+pub(super) struct Row {
     pub(super) family: &'static str,
     pub(super) parameter: &'static str,
-    pub(super) value: String,
+    pub(super) value: f64,
     /// Of several numbers the one that is closest to its tolerance.
-    pub(super) quantity: String,
+    quantity: String,
     /// The right number, or the pattern of the right error.
     pub(super) expected: String,
     pub(super) got: String,
-    pub(super) deviation: Option<f64>,
-    pub(super) tolerance: Option<f64>,
+    deviation: Option<f64>,
+    tolerance: Option<f64>,
     pub(super) verdict: Verdict,
     pub(super) seconds: f64,
 }
 
-/// A number beside the right one.
-#[derive(Debug, Clone)]
-pub(super) struct Comparison {
-    quantity: String,
-    got: f64,
-    expected: f64,
-    /// |got − expected| in units of this is the deviation.
-    scale: f64,
-    /// Largest deviation that is accurate.
-    tolerance: f64,
-}
-
-impl Family {
-    /// One case for each value of a parameter.
-    pub(super) fn over<R>(
-        cost: Cost,
-        name: &'static str,
-        parameter: &'static str,
-        values: impl IntoIterator<Item = f64>,
-        run: R,
-    ) -> Self
-    where
-        R: Fn(f64) -> Result<Finding> + Copy + Send + Sync + 'static,
-    {
-        let case = |value: f64| Case::new(format!("{value:e}"), move || run(value));
-        let cases = values.into_iter().map(case).collect();
-        Self {
-            cost,
-            ..Self::of(name, parameter, cases)
-        }
-    }
-
-    pub(super) fn of(name: &'static str, parameter: &'static str, cases: Vec<Case>) -> Self {
-        Self {
-            name,
-            parameter,
-            cases,
-            cost: Cost::Cheap,
-        }
-    }
-}
-
-impl Case {
-    pub(super) fn new(
-        value: impl ToString,
-        run: impl Fn() -> Result<Finding> + Send + Sync + 'static,
+impl Row {
+    /// A number beside the right one; their difference in units of `scale` is the deviation.
+    pub(super) fn number(
+        quantity: &str,
+        [got, expected]: [f64; 2],
+        scale: f64,
+        tolerance: f64,
     ) -> Self {
-        Self {
-            value: value.to_string(),
-            run: Box::new(run),
-        }
-    }
-}
-
-impl Comparison {
-    /// A number that is known relative to its own size.
-    pub(super) fn relative(quantity: &str, got: f64, expected: f64, tolerance: f64) -> Self {
+        let deviation = (got - expected).abs() / scale;
         Self {
             quantity: quantity.replace('_', " "),
-            got,
-            expected,
-            scale: expected.abs(),
-            tolerance,
-        }
-    }
-
-    /// The same in other units.
-    pub(super) fn in_units_of(self, scale: f64) -> Self {
-        Self { scale, ..self }
-    }
-
-    fn deviation(&self) -> f64 {
-        let difference = (self.got - self.expected).abs();
-        if difference == 0.0 {
-            return 0.0;
-        }
-        difference / self.scale
-    }
-
-    /// Infinite for what is not a number.
-    fn part_of_tolerance(&self) -> f64 {
-        let part = part(self.deviation(), self.tolerance);
-        if part.is_nan() { f64::INFINITY } else { part }
-    }
-
-    fn finding(&self) -> Finding {
-        let deviation = self.deviation();
-        Finding {
-            quantity: self.quantity.clone(),
-            expected: format!("{:e}", self.expected),
-            got: format!("{:e}", self.got),
             // NaN and infinity are no numbers of a table.
             deviation: deviation.is_finite().then_some(deviation),
-            tolerance: Some(self.tolerance),
-            verdict: Verdict::Accurate.provided(deviation <= self.tolerance),
-            ..Finding::default()
+            tolerance: Some(tolerance),
+            verdict: Verdict::Accurate.provided(deviation <= tolerance),
+            ..Self::wrong(format!("{expected:e}"), format!("{got:e}"))
         }
     }
-}
 
-impl Finding {
     /// The worst of several numbers.
-    pub(super) fn of(numbers: &[Comparison]) -> Self {
-        let part = Comparison::part_of_tolerance;
-        let worst = numbers
-            .iter()
-            .max_by(|one, other| part(one).total_cmp(&part(other)));
-        let nothing = || Self::wrong("a number", "nothing was compared".to_owned());
-        worst.map_or_else(nothing, Comparison::finding)
-    }
-
-    pub(super) fn wrong(expected: &str, got: String) -> Self {
-        let expected = expected.to_owned();
-        Self {
-            expected,
-            got,
-            ..Self::default()
-        }
+    pub(super) fn worst(numbers: impl IntoIterator<Item = Self>) -> Self {
+        let part = |row: &Self| row.part_of_tolerance().unwrap_or(f64::INFINITY);
+        let numbers = numbers.into_iter();
+        let worst = numbers.max_by(|one, other| part(one).total_cmp(&part(other)));
+        worst.unwrap_or_else(|| Self::wrong("a number", "nothing was compared"))
     }
 
     /// The error that a problem must end in; see [`refused!`](super::refused).
@@ -193,7 +93,10 @@ impl Finding {
     ) -> Self {
         match result {
             // Enough of a solution that should not be to recognise it.
-            Ok(value) => Self::wrong(expected, format!("{value:?}").chars().take(200).collect()),
+            Ok(value) => {
+                let text: String = format!("{value:?}").chars().take(200).collect();
+                Self::wrong(expected, text)
+            }
             Err(error) => Self {
                 verdict: Verdict::Refused.provided(is_right(&error)),
                 ..Self::wrong(expected, error.to_string())
@@ -201,32 +104,36 @@ impl Finding {
         }
     }
 
+    fn wrong(expected: impl Into<String>, got: impl Into<String>) -> Self {
+        Self {
+            expected: expected.into(),
+            got: got.into(),
+            ..Self::default()
+        }
+    }
+
     /// Deviation as a part of what is allowed, where numbers were compared.
     pub(super) fn part_of_tolerance(&self) -> Option<f64> {
-        Some(part(self.deviation?, self.tolerance?))
+        Some(self.deviation? / self.tolerance?)
     }
 }
 
-/// No deviation is within any tolerance, even none.
-fn part(deviation: f64, tolerance: f64) -> f64 {
-    if deviation == 0.0 {
-        return 0.0;
+impl Verdict {
+    fn provided(self, right: bool) -> Self {
+        if right { self } else { Self::Wrong }
     }
-    deviation / tolerance
 }
 
 /// A list of families, each as `cost name, parameter, values => function of the value;`.
 macro_rules! families {
-    ($($cost:ident $name:literal, $parameter:literal, $values:expr => $run:expr;)*) => {{
-        use $crate::evidence::stability::case::{Cost, Family};
-        vec![$(Family::over(Cost::$cost, $name, $parameter, $values, $run)),*]
-    }};
-}
-
-/// A list of cases, each as `value of the parameter => finding;`.
-macro_rules! cases {
-    ($($value:expr => $finding:expr;)*) => {
-        vec![$($crate::evidence::stability::case::Case::new($value, move || $finding)),*]
+    ($($cost:ident $name:expr, $parameter:expr, $values:expr => $run:expr;)*) => {
+        vec![$($crate::evidence::stability::case::Family {
+            name: $name,
+            parameter: $parameter,
+            values: $values.into_iter().collect(),
+            cost: $crate::evidence::stability::case::Cost::$cost,
+            run: Box::new($run),
+        }),*]
     };
 }
 
@@ -237,30 +144,108 @@ macro_rules! compare {
         compare!(within tolerance; $(stringify!($field) => got.$field, expected.$field);+)
     }};
     (within $tolerance:expr; $($name:expr => $got:expr, $expected:expr);+) => {{
-        use $crate::evidence::stability::case::{Comparison, Finding};
         let tolerance = $tolerance;
-        Ok(Finding::of(&[$(Comparison::relative($name, $got, $expected, tolerance)),+]))
+        let numbers = [$(($name, [$got, $expected])),+].map(|(name, pair)| {
+            $crate::evidence::stability::case::Row::number(name, pair, pair[1].abs(), tolerance)
+        });
+        Ok($crate::evidence::stability::case::Row::worst(numbers))
     }};
 }
 
 /// What comes of a problem whose right result is an error of the given pattern.
 macro_rules! refused {
     ($result:expr => $pattern:pat) => {
-        Ok($crate::evidence::stability::case::Finding::refusal(
+        Ok($crate::evidence::stability::case::Row::refusal(
             $result,
             stringify!($pattern),
             |error| matches!(error, $pattern),
         ))
     };
 }
-pub(super) use {cases, compare, families, refused};
+pub(super) use {compare, families, refused};
 
-/// 10^first, 10^(first + step), …, 10^last.
-pub(super) fn decades(first: i32, last: i32, step: usize) -> impl Iterator<Item = f64> + Clone {
-    (first..=last).step_by(step).map(power_of_ten)
+/// Runs all cases on all threads; rows in the order of the cases.
+pub(super) fn judge(families: &[Family]) -> Result<Vec<Row>> {
+    let mut cases = Vec::new();
+    for family in families {
+        cases.extend(family.values.iter().map(|value| (family, *value)));
+    }
+    // A panic is a row of the table, not a message between them.
+    let usual_hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let rows = in_parallel("stability", &cases, |(family, value)| {
+        Ok(row(family, *value))
+    });
+    std::panic::set_hook(usual_hook);
+    rows
 }
 
-/// The number nearest to 10^exponent; `powi` rounds more than once.
-pub(super) fn power_of_ten(exponent: i32) -> f64 {
-    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
+fn row(family: &Family, value: f64) -> Row {
+    let start = Instant::now();
+    let row = catch_unwind(AssertUnwindSafe(|| (family.run)(value)));
+    let row = row.unwrap_or_else(|panic| Err(anyhow!("panic: {}", message(&*panic))));
+    Row {
+        family: family.name,
+        parameter: family.parameter,
+        value,
+        seconds: start.elapsed().as_secs_f64(),
+        ..row.unwrap_or_else(|error| Row::wrong("a solution", format!("{error:#}")))
+    }
+}
+
+fn message(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("without a message")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::env::VarError;
+
+    use super::*;
+
+    fn judged(run: impl Fn(f64) -> Result<Row> + Send + Sync + 'static) -> Row {
+        let families = families! { Cheap "test", "number", [1.0] => run; };
+        judge(&families).expect("a row").remove(0)
+    }
+
+    fn beside_one(got: f64) -> Row {
+        judged(move |one| compare!(within 1e-9; "one" => one, 1.0; "other" => got, 1.0))
+    }
+
+    #[test]
+    fn only_numbers_within_their_tolerance_and_expected_errors_are_right() {
+        let missing = || Err::<(), _>(VarError::NotPresent);
+        for (row, expected) in [
+            (beside_one(1.0 + 0.9e-9), Verdict::Accurate),
+            (beside_one(1.0 + 1.1e-9), Verdict::Wrong),
+            (beside_one(1.0 - 1.1e-9), Verdict::Wrong),
+            (beside_one(f64::NAN), Verdict::Wrong),
+            (beside_one(f64::INFINITY), Verdict::Wrong),
+            (judged(|_| Ok(Row::worst([]))), Verdict::Wrong),
+            (
+                judged(move |_| refused!(missing() => VarError::NotPresent)),
+                Verdict::Refused,
+            ),
+            (
+                judged(move |_| refused!(missing() => VarError::NotUnicode(_))),
+                Verdict::Wrong,
+            ),
+            (
+                judged(|_| refused!(Ok::<_, VarError>(1) => _)),
+                Verdict::Wrong,
+            ),
+            (judged(|_| Err(anyhow!("no solution"))), Verdict::Wrong),
+        ] {
+            assert_eq!(row.verdict, expected, "{row:?}");
+        }
+    }
+
+    #[test]
+    fn a_panic_is_a_wrong_row_with_its_message() {
+        let row = judged(|_| panic!("cell {}", 7));
+        assert_eq!(row.verdict, Verdict::Wrong, "{row:?}");
+        assert_eq!(row.got, "panic: cell 7", "{row:?}");
+    }
 }

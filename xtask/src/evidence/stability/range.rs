@@ -7,8 +7,9 @@ use indenters::{PowerProfile, SlidingLoad};
 use mdr_core::MdrError;
 use rheology::Viscous;
 
-use super::case::{Case, Cost, Family, Finding, compare, decades, refused};
-use super::half_space::{beside_table, refined};
+use super::case::{Family, Row, compare, families, refused};
+use super::families::decades;
+use super::half_space::{OPTIONS, beside_table, refined};
 use super::line::{self, Dashpot, marched, state};
 
 /// A paraboloid on a dashpot; all four numbers are one unless a case changes one of them.
@@ -27,17 +28,8 @@ const UNIT: Scene = Scene {
     curvature: 1.0,
 };
 
-/// Solves a scene and compares with the closed form; a scene without a solution must end in the right error.
-type Method = fn(Scene, Expected) -> Result<Finding>;
-
 /// The scene that belongs to the value of a parameter.
 type Change = fn(f64) -> Scene;
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Expected {
-    Solution,
-    Refusal,
-}
 
 /// The parameters that are changed one at a time.
 const PARAMETERS: [(&str, Change); 4] = [
@@ -49,54 +41,29 @@ const PARAMETERS: [(&str, Change); 4] = [
     }),
     ("curvature · m", |curvature| Scene { curvature, ..UNIT }),
 ];
-/// A force that leaves a depth with fewer digits than others have, which the solvers on the line refuse, and one at
-/// which the march has no room.
-const ENDS: [f64; 2] = [1e-310, 1.7e308];
+/// Forces up to the ends of floating-point numbers; the smallest leaves no depth.
+const FORCES: [f64; 9] = [
+    5e-324, 1e-310, 1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300, 1.7e308,
+];
 
 pub(super) fn families() -> Vec<Family> {
+    let scale = |step| decades(-12, 12, step);
     let mut families = Vec::new();
-    let methods: [(_, Method, _, _); 3] = [
-        ("line, stationary, paraboloid", line, 1, Cost::Cheap),
-        ("line, march, paraboloid", march, 3, Cost::Cheap),
-        (
-            "half space, stationary, paraboloid",
-            half_space,
-            3,
-            Cost::Costly,
-        ),
-    ];
-    for (name, method, step, cost) in methods {
-        families.extend(PARAMETERS.map(|(parameter, scene)| {
-            let run = move |value| method(scene(value), Expected::Solution);
-            Family::over(cost, name, parameter, decades(-12, 12, step), run)
-        }));
+    for (parameter, scene) in PARAMETERS {
+        families.extend(families! {
+            Cheap "line, stationary, paraboloid", parameter, scale(1) => move |value| line(scene(value));
+            Cheap "line, march, paraboloid", parameter, scale(3) => move |value| march(scene(value));
+            Costly "half space, stationary, paraboloid", parameter, scale(3) => move |value| half_space(scene(value));
+        });
     }
-    families.extend([
-        ends_of_numbers("theorem, ends of numbers", theorem, &[]),
-        ends_of_numbers("line, ends of numbers", line, &ENDS[..1]),
-        ends_of_numbers("line, march, ends of numbers", march, &ENDS),
-        ends_of_numbers("half space, ends of numbers", half_space, &[]),
-    ]);
-    families
-}
-
-/// Forces that a depth can be computed from, the smallest one, which leaves no depth, and those that a method refuses.
-fn ends_of_numbers(name: &'static str, method: Method, refused: &[f64]) -> Family {
-    let smallest = f64::from_bits(1);
-    let forces = [
-        smallest, 1e-310, 1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300, 1.7e308,
-    ];
-    let cases = forces.map(|force: f64| {
-        let is = |other: &f64| other.total_cmp(&force).is_eq();
-        let expected = if is(&smallest) || refused.iter().any(is) {
-            Expected::Refusal
-        } else {
-            Expected::Solution
-        };
-        let scene = Scene { force, ..UNIT };
-        Case::new(format!("{force:e}"), move || method(scene, expected))
+    let (parameter, scene) = PARAMETERS[0];
+    families.extend(families! {
+        Cheap "theorem, ends of numbers", parameter, FORCES => move |force| theorem(scene(force));
+        Cheap "line, ends of numbers", parameter, FORCES => move |force| line(scene(force));
+        Cheap "line, march, ends of numbers", parameter, FORCES => move |force| march(scene(force));
+        Cheap "half space, ends of numbers", parameter, FORCES => move |force| half_space(scene(force));
     });
-    Family::of(name, "force / N", cases.into())
+    families
 }
 
 impl Scene {
@@ -112,7 +79,7 @@ impl Scene {
     }
 
     /// Eqs. (12) and (22) as the paper prints them, in an order that neither overflows nor underflows.
-    fn compared(self, depth: f64, friction: f64, tolerance: f64) -> Result<Finding> {
+    fn compared(self, depth: f64, friction: f64, tolerance: f64) -> Result<Row> {
         let expected = 0.25 * self.force / self.viscosity / self.velocity;
         // A depth below the normal numbers has fewer digits.
         let tolerance = tolerance + f64::from_bits(1) / expected;
@@ -122,20 +89,22 @@ impl Scene {
     }
 }
 
-fn theorem(scene: Scene, expected: Expected) -> Result<Finding> {
+/// The smallest force leaves no depth.
+fn theorem(scene: Scene) -> Result<Row> {
     let Dashpot { material, load } = scene.dashpot()?;
     let got = power_sliding(&scene.profile()?, &material, &load);
-    if expected == Expected::Refusal {
+    if scene.force < 1e-320 {
         return refused!(got => FrictionError::OutOfRange { .. });
     }
     let got = got?;
     scene.compared(got.indentation_depth, got.friction_coefficient, 1e-12)
 }
 
-fn line(scene: Scene, expected: Expected) -> Result<Finding> {
+/// Small forces leave a depth with fewer digits than others have.
+fn line(scene: Scene) -> Result<Row> {
     let Dashpot { material, load } = scene.dashpot()?;
     let got = state(&scene.profile()?, &material, &load);
-    if expected == Expected::Refusal {
+    if scene.force < 1e-300 {
         return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?;
@@ -145,10 +114,11 @@ fn line(scene: Scene, expected: Expected) -> Result<Finding> {
 
 const ELEMENTS: usize = 100;
 
-fn march(scene: Scene, expected: Expected) -> Result<Finding> {
+/// At the largest force the march has no room.
+fn march(scene: Scene) -> Result<Row> {
     let Dashpot { material, load } = scene.dashpot()?;
     let got = marched(&scene.profile()?, &material, &load, ELEMENTS);
-    if expected == Expected::Refusal {
+    if !(1e-300..1e308).contains(&scene.force) {
         return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?.last;
@@ -157,10 +127,10 @@ fn march(scene: Scene, expected: Expected) -> Result<Finding> {
     scene.compared(got.indentation_depth, got.friction_coefficient, tolerance)
 }
 
-fn half_space(scene: Scene, expected: Expected) -> Result<Finding> {
+fn half_space(scene: Scene) -> Result<Row> {
     let (profile, dashpot) = (scene.profile()?, scene.dashpot()?);
-    if expected == Expected::Refusal {
-        let got = refined(&profile, &dashpot);
+    if scene.force < 1e-320 {
+        let got = refined(&profile, &dashpot, &OPTIONS);
         return refused!(got => BemError::InvalidParameter(_));
     }
     beside_table(&profile, &profile, &dashpot, 0.0)
