@@ -1,5 +1,6 @@
 //! What can be wrong with a scene, with the key it is wrong at.
 
+use numerics::InvalidParameter;
 use thiserror::Error;
 
 /// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
@@ -42,29 +43,24 @@ impl SceneError {
             problem: problem.into(),
         }
     }
-}
 
-pub(crate) fn positive(key: &str, value: f64) -> Result<f64, SceneError> {
-    in_range(key, value, value > 0.0, "finite and greater than 0")
-}
-
-pub(crate) fn not_negative(key: &str, value: f64) -> Result<f64, SceneError> {
-    in_range(key, value, value >= 0.0, "finite and at least 0")
-}
-
-/// Checks that a number is finite and in a range.
-pub(crate) fn in_range(
-    key: &str,
-    value: f64,
-    holds: bool,
-    allowed: &'static str,
-) -> Result<f64, SceneError> {
-    if value.is_finite() && holds {
-        return Ok(value);
+    /// A parameter of a table is refused.
+    pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
+        Self::Value {
+            key: format!("{table}.{}", refused.parameter),
+            value: refused.value,
+            allowed: refused.allowed,
+        }
     }
-    Err(SceneError::Value {
-        key: key.to_owned(),
-        value,
-        allowed,
-    })
+}
+
+/// A parameter whose name is the whole key.
+impl From<InvalidParameter> for SceneError {
+    fn from(refused: InvalidParameter) -> Self {
+        Self::Value {
+            key: refused.parameter.to_owned(),
+            value: refused.value,
+            allowed: refused.allowed,
+        }
+    }
 }

@@ -1,11 +1,11 @@
 //! `[load]`: how the body is pressed and moved.
 
 use indenters::Control;
+use numerics::{not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::error::{not_negative, positive};
 
 /// A force or a depth, and a speed.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -27,20 +27,20 @@ impl Load {
     /// # Errors
     /// [`SceneError`] unless there is exactly one of force and depth, and it is positive.
     pub fn control(&self) -> Result<Control, SceneError> {
-        match (self.normal_force, self.indentation_depth) {
-            (Some(force), None) => positive("load.normal_force", force).map(Control::NormalForce),
+        Ok(match (self.normal_force, self.indentation_depth) {
+            (Some(force), None) => Control::NormalForce(positive("load.normal_force", force)?),
             (None, Some(depth)) => {
-                positive("load.indentation_depth", depth).map(Control::IndentationDepth)
+                Control::IndentationDepth(positive("load.indentation_depth", depth)?)
             }
             (Some(_), Some(_)) => Err(SceneError::at(
                 "load.indentation_depth",
                 "either normal_force or indentation_depth is given, not both",
-            )),
+            ))?,
             (None, None) => Err(SceneError::at(
                 "load.normal_force",
                 "normal_force or indentation_depth is missing",
-            )),
-        }
+            ))?,
+        })
     }
 
     /// The sliding speed, \[m/s].
@@ -48,6 +48,6 @@ impl Load {
     /// # Errors
     /// [`SceneError::Value`] for a speed that is negative or not finite.
     pub fn checked_velocity(&self) -> Result<f64, SceneError> {
-        not_negative("load.velocity", self.velocity)
+        Ok(not_negative("load.velocity", self.velocity)?)
     }
 }

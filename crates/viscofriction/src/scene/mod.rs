@@ -17,7 +17,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
-pub(crate) use error::{in_range, positive};
 pub use files::{height_map, profile};
 pub use indenter::{Indenter, Term};
 pub use indenters::Control;

@@ -1,12 +1,11 @@
 //! `[solve]`: what is asked, and how well.
 
-use numerics::Accuracy;
+use numerics::{Accuracy, in_range, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
 use super::SceneError;
-use super::error::{in_range, positive};
 
 /// What is asked, and how well.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize, JsonSchema)]
@@ -121,8 +120,8 @@ impl Solve {
                 let value = given.unwrap_or(RELATIVE_ERROR);
                 let holds = value > 0.0 && value <= 0.1;
                 let allowed = "greater than 0 and at most 0.1";
-                let value = in_range("solve.relative_error", value, holds, allowed);
-                value.map(Accuracy::RelativeError)
+                let value = in_range("solve.relative_error", value, holds, allowed)?;
+                Ok(Accuracy::RelativeError(value))
             }
         }
     }
@@ -144,18 +143,18 @@ impl Solve {
     /// # Errors
     /// [`SceneError`] for a number out of range, or both a time and a distance.
     pub fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
-        match (self.duration, self.sliding_distance) {
+        Ok(match (self.duration, self.sliding_distance) {
             (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.sliding_distance",
                 "either duration or sliding_distance is given, not both",
-            )),
+            ))?,
             (Some(duration), None) => {
                 positive("solve.duration", duration)?;
-                positive("solve.duration", velocity * duration).map(Some)
+                Some(positive("solve.duration", velocity * duration)?)
             }
-            (None, Some(distance)) => positive("solve.sliding_distance", distance).map(Some),
-            (None, None) => Ok(None),
-        }
+            (None, Some(distance)) => Some(positive("solve.sliding_distance", distance)?),
+            (None, None) => None,
+        })
     }
 
     /// Time of a pure indentation, \[s].
@@ -171,6 +170,6 @@ impl Solve {
             let problem = "a velocity of 0 is pure indentation, which needs solve.duration [s]";
             return Err(SceneError::at("load.velocity", problem));
         };
-        positive("solve.duration", duration)
+        Ok(positive("solve.duration", duration)?)
     }
 }

@@ -7,8 +7,9 @@ use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
+use numerics::{in_range, positive};
 
-use crate::scene::{Indenter, SceneError, Term, height_map, in_range, positive, profile};
+use crate::scene::{Indenter, SceneError, Term, height_map, profile};
 use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
@@ -97,53 +98,52 @@ fn other(shape: impl Axisymmetric + 'static) -> Revolution {
 }
 
 fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
-    for (index, term) in terms.iter().enumerate() {
-        let key = |name: &str| format!("indenter.superposition.terms[{index}].{name}");
-        let coefficient = term.coefficient;
-        let holds = coefficient.abs() > 0.0;
-        in_range(&key("coefficient"), coefficient, holds, "finite and not 0")?;
-        positive(&key("exponent"), term.exponent)?;
+    let table = "indenter.superposition.terms";
+    for (
+        index,
+        &Term {
+            coefficient,
+            exponent,
+        },
+    ) in terms.iter().enumerate()
+    {
+        let wrong = |refused| SceneError::within(&format!("{table}[{index}]"), refused);
+        let holds = coefficient.is_finite() && coefficient != 0.0;
+        in_range("coefficient", coefficient, holds, "finite and not 0").map_err(wrong)?;
+        positive("exponent", exponent).map_err(wrong)?;
     }
     let term = |term: &Term| PowerTerm {
         coefficient: term.coefficient,
         exponent: term.exponent,
     };
-    let key = "indenter.superposition.terms";
     Superposition::new(terms.iter().map(term).collect())
-        .map_err(|error| SceneError::at(key, error.to_string()))
+        .map_err(|error| SceneError::at(table, error.to_string()))
 }
 
 fn table_profile(file: &Path, read: ReadFile) -> Result<Revolution, SceneError> {
-    let profile = read(file).and_then(|contents| profile(file, &contents).map_err(WrongInput));
-    let wrong = |WrongInput(problem)| SceneError::at("indenter.table.file", problem);
-    profile.map(other).map_err(wrong)
+    let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
+    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
+    profile(file, &contents).map(other).map_err(wrong)
 }
 
 fn map(file: &Path, spacing: [f64; 2], read: ReadFile) -> Result<HeightMap, SceneError> {
-    for (index, spacing) in spacing.into_iter().enumerate() {
-        positive(&format!("indenter.height-map.spacing[{index}]"), spacing)?;
+    positive("indenter.height-map.spacing[0]", spacing[0])?;
+    positive("indenter.height-map.spacing[1]", spacing[1])?;
+    let wrong = |problem: String| SceneError::at("indenter.height-map.file", problem);
+    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
+    let map = height_map(file, &contents, spacing).map_err(wrong)?;
+    if map.extent().into_iter().flatten().any(|end| end == 0.0) {
+        let problem =
+            "the lowest height lies on the edge of the map, where the contact would end with it";
+        return Err(wrong(format!("{}: {problem}", file.display())));
     }
-    let read_map = || {
-        let map = height_map(file, &read(file)?, spacing).map_err(WrongInput)?;
-        if map.extent().into_iter().flatten().any(|end| end == 0.0) {
-            return Err(WrongInput(format!(
-                "{}: the lowest height lies on the edge of the map, where the contact would end with it",
-                file.display()
-            )));
-        }
-        Ok(map)
-    };
-    read_map().map_err(|WrongInput(problem)| SceneError::at("indenter.height-map.file", problem))
+    Ok(map)
 }
 
 /// The number that the library refuses, with its key.
 fn refused(table: &str, error: IndenterError) -> SceneError {
     match error {
-        IndenterError::InvalidParameter(refused) => SceneError::Value {
-            key: format!("{table}.{}", refused.parameter),
-            value: refused.value,
-            allowed: refused.allowed,
-        },
+        IndenterError::InvalidParameter(refused) => SceneError::within(table, refused),
         other => SceneError::at(table, other.to_string()),
     }
 }

@@ -63,11 +63,7 @@ fn in_shear(table: &MaterialTable) -> Result<Box<dyn Material>, RheologyError> {
 fn refused(table: &str, error: RheologyError) -> SceneError {
     match error {
         RheologyError::InvalidParameter(refused) if KEYS.contains(&refused.parameter) => {
-            SceneError::Value {
-                key: format!("{table}.{}", refused.parameter),
-                value: refused.value,
-                allowed: refused.allowed,
-            }
+            SceneError::within(table, refused)
         }
         RheologyError::InvalidElement {
             list,
