@@ -29,7 +29,7 @@ pub(crate) struct Run {
     scene: PathBuf,
     /// Take this method instead of that of the scene.
     #[arg(long, value_enum)]
-    method: Option<MethodName>,
+    method: Option<Method>,
     /// How the result is printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -51,33 +51,6 @@ enum Format {
     Json,
 }
 
-/// The methods by their names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum MethodName {
-    /// Closed forms, quadrature, and the table of s(p) on the half space.
-    Analytic,
-    /// Stationary sliding on the one-dimensional model.
-    MdrSteady,
-    /// The one-dimensional model from first touch on.
-    MdrTransient,
-    /// Stationary sliding on the half space.
-    BemSteady,
-    /// The half space from first touch on.
-    BemTransient,
-}
-
-impl From<MethodName> for Method {
-    fn from(name: MethodName) -> Self {
-        match name {
-            MethodName::Analytic => Self::Analytic,
-            MethodName::MdrSteady => Self::MdrSteady,
-            MethodName::MdrTransient => Self::MdrTransient,
-            MethodName::BemSteady => Self::BemSteady,
-            MethodName::BemTransient => Self::BemTransient,
-        }
-    }
-}
-
 /// An answer and the time it took.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(crate) struct Timed<'a> {
@@ -89,7 +62,7 @@ pub(crate) struct Timed<'a> {
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
-    let (problem, method) = problem_of(&source, options.method.map(Method::from), read_input)?;
+    let (problem, method) = problem_of(&source, options.method, read_input)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();

@@ -37,16 +37,17 @@ pub struct Solve {
 
 /// How the answer is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "kebab-case")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Method {
-    /// Closed forms and quadrature.
+    /// Closed forms, quadrature, and the table of s(p) on the half space.
     Analytic,
-    /// The stationary state of the one-dimensional model.
+    /// Stationary sliding on the one-dimensional model.
     MdrSteady,
     /// The one-dimensional model from first touch on.
     MdrTransient,
-    /// The stationary state of the half space.
+    /// Stationary sliding on the half space.
     BemSteady,
     /// The half space from first touch on.
     BemTransient,
