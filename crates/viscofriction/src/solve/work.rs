@@ -11,8 +11,8 @@ use super::problem::{Motion, Problem};
 use super::{analytic, elements, mdr};
 use crate::scene::{Accuracy, Control, Method, Model};
 
-/// What one method computes, with all that it needs.
-pub(crate) type Work<'a> = Box<dyn FnOnce() -> Result<Answer> + 'a>;
+/// What one method computes, with all that it needs, or why it does not.
+pub(crate) type Work<'a> = Result<Box<dyn FnOnce() -> Result<Answer> + 'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
@@ -22,11 +22,7 @@ const NOTHING_SLIDES: Refusal =
     "nothing slides, and without sliding there is no stationary state to solve for";
 
 /// The work of a method, whichever method and model the problem names.
-pub(crate) fn work(
-    problem: &Problem,
-    method: Method,
-    accuracy: Accuracy,
-) -> Result<Work<'_>, Refusal> {
+pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
     match (&problem.body, method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
@@ -44,7 +40,7 @@ pub(crate) fn work(
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
-fn ready<'a>(answer: impl FnOnce() -> Result<Answer> + 'a) -> Result<Work<'a>, Refusal> {
+fn ready<'a>(answer: impl FnOnce() -> Result<Answer> + 'a) -> Work<'a> {
     Ok(Box::new(answer))
 }
 
@@ -65,7 +61,7 @@ fn line_contact<'a>(
     cylinder: &'a Cylinder,
     method: Method,
     accuracy: Accuracy,
-) -> Result<Work<'a>, Refusal> {
+) -> Work<'a> {
     let Control::NormalForce(force) = problem.motion.control() else {
         return Err(
             "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
@@ -114,7 +110,7 @@ fn boundary_elements<'a>(
     surface: &'a dyn Surface,
     method: Method,
     accuracy: Accuracy,
-) -> Result<Work<'a>, Refusal> {
+) -> Work<'a> {
     let is_stationary = method == Method::BemSteady;
     let material = &*problem.material;
     let load = match problem.motion {
@@ -145,7 +141,7 @@ fn one_dimensional<'a>(
     body: &'a Revolution,
     method: Method,
     accuracy: Accuracy,
-) -> Result<Work<'a>, Refusal> {
+) -> Work<'a> {
     let material = &*problem.material;
     match (method, problem.motion) {
         (Method::MdrSteady, Motion::Sliding(load)) => {
@@ -170,11 +166,7 @@ fn one_dimensional<'a>(
     }
 }
 
-fn closed<'a>(
-    problem: &'a Problem,
-    body: &'a Revolution,
-    accuracy: Accuracy,
-) -> Result<Work<'a>, Refusal> {
+fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) -> Work<'a> {
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
@@ -193,11 +185,7 @@ fn closed<'a>(
     }
 }
 
-fn closed_line<'a>(
-    problem: &'a Problem,
-    body: &'a Revolution,
-    load: SlidingLoad,
-) -> Result<Work<'a>, Refusal> {
+fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad) -> Work<'a> {
     let cone_or_paraboloid = match body {
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
@@ -236,7 +224,7 @@ fn closed_half_space<'a>(
     body: &'a Revolution,
     load: SlidingLoad,
     asked: f64,
-) -> Result<Work<'a>, Refusal> {
+) -> Work<'a> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, &problem.simple)
     else {
         return Err("on the half space the friction of powers on a viscous material is tabulated");
