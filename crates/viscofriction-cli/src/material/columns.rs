@@ -19,16 +19,6 @@ pub(super) enum Quantity {
 pub(super) const NAMES: &str =
     "f or ω with E' and E'' (or G' and G''), or t with E_relax (or G_relax), and perhaps T and Set";
 
-const ALL: [Quantity; 7] = [
-    Quantity::Frequency,
-    Quantity::Time,
-    Quantity::Storage,
-    Quantity::Loss,
-    Quantity::Relaxation,
-    Quantity::Temperature,
-    Quantity::Set,
-];
-
 impl Quantity {
     /// The quantity that a name stands for; moduli in tension begin with E, and those in shear with G.
     pub(super) fn of(name: &str) -> Option<Self> {
@@ -36,20 +26,17 @@ impl Quantity {
             .replace(['′', '’'], "'")
             .replace(['″', '”', '"'], "''")
             .replace([' ', '_', '-'], "");
-        let is_named = |quantity: &Self| quantity.names().split(' ').any(|known| known == name);
-        ALL.into_iter().find(is_named)
-    }
-
-    const fn names(self) -> &'static str {
-        match self {
-            Self::Frequency => "f freq frequency Frequency ω omega w angularfrequency",
-            Self::Time => "t time Time",
-            Self::Storage => "E' Estor Estorage G' Gstor Gstorage",
-            Self::Loss => "E'' Eloss G'' Gloss",
-            Self::Relaxation => "E E(t) Erelax G G(t) Grelax",
-            Self::Temperature => "T temperature Temperature",
-            Self::Set => "set Set",
-        }
+        Some(match &*name {
+            "f" | "freq" | "frequency" | "Frequency" => Self::Frequency,
+            "ω" | "omega" | "w" | "angularfrequency" => Self::Frequency,
+            "t" | "time" | "Time" => Self::Time,
+            "E'" | "Estor" | "Estorage" | "G'" | "Gstor" | "Gstorage" => Self::Storage,
+            "E''" | "Eloss" | "G''" | "Gloss" => Self::Loss,
+            "E" | "E(t)" | "Erelax" | "G" | "G(t)" | "Grelax" => Self::Relaxation,
+            "T" | "temperature" | "Temperature" => Self::Temperature,
+            "set" | "Set" => Self::Set,
+            _ => return None,
+        })
     }
 
     /// The usual names, for messages.

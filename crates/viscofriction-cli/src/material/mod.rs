@@ -115,18 +115,15 @@ fn joined(
     table: Table,
     options: &FitMaterial,
 ) -> Result<(Points, Option<MasterCurve>), RheologyError> {
-    match table.measurements {
-        Measurements::Relaxation(points) => Ok((Points::Relaxation(points), None)),
-        Measurements::Oscillation(mut isotherms) if isotherms.len() == 1 => {
-            let points = isotherms.remove(0).points;
-            Ok((Points::Oscillation(points), None))
-        }
-        Measurements::Oscillation(isotherms) => {
-            let master = shifting::master_curve(&isotherms, table.celsius, options)?;
-            let points = Points::Oscillation(master.points.clone());
-            Ok((points, Some(master)))
-        }
+    let isotherms = match table.measurements {
+        Measurements::Relaxation(points) => return Ok((Points::Relaxation(points), None)),
+        Measurements::Oscillation(isotherms) => isotherms,
+    };
+    if let [only] = &isotherms[..] {
+        return Ok((Points::Oscillation(only.points.clone()), None));
     }
+    let master = shifting::master_curve(&isotherms, table.celsius, options)?;
+    Ok((Points::Oscillation(master.points.clone()), Some(master)))
 }
 
 /// Checks what would be a table of incompressible material.
@@ -205,18 +202,18 @@ fn shear_per_tension(poisson_ratio: f64) -> Result<f64, WrongInput> {
 /// An option that the library refuses is the user's; that a fit does not converge is not.
 fn wrong_option(error: RheologyError) -> anyhow::Error {
     match error {
-        RheologyError::InvalidParameter(InvalidParameter {
-            parameter,
-            value,
-            allowed,
-        }) => {
-            let option = match parameter {
+        RheologyError::InvalidParameter(refused) => {
+            let parameter = match refused.parameter {
                 "n_branches" => "--branches",
                 "tolerance" => "--parsimony",
                 "weight" => "--smoothing",
                 other => other,
             };
-            WrongInput(format!("{option} must be {allowed}, but is {value}")).into()
+            let refused = InvalidParameter {
+                parameter,
+                ..refused
+            };
+            WrongInput(refused.to_string()).into()
         }
         other => other.into(),
     }

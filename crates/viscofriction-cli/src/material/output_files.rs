@@ -52,13 +52,9 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         let fit = spectrum.relaxation_modulus(time)?;
         Ok(vec![time, modulus, fit, (fit / modulus - 1.0).abs()])
     };
-    let rows: Result<Vec<Vec<f64>>> = match &fitted.points {
-        Points::Oscillation(points) => points.iter().map(oscillation).collect(),
-        Points::Relaxation(points) => points.iter().map(relaxation).collect(),
-    };
-    let names = match &fitted.points {
-        Points::Oscillation(_) => &OSCILLATION[..],
-        Points::Relaxation(_) => &RELAXATION,
+    let (names, rows): (&[&str], Result<Vec<_>>) = match &fitted.points {
+        Points::Oscillation(points) => (&OSCILLATION, points.iter().map(oscillation).collect()),
+        Points::Relaxation(points) => (&RELAXATION, points.iter().map(relaxation).collect()),
     };
     Ok(Comparison { names, rows: rows? })
 }

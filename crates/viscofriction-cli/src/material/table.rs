@@ -9,6 +9,8 @@ use viscofriction::{WrongInput, line_of_record};
 
 use super::columns::{NAMES, Quantity};
 
+type Result<T, E = WrongInput> = std::result::Result<T, E>;
+
 /// A whole table, in SI and in shear.
 #[derive(Debug)]
 pub(super) struct Table {
@@ -28,11 +30,7 @@ const DRIFT: f64 = 1.0;
 
 impl Table {
     /// Reads the contents of a file; moduli in tension are multiplied by `shear_per_tension`.
-    pub(super) fn read(
-        file: &Path,
-        contents: &[u8],
-        shear_per_tension: f64,
-    ) -> Result<Self, WrongInput> {
+    pub(super) fn read(file: &Path, contents: &[u8], shear_per_tension: f64) -> Result<Self> {
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -106,7 +104,7 @@ impl Head<'_> {
         place: usize,
         units: &StringRecord,
         shear_per_tension: f64,
-    ) -> Result<Column, WrongInput> {
+    ) -> Result<Column> {
         let name = &self.names[place];
         if self.find(quantity).is_some() {
             let once = "a quantity once, in tension (E) or in shear (G)";
@@ -127,7 +125,7 @@ impl Head<'_> {
         })
     }
 
-    fn measurements(&self, records: &[StringRecord]) -> Result<Measurements, WrongInput> {
+    fn measurements(&self, records: &[StringRecord]) -> Result<Measurements> {
         if self.find(Quantity::Time).is_some() {
             let groups = self.groups(records, &[Quantity::Time, Quantity::Relaxation])?;
             if let Some(second) = groups.get(1) {
@@ -166,22 +164,18 @@ impl Head<'_> {
     }
 
     /// The numbers of these quantities in all rows, by isotherms; within one the first quantity must increase.
-    fn groups(
-        &self,
-        records: &[StringRecord],
-        quantities: &[Quantity],
-    ) -> Result<Vec<Group>, WrongInput> {
+    fn groups(&self, records: &[StringRecord], quantities: &[Quantity]) -> Result<Vec<Group>> {
         let needed = |quantity: &Quantity| {
             let what = quantity.usual();
             let problem = format!("there must be a column {what}; the names are {NAMES}");
             let column = self.find(*quantity);
             column.ok_or_else(|| wrong_line(self.file, 1, &problem))
         };
-        let columns: Vec<&Column> = quantities.iter().map(needed).collect::<Result<_, _>>()?;
+        let columns: Vec<&Column> = quantities.iter().map(needed).collect::<Result<_>>()?;
         let mut groups: Vec<Group> = Vec::new();
         for record in records {
             let numbers = columns.iter().map(|column| self.positive(record, column));
-            let row: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+            let row: Vec<f64> = numbers.collect::<Result<_>>()?;
             let temperature = self.optional(record, Quantity::Temperature)?;
             let set = self.optional(record, Quantity::Set)?;
             match groups.last_mut() {
@@ -211,7 +205,7 @@ impl Head<'_> {
         columns.find(|column| column.quantity == quantity)
     }
 
-    fn positive(&self, record: &StringRecord, column: &Column) -> Result<f64, WrongInput> {
+    fn positive(&self, record: &StringRecord, column: &Column) -> Result<f64> {
         let number = self.number(record, column)?;
         let in_si = number * column.factor;
         if in_si > 0.0 && in_si.is_finite() {
@@ -225,16 +219,12 @@ impl Head<'_> {
         Err(self.wrong(record, column.place, expected))
     }
 
-    fn optional(
-        &self,
-        record: &StringRecord,
-        quantity: Quantity,
-    ) -> Result<Option<f64>, WrongInput> {
+    fn optional(&self, record: &StringRecord, quantity: Quantity) -> Result<Option<f64>> {
         let column = self.find(quantity);
         column.map(|column| self.number(record, column)).transpose()
     }
 
-    fn number(&self, record: &StringRecord, column: &Column) -> Result<f64, WrongInput> {
+    fn number(&self, record: &StringRecord, column: &Column) -> Result<f64> {
         let number = record.get(column.place).and_then(|cell| cell.parse().ok());
         let number = number.filter(|number: &f64| number.is_finite());
         number.ok_or_else(|| self.wrong(record, column.place, "a finite number"))
