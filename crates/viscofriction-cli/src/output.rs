@@ -68,8 +68,6 @@ pub(crate) fn picture(figure: &Figure) -> Result<(String, Vec<u8>)> {
 pub(crate) struct OutputFile {
     path: PathBuf,
     overwrite: bool,
-    /// Of the file that is replaced.
-    permissions: Option<fs::Permissions>,
 }
 
 impl OutputFile {
@@ -79,22 +77,17 @@ impl OutputFile {
     /// [`WrongInput`] for a device, a pipe, a socket or a folder, and for a file that is there unless it may be replaced.
     pub(crate) fn new(path: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
-        let permissions = match fs::metadata(path) {
+        match fs::metadata(path) {
             Ok(file) if !file.is_file() => {
-                return Err(wrong("only a regular file is written, and this is none"));
+                Err(wrong("only a regular file is written, and this is none"))
             }
-            Ok(_) if !overwrite => {
-                return Err(wrong("the file is there already; --overwrite replaces it"));
-            }
-            Ok(file) => Some(file.permissions()),
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(error) => return Err(wrong(&error.to_string())),
-        };
-        Ok(Self {
-            path: followed(path),
-            overwrite,
-            permissions,
-        })
+            Ok(_) if !overwrite => Err(wrong("the file is there already; --overwrite replaces it")),
+            Err(error) if error.kind() != ErrorKind::NotFound => Err(wrong(&error.to_string())),
+            _ => Ok(Self {
+                path: followed(path),
+                overwrite,
+            }),
+        }
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -109,8 +102,8 @@ impl OutputFile {
             fs::create_dir_all(folder)?;
             let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
             part.write_all(contents)?;
-            if let Some(permissions) = &self.permissions {
-                part.as_file().set_permissions(permissions.clone())?;
+            if let Ok(replaced) = fs::metadata(&self.path) {
+                part.as_file().set_permissions(replaced.permissions())?;
             }
             // Somebody else may have written it meanwhile.
             let persisted = if self.overwrite {
@@ -170,17 +163,12 @@ pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
     }
 }
 
-/// The file that a symbolic link names, whether or not that is there.
+/// The file that a symbolic link names, whether or not that is there; links that name each other are no file.
 fn followed(path: &Path) -> PathBuf {
-    let mut path = path.to_owned();
-    // As many links as the system itself follows.
-    for _ in 0..40 {
-        let Ok(target) = fs::read_link(&path) else {
-            break;
-        };
-        path = path.parent().unwrap_or(Path::new("")).join(target);
+    match fs::read_link(path) {
+        Ok(target) => followed(&path.with_file_name(target)),
+        Err(_) => path.to_owned(),
     }
-    path
 }
 
 /// Takes what only one program may write, and keeps it as long as the file is open.
