@@ -134,34 +134,3 @@ fn shape(header: &str) -> Result<[usize; 2], String> {
         format!("an array of 2 dimensions is needed, and not of {dimensions}")
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{NpyTable, from_npy, to_npy};
-
-    #[test]
-    fn what_is_written_reads_back_to_the_last_bit() {
-        let values = vec![0.1, -0.0, 5e-324, f64::MAX, 1.0 / 3.0, -7.25];
-        let table = from_npy(&to_npy(&values, &[2, 3])).expect("a table");
-        let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(&table.values), bits(&values), "numbers");
-        assert_eq!(table.shape, [2, 3], "shape");
-    }
-
-    /// `numpy.save` of NumPy 2.4.6 for `numpy.asfortranarray([[1, 2, 3], [4, 5, 6]]).astype("<f4")`.
-    #[test]
-    fn a_transposed_array_of_single_precision_is_read_row_by_row() {
-        let header = "{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }";
-        let mut bytes = [b"\x93NUMPY\x01\x00v\x00", header.as_bytes()].concat();
-        bytes.resize(127, b' ');
-        bytes.push(b'\n');
-        for value in [1.0_f32, 4.0, 2.0, 5.0, 3.0, 6.0] {
-            bytes.extend(value.to_le_bytes());
-        }
-        let expected = NpyTable {
-            shape: [2, 3],
-            values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
-        };
-        assert_eq!(from_npy(&bytes), Ok(expected));
-    }
-}
