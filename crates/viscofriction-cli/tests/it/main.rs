@@ -1,12 +1,12 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
+mod answers_agree;
 mod any_scene_is_answered;
 mod documented_commands;
 mod explained_omissions;
 mod files;
 mod fit_material;
 mod fuzzed_inputs;
-mod half_space_scenes;
 mod height_maps_of_numpy;
 mod malformed;
 mod scenes;

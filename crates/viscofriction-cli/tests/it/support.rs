@@ -207,12 +207,19 @@ pub(crate) fn estimate(result: &Value, field: &str) -> Estimate {
     }
 }
 
-/// Requires that two values differ by their errors at most, which together are less than a part of the second one.
+/// Requires that two values differ by their errors at most, which together are less than a part of the second one, or of
+/// one where that is zero, and zero only of a part of zero.
 #[track_caller]
 pub(crate) fn assert_agree(what: impl Display, one: Estimate, other: Estimate, part: f64) {
     let error = one.error + other.error;
+    let scale = if other.value == 0.0 {
+        1.0
+    } else {
+        other.value.abs()
+    };
+    let is_small = (error > 0.0 && error < part * scale) || (error == 0.0 && part == 0.0);
     assert!(
-        (one.value - other.value).abs() <= error && error < part * other.value.abs(),
+        (one.value - other.value).abs() <= error && is_small,
         "{what}: {one:?} and {other:?}"
     );
 }
@@ -227,7 +234,7 @@ pub(crate) fn assert_close(what: impl Display, value: f64, expected: f64, part: 
     );
 }
 
-/// A file of NumPy in the format 1.0, of a header and numbers.
+/// A file as `numpy.save` of NumPy 2.4.6 writes it in the format 1.0, of a header and numbers.
 pub(crate) fn npy(header: &str, numbers: &[u8]) -> Vec<u8> {
     // Up to a line feed in front of a multiple of 64 bytes.
     let length = (10 + header.len() + 1).next_multiple_of(64) - 10;

@@ -261,38 +261,3 @@ pub(crate) fn cylinder_pressed(
         ..Answer::new(Method::Analytic, Model::HalfSpace, Estimate::exact(force))
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::{Answer, Estimate, Problem, Scene, solve};
-
-    fn answer(scene: &str) -> Answer {
-        let scene: Scene = scene.parse().expect("a scene");
-        solve(&Problem::try_from(&scene).expect("a problem")).expect("an answer")
-    }
-
-    #[test]
-    fn a_cylinder_on_springs_has_no_friction() {
-        let answer = answer(
-            "indenter.cylinder.radius = 1e-2\nmaterial.elastic.shear_modulus = 1e6\n\
-             load = { normal_force = 1e3, velocity = 0.1 }",
-        );
-        let exact = Some(Estimate::exact(0.0));
-        assert_eq!(answer.friction_coefficient, exact, "friction");
-        assert!(answer.contact_area.is_some(), "width of the contact");
-    }
-
-    /// F = 4 η v d (12).
-    #[test]
-    fn of_force_and_depth_the_given_one_is_exact() {
-        let answer = answer(
-            "indenter.cone.slope = 0.1\nmaterial.viscous.viscosity = 1e4\n\
-             load = { indentation_depth = 1e-3, velocity = 0.1 }\nsolve.model = \"line\"",
-        );
-        let exact = Some(Estimate::exact(1e-3));
-        assert_eq!(answer.indentation_depth, exact, "depth");
-        let force = answer.normal_force;
-        assert!((force.value - 4.0).abs() <= force.error, "force {force:?}");
-        assert!(force.error > 0.0, "force {force:?}");
-    }
-}
