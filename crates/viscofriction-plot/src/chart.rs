@@ -1,15 +1,15 @@
-//! Charts: series over a pair of axes.
+//! Charts: series over a pair of axes, and a field under them.
 
 use crate::axis::Axis;
 use crate::canvas::{Canvas, Pixel};
 use crate::error::PlotError;
-use crate::frame::{Frame, TickSide, right_margin, side_margin};
+use crate::field::Field;
+use crate::frame::{Frame, TickSide, right_margin};
 use crate::legend::{Legend, LegendPlace};
 use crate::marks::draw_series;
-use crate::panel::{Draw, PANEL_WIDTH};
-use crate::series::{Series, validate};
+use crate::series::Series;
 
-/// Series over a pair of axes.
+/// Series over a pair of axes, or over a field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     /// Text above the frame.
@@ -18,46 +18,101 @@ pub struct Chart {
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
+    /// Drawn first; the axes then have no grid.
+    pub field: Option<Field>,
     /// Data, drawn in this order.
     pub series: Vec<Series>,
     /// Place of the legend.
     pub legend: LegendPlace,
 }
 
-/// Height of the data rectangle, \[px\].
+/// Width of a chart with everything around it, \[px\].
+pub(crate) const PANEL_WIDTH: f64 = 480.0;
+/// Height of the data rectangle without a field, and the largest one with, \[px\].
 const HEIGHT: f64 = 280.0;
+const LARGEST_HEIGHT: f64 = 400.0;
 
-impl Draw for Chart {
-    fn validate(&self) -> Result<(), PlotError> {
-        if self.series.is_empty() {
-            let what = format!("the list of series over '{}'", self.x.label);
-            return Err(PlotError::Empty(what));
-        }
-        validate(&self.series, &self.x, &self.y)
-    }
-
-    fn left_margin(&self) -> Result<f64, PlotError> {
-        side_margin(&self.y)
-    }
-
-    fn height(&self, left: f64) -> Result<f64, PlotError> {
-        let frame = self.frame([left, 0.0], left)?;
-        let legend = Legend::new(&self.series, &frame, self.legend)?;
-        Ok(frame.bottom() + legend.height_below())
-    }
-
-    fn draw(&self, canvas: &mut Canvas, [x, y]: Pixel, left: f64) -> Result<(), PlotError> {
-        let frame = self.frame([x + left, y], left)?;
-        frame.draw(canvas, TickSide::Inside)?;
-        draw_series(canvas, &frame, &self.series);
-        Legend::new(&self.series, &frame, self.legend)?.draw(canvas, &frame);
-        Ok(())
-    }
+/// A chart with its place found.
+pub(crate) struct Panel<'a> {
+    chart: &'a Chart,
+    frame: Frame<'a>,
+    legend: Legend<'a>,
 }
 
 impl Chart {
-    fn frame(&self, origin: Pixel, left: f64) -> Result<Frame<'_>, PlotError> {
-        let size = [PANEL_WIDTH - left - right_margin(&self.x)?, HEIGHT];
-        Ok(Frame::new(&self.title, [&self.x, &self.y], origin, size))
+    /// Series without title, and with the legend where there is room.
+    #[must_use]
+    pub fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self {
+            title: None,
+            x,
+            y,
+            field: None,
+            series,
+            legend: LegendPlace::Free,
+        }
+    }
+
+    /// A field without title and series.
+    #[must_use]
+    pub fn map(x: Axis, y: Axis, field: Field) -> Self {
+        Self {
+            field: Some(field),
+            ..Self::new(x, y, Vec::new())
+        }
+    }
+
+    /// Refuses data that cannot be drawn faithfully.
+    pub(crate) fn validate(&self) -> Result<(), PlotError> {
+        let Self { x, y, .. } = self;
+        x.validate()?;
+        y.validate()?;
+        match &self.field {
+            Some(field) => field.validate([x, y])?,
+            None if self.series.is_empty() => {
+                let what = format!("the list of series over '{}'", x.label);
+                return Err(PlotError::Empty(what));
+            }
+            None => (),
+        }
+        self.series.iter().try_for_each(|one| one.validate(x, y))
+    }
+
+    /// The chart with its upper left corner at `origin` and so much room on its left side.
+    pub(crate) fn panel(&self, [x, y]: Pixel, left: f64) -> Result<Panel<'_>, PlotError> {
+        let width = PANEL_WIDTH - left;
+        let size = match &self.field {
+            None => [width - right_margin(&self.x)?, HEIGHT],
+            Some(field) => {
+                let largest = [width - field.right_margin()?, LARGEST_HEIGHT];
+                field.size([&self.x, &self.y], largest)
+            }
+        };
+        let frame = Frame::new(self, [x + left, y], size)?;
+        Ok(Panel {
+            chart: self,
+            legend: Legend::new(&self.series, &frame, self.legend)?,
+            frame,
+        })
+    }
+}
+
+impl Panel<'_> {
+    /// Lower end, \[px\].
+    pub(crate) fn bottom(&self) -> f64 {
+        self.frame.bottom() + self.legend.height_below()
+    }
+
+    pub(crate) fn draw(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
+        if let Some(field) = &self.chart.field {
+            field.draw(canvas, self.frame.area);
+            self.frame.draw(canvas, TickSide::Outside);
+            field.draw_bar(canvas, self.frame.area)?;
+        } else {
+            self.frame.draw(canvas, TickSide::Inside);
+        }
+        draw_series(canvas, &self.frame, &self.chart.series);
+        self.legend.draw(canvas, &self.frame);
+        Ok(())
     }
 }

@@ -1,119 +1,62 @@
-//! Figures: one panel or several, side by side and in rows.
+//! Figures: one chart or several, side by side and in rows.
 
 use crate::canvas::{Canvas, Drawing};
-use crate::chart::Chart;
+use crate::chart::{Chart, PANEL_WIDTH};
 use crate::error::PlotError;
-use crate::map::Map;
-use crate::matrix::Matrix;
-use crate::panel::Draw;
+use crate::frame::side_margin;
 
-/// One or more panels in one picture.
+/// One or more charts in one picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Panels from left to right, then from top to bottom.
-    pub panels: Vec<Panel>,
-    /// Number of panels side by side.
+    /// Charts from left to right, then from top to bottom.
+    pub charts: Vec<Chart>,
+    /// Number of charts side by side.
     pub columns: usize,
 }
 
-/// Part of a figure.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Panel {
-    /// Series over a pair of axes.
-    Chart(Chart),
-    /// Field on a grid.
-    Map(Map),
-    /// Rows of cells.
-    Matrix(Matrix),
-}
-
-impl Panel {
-    fn drawn(&self) -> &dyn Draw {
-        match self {
-            Self::Chart(chart) => chart,
-            Self::Map(map) => map,
-            Self::Matrix(matrix) => matrix,
-        }
-    }
-}
-
-impl From<Chart> for Panel {
-    fn from(chart: Chart) -> Self {
-        Self::Chart(chart)
-    }
-}
-
-impl From<Map> for Panel {
-    fn from(map: Map) -> Self {
-        Self::Map(map)
-    }
-}
-
-impl From<Matrix> for Panel {
-    fn from(matrix: Matrix) -> Self {
-        Self::Matrix(matrix)
-    }
-}
-
-/// Panels one below the other, whose frames line up, \[px\].
-#[derive(Debug, Clone, Copy, Default)]
-struct Column {
-    width: f64,
-    left_margin: f64,
-}
-
 impl Figure {
-    /// Figure of panels of one kind with so many side by side.
-    pub fn new<P: Into<Panel>>(panels: impl IntoIterator<Item = P>, columns: usize) -> Self {
-        let panels = panels.into_iter().map(P::into).collect();
-        Self { panels, columns }
+    /// Figure of charts with so many side by side.
+    pub fn new(charts: impl IntoIterator<Item = Chart>, columns: usize) -> Self {
+        let charts = charts.into_iter().collect();
+        Self { charts, columns }
     }
 
-    /// Figure of a single panel.
+    /// Figure of a single chart.
     #[must_use]
-    pub fn single(panel: impl Into<Panel>) -> Self {
-        Self::new([panel], 1)
-    }
-
-    fn layout(&self) -> Result<Vec<Column>, PlotError> {
-        if self.panels.is_empty() || self.columns == 0 {
-            return Err(PlotError::Empty("the list of panels or of columns".into()));
-        }
-        let mut columns = vec![Column::default(); self.columns.min(self.panels.len())];
-        for (index, panel) in self.panels.iter().map(Panel::drawn).enumerate() {
-            panel.validate()?;
-            let column = &mut columns[index % self.columns];
-            column.width = column.width.max(panel.width());
-            column.left_margin = column.left_margin.max(panel.left_margin()?);
-        }
-        Ok(columns)
+    pub fn single(chart: Chart) -> Self {
+        Self::new([chart], 1)
     }
 }
 
-/// Drawing of a figure, 480 px wide per column, or 960 px with a matrix in it.
+/// Drawing of a figure, 480 px wide per column; the frames of charts one below the other line up.
 ///
 /// # Errors
 /// Whatever could not be drawn faithfully: see [`PlotError`].
 pub fn draw(figure: &Figure) -> Result<Drawing, PlotError> {
-    let columns = figure.layout()?;
-    let rows: Vec<&[Panel]> = figure.panels.chunks(figure.columns).collect();
-    let height = |row: &&[Panel]| {
-        let mut panels = row.iter().map(Panel::drawn).zip(&columns);
-        panels.try_fold(0.0, |tallest: f64, (panel, column)| {
-            Ok(tallest.max(panel.height(column.left_margin)?))
-        })
-    };
-    let heights = rows.iter().map(height).collect::<Result<Vec<f64>, _>>()?;
-    let width = columns.iter().map(|column| column.width).sum();
-    let mut canvas = Canvas::new(width, heights.iter().sum());
-    let mut top = 0.0;
-    for (row, height) in rows.into_iter().zip(heights) {
-        let mut left = 0.0;
-        for (panel, column) in row.iter().map(Panel::drawn).zip(&columns) {
-            panel.draw(&mut canvas, [left, top], column.left_margin)?;
-            left += column.width;
-        }
-        top += height;
+    let Figure { charts, columns } = figure;
+    let columns = (*columns).min(charts.len());
+    if columns == 0 {
+        return Err(PlotError::Empty("the list of charts or of columns".into()));
     }
-    canvas.finish()
+    let mut left_margins = vec![0.0_f64; columns];
+    for (index, chart) in charts.iter().enumerate() {
+        chart.validate()?;
+        let widest = &mut left_margins[index % columns];
+        *widest = widest.max(side_margin(&chart.y)?);
+    }
+    let (mut panels, mut bottom) = (Vec::new(), 0.0_f64);
+    for row in charts.chunks(columns) {
+        let top = bottom;
+        for (column, (chart, left_margin)) in row.iter().zip(&left_margins).enumerate() {
+            let left = PANEL_WIDTH * column as f64;
+            let panel = chart.panel([left, top], *left_margin)?;
+            bottom = bottom.max(panel.bottom());
+            panels.push(panel);
+        }
+    }
+    let mut canvas = Canvas::new(PANEL_WIDTH * columns as f64, bottom);
+    panels
+        .iter()
+        .try_for_each(|panel| panel.draw(&mut canvas))?;
+    Ok(canvas.finish())
 }

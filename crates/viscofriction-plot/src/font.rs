@@ -1,132 +1,76 @@
 //! The bundled font: what measures the texts also draws them into the PNG, so that both agree.
 
-use std::fmt::Write as _;
-use std::sync::LazyLock;
-
-use ttf_parser::{Face, FaceParsingError, GlyphId, OutlineBuilder};
+use resvg::tiny_skia::PathBuilder;
+use ttf_parser::{Face, OutlineBuilder};
 
 use crate::error::PlotError;
 
-/// Family name of the bundled font.
+/// Family name of the bundled font, and its units per size of a text.
 pub(crate) const FAMILY: &str = "DejaVu Sans";
+pub(crate) const UNITS: f32 = 2048.0;
 
-static FACE: LazyLock<Result<Face<'static>, FaceParsingError>> =
-    LazyLock::new(|| Face::parse(include_bytes!("../assets/DejaVuSans.ttf"), 0));
-
-fn face() -> Result<&'static Face<'static>, PlotError> {
-    let face = FACE.as_ref();
-    face.map_err(|error| PlotError::Render(error.to_string()))
+/// A text as outlines of its letters, from the beginning of the baseline on, y upwards, in units of the font.
+#[derive(Default)]
+pub(crate) struct Outline {
+    pub(crate) path: PathBuilder,
+    /// Where the text ends.
+    pub(crate) length: f32,
 }
 
-/// Pixels per unit of the font.
-fn scale(face: &Face, size: u32) -> f64 {
-    f64::from(size) / f64::from(face.units_per_em())
-}
-
-/// The glyphs of a text and where each begins in units of the font, and where the last ends.
-fn layout(face: &Face, text: &str) -> Result<(Vec<(GlyphId, f64)>, f64), PlotError> {
-    let refuse = || PlotError::Glyph(text.into());
-    let mut end = 0.0;
-    let mut glyphs = Vec::new();
-    for character in text.chars() {
-        let glyph = face.glyph_index(character).ok_or_else(refuse)?;
-        glyphs.push((glyph, end));
-        end += f64::from(face.glyph_hor_advance(glyph).ok_or_else(refuse)?);
-    }
-    if glyphs.is_empty() {
-        return Err(refuse());
-    }
-    Ok((glyphs, end))
-}
-
-/// Width of a text, \[px\]; refuses characters that the font cannot draw.
-pub(crate) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
-    let face = face()?;
-    let (_, end) = layout(face, text)?;
-    Ok(end * scale(face, size))
-}
-
-/// Width of the widest of some texts, \[px\].
-pub(crate) fn widest<'a>(
-    mut texts: impl Iterator<Item = &'a str>,
-    size: u32,
-) -> Result<f64, PlotError> {
-    texts.try_fold(0.0, |widest: f64, text| {
-        Ok(widest.max(text_width(text, size)?))
-    })
-}
-
-/// Path data of a text with a `part` of it to the left of the point, through which its baseline passes; refuses characters
-/// that the font cannot draw.
-pub(crate) fn outline(
-    text: &str,
-    size: u32,
-    [x, y]: [f64; 2],
-    part: f64,
-) -> Result<String, PlotError> {
-    let face = face()?;
-    let (glyphs, end) = layout(face, text)?;
-    let scale = scale(face, size);
-    let mut path = GlyphPath {
-        data: String::new(),
-        origin: [x, y],
-        scale,
-    };
-    for (glyph, start) in glyphs {
-        path.origin[0] = x + (start - part * end) * scale;
-        // A blank has no outline.
-        face.outline_glyph(glyph, &mut path);
-    }
-    Ok(path.data)
-}
-
-/// Path data of the glyph that begins at the origin, in pixels.
-struct GlyphPath {
-    data: String,
-    origin: [f64; 2],
-    scale: f64,
-}
-
-impl GlyphPath {
-    /// Adds a step through points in units of the font, whose y is upwards.
-    fn push(&mut self, step: char, points: &[[f32; 2]]) {
-        self.data.push(step);
-        for [x, y] in points {
-            let x = self.origin[0] + f64::from(*x) * self.scale;
-            let y = self.origin[1] - f64::from(*y) * self.scale;
-            // A text takes all that is written to it.
-            let _always = write!(self.data, "{x:.3} {y:.3} ");
+impl Outline {
+    /// Refuses an empty text, and characters that the font cannot draw.
+    pub(crate) fn new(text: &str) -> Result<Self, PlotError> {
+        let refuse = || PlotError::Glyph(text.into());
+        let face = Face::parse(include_bytes!("../assets/DejaVuSans.ttf"), 0);
+        let face = face.map_err(|error| PlotError::Render(error.to_string()))?;
+        let mut outline = Self::default();
+        for character in text.chars() {
+            let glyph = face.glyph_index(character).ok_or_else(refuse)?;
+            // A blank has no outline.
+            face.outline_glyph(glyph, &mut outline);
+            outline.length += f32::from(face.glyph_hor_advance(glyph).ok_or_else(refuse)?);
         }
+        if text.is_empty() {
+            return Err(refuse());
+        }
+        Ok(outline)
     }
 }
 
-impl OutlineBuilder for GlyphPath {
+impl OutlineBuilder for Outline {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.push('M', &[[x, y]]);
+        self.path.move_to(self.length + x, y);
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        self.push('L', &[[x, y]]);
+        self.path.line_to(self.length + x, y);
     }
 
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.push('Q', &[[x1, y1], [x, y]]);
+        let [x1, x] = [x1, x].map(|x| self.length + x);
+        self.path.quad_to(x1, y1, x, y);
     }
 
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.push('C', &[[x1, y1], [x2, y2], [x, y]]);
+        let [x1, x2, x] = [x1, x2, x].map(|x| self.length + x);
+        self.path.cubic_to(x1, y1, x2, y2, x, y);
     }
 
     fn close(&mut self) {
-        self.data.push('Z');
+        self.path.close();
     }
 }
 
-/// Refuses a text that is wider than its place, \[px\].
-pub(crate) fn check_fit(text: &str, size: u32, available: f64) -> Result<(), PlotError> {
+/// Width of a text, \[px\]; refuses what [`Outline::new`] does.
+pub(crate) fn text_width(text: &str, size: u32) -> Result<f64, PlotError> {
+    Ok(f64::from(Outline::new(text)?.length / UNITS) * f64::from(size))
+}
+
+/// Width of a text that must not be wider than its place, \[px\].
+pub(crate) fn fitting_width(text: &str, size: u32, available: f64) -> Result<f64, PlotError> {
     let needed = text_width(text, size)?;
     if needed <= available {
-        return Ok(());
+        return Ok(needed);
     }
     Err(PlotError::TextWidth {
         text: text.into(),

@@ -2,14 +2,15 @@
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Area, Canvas, FRAME_PEN, Pen, Pixel};
+use crate::chart::Chart;
 use crate::error::PlotError;
-use crate::font::{check_fit, text_width, widest};
+use crate::font::{fitting_width, text_width};
 use crate::ticks::{Tick, ticks};
 
 /// Sizes of the texts, \[px\].
-pub(crate) const TICK_SIZE: u32 = 13;
+const TICK_SIZE: u32 = 13;
 const LABEL_SIZE: u32 = 14;
-pub(crate) const TITLE_SIZE: u32 = 14;
+const TITLE_SIZE: u32 = 14;
 
 /// Distances, \[px\].
 const GAP: f64 = 6.0;
@@ -21,14 +22,13 @@ const SPILL: f64 = 24.0;
 /// Drop of the baseline from the middle of a digit, as a part of the text size.
 const HALF_DIGIT: f64 = 0.365;
 
-const GRID_PEN: Pen<'static> = Pen::solid("#e4e4e4", 0.7);
+const GRID_PEN: Pen = Pen::solid("#e4e4e4", 0.7);
 
 /// Data rectangle, its title and its two axes.
-#[derive(Debug, Clone, Copy)]
 pub(crate) struct Frame<'a> {
     title: Option<&'a str>,
     pub(crate) area: Area,
-    axes: [&'a Axis; 2],
+    axes: [AxisEdge<'a>; 2],
 }
 
 /// To which side of their edge the ticks point.
@@ -48,11 +48,6 @@ pub(crate) enum Edge {
     Right,
 }
 
-/// Room a title takes above the frame, \[px\].
-pub(crate) fn top_margin(title: Option<&str>) -> f64 {
-    if title.is_some() { TITLE_HEIGHT } else { 10.0 }
-}
-
 /// Room the tick labels and the label of a y axis take beside the frame, \[px\].
 pub(crate) fn side_margin(y: &Axis) -> Result<f64, PlotError> {
     Ok(widest_label(&ticks(y))? + 3.0 * GAP + f64::from(LABEL_SIZE) + 2.0)
@@ -66,36 +61,42 @@ pub(crate) fn right_margin(x: &Axis) -> Result<f64, PlotError> {
 }
 
 fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
-    let labels = ticks.iter().filter_map(|tick| tick.label.as_deref());
-    widest(labels, TICK_SIZE)
+    let mut labels = ticks.iter().filter_map(|tick| tick.label.as_deref());
+    labels.try_fold(0.0, |widest: f64, label| {
+        Ok(widest.max(text_width(label, TICK_SIZE)?))
+    })
 }
 
 impl<'a> Frame<'a> {
-    /// The frame over axes x and y, with data of this size and the panel's upper left corner, less its left margin, at
-    /// `origin`.
+    /// The frame of a chart, with data of this size and the panel's upper left corner, less its left margin, at the
+    /// pixel; refuses texts that are too long.
     pub(crate) fn new(
-        title: &'a Option<String>,
-        axes: [&'a Axis; 2],
+        chart: &'a Chart,
         [left, top]: Pixel,
         [width, height]: [f64; 2],
-    ) -> Self {
-        let title = title.as_deref();
+    ) -> Result<Self, PlotError> {
+        let title = chart.title.as_deref();
+        if let Some(title) = title {
+            fitting_width(title, TITLE_SIZE, width + SPILL)?;
+        }
         let area = Area {
             left,
-            top: top + top_margin(title),
+            top: top + title.map_or(10.0, |_| TITLE_HEIGHT),
             width,
             height,
         };
-        Self { title, area, axes }
+        let axes = [
+            AxisEdge::new(&chart.x, area, Edge::Bottom)?,
+            AxisEdge::new(&chart.y, area, Edge::Left)?,
+        ];
+        Ok(Self { title, area, axes })
     }
 
-    /// Pixel of a data point.
-    pub(crate) fn pixel(&self, [x, y]: [f64; 2]) -> Pixel {
-        let [x, y] = [self.axes[0].fraction(x), self.axes[1].fraction(y)];
-        [
-            Edge::Bottom.pixel(&self.area, x)[0],
-            Edge::Left.pixel(&self.area, y)[1],
-        ]
+    /// Pixels of data points.
+    pub(crate) fn pixels(&self, points: &[[f64; 2]]) -> Vec<Pixel> {
+        let [across, up] = &self.axes;
+        let pixel = |&[x, y]: &[f64; 2]| [across.pixel(x)[0], up.pixel(y)[1]];
+        points.iter().map(pixel).collect()
     }
 
     /// Where the tick labels and the label of the x axis end, \[px\].
@@ -104,45 +105,16 @@ impl<'a> Frame<'a> {
     }
 
     /// Draws everything but the data.
-    pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) -> Result<(), PlotError> {
+    pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) {
         let area = self.area;
-        let axes = [
-            AxisEdge::new(self.axes[0], area, Edge::Bottom)?,
-            AxisEdge::new(self.axes[1], area, Edge::Left)?,
-        ];
         if side == TickSide::Inside {
-            axes.iter().for_each(|axis| axis.draw_grid(canvas));
+            self.axes.iter().for_each(|axis| axis.draw_grid(canvas));
         }
         canvas.rectangle(area, "none", &FRAME_PEN);
-        axes.iter().for_each(|axis| axis.draw_ticks(canvas, side));
-        axes.iter().try_for_each(|axis| axis.draw_label(canvas))?;
+        self.axes.iter().for_each(|axis| axis.draw(canvas, side));
         if let Some(title) = self.title {
-            check_fit(title, TITLE_SIZE, area.width + SPILL)?;
             let above = [area.left + area.width / 2.0, area.top - GAP - 2.0];
             canvas.text(above, title, TITLE_SIZE, Anchor::Middle);
-        }
-        Ok(())
-    }
-}
-
-impl Edge {
-    /// Pixel at a fraction of the edge, from the left or from below.
-    fn pixel(self, area: &Area, fraction: f64) -> Pixel {
-        let x = area.left + area.width * fraction;
-        let y = area.bottom() - area.height * fraction;
-        match self {
-            Self::Bottom => [x, area.bottom()],
-            Self::Left => [area.left, y],
-            Self::Right => [area.right(), y],
-        }
-    }
-
-    /// A pixel moved into the rectangle.
-    fn inwards(self, [x, y]: Pixel, distance: f64) -> Pixel {
-        match self {
-            Self::Bottom => [x, y - distance],
-            Self::Left => [x + distance, y],
-            Self::Right => [x - distance, y],
         }
     }
 }
@@ -153,6 +125,8 @@ pub(crate) struct AxisEdge<'a> {
     area: Area,
     edge: Edge,
     ticks: Vec<Tick>,
+    /// Width of the widest label of a tick, \[px\].
+    widest: f64,
 }
 
 impl<'a> AxisEdge<'a> {
@@ -162,12 +136,13 @@ impl<'a> AxisEdge<'a> {
             Edge::Bottom => area.width,
             Edge::Left | Edge::Right => area.height,
         };
-        check_fit(&axis.label, LABEL_SIZE, length + SPILL)?;
+        fitting_width(&axis.label, LABEL_SIZE, length + SPILL)?;
         let ticks = ticks(axis);
         let mut found = Self {
             axis,
             area,
             edge,
+            widest: widest_label(&ticks)?,
             ticks,
         };
         while edge == Edge::Bottom && found.labels_collide()? {
@@ -179,27 +154,30 @@ impl<'a> AxisEdge<'a> {
         Ok(found)
     }
 
-    /// Draws ticks and labels, to the outside.
-    pub(crate) fn draw_alone(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
-        self.draw_ticks(canvas, TickSide::Outside);
-        self.draw_label(canvas)
+    /// Pixel of a value.
+    fn pixel(&self, value: f64) -> Pixel {
+        self.at(self.axis.fraction(value))
     }
 
-    fn pixel(&self, tick: &Tick) -> Pixel {
-        self.edge.pixel(&self.area, self.axis.fraction(tick.value))
-    }
-
-    fn labels_collide(&self) -> Result<bool, PlotError> {
-        let mut free = f64::NEG_INFINITY;
-        for tick in &self.ticks {
-            let Some(label) = &tick.label else { continue };
-            let (middle, half) = (self.pixel(tick)[0], text_width(label, TICK_SIZE)? / 2.0);
-            if middle - half < free {
-                return Ok(true);
-            }
-            free = middle + half + GAP;
+    /// Pixel at a fraction of the edge, from the left or from below.
+    fn at(&self, fraction: f64) -> Pixel {
+        let area = &self.area;
+        let x = area.left + area.width * fraction;
+        let y = area.bottom() - area.height * fraction;
+        match self.edge {
+            Edge::Bottom => [x, area.bottom()],
+            Edge::Left => [area.left, y],
+            Edge::Right => [area.right(), y],
         }
-        Ok(false)
+    }
+
+    /// A pixel moved into the rectangle.
+    fn inwards(&self, [x, y]: Pixel, distance: f64) -> Pixel {
+        match self.edge {
+            Edge::Bottom => [x, y - distance],
+            Edge::Left => [x + distance, y],
+            Edge::Right => [x - distance, y],
+        }
     }
 
     /// The pixel on the other side of the rectangle.
@@ -208,29 +186,45 @@ impl<'a> AxisEdge<'a> {
             Edge::Bottom => self.area.height,
             Edge::Left | Edge::Right => self.area.width,
         };
-        self.edge.inwards(pixel, across)
+        self.inwards(pixel, across)
+    }
+
+    fn labels_collide(&self) -> Result<bool, PlotError> {
+        let mut free = f64::NEG_INFINITY;
+        for tick in &self.ticks {
+            let Some(label) = &tick.label else { continue };
+            let half = text_width(label, TICK_SIZE)? / 2.0;
+            let middle = self.pixel(tick.value)[0];
+            if middle - half < free {
+                return Ok(true);
+            }
+            free = middle + half + GAP;
+        }
+        Ok(false)
     }
 
     fn draw_grid(&self, canvas: &mut Canvas) {
         for tick in self.ticks.iter().filter(|tick| tick.major) {
-            let own = self.pixel(tick);
-            let mut ends = [own, self.opposite(own)];
-            // From the top or from the left.
-            if self.edge == Edge::Bottom {
-                ends.reverse();
-            }
-            canvas.line(ends[0], ends[1], &GRID_PEN);
+            let own = self.pixel(tick.value);
+            canvas.line(own, self.opposite(own), &GRID_PEN);
         }
     }
 
-    fn draw_ticks(&self, canvas: &mut Canvas, side: TickSide) {
+    /// Draws ticks and labels.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, side: TickSide) {
         // Beside a colour bar there is less room.
         let shorter = if self.edge == Edge::Right { 2.0 } else { 0.0 };
+        let size = f64::from(TICK_SIZE);
+        let ([right, down], anchor) = match self.edge {
+            Edge::Bottom => ([0.0, GAP + size], Anchor::Middle),
+            Edge::Left => ([-GAP - 2.0, HALF_DIGIT * size], Anchor::End),
+            Edge::Right => ([GAP + 1.0, HALF_DIGIT * size], Anchor::Start),
+        };
         for tick in &self.ticks {
             let length = if tick.major { MAJOR } else { MINOR } - shorter;
-            let own = self.pixel(tick);
+            let own = self.pixel(tick.value);
             let mut mark = |from, inwards| {
-                canvas.line(from, self.edge.inwards(from, inwards), &FRAME_PEN);
+                canvas.line(from, self.inwards(from, inwards), &FRAME_PEN);
             };
             match side {
                 TickSide::Inside => {
@@ -240,34 +234,21 @@ impl<'a> AxisEdge<'a> {
                 TickSide::Outside => mark(own, -length),
             }
             if let Some(label) = &tick.label {
-                self.draw_tick_label(canvas, own, label);
+                canvas.text([own[0] + right, own[1] + down], label, TICK_SIZE, anchor);
             }
         }
+        self.draw_label(canvas);
     }
 
-    fn draw_tick_label(&self, canvas: &mut Canvas, [x, y]: Pixel, label: &str) {
-        let size = f64::from(TICK_SIZE);
-        let ([right, down], anchor) = match self.edge {
-            Edge::Bottom => ([0.0, GAP + size], Anchor::Middle),
-            Edge::Left => ([-GAP - 2.0, HALF_DIGIT * size], Anchor::End),
-            Edge::Right => ([GAP + 1.0, HALF_DIGIT * size], Anchor::Start),
-        };
-        canvas.text([x + right, y + down], label, TICK_SIZE, anchor);
-    }
-
-    fn draw_label(&self, canvas: &mut Canvas) -> Result<(), PlotError> {
-        let [x, y] = self.edge.pixel(&self.area, 0.5);
+    fn draw_label(&self, canvas: &mut Canvas) {
+        let [x, y] = self.at(0.5);
         let size = f64::from(LABEL_SIZE);
-        let beside = widest_label(&self.ticks)?;
+        let below = 2.0 * GAP + f64::from(TICK_SIZE) + size - 2.0;
         let ([right, down], anchor) = match self.edge {
-            Edge::Bottom => (
-                [0.0, 2.0 * GAP + f64::from(TICK_SIZE) + size - 2.0],
-                Anchor::Middle,
-            ),
-            Edge::Left => ([-beside - 2.5 * GAP, 0.0], Anchor::Upwards),
-            Edge::Right => ([beside + 2.0 * GAP + size, 0.0], Anchor::Upwards),
+            Edge::Bottom => ([0.0, below], Anchor::Middle),
+            Edge::Left => ([-self.widest - 2.5 * GAP, 0.0], Anchor::Upwards),
+            Edge::Right => ([self.widest + 2.0 * GAP + size, 0.0], Anchor::Upwards),
         };
         canvas.text([x + right, y + down], &self.axis.label, LABEL_SIZE, anchor);
-        Ok(())
     }
 }

@@ -1,13 +1,12 @@
 //! The legend: where it stands and what it shows.
 
-use std::iter::successors;
-
-use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel, to_f64};
+use crate::canvas::{Anchor, Area, Canvas, Pen, Pixel};
 use crate::error::PlotError;
-use crate::font::widest;
+use crate::font::fitting_width;
 use crate::frame::Frame;
 use crate::marks::{MARKER_RADIUS, draw_marker, error_bars, line_pen};
 use crate::series::Series;
+use crate::ticks::counts;
 
 /// Place of the legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -33,7 +32,7 @@ pub(crate) struct Legend<'a> {
     entries: Vec<(&'a Series, &'a str)>,
     /// Width of one column with sample and text, \[px\].
     column: f64,
-    columns: usize,
+    rows: usize,
     /// Its rectangle inside the frame, or none below the chart.
     inside: Option<Area>,
 }
@@ -45,23 +44,25 @@ impl<'a> Legend<'a> {
         frame: &Frame,
         place: LegendPlace,
     ) -> Result<Self, PlotError> {
-        let labelled = series
-            .iter()
-            .filter_map(|one| Some((one, one.label.as_deref()?)));
+        let labelled = series.iter();
+        let labelled = labelled.filter_map(|one| Some((one, one.label.as_deref()?)));
         let entries: Vec<_> = labelled.collect();
-        let labels = entries.iter().map(|&(_, label)| label);
+        let available = frame.area.width - 2.0 * (INSET + PADDING) - SAMPLE - PADDING;
+        let mut widest = 0.0_f64;
+        for (_, label) in &entries {
+            widest = widest.max(fitting_width(label, TEXT_SIZE, available)?);
+        }
         let mut legend = Self {
-            column: SAMPLE + PADDING + widest(labels, TEXT_SIZE)?,
+            column: SAMPLE + PADDING + widest,
+            rows: entries.len(),
             entries,
-            columns: 1,
             inside: None,
         };
-        legend.check_width(frame)?;
         if place == LegendPlace::Free {
             legend.inside = legend.free_corner(&frame.area, &marked_pixels(series, frame));
         }
         if legend.inside.is_none() {
-            legend.columns = legend.columns_below(frame.area.width);
+            legend.rows = legend.rows_below(frame.area.width);
         }
         Ok(legend)
     }
@@ -71,7 +72,7 @@ impl<'a> Legend<'a> {
         if self.entries.is_empty() || self.inside.is_some() {
             return 0.0;
         }
-        to_f64(self.rows()) * ROW + PADDING
+        self.rows as f64 * ROW + PADDING
     }
 
     /// Draws the legend of a frame.
@@ -83,36 +84,23 @@ impl<'a> Legend<'a> {
             canvas.rectangle(area, "#ffffff", &Pen::solid("#999999", 0.7));
             [area.left + PADDING, area.top]
         } else {
-            let count = to_f64(self.columns);
+            let count = self.entries.len().div_ceil(self.rows) as f64;
             let width = count * self.column + (count - 1.0) * COLUMN_GAP;
             let left = frame.area.left + (frame.area.width - width) / 2.0;
             [left, frame.bottom()]
         };
         for (index, &(series, label)) in self.entries.iter().enumerate() {
-            let (column, row) = (index / self.rows(), index % self.rows());
-            let left = left + to_f64(column) * (self.column + COLUMN_GAP);
-            let middle = top + PADDING / 2.0 + (to_f64(row) + 0.5) * ROW;
+            let [column, row] = [index / self.rows, index % self.rows].map(|count| count as f64);
+            let left = left + column * (self.column + COLUMN_GAP);
+            let middle = top + PADDING / 2.0 + (row + 0.5) * ROW;
             draw_entry(canvas, [left, middle], series, label);
         }
-    }
-
-    fn check_width(&self, frame: &Frame) -> Result<(), PlotError> {
-        let available = frame.area.width - 2.0 * (INSET + PADDING);
-        if self.column <= available {
-            return Ok(());
-        }
-        let labels: Vec<&str> = self.entries.iter().map(|&(_, label)| label).collect();
-        Err(PlotError::TextWidth {
-            text: labels.join(", "),
-            needed: self.column,
-            available,
-        })
     }
 
     /// The first corner, from the upper right one on, in which the legend covers no mark.
     fn free_corner(&self, frame: &Area, marks: &[Pixel]) -> Option<Area> {
         let width = self.column + 2.0 * PADDING;
-        let height = to_f64(self.entries.len()) * ROW + PADDING;
+        let height = self.rows as f64 * ROW + PADDING;
         let [left, top] = [frame.left + INSET, frame.top + INSET];
         let right = frame.right() - INSET - width;
         let bottom = frame.bottom() - INSET - height;
@@ -129,17 +117,11 @@ impl<'a> Legend<'a> {
             .find(|area| !marks.iter().any(|&pixel| covers(area, pixel)))
     }
 
-    fn columns_below(&self, width: f64) -> usize {
-        let fits =
-            |count: &usize| to_f64(*count) * (self.column + COLUMN_GAP) <= width + COLUMN_GAP;
-        let widest = (1..=self.entries.len()).take_while(fits).count().max(1);
-        // Spread the entries evenly over the rows that the widest arrangement needs.
-        let rows = self.entries.len().div_ceil(widest).max(1);
-        self.entries.len().div_ceil(rows).max(1)
-    }
-
-    fn rows(&self) -> usize {
-        self.entries.len().div_ceil(self.columns)
+    /// As few as the widest arrangement needs.
+    fn rows_below(&self, width: f64) -> usize {
+        let fits = |count: &usize| *count as f64 * (self.column + COLUMN_GAP) <= width + COLUMN_GAP;
+        let columns = (1..=self.entries.len()).take_while(fits).count().max(1);
+        self.entries.len().div_ceil(columns)
     }
 }
 
@@ -147,29 +129,20 @@ impl<'a> Legend<'a> {
 fn marked_pixels(series: &[Series], frame: &Frame) -> Vec<Pixel> {
     let mut marks = Vec::new();
     for one in series {
-        let pixels: Vec<Pixel> = one.points.iter().map(|&point| frame.pixel(point)).collect();
+        let pixels = frame.pixels(&one.points);
+        let mut strokes = error_bars(frame, one);
         if one.line.is_some() {
-            for pair in pixels.windows(2) {
-                push_between(&mut marks, pair[0], pair[1]);
-            }
+            strokes.extend(pixels.windows(2).map(|pair| [pair[0], pair[1]]));
         }
-        for [upper, lower] in error_bars(frame, one) {
-            push_between(&mut marks, upper, lower);
+        for [[x, y], end] in strokes {
+            let [right, down] = [end[0] - x, end[1] - y];
+            let steps = (right.hypot(down) / 3.0).ceil().max(1.0);
+            let parts = counts(0.0, steps).map(|step| step / steps);
+            marks.extend(parts.map(|part| [x + part * right, y + part * down]));
         }
         marks.extend(pixels);
     }
     marks
-}
-
-fn push_between(marks: &mut Vec<Pixel>, from: Pixel, to: Pixel) {
-    let [right, down] = [to[0] - from[0], to[1] - from[1]];
-    let steps = (right.hypot(down) / 3.0).ceil();
-    let parts = successors(Some(0.0), |step| Some(step + 1.0)).take_while(|step| *step < steps);
-    marks.extend(
-        parts
-            .map(|step| step / steps)
-            .map(|part| [from[0] + part * right, from[1] + part * down]),
-    );
 }
 
 fn draw_entry(canvas: &mut Canvas, [left, middle]: Pixel, series: &Series, label: &str) {

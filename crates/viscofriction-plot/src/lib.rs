@@ -6,18 +6,14 @@
 //! Output is the same byte for byte from run to run and does not depend on installed fonts.
 //!
 //! ```
-//! use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Series};
+//! use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Series};
 //! use viscofriction_plot::{PNG_WIDTH, draw, render_png};
 //!
 //! let points = vec![[1e-3, 0.01], [1e-2, 0.1], [1e-1, 0.16]];
 //! let curve = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
-//! let chart = Chart {
-//!     title: None,
-//!     x: Axis::log10("sliding speed v [m/s]", [1e-3, 1e-1]),
-//!     y: Axis::linear("coefficient of friction μ", [0.0, 0.2]),
-//!     series: vec![curve.labelled("half space")],
-//!     legend: LegendPlace::Free,
-//! };
+//! let x = Axis::log10("sliding speed v [m/s]", [1e-3, 1e-1]);
+//! let y = Axis::linear("coefficient of friction μ", [0.0, 0.2]);
+//! let chart = Chart::new(x, y, vec![curve.labelled("half space")]);
 //! let drawing = draw(&Figure::single(chart))?;
 //! assert!(drawing.svg.contains(">sliding speed v [m/s]</text>"));
 //! assert_eq!(render_png(&drawing, PNG_WIDTH)?[1..4], *b"PNG");
@@ -34,14 +30,12 @@ mod canvas;
 mod chart;
 mod colour;
 mod error;
+mod field;
 mod figure;
 mod font;
 mod frame;
 mod legend;
-mod map;
 mod marks;
-mod matrix;
-mod panel;
 mod png;
 mod series;
 mod ticks;
@@ -49,11 +43,10 @@ mod ticks;
 pub use axis::{Axis, Scale};
 pub use canvas::Drawing;
 pub use chart::Chart;
-pub use colour::{Colour, ColourScale};
+pub use colour::Colour;
 pub use error::PlotError;
-pub use figure::{Figure, Panel, draw};
+pub use field::Field;
+pub use figure::{Figure, draw};
 pub use legend::LegendPlace;
-pub use map::{Map, Proportions};
-pub use matrix::{Cell, Matrix, MatrixRow};
 pub use png::{PNG_WIDTH, render_png};
 pub use series::{Dash, Fill, Line, Marker, Series, Shape};

@@ -12,7 +12,7 @@ const CAP: f64 = 3.5;
 /// Draws series one after the other: of each the line, then the error bars, then the markers.
 pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series]) {
     for one in series {
-        let pixels: Vec<Pixel> = one.points.iter().map(|&point| frame.pixel(point)).collect();
+        let pixels = frame.pixels(&one.points);
         if let Some(line) = one.line {
             canvas.polyline(&pixels, &line_pen(line, one.colour));
         }
@@ -28,13 +28,18 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
 }
 
 /// Upper and lower ends of the error bars of a series.
-pub(crate) fn error_bars(frame: &Frame, series: &Series) -> impl Iterator<Item = [Pixel; 2]> {
-    let bars = series.points.iter().zip(series.errors.iter().flatten());
-    bars.map(|([x, y], error)| [y + error, y - error].map(|end| frame.pixel([*x, end])))
+pub(crate) fn error_bars(frame: &Frame, series: &Series) -> Vec<[Pixel; 2]> {
+    let ends = |sign: f64| {
+        let bars = series.points.iter().zip(&series.errors);
+        let ends = bars.map(|([x, y], error)| [*x, y + sign * error]);
+        frame.pixels(&ends.collect::<Vec<_>>())
+    };
+    let bars = ends(1.0).into_iter().zip(ends(-1.0));
+    bars.map(|(upper, lower)| [upper, lower]).collect()
 }
 
 /// Pen of the line of a series.
-pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen<'static> {
+pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen {
     // Thin lines keep a pattern that can be told apart.
     let unit = line.width.max(1.2);
     let pattern: &[f64] = match line.dash {
@@ -61,7 +66,12 @@ fn draw_error_bar(canvas: &mut Canvas, [upper, lower]: [Pixel; 2], series: &Seri
 }
 
 /// Draws a marker centred on a pixel.
-pub(crate) fn draw_marker(canvas: &mut Canvas, [x, y]: Pixel, marker: Marker, colour: &str) {
+pub(crate) fn draw_marker(
+    canvas: &mut Canvas,
+    [x, y]: Pixel,
+    marker: Marker,
+    colour: &'static str,
+) {
     let radius = MARKER_RADIUS;
     let pen = Pen::solid(colour, 1.2);
     let fill = match marker.fill {

@@ -1,10 +1,11 @@
-//! From the outlines of a drawing to PNG.
+//! From a drawing to PNG.
 
-use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::tiny_skia::{Color, FillRule, Paint, Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-use crate::canvas::Drawing;
+use crate::canvas::{Anchor, Drawing, Text};
 use crate::error::PlotError;
+use crate::font::{Outline, UNITS};
 
 /// Usual width of a picture, \[px\].
 pub const PNG_WIDTH: u32 = 1600;
@@ -14,34 +15,54 @@ pub const PNG_WIDTH: u32 = 1600;
 /// # Errors
 /// A drawing that cannot be read, or a size that cannot be allocated.
 pub fn render_png(drawing: &Drawing, width: u32) -> Result<Vec<u8>, PlotError> {
-    let tree = Tree::from_str(&drawing.outlined, &Options::default());
+    let tree = Tree::from_str(&drawing.svg, &Options::default());
     let tree = tree.map_err(|error| PlotError::Render(error.to_string()))?;
     let refused = || PlotError::Render(format!("{width} pixels are no possible width"));
     let scaled = tree.size().to_int_size().scale_to_width(width);
     let scaled = scaled.ok_or_else(refused)?;
     let mut pixels = Pixmap::new(scaled.width(), scaled.height()).ok_or_else(refused)?;
     pixels.fill(Color::WHITE);
-    let x = f64::from(scaled.width()) / f64::from(tree.size().width());
-    let y = f64::from(scaled.height()) / f64::from(tree.size().height());
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "a scale needs no more digits"
-    )]
-    let scale = Transform::from_scale(x as f32, y as f32);
+    let (from, to) = (tree.size(), scaled.to_size());
+    let scale = Transform::from_scale(to.width() / from.width(), to.height() / from.height());
     resvg::render(&tree, scale, &mut pixels.as_mut());
+    for text in &drawing.texts {
+        fill_text(&mut pixels, text, scale)?;
+    }
     let png = pixels.encode_png();
     png.map_err(|error| PlotError::Render(error.to_string()))
+}
+
+/// Draws the letters of a text in black.
+fn fill_text(pixels: &mut Pixmap, text: &Text, scale: Transform) -> Result<(), PlotError> {
+    let outline = Outline::new(&text.text)?;
+    let (part_before, turn) = match text.anchor {
+        Anchor::Start => (0.0, 0.0),
+        Anchor::Middle => (0.5, 0.0),
+        Anchor::End => (1.0, 0.0),
+        Anchor::Upwards => (0.5, -90.0),
+    };
+    #[expect(clippy::cast_possible_truncation, reason = "far below a pixel")]
+    let [x, y, size] = [text.at[0], text.at[1], f64::from(text.size)].map(|length| length as f32);
+    let unit = size / UNITS;
+    let place = scale.pre_translate(x, y).pre_rotate(turn);
+    let place = place.pre_scale(unit, -unit);
+    let place = place.pre_translate(-part_before * outline.length, 0.0);
+    // A blank text has no outline.
+    if let Some(path) = outline.path.finish() {
+        pixels.fill_path(&path, &Paint::default(), FillRule::Winding, place, None);
+    }
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::canvas::{Anchor, Canvas};
+    use crate::canvas::Canvas;
 
     fn drawing() -> Drawing {
         let mut canvas = Canvas::new(40.0, 20.0);
         canvas.text([0.0, 18.0], "μ⁻¹", 20, Anchor::Start);
-        canvas.finish().expect("a drawing")
+        canvas.finish()
     }
 
     #[test]
@@ -67,7 +88,7 @@ mod tests {
     #[test]
     fn broken_texts_and_empty_sizes_are_refused() {
         let broken = Drawing {
-            outlined: "<svg".into(),
+            svg: "<svg".into(),
             ..drawing()
         };
         for (drawing, width) in [(broken, 100), (drawing(), 0)] {

@@ -11,8 +11,8 @@ pub struct Series {
     pub label: Option<String>,
     /// Points (x, y) in the units of the axes, in drawing order.
     pub points: Vec<[f64; 2]>,
-    /// Half lengths of symmetric error bars in y, one per point.
-    pub errors: Option<Vec<f64>>,
+    /// Half lengths of symmetric error bars in y, one per point or none at all.
+    pub errors: Vec<f64>,
     /// Line through the points.
     pub line: Option<Line>,
     /// Markers on the points.
@@ -24,10 +24,9 @@ pub struct Series {
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Pattern.
-    pub dash: Dash,
-    /// Width, \[px\] of a picture 480 px wide.
-    pub width: f64,
+    pub(crate) dash: Dash,
+    /// \[px\].
+    pub(crate) width: f64,
 }
 
 /// Pattern of a line.
@@ -111,13 +110,6 @@ impl Marker {
     }
 }
 
-/// Refuses axes without a range, points and error bars that they do not show, and series that leave no trace.
-pub(crate) fn validate(series: &[Series], x: &Axis, y: &Axis) -> Result<(), PlotError> {
-    x.validate()?;
-    y.validate()?;
-    series.iter().try_for_each(|series| series.validate(x, y))
-}
-
 impl Series {
     /// Line without markers, label or error bars.
     #[must_use]
@@ -125,7 +117,7 @@ impl Series {
         Self {
             label: None,
             points,
-            errors: None,
+            errors: Vec::new(),
             line: Some(line),
             marker: None,
             colour,
@@ -151,7 +143,8 @@ impl Series {
         }
     }
 
-    fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
+    /// Refuses points and error bars that the axes do not show, and a series that leaves no trace.
+    pub(crate) fn validate(&self, x: &Axis, y: &Axis) -> Result<(), PlotError> {
         let name = self.label.as_deref().unwrap_or("a series without label");
         if let Some(what) = self.unseen() {
             return Err(PlotError::Empty(format!("the {what} of {name}")));
@@ -160,20 +153,19 @@ impl Series {
             x.check(at, name, index)?;
             y.check(value, name, index)?;
         }
-        let Some(errors) = &self.errors else {
-            return Ok(());
-        };
-        if errors.len() != self.points.len() {
+        let bars = format!("error bars of {name}");
+        let [needed, given] = [self.points.len(), self.errors.len()];
+        if given > 0 && given != needed {
             return Err(PlotError::Count {
-                of: format!("error bars of {name}"),
-                needed: self.points.len(),
-                given: errors.len(),
+                of: bars,
+                needed,
+                given,
             });
         }
-        for (index, (&[_, value], &error)) in self.points.iter().zip(errors).enumerate() {
+        for (index, (&[_, value], &error)) in self.points.iter().zip(&self.errors).enumerate() {
             if error < 0.0 {
                 return Err(PlotError::Value {
-                    of: format!("error bars of {name}"),
+                    of: bars,
                     needed: "not be negative".into(),
                     index,
                     value: error,
@@ -187,15 +179,12 @@ impl Series {
 
     /// What is missing for the series to be seen.
     fn unseen(&self) -> Option<&'static str> {
-        let has_no_width = |line: Line| !line.width.is_finite() || line.width <= 0.0;
         // A line through one point leaves no trace.
         let is_drawn = self.marker.is_some() || (self.line.is_some() && self.points.len() > 1);
         if self.points.is_empty() {
             Some("list of points")
         } else if self.marker.is_some_and(|marker| marker.every == 0) {
             Some("marker spacing")
-        } else if self.line.is_some_and(has_no_width) {
-            Some("line width")
         } else {
             (!is_drawn).then_some("line and markers")
         }

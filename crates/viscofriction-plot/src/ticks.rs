@@ -30,25 +30,41 @@ pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
 
 fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     let (step, parts) = linear_step(to - from);
-    let small = step / parts;
-    let slack = 1e-6;
-    let form = LinearForm::new([from, to], step);
-    let last = to / small + slack;
-    counts((from / small - slack).ceil(), last)
+    let magnitude = from.abs().max(to.abs()).log10().floor();
+    let is_plain = magnitude < 5.0 && step >= 0.999e-4;
+    // All labels have the same power of ten and the same decimals.
+    let exponent = if is_plain { 0.0 } else { magnitude };
+    let unit = 10_f64.powf(exponent);
+    let rests = successors(Some(step / unit), |rest| Some(10.0 * rest));
+    let decimals = rests.take_while(|rest| *rest < 0.999).count();
+    let label = |value: f64| {
+        let digits = format!("{:.decimals$}", value / unit);
+        if !digits.contains(|c: char| ('1'..='9').contains(&c)) {
+            return "0".into();
+        }
+        let digits = digits.replace('-', "\u{2212}");
+        if exponent.abs() < 0.5 {
+            digits
+        } else {
+            format!("{digits}·{}", power_of_ten(exponent))
+        }
+    };
+    let (small, slack) = (step / parts, 1e-6);
+    counts((from / small - slack).ceil(), to / small + slack)
         .map(|count| {
-            let value = small * count;
-            let major = count.rem_euclid(parts) < 0.5;
+            let (value, major) = (small * count, count.rem_euclid(parts) < 0.5);
+            let label = major.then(|| label(value));
             Tick {
                 value,
                 major,
-                label: major.then(|| form.label(value)),
+                label,
             }
         })
         .collect()
 }
 
 /// Whole numbers.
-fn counts(first: f64, last: f64) -> impl Iterator<Item = f64> {
+pub(crate) fn counts(first: f64, last: f64) -> impl Iterator<Item = f64> {
     successors(Some(first), |count| Some(count + 1.0)).take_while(move |count| *count <= last)
 }
 
@@ -63,101 +79,41 @@ fn linear_step(span: f64) -> (f64, f64) {
         .unwrap_or((10.0 * decade, 5.0))
 }
 
-/// Number form shared by all labels of a linear axis.
-struct LinearForm {
-    exponent: f64,
-    decimals: usize,
-}
-
-impl LinearForm {
-    fn new([from, to]: [f64; 2], step: f64) -> Self {
-        let magnitude = from.abs().max(to.abs()).log10().floor();
-        let plain = magnitude < 5.0 && step >= 0.999e-4;
-        let exponent = if plain { 0.0 } else { magnitude };
-        let rest = step / 10_f64.powf(exponent);
-        let decimals = successors(Some(rest), |rest| Some(10.0 * rest)).take_while(|r| *r < 0.999);
-        Self {
-            exponent,
-            decimals: decimals.count(),
-        }
-    }
-
-    fn label(&self, value: f64) -> String {
-        let mantissa = value / 10_f64.powf(self.exponent);
-        let digits = format!("{mantissa:.*}", self.decimals);
-        let is_zero = !digits.contains(|c: char| ('1'..='9').contains(&c));
-        if is_zero {
-            return "0".into();
-        }
-        let digits = digits.replace('-', "\u{2212}");
-        if self.exponent.abs() < 0.5 {
-            digits
-        } else {
-            format!("{digits}·{}", power_of_ten(self.exponent))
-        }
-    }
-}
-
 fn log_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
-    let form = LogForm::new([from, to]);
-    let inside = |value: f64| value >= from * (1.0 - 1e-9) && value <= to * (1.0 + 1e-9);
-    counts(from.log10().floor(), to.log10().ceil())
-        .flat_map(|exponent| counts(1.0, 9.0).map(move |mantissa| (mantissa, exponent)))
-        .map(|(mantissa, exponent)| Tick {
-            value: mantissa * 10_f64.powf(exponent),
-            major: mantissa < 1.5,
-            label: form.label(mantissa, exponent),
-        })
-        .filter(|tick| inside(tick.value) && (tick.major || form.shows_minor()))
-        .collect()
-}
-
-/// Choice of labels of a logarithmic axis.
-struct LogForm {
-    /// Every n-th decade is labelled.
-    stride: f64,
-    /// Number of powers of ten on the axis.
-    powers: f64,
-    /// Decimal numbers instead of powers of ten.
-    plain: bool,
-}
-
-impl LogForm {
-    fn new([from, to]: [f64; 2]) -> Self {
-        let powers = (to.log10() + 1e-9).floor() - (from.log10() - 1e-9).ceil() + 1.0;
-        Self {
-            stride: (powers / MOST_DECADES).ceil().max(1.0),
-            powers,
-            plain: powers < 1.5 && from >= 0.999e-3 && to <= 1.001e5,
-        }
-    }
-
-    /// Minor ticks are left out where they would run together.
-    fn shows_minor(&self) -> bool {
-        self.powers < MOST_DECADES + 1.5
-    }
-
-    fn label(&self, mantissa: f64, exponent: f64) -> Option<String> {
+    let powers = (to.log10() + 1e-9).floor() - (from.log10() - 1e-9).ceil() + 1.0;
+    // Every n-th decade is labelled.
+    let stride = (powers / MOST_DECADES).ceil().max(1.0);
+    let is_labelled = |mantissa: f64, exponent: f64| {
         let is_near = |shown: &f64| (mantissa - shown).abs() < 0.5;
-        let labelled = if self.powers > 1.5 {
-            is_near(&1.0) && exponent.rem_euclid(self.stride) < 0.5
+        if powers > 1.5 {
+            is_near(&1.0) && exponent.rem_euclid(stride) < 0.5
         } else {
-            self.powers < 0.5 || [1.0, 2.0, 5.0].iter().any(is_near)
-        };
-        labelled.then(|| self.text(mantissa, exponent))
-    }
-
-    fn text(&self, mantissa: f64, exponent: f64) -> String {
-        if self.plain {
-            let behind_point = |place: &&f64| exponent < *place + 0.5;
-            let decimals = [-1.0, -2.0, -3.0].iter().filter(behind_point).count();
-            format!("{:.*}", decimals, mantissa * 10_f64.powf(exponent))
+            powers < 0.5 || [1.0, 2.0, 5.0].iter().any(is_near)
+        }
+    };
+    let is_plain = powers < 1.5 && from >= 0.999e-3 && to <= 1.001e5;
+    let label = |mantissa: f64, exponent: f64| {
+        if is_plain {
+            let decimals = counts(1.0, -exponent).count();
+            format!("{:.decimals$}", mantissa * 10_f64.powf(exponent))
         } else if mantissa < 1.5 {
             power_of_ten(exponent)
         } else {
             format!("{mantissa:.0}·{}", power_of_ten(exponent))
         }
-    }
+    };
+    // Minor ticks are left out where they would run together.
+    let shows_minor = powers < MOST_DECADES + 1.5;
+    let is_inside = |value: f64| value >= from * (1.0 - 1e-9) && value <= to * (1.0 + 1e-9);
+    counts(from.log10().floor(), to.log10().ceil())
+        .flat_map(|exponent| counts(1.0, 9.0).map(move |mantissa| (mantissa, exponent)))
+        .map(|(mantissa, exponent)| Tick {
+            value: mantissa * 10_f64.powf(exponent),
+            major: mantissa < 1.5,
+            label: is_labelled(mantissa, exponent).then(|| label(mantissa, exponent)),
+        })
+        .filter(|tick| is_inside(tick.value) && (tick.major || shows_minor))
+        .collect()
 }
 
 /// 10 with a superscript exponent.

@@ -1,14 +1,12 @@
 //! The stationary contacts as maps of the pressure.
 
 use crate::figures::stationary::{Contact, Row};
-use viscofriction_plot::{
-    Axis, Colour, ColourScale, Dash, Figure, Line, Map, Marker, Proportions, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 /// Window of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];
 /// Pressures above this many times the mean share a colour: along the front edge they have no limit.
-const BRIGHTEST: f64 = 3.0;
+pub(super) const BRIGHTEST: f64 = 3.0;
 /// Elements that share a cell of the map, along x and along y.
 const SHARE: usize = 2;
 /// Steps of the circle from one end to the other.
@@ -18,50 +16,35 @@ pub(super) fn figure(contacts: &[Contact]) -> Figure {
     Figure::new(contacts.iter().map(map), 2)
 }
 
-/// What the maps show, with the length of the contact along its middle and its breadth.
-pub(super) fn caption(contacts: &[Contact]) -> String {
+/// Lengths of the contacts along their middle, and breadths to a side.
+pub(super) fn extents(contacts: &[Contact]) -> [String; 2] {
     let list = |value: fn(&Contact) -> f64| {
-        let values = contacts
-            .iter()
-            .map(value)
-            .map(|value| format!("{value:.2}"));
+        let values = contacts.iter().map(value);
+        let values = values.map(|value| format!("{value:.2}"));
         values.collect::<Vec<_>>().join(", ")
     };
-    format!(
-        "Stationary contact of the profiles c r<sup>p</sup>, seen from above: the body moves to the right, the cross is \
-         its lowest point. All lengths are in contact lengths of the one-dimensional model, whose contact reaches from \
-         that point to the dotted circle. Only the front half touches. Along the front edge the pressure is singular, \
-         like the inverse square root of the distance, so that it has no largest value; colours end at {BRIGHTEST} \
-         times the mean pressure and are the same above. At the rear it falls to zero smoothly. \
-         The contact of the cone reaches back to its tip, where the pressure is singular too; with growing p the contact \
-         withdraws to the steep rim of the body, a crescent that narrows. For p = 1, 2, 4, 16 it is {} long in its \
-         middle, and {} broad from the middle to a side.",
+    [
         list(|contact| contact.middle().front - contact.middle().rear),
         list(Contact::half_breadth),
-    )
+    ]
 }
 
-fn map(contact: &Contact) -> Map {
+fn map(contact: &Contact) -> Chart {
     let cell = SHARE as f64 / contact.elements as f64;
     let cells = WINDOW.map(|[from, to]| whole((to - from) / cell));
-    let values = (0..cells[0] * cells[1]).map(|index| {
-        let corner = [(0, index % cells[0]), (1, index / cells[0])]
-            .map(|(axis, step)| WINDOW[axis][0] + step as f64 * cell);
+    let colours = Axis::linear("P / mean P", [0.0, BRIGHTEST]);
+    let field = Field::new(cells, colours, |column, row| {
+        let corner = [(0, column), (1, row)]
+            .map(|(axis, step): (usize, usize)| WINDOW[axis][0] + step as f64 * cell);
         pressure(contact, corner)
     });
-    Map {
+    let x = Axis::linear("x / contact length,  motion →", WINDOW[0]);
+    let y = Axis::linear("y / contact length", WINDOW[1]);
+    let lowest = Series::markers(vec![[0.0, 0.0]], Marker::filled(Shape::Plus), Colour::Red);
+    Chart {
         title: Some(format!("h = c rᵖ, p = {}", contact.exponent)),
-        x: Axis::linear("x / contact length,  motion →", WINDOW[0]),
-        y: Axis::linear("y / contact length", WINDOW[1]),
-        columns: cells[0],
-        values: values.collect(),
-        colours: ColourScale::new("P / mean P", [0.0, BRIGHTEST]),
-        proportions: Proportions::True,
-        overlays: vec![
-            outline(contact),
-            circle(),
-            Series::markers(vec![[0.0, 0.0]], Marker::filled(Shape::Plus), Colour::Red),
-        ],
+        series: vec![outline(contact), circle(), lowest],
+        ..Chart::map(x, y, field)
     }
 }
 

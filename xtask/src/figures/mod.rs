@@ -20,7 +20,6 @@ use crate::scaling::Node;
 use friction_over_speed::{CONE, PARABOLOID};
 
 pub(crate) use check::check;
-use pictures::Picture;
 
 /// The data of all figures.
 #[derive(Debug)]
@@ -56,7 +55,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
         write_atomically(&out.join(name), table.as_bytes())?;
     }
     let pictures = pictures::all(&data)?;
-    for Picture { name, drawing, .. } in &pictures {
+    for (name, drawing) in &pictures {
         write_drawing(out, name, drawing)?;
     }
     let page = out.join("report.html");

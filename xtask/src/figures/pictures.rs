@@ -7,60 +7,31 @@ use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
 use crate::output::points;
 use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Drawing, Figure, LegendPlace, Line, Map, Marker,
-    Proportions, Series, Shape, draw,
+    Axis, Chart, Colour, Dash, Drawing, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
+    draw,
 };
 
-/// One picture of the report.
-#[derive(Debug)]
-pub(super) struct Picture {
-    pub(super) name: &'static str,
-    pub(super) caption: String,
-    pub(super) drawing: Drawing,
+/// Names and pictures.
+pub(super) fn all(data: &Data) -> Result<[(&'static str, Drawing); 7]> {
+    let single = |chart: Chart| draw(&Figure::single(chart));
+    let function = scaling_function::figure(&data.scaling_function);
+    let contacts = contact_maps::figure(&data.contacts);
+    Ok([
+        (
+            "fig1_loss_tangent",
+            single(loss_tangent_chart(&data.loss_tangent))?,
+        ),
+        ("fig7_cone", single(friction_chart(&data.cone, 0.2))?),
+        (
+            "fig8_paraboloid",
+            single(friction_chart(&data.paraboloid, 0.35))?,
+        ),
+        ("approach", single(approach_chart(&data.approach))?),
+        ("scaling_function", draw(&function)?),
+        ("pressure", draw(&pressure_maps(&data.approach))?),
+        ("stationary_contact", draw(&contacts)?),
+    ])
 }
-
-pub(super) fn all(data: &Data) -> Result<Vec<Picture>> {
-    let (contacts, function) = (&data.contacts, &data.scaling_function);
-    let of_function = scaling_function::caption(function);
-    let of_contacts = contact_maps::caption(contacts);
-    let [cone, paraboloid] = [(&data.cone, 0.2), (&data.paraboloid, 0.35)]
-        .map(|(rows, highest)| Figure::single(friction_chart(rows, highest)));
-    let loss_tangent = Figure::single(loss_tangent_chart(&data.loss_tangent));
-    let approach = Figure::single(approach_chart(&data.approach));
-    let function = scaling_function::figure(function);
-    let contacts = contact_maps::figure(contacts);
-    let figures = [
-        ("fig1_loss_tangent", FIG1, loss_tangent),
-        ("fig7_cone", FIG7, cone),
-        ("fig8_paraboloid", FIG8, paraboloid),
-        ("approach", APPROACH, approach),
-        ("scaling_function", &of_function, function),
-        ("pressure", PRESSURE, pressure_maps(&data.approach)),
-        ("stationary_contact", &of_contacts, contacts),
-    ];
-    let picture = |(name, caption, figure): (_, &str, Figure)| {
-        let (caption, drawing) = (caption.to_owned(), draw(&figure)?);
-        Ok(Picture {
-            name,
-            caption,
-            drawing,
-        })
-    };
-    figures.into_iter().map(picture).collect()
-}
-
-const FIG1: &str = "Loss tangent of the three-element solid for three stiffness ratios γ, and storage and loss modulus \
-                    for γ = 1/100.";
-const FIG7: &str = "Coefficient of friction of a cone over the sliding speed. Line: theory, Eq. (21). Squares: chain of \
-                    dashpots. Crosses: half space. Circles: theory times the converged s₁.";
-const FIG8: &str = "Coefficient of friction of a paraboloid over the sliding speed. Line: theory, Eq. (22). Squares: \
-                    chain of dashpots. Crosses: half space. Circles: theory times the converged s₂.";
-const APPROACH: &str = "The transition zone: friction from first touch on, relative to the stationary friction of the \
-                        one-dimensional model. The chain arrives exponentially; the half space like the reciprocal of \
-                        the distance, towards the scaling factors (dotted).";
-const PRESSURE: &str = "Pressure at the end of that distance, seen from above; the indenter moves to the right and its lowest \
-                        point is at the origin. Only the front half is in contact. Along the front edge the pressure \
-                        is singular, so that its largest value depends on the elements.";
 
 fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
     let curve = |value: fn(&loss_tangent::Row) -> f64, line, colour| {
@@ -81,19 +52,18 @@ fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
     let [diamonds, circles] = [Shape::Diamond, Shape::Circle];
     let storage = modulus(|row| row.scaled_storage_modulus, diamonds, Colour::Magenta);
     let loss = modulus(|row| row.scaled_loss_modulus, circles, Colour::Black);
-    Chart {
-        title: None,
-        x: Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]),
-        y: Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]),
-        series: vec![
-            soft.labelled("tan δ, γ = 1/1000"),
-            middle.labelled("tan δ, γ = 1/100"),
-            stiff.labelled("tan δ, γ = 1/10"),
-            storage.labelled("10 G′/G₂, γ = 1/100"),
-            loss.labelled("10 G″/G₂, γ = 1/100"),
-        ],
-        legend: LegendPlace::Free,
-    }
+    let series = vec![
+        soft.labelled("tan δ, γ = 1/1000"),
+        middle.labelled("tan δ, γ = 1/100"),
+        stiff.labelled("tan δ, γ = 1/10"),
+        storage.labelled("10 G′/G₂, γ = 1/100"),
+        loss.labelled("10 G″/G₂, γ = 1/100"),
+    ];
+    Chart::new(
+        Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]),
+        Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]),
+        series,
+    )
 }
 
 fn friction_chart(rows: &[Row], highest: f64) -> Chart {
@@ -106,22 +76,19 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
     let scaled = Series::markers(points(|row| row.scaled_theory), circles, Colour::Black);
     let errors = rows.iter().map(|row| row.half_space_distance_error);
     let half_space = Series {
-        errors: Some(errors.collect()),
+        errors: errors.collect(),
         ..Series::markers(points(|row| row.half_space), crosses, Colour::Red)
     };
-    Chart {
-        title: None,
-        x: Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]),
-        y: Axis::linear("coefficient of friction μ", [0.0, highest]),
-        series: vec![
-            theory.labelled("theory (MDR)"),
-            chain.labelled("chain of dashpots (MDR)"),
-            scaled.labelled("theory, scaled"),
-            // Last, because it would vanish behind the open circles.
-            half_space.labelled("half space (BEM)"),
-        ],
-        legend: LegendPlace::Free,
-    }
+    let series = vec![
+        theory.labelled("theory (MDR)"),
+        chain.labelled("chain of dashpots (MDR)"),
+        scaled.labelled("theory, scaled"),
+        // Last, because it would vanish behind the open circles.
+        half_space.labelled("half space (BEM)"),
+    ];
+    let x = Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]);
+    let y = Axis::linear("coefficient of friction μ", [0.0, highest]);
+    Chart::new(x, y, series)
 }
 
 const INDENTERS: [(&str, Dash); 2] = [("cone", Dash::Solid), ("paraboloid", Dash::Dashed)];
@@ -145,12 +112,11 @@ fn approach_chart(approaches: &[Approach; 2]) -> Chart {
             limit,
         ]);
     }
+    let x = Axis::linear(along, [0.0, LENGTHS]);
+    let y = Axis::linear("μ / stationary μ of the line model", [0.0, 1.1]);
     Chart {
-        title: None,
-        x: Axis::linear(along, [0.0, LENGTHS]),
-        y: Axis::linear("μ / stationary μ of the line model", [0.0, 1.1]),
-        series,
         legend: LegendPlace::Below,
+        ..Chart::new(x, y, series)
     }
 }
 
@@ -160,9 +126,8 @@ fn pressure_maps(approaches: &[Approach; 2]) -> Figure {
     Figure::new(maps, 2)
 }
 
-fn pressure_map(approach: &Approach, name: &str) -> Map {
+fn pressure_map(approach: &Approach, name: &str) -> Chart {
     let field = &approach.pressure;
-    let [rows, columns] = field.grid.shape();
     let axis = |axis: usize, label: &str| {
         let (origin, spacing) = (field.origin[axis], field.grid.spacing()[axis]);
         let ends = [-0.5, field.grid.shape()[axis] as f64 - 0.5];
@@ -174,19 +139,15 @@ fn pressure_map(approach: &Approach, name: &str) -> Map {
     let level = |pressure: f64| (pressure / mean).log10();
     let lowest = -1.0;
     let highest = loaded.map(|pressure| level(*pressure)).fold(0.0, f64::max);
-    // The field is stored with y fastest, a map with x fastest; pressures below a tenth of the mean share a colour.
-    let value = |index: usize| {
-        let pressure = field.pressure[(index % rows) * columns + index / rows];
+    let colours = Axis::linear("log₁₀ (P / mean P)", [lowest, highest]);
+    // Pressures below a tenth of the mean share a colour.
+    let field = Field::new(field.grid.shape(), colours, |x, y| {
+        let pressure = field.pressure[x * field.grid.shape()[1] + y];
         (pressure > 0.0).then(|| level(pressure).max(lowest))
-    };
-    Map {
+    });
+    let [x, y] = [axis(0, "x / contact length"), axis(1, "y / contact length")];
+    Chart {
         title: Some(name.to_owned()),
-        x: axis(0, "x / contact length"),
-        y: axis(1, "y / contact length"),
-        columns: rows,
-        values: (0..rows * columns).map(value).collect(),
-        colours: ColourScale::new("log₁₀ (P / mean P)", [lowest, highest]),
-        overlays: Vec::new(),
-        proportions: Proportions::True,
+        ..Chart::map(x, y, field)
     }
 }

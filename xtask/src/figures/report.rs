@@ -5,8 +5,8 @@ use anyhow::{Result, ensure};
 use crate::figures::friction_over_speed::{
     CONE_SLOPE, CURVATURE, NORMAL_FORCE, Row, SLIDING_LENGTHS, VISCOSITY,
 };
-use crate::figures::pictures::Picture;
-use crate::figures::{Data, factors};
+use crate::figures::{Data, contact_maps, factors, scaling_function};
+use viscofriction_plot::Drawing;
 
 /// The page, with the names of what is filled in.
 const TEMPLATE: &str = include_str!("report.html");
@@ -14,11 +14,16 @@ const TEMPLATE: &str = include_str!("report.html");
 const STABILITY: &str = include_str!("../../../docs/figures/stability.svg");
 const WORK_PRECISION: &str = include_str!("../../../docs/figures/work_precision_sliding.svg");
 
-pub(super) fn html(data: &Data, tables: &[(&str, String)], pictures: &[Picture]) -> Result<String> {
+pub(super) fn html(
+    data: &Data,
+    tables: &[(&str, String)],
+    pictures: &[(&str, Drawing)],
+) -> Result<String> {
     let [cone, paraboloid] = &data.factors[..] else {
         anyhow::bail!("two scaling factors");
     };
     let factors = data.factors.iter().map(factor).collect();
+    let [lengths, breadths] = contact_maps::extents(&data.contacts);
     let mut page = TEMPLATE.to_owned();
     let mut fill = |name: &str, value: &str| page = page.replace(&format!("{{{{{name}}}}}"), value);
     for (name, value) in [
@@ -36,6 +41,13 @@ pub(super) fn html(data: &Data, tables: &[(&str, String)], pictures: &[Picture])
         ("curvature", CURVATURE.to_string()),
         ("runs of the cone", runs(&data.cone)),
         ("runs of the paraboloid", runs(&data.paraboloid)),
+        (
+            "course of s(p)",
+            scaling_function::course(&data.scaling_function),
+        ),
+        ("brightest", contact_maps::BRIGHTEST.to_string()),
+        ("lengths of the contacts", lengths),
+        ("breadths of the contacts", breadths),
         ("stability", STABILITY.to_owned()),
         ("work_precision", WORK_PRECISION.to_owned()),
     ] {
@@ -44,10 +56,8 @@ pub(super) fn html(data: &Data, tables: &[(&str, String)], pictures: &[Picture])
     for (file, table) in tables {
         fill(&format!("data of {file}"), &folded(table));
     }
-    for picture in pictures {
-        let (svg, caption) = (&picture.drawing.svg, &picture.caption);
-        let figure = format!("<figure>{svg}<figcaption>{caption}</figcaption></figure>");
-        fill(picture.name, &figure);
+    for (name, drawing) in pictures {
+        fill(name, &drawing.svg);
     }
     ensure!(
         !page.contains("{{"),

@@ -6,9 +6,7 @@ use friction_analytic::scaling_factor as tabulated;
 use crate::figures::factors::PAPER;
 use crate::output::points;
 use crate::scaling::{MAX_UNKNOWNS, Node, scaling_factor};
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 pub(super) const FILE: &str = "scaling_function.csv";
 /// Values of the table, evenly spaced in ln(2p − 1).
@@ -62,37 +60,27 @@ pub(super) fn figure(rows: &[Node]) -> Figure {
     };
     let paper = PAPER.map(|(p, s)| [p, s]).to_vec();
     let paper = Series::markers(paper, Marker::filled(Shape::Plus), Colour::Red);
-    let chart = |y, series| Chart {
-        title: None,
-        x: Axis::log10("exponent p", [0.4, 100.0]),
-        y,
-        series,
-        legend: LegendPlace::Free,
-    };
-    let function = chart(
-        Axis::linear("scaling factor s(p)", [0.0, 0.8]),
-        vec![
-            curve(|row| row.scaling_factor).labelled("boundary elements, converged"),
-            paper.labelled("paper, p = 1 and 2"),
-        ],
-    );
-    let errors = chart(
-        Axis::log10("relative error bar", [1e-6, 1e-3]),
-        vec![curve(|row| row.error / row.scaling_factor)],
-    );
-    Figure::new([function, errors], 1)
+    let function = vec![
+        curve(|row| row.scaling_factor).labelled("boundary elements, converged"),
+        paper.labelled("paper, p = 1 and 2"),
+    ];
+    let errors = vec![curve(|row| row.error / row.scaling_factor)];
+    let factor = Axis::linear("scaling factor s(p)", [0.0, 0.8]);
+    let error = Axis::log10("relative error bar", [1e-6, 1e-3]);
+    let exponents = Axis::log10("exponent p", [0.4, 100.0]);
+    let function = Chart::new(exponents.clone(), factor, function);
+    Figure::new([function, Chart::new(exponents, error, errors)], 1)
 }
 
-pub(super) fn caption(rows: &[Node]) -> String {
+/// How the function rises and falls.
+pub(super) fn course(rows: &[Node]) -> String {
     let highest = rows
         .iter()
         .max_by(|one, other| one.scaling_factor.total_cmp(&other.scaling_factor));
     let ends = [rows.first(), highest, rows.last()]
         .map(|row| row.map_or([0.0; 2], |row| [row.exponent, row.scaling_factor]));
     format!(
-        "The ratio of the friction of the half space to that of the one-dimensional model for the profile c r^p, and its \
-         error bar. From {:.4} for a cusp with p = {:.4} it rises to {:.4} near p = {:.2} and falls to {:.4} for p = {:.0}. \
-         Crosses: the paper's two values.",
+        "From {:.4} for a cusp with p = {:.4} it rises to {:.4} near p = {:.2} and falls to {:.4} for p = {:.0}",
         ends[0][1], ends[0][0], ends[1][1], ends[1][0], ends[2][1], ends[2][0]
     )
 }

@@ -1,8 +1,6 @@
 //! Measured and fitted moduli, and the error between them.
 
-use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Panel, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 /// Measured against fitted, as rows of a table.
 pub(super) struct Comparison {
@@ -32,23 +30,15 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
     });
     let marker = Marker::filled(Shape::Diamond);
     let errors = Series::markers(points(1 + 2 * n), marker, Colour::Black);
-    let panels = [
+    let charts = [
         chart(x, "modulus [Pa]", measured.chain(fitted).collect()),
         chart(x, "relative error of the modulus", vec![errors]),
     ];
-    Figure {
-        panels: panels.map(Panel::from).into(),
-        columns: 2,
-    }
+    Figure::new(charts, 2)
 }
 
 fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let values = |axis: usize| series.iter().flat_map(|s| &s.points).map(move |p| p[axis]);
-    Chart {
-        title: None,
-        x: Axis::decades(x, values(0)),
-        y: Axis::decades(y, values(1)),
-        legend: LegendPlace::Free,
-        series,
-    }
+    let [x, y] = [Axis::decades(x, values(0)), Axis::decades(y, values(1))];
+    Chart::new(x, y, series)
 }

@@ -2,16 +2,14 @@
 
 use anyhow::{Context, Result};
 use viscofriction::PressureField;
-use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Proportions, Series,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Series};
 
 /// The pressure over the contact.
 pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
-    let [rows, columns] = field.grid.shape();
+    let shape = field.grid.shape();
     let axis = |axis: usize, label: &str| {
         let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
-        let last = origin + (field.grid.shape()[axis] as f64 - 0.5) * spacing;
+        let last = origin + (shape[axis] as f64 - 0.5) * spacing;
         Axis::linear(label, [origin - 0.5 * spacing, last])
     };
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
@@ -19,36 +17,21 @@ pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
     let lowest = logarithms.clone().reduce(f64::min);
     let highest = logarithms.reduce(f64::max);
     let (lowest, highest) = lowest.zip(highest).context("nothing is loaded")?;
-    // The field is stored with y fastest, a map with x fastest.
-    let value = |index: usize| {
-        let pressure = field.pressure[(index % rows) * columns + index / rows];
+    let colours = Axis::linear("log₁₀ (P / Pa)", [lowest.min(highest - 1e-3), highest]);
+    let logarithms = Field::new(shape, colours, |x, y| {
+        let pressure = field.pressure[x * shape[1] + y];
         (pressure > 0.0).then(|| pressure.log10())
-    };
-    Ok(Figure::single(Map {
-        title: None,
-        x: axis(0, "x [m]"),
-        y: axis(1, "y [m]"),
-        columns: rows,
-        values: (0..rows * columns).map(value).collect(),
-        colours: ColourScale {
-            label: "log₁₀ (P / Pa)".into(),
-            range: [lowest.min(highest - 1e-3), highest],
-        },
-        overlays: Vec::new(),
-        proportions: Proportions::True,
-    }))
+    });
+    let [x, y] = [axis(0, "x [m]"), axis(1, "y [m]")];
+    Ok(Figure::single(Chart::map(x, y, logarithms)))
 }
 
 /// One quantity over another.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
-    let range = |axis: usize| around(points.iter().map(|point| point[axis]));
-    Figure::single(Chart {
-        title: None,
-        x: Axis::linear(x, range(0)),
-        y: Axis::linear(y, range(1)),
-        legend: LegendPlace::Free,
-        series: vec![Series::line(points, Line::thick(Dash::Solid), Colour::Blue)],
-    })
+    let [x, y] = [(0, x), (1, y)]
+        .map(|(axis, label)| Axis::linear(label, around(points.iter().map(|point| point[axis]))));
+    let line = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
+    Figure::single(Chart::new(x, y, vec![line]))
 }
 
 /// A range that holds zero and all values, with some room.

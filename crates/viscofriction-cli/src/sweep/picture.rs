@@ -1,12 +1,11 @@
 //! What came out of a sweep over what varies, beside its file.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use viscofriction::WrongInput;
-use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Figure, LegendPlace, Map, Marker, Proportions, Series, Shape,
-};
+use viscofriction_plot::{Axis, Chart, Colour, Field, Figure, Marker, Series, Shape};
 
 use super::file::RowTable;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
@@ -117,7 +116,7 @@ fn figure(table: &RowTable) -> Result<Figure> {
     let values = values(name);
     match &keys[..] {
         [(key, over)] => Ok(chart((key, over), (label, &values), &errors)),
-        [one, other] => map([one, other], (label, &values)),
+        [(one, x), (other, y)] => map([(one, x), (other, y)], (label, &values)),
         _ => bail!("more than two keys vary"),
     }
 }
@@ -143,49 +142,33 @@ fn chart((key, over): Column<'_>, (label, values): Column<'_>, errors: &[Option<
     } else {
         Axis::linear(key, [first, last])
     };
-    let markers = Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue);
-    Figure::single(Chart {
-        title: None,
-        x,
-        y,
-        legend: LegendPlace::Free,
-        series: vec![Series {
-            errors: Some(errors),
-            ..markers
-        }],
-    })
+    let series = Series {
+        errors,
+        ..Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue)
+    };
+    Figure::single(Chart::new(x, y, vec![series]))
 }
 
-fn map(keys: [&(&str, Vec<Option<f64>>); 2], (label, values): Column<'_>) -> Result<Figure> {
-    let places = keys.map(|(_, over)| sorted(over.iter().copied().flatten()));
-    let [columns, rows] = [places[0].len(), places[1].len()];
-    let mut field = vec![None; columns * rows];
-    for (index, value) in values.iter().enumerate() {
-        let place = |axis: usize| {
-            let value = keys[axis].1[index]?;
-            places[axis]
-                .binary_search_by(|other| other.total_cmp(&value))
-                .ok()
-        };
-        if let Some((column, row)) = place(0).zip(place(1)) {
-            field[row * columns + column] = *value;
-        }
+fn map([one, other]: [Column<'_>; 2], (label, values): Column<'_>) -> Result<Figure> {
+    let places = [one, other].map(|(_, over)| sorted(over.iter().copied().flatten()));
+    let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
+    let mut found = HashMap::new();
+    for ((x, y), value) in one.1.iter().zip(other.1).zip(values) {
+        found.extend(
+            x.zip(*y)
+                .zip(*value)
+                .map(|((x, y), value)| (place(x, y), value)),
+        );
     }
-    let [x, y] = [0, 1].map(|axis| cells(keys[axis].0, &places[axis]));
-    let [low, high] = ends_of(&sorted(values.iter().copied().flatten()));
-    Ok(Figure::single(Map {
-        title: None,
-        x: x?,
-        y: y?,
-        columns,
-        values: field,
-        colours: ColourScale {
-            label: label.to_owned(),
-            range: [low, high],
-        },
-        overlays: Vec::new(),
-        proportions: Proportions::Free,
-    }))
+    let colours = Axis::linear(label, ends_of(&sorted(found.values().copied())));
+    let shape = [places[0].len(), places[1].len()];
+    let field = Field::new(shape, colours, |column, row| {
+        found
+            .get(&place(places[0][column], places[1][row]))
+            .copied()
+    });
+    let [x, y] = [cells(one.0, &places[0])?, cells(other.0, &places[1])?];
+    Ok(Figure::single(Chart::map(x, y, field.stretched())))
 }
 
 /// An axis of cells that are as wide as the values in their middle are apart.

@@ -1,13 +1,13 @@
 //! What stands in the SVG of a figure.
 
 use viscofriction_plot::{
-    Axis, Cell, Chart, Colour, Dash, Figure, LegendPlace, Line, Panel, Series, draw,
+    Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape, draw,
 };
 
-use crate::{chart, map, matrix, points};
+use crate::{chart, map};
 
-fn svg(panel: impl Into<Panel>) -> String {
-    let drawing = draw(&Figure::single(panel));
+fn svg(chart: Chart) -> String {
+    let drawing = draw(&Figure::single(chart));
     drawing.expect("the figure is sound").svg
 }
 
@@ -20,10 +20,7 @@ fn number(svg: &str, name: &str) -> f64 {
 
 #[test]
 fn several_panels_line_up_with_all_their_texts_and_are_the_same_every_time() {
-    let page = Figure {
-        panels: vec![chart().into(), map().into(), chart().into()],
-        columns: 2,
-    };
+    let page = Figure::new([chart(), map(), chart()], 2);
     let got = draw(&page);
     assert_eq!(got, draw(&page), "two pictures of one figure");
     let text = got.expect("the figure is sound").svg;
@@ -49,7 +46,11 @@ fn several_panels_line_up_with_all_their_texts_and_are_the_same_every_time() {
 fn markers_stand_on_their_points() {
     // The frame is 280 px high and begins 10 px below the upper edge.
     for (y, expected) in [(0.2, 10.0), (0.1, 150.0), (0.0, 290.0)] {
-        let got = number(&svg(points(&[[1e-1, y]])), "cy");
+        let mut one = chart();
+        one.title = None;
+        let circle = Marker::filled(Shape::Circle);
+        one.series = vec![Series::markers(vec![[1e-1, y]], circle, Colour::Black)];
+        let got = number(&svg(one), "cy");
         assert!(
             (got - expected).abs() < 0.011,
             "expected μ = {y} at {expected} px, got {got}"
@@ -94,25 +95,12 @@ fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
 
 #[test]
 fn labels_of_the_x_axis_stand_clear_of_each_other() {
-    let crowded = Chart {
-        x: Axis::linear("time t [s]", [0.0, 3e-12]),
-        ..points(&[[1e-12, 0.1]])
-    };
-    let text = svg(crowded);
+    let time = Axis::linear("time t [s]", [0.0, 3e-12]);
+    let rise = vec![[0.0, 0.0], [1e-12, 0.1]];
+    let rise = Series::line(rise, Line::thin(Dash::Solid), Colour::Black);
+    let text = svg(Chart::new(time, chart().y, vec![rise]));
     let mut labels = vec!["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"];
     labels.retain(|label| text.contains(&format!(">{label}·10⁻¹²<")));
     // A step of half a unit is 65 px, less than a label of some 62 px and the gap of 6 px.
     assert_eq!(labels, ["1.0", "2.0", "3.0"], "labels in {text}");
-}
-
-#[test]
-fn a_matrix_colours_every_cell() {
-    let [value, plain] = [Cell::Value(-6.0), Cell::Plain(Colour::Grey)];
-    let text = svg(matrix(&[value, plain, value]));
-    assert!(
-        text.contains("M0 0h0.9v0.8h-0.9zM2 0h0.9v0.8h-0.9z"),
-        "two cells of one colour in {text}"
-    );
-    // One cell and one sample of the legend.
-    assert_eq!(text.matches("#b0b0b0").count(), 2, "grey in {text}");
 }

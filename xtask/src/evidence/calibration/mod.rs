@@ -159,12 +159,11 @@ fn figure(rows: &[Row]) -> Figure {
     let ends = x.range.map(|end| [end; 2]).to_vec();
     let diagonal = Series::line(ends, Line::thin(Dash::Solid), Colour::Black);
     let diagonal = diagonal.labelled("deviation = bar");
+    let series = methods.chain([diagonal]).collect();
     Figure::single(Chart {
         title: Some(format!("{} error bars", points.len())),
-        series: methods.chain([diagonal]).collect(),
-        x,
-        y,
         legend: LegendPlace::Below,
+        ..Chart::new(x, y, series)
     })
 }
 

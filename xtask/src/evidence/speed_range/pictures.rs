@@ -3,8 +3,7 @@
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
 use viscofriction_plot::{
-    Axis, Chart, Colour, ColourScale, Dash, Figure, LegendPlace, Line, Map, Marker, Proportions,
-    Series, Shape,
+    Axis, Chart, Colour, Dash, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
 };
 
 use super::{Decades, EXPONENTS, Extent, Friction, MODELS, Point, Prediction, border, plateau};
@@ -29,14 +28,12 @@ fn same(one: f64, other: f64) -> bool {
     one.total_cmp(&other).is_eq()
 }
 
-/// Axes of both charts, without series.
-fn chart(exponent: f64, extent: &Extent, y: Axis) -> Chart {
+fn chart(exponent: f64, extent: &Extent, y: Axis, series: Vec<Series>) -> Chart {
+    let x = Axis::log10("speed vτ/a", range(extent.curve_speeds));
     Chart {
         title: Some(name(exponent).to_owned()),
-        x: Axis::log10("speed vτ/a", range(extent.curve_speeds)),
-        y,
-        series: Vec::new(),
         legend: LegendPlace::Below,
+        ..Chart::new(x, y, series)
     }
 }
 
@@ -60,7 +57,7 @@ impl Curve<'_> {
     fn circles(&self, value: fn(&Friction) -> f64, error: fn(&Friction) -> f64) -> Series {
         let errors = self.points.iter().map(|(_, friction)| error(friction));
         Series {
-            errors: Some(errors.collect()),
+            errors: errors.collect(),
             ..Series::markers(self.values(value), Marker::open(Shape::Circle), self.colour)
         }
     }
@@ -87,17 +84,17 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
         let lowest = of_profile.map(|(_, friction)| friction.half_space.min(friction.line));
         let lowest = 10_f64.powf(lowest.fold(1.0, f64::min).log10().floor());
         let y = Axis::log10("friction μ / mean slope", [lowest, 10.0]);
-        let mut chart = chart(exponent, extent, y);
+        let mut series = Vec::new();
         for curve in curves(points, exponent, extent) {
             let values = curve.values(|at| at.line);
             let line = Series::line(values, Line::thick(Dash::Solid), curve.colour);
             let circles = curve.circles(|at| at.half_space, |at| at.half_space_error);
-            chart.series.extend([
+            series.extend([
                 line.labelled(format!("{}, line", curve.label)),
                 circles.labelled(format!("{}, half space", curve.label)),
             ]);
         }
-        chart
+        chart(exponent, extent, y, series)
     };
     Figure::new(EXPONENTS.map(panel), 2)
 }
@@ -106,21 +103,20 @@ pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
 pub(super) fn ratio(points: &[Point], extent: &Extent) -> Result<Figure> {
     let panel = |exponent: f64| {
         let y = Axis::linear("friction of half space / line", RATIOS);
-        let mut chart = chart(exponent, extent, y);
         let level = |value: f64| {
             let points = range(extent.curve_speeds).map(|speed| [speed, value]);
             Series::line(points.to_vec(), Line::thin(Dash::Dashed), Colour::Black)
         };
         let viscous = level(plateau(exponent)?).labelled("1/2, viscous s, 1");
-        chart.series.extend([level(0.5), viscous, level(1.0)]);
+        let mut series = vec![level(0.5), viscous, level(1.0)];
         for curve in curves(points, exponent, extent) {
-            let series = Series {
+            let circles = Series {
                 line: Some(Line::thin(Dash::Solid)),
                 ..curve.circles(|at| at.ratio, |at| at.ratio_error)
             };
-            chart.series.push(series.labelled(curve.label));
+            series.push(circles.labelled(curve.label));
         }
-        Ok(chart)
+        Ok(chart(exponent, extent, y, series))
     };
     let panels: Result<Vec<_>> = EXPONENTS.into_iter().map(panel).collect();
     Ok(Figure::new(panels?, 2))
@@ -133,6 +129,7 @@ pub(super) fn validity(
     extent: &Extent,
 ) -> Result<Figure> {
     let window = window(extent)?;
+    let shape = [extent.map_speeds, extent.map_ratios].map(|decades| decades.values().count());
     let mut panels = Vec::new();
     for exponent in EXPONENTS {
         let of_profile = map.iter().filter(|(at, _)| same(at.exponent, exponent));
@@ -141,22 +138,23 @@ pub(super) fn validity(
                 let [friction, predicted] = law.pair(model);
                 friction / predicted
             });
-            let highest = quotients.clone().fold(1.0, f64::max);
+            let quotients: Vec<f64> = quotients.collect();
+            let highest = quotients.iter().copied().fold(1.0, f64::max);
+            let colours = Axis::linear("friction / prediction", [0.0, highest]);
+            let value = |speed: usize, ratio: usize| Some(quotients[ratio * shape[0] + speed]);
+            let field = Field::new(shape, colours, value);
             let borders = borders.iter();
             let borders = borders.filter(|at| same(at.exponent, exponent) && at.model == model);
+            let x = map_axis("log₁₀ (vτ/a)", extent.map_speeds);
+            let y = map_axis("log₁₀ γ", extent.map_ratios);
             let model = model.name().replace('-', " ");
-            panels.push(Map {
+            panels.push(Chart {
                 title: Some(format!("{}, {model}", name(exponent))),
-                x: map_axis("log₁₀ (vτ/a)", extent.map_speeds),
-                y: map_axis("log₁₀ γ", extent.map_ratios),
-                columns: extent.map_speeds.values().count(),
-                values: quotients.map(Some).collect(),
-                colours: ColourScale::new("friction / prediction", [0.0, highest]),
-                overlays: [window.clone()]
+                series: [window.clone()]
                     .into_iter()
                     .chain(outline(borders))
                     .collect(),
-                proportions: Proportions::True,
+                ..Chart::map(x, y, field)
             });
         }
     }

@@ -152,12 +152,11 @@ fn panel(rows: &[&Row], end: f64) -> Chart {
             series.push(Series::markers(points, Marker::open(shape), colour).labelled(label));
         }
     }
+    let x = Axis::linear("log₁₀ of the parameter", [-end, end]);
+    let y = Axis::log10("deviation / tolerance", [0.1 * SMALLEST, 100.0]);
     Chart {
-        title: None,
-        x: Axis::linear("log₁₀ of the parameter", [-end, end]),
-        y: Axis::log10("deviation / tolerance", [0.1 * SMALLEST, 100.0]),
-        series,
         legend: LegendPlace::Below,
+        ..Chart::new(x, y, series)
     }
 }
 

@@ -35,10 +35,8 @@ fn chart(rows: &[&Row], [x, y]: &[Axis; 2]) -> Chart {
     series.extend(models.filter_map(|rows| floor(rows, x)));
     Chart {
         title: rows.first().map(title),
-        x: x.clone(),
-        y: y.clone(),
         legend: LegendPlace::Below,
-        series,
+        ..Chart::new(x.clone(), y.clone(), series)
     }
 }
 
@@ -51,14 +49,12 @@ fn label(row: &Row) -> String {
 
 fn curve(rows: &[&Row]) -> Option<Series> {
     let (colour, marker) = style(rows.first()?);
-    Some(Series {
-        label: rows.first().map(|row| label(row)),
-        points: rows.iter().map(|row| point(row)).collect(),
-        errors: None,
+    let points = rows.iter().map(|row| point(row)).collect();
+    let series = Series {
         line: (rows.len() > 1).then_some(Line::thick(Dash::Solid)),
-        marker: Some(marker),
-        colour,
-    })
+        ..Series::markers(points, marker, colour)
+    };
+    Some(series.labelled(label(rows.first()?)))
 }
 
 /// Line and stationary states are filled, elements are open.

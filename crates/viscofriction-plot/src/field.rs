@@ -1,0 +1,122 @@
+//! Fields: values on a rectangular grid as colours, with a bar that explains them.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::axis::{Axis, Scale};
+use crate::canvas::{Area, Canvas, FRAME_PEN};
+use crate::colour::{LEVELS, level, level_colour};
+use crate::error::PlotError;
+use crate::frame::{AxisEdge, Edge, TickSide, side_margin};
+
+/// Values on a rectangular grid that fills the ranges of both axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Field {
+    columns: usize,
+    /// Row by row from the lowest y, each from the lowest x.
+    values: Vec<Option<f64>>,
+    colours: Axis,
+    is_stretched: bool,
+}
+
+const GAP: f64 = 12.0;
+const BAR_WIDTH: f64 = 14.0;
+
+impl Field {
+    /// Field of so many columns and rows, given cell by cell by the column from the lowest x and the row from the lowest
+    /// y; cells without a value stay white. The axis of colours runs from dark blue to yellow.
+    pub fn new(
+        [columns, rows]: [usize; 2],
+        colours: Axis,
+        value: impl Fn(usize, usize) -> Option<f64>,
+    ) -> Self {
+        let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        Self {
+            columns,
+            values: cells.map(|(column, row)| value(column, row)).collect(),
+            colours,
+            is_stretched: false,
+        }
+    }
+
+    /// The same filling the panel, because the units of the axes differ; else a unit of length is equally long on both.
+    #[must_use]
+    pub fn stretched(self) -> Self {
+        Self {
+            is_stretched: true,
+            ..self
+        }
+    }
+
+    /// Refuses a grid without cells, values without a colour, and axes that have no proportions.
+    pub(crate) fn validate(&self, axes: [&Axis; 2]) -> Result<(), PlotError> {
+        let logarithmic = axes.into_iter().find(|axis| axis.scale == Scale::Log10);
+        if let Some(axis) = logarithmic.filter(|_| !self.is_stretched) {
+            return Err(axis.refused("be linear, because the field has true proportions"));
+        }
+        let label = &self.colours.label;
+        if self.values.is_empty() {
+            return Err(PlotError::Empty(format!("the grid of '{label}'")));
+        }
+        self.colours.validate()?;
+        let mut values = self.values.iter().enumerate();
+        values.try_for_each(|(index, value)| {
+            value.map_or(Ok(()), |value| self.colours.check(value, label, index))
+        })
+    }
+
+    /// Room that the bar and its axis take on the right, \[px\].
+    pub(crate) fn right_margin(&self) -> Result<f64, PlotError> {
+        Ok(GAP + BAR_WIDTH + side_margin(&self.colours)?)
+    }
+
+    /// Size of the data rectangle within the largest, \[px\].
+    pub(crate) fn size(&self, axes: [&Axis; 2], largest: [f64; 2]) -> [f64; 2] {
+        if self.is_stretched {
+            return largest;
+        }
+        let spans = axes.map(|axis| axis.range[1] - axis.range[0]);
+        let scale = (largest[0] / spans[0]).min(largest[1] / spans[1]);
+        spans.map(|span| scale * span)
+    }
+
+    /// Draws one path per colour, neighbours of one colour in a row merged.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, area: Area) {
+        let [columns, rows] = [self.columns, self.values.len() / self.columns];
+        let size = [area.width / columns as f64, area.height / rows as f64];
+        let mut paths: BTreeMap<u8, String> = BTreeMap::new();
+        for (row, values) in self.values.chunks(columns).enumerate() {
+            let level =
+                |value: &Option<f64>| value.map(|value| level(self.colours.fraction(value)));
+            let levels: Vec<Option<u8>> = values.iter().map(level).collect();
+            let mut start = 0;
+            for run in levels.chunk_by(|a, b| a == b) {
+                let length = run.len();
+                if let Some(level) = run[0] {
+                    let path = paths.entry(level).or_default();
+                    // A text takes all that is written to it.
+                    let _always = write!(path, "M{start} {row}h{length}v1h-{length}z");
+                }
+                start += length;
+            }
+        }
+        let paths = paths.into_iter();
+        let paths = paths.map(|(level, path)| (level_colour(level), path));
+        canvas.mosaic(area, size, paths);
+    }
+
+    /// Draws a bar of all colours beside the data rectangle, with its axis on the right.
+    pub(crate) fn draw_bar(&self, canvas: &mut Canvas, beside: Area) -> Result<(), PlotError> {
+        let area = Area {
+            left: beside.right() + GAP,
+            width: BAR_WIDTH,
+            ..beside
+        };
+        let step = |level| (level_colour(level), format!("M0 {level}h1v1h-1z"));
+        let size = [area.width, area.height / f64::from(LEVELS)];
+        canvas.mosaic(area, size, (0..LEVELS).map(step));
+        canvas.rectangle(area, "none", &FRAME_PEN);
+        AxisEdge::new(&self.colours, area, Edge::Right)?.draw(canvas, TickSide::Outside);
+        Ok(())
+    }
+}
