@@ -6,8 +6,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use auto_impl::auto_impl;
+
 use crate::IndenterError;
-use crate::forward::forward;
 use crate::right_triangle::arc_cosine;
 use numerics::integrate_from_ends;
 
@@ -62,6 +63,7 @@ impl LinePoint {
 /// Implementors give the profile and its exponent; the equivalent line follows by quadrature, unless there is a closed
 /// form. The macro [`surface_of_revolution!`](crate::surface_of_revolution) makes a body of revolution a
 /// [`Surface`](crate::Surface).
+#[auto_impl(&, Box, Arc)]
 pub trait Axisymmetric: Send + Sync {
     /// Height, slope and curvature at a `radius` r ≥ 0 \[m]; [`ProfilePoint::ENDED`] where the body has ended.
     fn profile(&self, radius: f64) -> ProfilePoint;
@@ -131,19 +133,6 @@ pub trait Axisymmetric: Send + Sync {
         within(self, x.abs()).map(|radius| self.line_height(radius))
     }
 }
-
-forward!(Axisymmetric + Send + Sync, {
-    fn profile(&self, radius: f64) -> ProfilePoint;
-    fn profile_exponent(&self) -> f64;
-    fn max_radius(&self) -> f64;
-    fn kinks(&self) -> Vec<Kink>;
-    fn closed_line(&self, x: f64) -> Option<LinePoint>;
-    fn profile_height(&self, radius: f64) -> f64;
-    fn profile_slope(&self, radius: f64) -> f64;
-    fn profile_curvature(&self, radius: f64) -> f64;
-    fn line_height(&self, x: f64) -> f64;
-    fn line_slope(&self, x: f64) -> f64;
-});
 
 fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, IndenterError> {
     let upper = body.max_radius();

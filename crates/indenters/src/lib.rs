@@ -35,7 +35,6 @@ mod discrete_edge;
 mod error;
 mod extent;
 mod flat_ended;
-mod forward;
 mod height_map;
 mod inverse_abel;
 mod leading_edge;

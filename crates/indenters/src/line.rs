@@ -1,13 +1,15 @@
 //! Rigid lines of the one-dimensional model, and where they turn up or down.
 
+use auto_impl::auto_impl;
+
 use crate::Axisymmetric;
-use crate::forward::forward;
 use numerics::bracketed_root;
 
 /// Halvings of an interval whose slopes contradict its heights before it is taken as it is.
 const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
+#[auto_impl(&, Box, Arc)]
 pub trait RigidLine {
     /// Height h̃(x), \[m], at a position of the domain; `+∞` outside.
     fn height(&self, x: f64) -> f64;
@@ -36,15 +38,6 @@ pub trait RigidLine {
         find_breaks(self, samples)
     }
 }
-
-forward!(RigidLine, {
-    fn height(&self, x: f64) -> f64;
-    fn slope(&self, x: f64) -> f64;
-    fn domain(&self) -> [f64; 2];
-    fn kinks(&self) -> Vec<f64>;
-    fn apex_exponent(&self) -> f64;
-    fn monotone_breaks(&self, samples: usize) -> Vec<f64>;
-});
 
 /// The equivalent line of a body of revolution, `h̃(x)`, with its apex at `x = 0`.
 #[derive(Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! Rigid surfaces in three dimensions.
 
+use auto_impl::auto_impl;
+
 use crate::Axisymmetric;
 use crate::extent::search;
-use crate::forward::forward;
 
 /// The surface of a rigid body as the half space sees it: height and gradient over the plane.
 ///
@@ -10,6 +11,7 @@ use crate::forward::forward;
 /// [`surface_of_revolution!`](crate::surface_of_revolution) makes an own [`Axisymmetric`] body one.
 ///
 /// The example `custom_surface.rs` of this crate is a surface of its own.
+#[auto_impl(&, Box, Arc)]
 pub trait Surface: Send + Sync {
     /// Height h(x, y) above the lowest point, \[m], at a `[x, y]` position \[m]; `+∞` where there is no body.
     fn height(&self, position: [f64; 2]) -> f64;
@@ -45,15 +47,6 @@ pub trait Surface: Send + Sync {
         None
     }
 }
-
-forward!(Surface + Send + Sync, {
-    fn height(&self, position: [f64; 2]) -> f64;
-    fn gradient(&self, position: [f64; 2]) -> [f64; 2];
-    fn mirrors(&self) -> [bool; 2];
-    fn extent_below(&self, height: f64) -> [[f64; 2]; 2];
-    fn apex_exponent(&self) -> f64;
-    fn as_axisymmetric(&self) -> Option<&dyn Axisymmetric>;
-});
 
 /// A surface whose mirrors are hidden, so that solvers compute both sides of them.
 ///

@@ -1,13 +1,15 @@
 //! What every material has: two spectra, and the moduli and compliances that follow.
 
 use std::fmt::Debug;
-use std::ops::Deref;
+
+use auto_impl::auto_impl;
 
 use crate::{ComplexCompliance, ComplexModulus, CreepSpectrum, RelaxationSpectrum, RheologyError};
 
 /// A linear viscoelastic material with a constant Poisson ratio.
 ///
 /// Both spectra describe the same shear: s Ĝ(s) · s Ĵ(s) = 1. Who asks for many values asks for the spectrum once.
+#[auto_impl(&, Box, Arc)]
 pub trait Material: Debug + Send + Sync {
     /// How stress relaxes at constant strain.
     fn relaxation(&self) -> RelaxationSpectrum;
@@ -66,22 +68,5 @@ pub trait Material: Debug + Send + Sync {
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
     fn loss_tangent(&self, angular_frequency: f64) -> Result<f64, RheologyError> {
         self.relaxation().loss_tangent(angular_frequency)
-    }
-}
-
-impl<P> Material for P
-where
-    P: Deref<Target: Material> + Debug + Send + Sync,
-{
-    fn relaxation(&self) -> RelaxationSpectrum {
-        (**self).relaxation()
-    }
-
-    fn creep(&self) -> CreepSpectrum {
-        (**self).creep()
-    }
-
-    fn poisson_ratio(&self) -> f64 {
-        (**self).poisson_ratio()
     }
 }

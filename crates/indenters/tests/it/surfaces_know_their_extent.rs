@@ -1,10 +1,5 @@
-use std::sync::Arc;
-
 use casebook::assert_close;
-use indenters::{
-    Axisymmetric, Cylinder, EquivalentLine, FlatPunch, HeightMap, PowerProfile, RigidLine, Sphere,
-    Surface, Unmirrored,
-};
+use indenters::{Cylinder, FlatPunch, HeightMap, PowerProfile, Sphere, Surface, Unmirrored};
 
 /// Paraboloids of both curvatures, turned and moved, or none.
 struct Own {
@@ -118,30 +113,6 @@ fn a_body_of_revolution_knows_its_extent() {
             assert_close!(end.abs() => radius, within 1e-14; "below {height}");
         }
     }
-}
-
-#[test]
-fn pointers_say_what_their_body_says() {
-    let body = Sphere::new(2.0).unwrap();
-    let boxed: Box<dyn Axisymmetric> = Box::new(body);
-    let said = |surface: &dyn Surface| {
-        let line = surface.as_axisymmetric().map(|body| body.line_height(1.0));
-        let numbers = [
-            surface.height([1.2, 0.0]),
-            surface.gradient([1.2, 0.0])[0],
-            surface.extent_below(0.1)[1][1],
-            surface.apex_exponent(),
-        ];
-        (numbers, surface.mirrors(), line)
-    };
-    for surface in [&&body as &dyn Surface, &boxed, &Arc::new(body)] {
-        assert_eq!(said(surface), said(&body), "of the surface");
-    }
-    let line = EquivalentLine(&*boxed);
-    let said =
-        |line: &dyn RigidLine| [line.height(-1.0), line.slope(-1.0), line.domain()[1]].map(Some);
-    let expected = said(&EquivalentLine(&body));
-    assert_eq!(said(&Box::new(line)), expected, "of the line");
 }
 
 #[test]

@@ -52,7 +52,7 @@ pub(crate) fn viscous_line(
         Revolution::Power(profile) => power_sliding(profile, material, &under_force),
         Revolution::Sum(profile) => superposition_sliding(profile, material, &under_force),
         Revolution::Sphere(_) | Revolution::Other(_) => {
-            axisymmetric_sliding(body, material, &under_force)
+            axisymmetric_sliding(&**body, material, &under_force)
         }
     }?;
     let (force, depth) = found_beside(load.control(), [force, state.indentation_depth], SEARCHED);
@@ -190,13 +190,13 @@ pub(crate) fn pressed(
     let (force, depth, radius) = match control {
         Control::NormalForce(force) => {
             let impulse = impulse(material, force, duration)?;
-            let contact = indentation_after_impulse(body, &dashpot, impulse)?;
+            let contact = indentation_after_impulse(&**body, &dashpot, impulse)?;
             (force, contact.indentation_depth, contact.contact_radius)
         }
         Control::IndentationDepth(depth) => {
-            let impulse = impulse_to_depth(body, &dashpot, depth)?;
+            let impulse = impulse_to_depth(&**body, &dashpot, depth)?;
             let force = stiffness(material, duration)? * impulse;
-            (force, depth, contact_radius(body, depth)?)
+            (force, depth, contact_radius(&**body, depth)?)
         }
     };
     let peak_pressure = match (body, simple(material)?) {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
-    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
 use numerics::{in_range, positive};
 
@@ -52,6 +52,17 @@ impl Deref for Revolution {
             Self::Sum(profile) => profile,
             Self::Sphere(sphere) => sphere,
             Self::Other(shape) => &**shape,
+        }
+    }
+}
+
+impl Revolution {
+    pub(crate) fn surface(&self) -> &dyn Surface {
+        match self {
+            Self::Power(profile) => profile,
+            Self::Sum(profile) => profile,
+            Self::Sphere(sphere) => sphere,
+            Self::Other(shape) => shape,
         }
     }
 }

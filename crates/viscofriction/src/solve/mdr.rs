@@ -1,18 +1,17 @@
 //! What the one-dimensional model says, as answers.
 
-use indenters::{EquivalentLine, PressingLoad, SlidingLoad};
+use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
 use mdr_core::{SlideRow, indent, slide, steady};
 use numerics::{ErrorParts, Estimate};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
-use super::body::Revolution;
 use super::error::Result;
 use crate::scene::{Accuracy, Method, Model};
 
 /// The stationary state.
 pub(crate) fn stationary(
-    body: &Revolution,
+    body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
     relative_error: f64,
@@ -30,7 +29,7 @@ pub(crate) fn stationary(
 
 /// From first touch to the stationary state, or over a distance.
 pub(crate) fn transient(
-    body: &Revolution,
+    body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
     accuracy: Accuracy,
@@ -51,7 +50,7 @@ pub(crate) fn transient(
 
 /// Pressing without sliding.
 pub(crate) fn pressed(
-    body: &Revolution,
+    body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &PressingLoad,
     accuracy: Accuracy,

@@ -41,7 +41,7 @@ pub fn solve_again(
     kept: Option<Omission>,
 ) -> Result<Vec<Number>> {
     let surface: &dyn Surface = match &problem.body {
-        Body::Revolution(body) => body,
+        Body::Revolution(body) => body.surface(),
         Body::HeightMap(map) => map,
         Body::Cylinder(_) => return Err(SolveError::NoGrid),
     };

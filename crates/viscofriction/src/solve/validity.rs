@@ -1,6 +1,6 @@
 //! Where the linear theory of the contact ends.
 
-use indenters::{Axisymmetric as _, Surface as _};
+use indenters::Surface as _;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};

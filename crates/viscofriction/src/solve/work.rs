@@ -1,7 +1,7 @@
 //! What a method does for a problem, or why it does not answer it.
 
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
-use indenters::{Cylinder, SlidingLoad, Surface};
+use indenters::{Axisymmetric, Cylinder, SlidingLoad, Surface};
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
@@ -27,9 +27,9 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
         (Body::Revolution(body), Method::MdrSteady | Method::MdrTransient) => {
-            one_dimensional(problem, body, method, accuracy)
+            one_dimensional(problem, &**body, method, accuracy)
         }
-        (Body::Revolution(body), _) => boundary_elements(problem, body, method, accuracy),
+        (Body::Revolution(body), _) => boundary_elements(problem, body.surface(), method, accuracy),
         (Body::HeightMap(map), Method::BemSteady | Method::BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
@@ -138,7 +138,7 @@ fn boundary_elements<'a>(
 
 fn one_dimensional<'a>(
     problem: &'a Problem,
-    body: &'a Revolution,
+    body: &'a dyn Axisymmetric,
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
