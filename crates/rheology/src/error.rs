@@ -10,18 +10,17 @@ pub enum RheologyError {
     #[error(transparent)]
     InvalidParameter(#[from] InvalidParameter),
     /// A parameter of one member of a list is not a number, or outside the range it may take.
-    #[error("{parameter} of {list}[{index}] must be {allowed}, but is {value}")]
+    #[error(
+        "{} of {list}[{index}] must be {}, but is {}",
+        refused.parameter, refused.allowed, refused.value
+    )]
     InvalidElement {
         /// Name of the list.
         list: &'static str,
         /// Position in the list, from 0.
         index: usize,
-        /// Name of the parameter.
-        parameter: &'static str,
-        /// The refused value.
-        value: f64,
-        /// The values it may take.
-        allowed: &'static str,
+        /// The parameter.
+        refused: InvalidParameter,
     },
     /// Nothing resists a deformation.
     #[error(
@@ -84,15 +83,9 @@ pub(crate) fn in_list(
     list: &'static str,
     index: usize,
 ) -> impl Fn(InvalidParameter) -> RheologyError {
-    move |InvalidParameter {
-              parameter,
-              value,
-              allowed,
-          }| RheologyError::InvalidElement {
+    move |refused| RheologyError::InvalidElement {
         list,
         index,
-        parameter,
-        value,
-        allowed,
+        refused,
     }
 }

@@ -68,13 +68,11 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
         RheologyError::InvalidElement {
             list,
             index,
-            parameter,
-            value,
-            allowed,
-        } if KEYS.contains(&parameter) => SceneError::Value {
-            key: format!("{table}.{list}[{index}].{parameter}"),
-            value,
-            allowed,
+            refused,
+        } if KEYS.contains(&refused.parameter) => SceneError::Value {
+            key: format!("{table}.{list}[{index}].{}", refused.parameter),
+            value: refused.value,
+            allowed: refused.allowed,
         },
         other => SceneError::at(table, other.to_string()),
     }
