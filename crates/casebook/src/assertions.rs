@@ -1,5 +1,54 @@
 //! Assertions that say what was found, for the tests of all crates.
 
+use std::fmt::{Debug, Display};
+
+/// Numbers that are not at least 0.
+pub const NEGATIVE: &[f64] = &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -1e-300];
+/// Numbers that are not greater than 0.
+pub const NOT_POSITIVE: &[f64] = &[
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    -1.0,
+    -1e-300,
+    -0.0,
+    0.0,
+];
+
+/// Asserts that each of the numbers is refused by an error that names the parameter and the number.
+///
+/// # Panics
+/// When one is not.
+pub fn refuses<T: Debug, E: Display>(
+    parameter: &str,
+    numbers: &[f64],
+    attempt: impl Fn(f64) -> Result<T, E>,
+) {
+    for number in numbers {
+        let message = refusal(parameter, attempt(*number));
+        let named = message.ends_with(&format!(", but is {number}"));
+        assert!(named, "{message}, for {number} as {parameter}");
+    }
+}
+
+/// Asserts that a result is an error that names the parameter and what it must be.
+///
+/// # Panics
+/// When it is not.
+pub fn refused<T: Debug, E: Display>(parameter: &str, result: Result<T, E>) {
+    refusal(parameter, result);
+}
+
+fn refusal<T: Debug, E: Display>(parameter: &str, result: Result<T, E>) -> String {
+    let message = match result {
+        Err(error) => error.to_string(),
+        Ok(value) => panic!("{value:?} instead of a refused {parameter}"),
+    };
+    let named = message.starts_with(&format!("{parameter} must be "));
+    assert!(named, "{message} instead of a refused {parameter}");
+    message
+}
+
 /// Asserts that a number agrees with the expected one within a relative tolerance.
 ///
 /// ```

@@ -1,8 +1,8 @@
 //! The bodies of revolution that rows name.
 
 use indenters::{
-    Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, ProfilePoint,
-    RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm,
+    ProfilePoint, RigidLine, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
 };
 
 use crate::Case;
@@ -89,6 +89,25 @@ impl Case {
             _ => Ok(self.body_in_words(shape)),
         };
         shape.unwrap_or_else(|error| panic!("{}: {error}", self.id()))
+    }
+
+    /// The cubic line ε (x³/3 − 3x²/2 + 2x) of group FRI-03 on [0, 3], or the same run through backwards, in a `unit` \[m].
+    ///
+    /// # Panics
+    /// When the row has no `eps`.
+    #[must_use]
+    pub fn cubic(&self, unit: f64) -> impl RigidLine + use<> {
+        let (epsilon, reversed) = (self.input("eps"), self.has_input("direction"));
+        let turned = move |x: f64| if reversed { 3.0 - x / unit } else { x / unit };
+        let height = move |x: f64| {
+            let x = turned(x);
+            unit * epsilon * x * (x * (x / 3.0 - 1.5) + 2.0)
+        };
+        let slope = move |x: f64| {
+            let slope = epsilon * (turned(x) - 1.0) * (turned(x) - 2.0);
+            if reversed { -slope } else { slope }
+        };
+        AnalyticLine::new(height, slope, [0.0, 3.0 * unit]).expect("a line")
     }
 
     fn body_in_words(&self, shape: &str) -> Box<dyn Axisymmetric> {

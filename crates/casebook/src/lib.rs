@@ -10,9 +10,10 @@ mod bodies;
 mod contacts;
 mod materials;
 
+pub use assertions::{NEGATIVE, NOT_POSITIVE, refused, refuses};
 pub use bodies::{GaussianDip, superposition};
 pub use contacts::{SquareContact, deviation};
-pub use materials::{model, prony};
+pub use materials::{model, prony, standard_solid};
 
 use std::fmt::Write as _;
 

@@ -1,6 +1,9 @@
 //! The materials that rows name.
 
-use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
+use rheology::{
+    Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, StandardSolid,
+    StandardSolidParameters,
+};
 
 use crate::{Case, group};
 
@@ -18,6 +21,20 @@ pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]
         });
     let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect());
     Prony::new(relaxation.expect("moduli")).expect("a material")
+}
+
+/// The standard solid of the moduli of its lone spring and of its branch \[Pa] and of the viscosity [Pa s].
+///
+/// # Errors
+/// When a number is out of its range.
+pub fn standard_solid(
+    [equilibrium_modulus, maxwell_modulus, viscosity]: [f64; 3],
+) -> Result<StandardSolid, RheologyError> {
+    StandardSolid::new(StandardSolidParameters {
+        equilibrium_modulus,
+        maxwell_modulus,
+        viscosity,
+    })
 }
 
 /// A model that rows name, `"P3"` or `"P10"`, by its numbers in group RHE-05.

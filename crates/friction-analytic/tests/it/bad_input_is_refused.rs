@@ -1,15 +1,15 @@
-use casebook::{assert_matches, prony, superposition};
+use casebook::{NEGATIVE, NOT_POSITIVE, assert_matches, prony, refused, refuses, superposition};
 use friction_analytic::{
-    ElasticContact, FrictionError, SlidingContact, SurfaceWave, cone_depth_by_equation_15,
-    cylinder_half_width_after_impulse, high_speed_friction, impulse_to_depth,
-    indentation_after_impulse, kelvin_voigt_sliding, low_speed_friction,
+    ElasticContact, FrictionError, SlidingContact, SurfaceWave, WavySliding,
+    cone_depth_by_equation_15, cylinder_half_width_after_impulse, high_speed_friction,
+    impulse_to_depth, indentation_after_impulse, kelvin_voigt_sliding, low_speed_friction,
     power_indentation_after_impulse, power_sliding, sliding_distance_to_depth, stationary_depth,
     transient_sliding, wavy_surface_sliding,
 };
 use indenters::{Cylinder, IndenterError, Sphere};
 use rheology::{KelvinVoigt, Prony};
 
-use crate::support::{assert_refused, material_and_load, power, viscous, with_depth};
+use crate::support::{material_and_load, power, viscous, with_depth};
 
 fn solid() -> Prony {
     prony([1.0, 0.0], &[(2.0, 1.5)])
@@ -19,77 +19,67 @@ fn solid() -> Prony {
 fn numbers_that_are_negative_or_not_finite_are_named() {
     let ((material, load), cone) = (with_depth(0.1), power(1.0, 1.0));
     let cylinder = Cylinder::new(0.01).unwrap();
-    for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_refused(
-            "impulse",
-            power_indentation_after_impulse(&cone, &material, bad),
-        );
-        assert_refused("impulse", indentation_after_impulse(&cone, &material, bad));
-        let width = cylinder_half_width_after_impulse(&cylinder, &material, bad);
-        assert_refused("impulse_per_length", width);
-        assert_refused("time", transient_sliding(&cone, &material, &load, bad));
-        assert_refused(
-            "time",
-            cone_depth_by_equation_15(&cone, &material, &load, bad),
-        );
-        for fraction in [bad, 1.0] {
-            let distance = sliding_distance_to_depth(&cone, &material, &load, fraction);
-            assert_refused("fraction", distance);
-        }
+    let of_power = |x| power_indentation_after_impulse(&cone, &material, x);
+    refuses("impulse", NEGATIVE, of_power);
+    let of_body = |x| indentation_after_impulse(&cone, &material, x);
+    refuses("impulse", NEGATIVE, of_body);
+    let width = |x| cylinder_half_width_after_impulse(&cylinder, &material, x);
+    refuses("impulse_per_length", NEGATIVE, width);
+    let transient = |x| transient_sliding(&cone, &material, &load, x);
+    refuses("time", NEGATIVE, transient);
+    let printed = |x| cone_depth_by_equation_15(&cone, &material, &load, x);
+    refuses("time", NEGATIVE, printed);
+    let distance = |x| sliding_distance_to_depth(&cone, &material, &load, x);
+    refuses("fraction", NEGATIVE, distance);
+    refuses("fraction", &[1.0], distance);
+}
+
+fn wave(amplitude: f64, wave_vector: [f64; 2]) -> SurfaceWave {
+    SurfaceWave {
+        amplitude,
+        wave_vector,
     }
+}
+
+fn slide_over(waves: &[SurfaceWave]) -> Result<WavySliding, FrictionError> {
+    wavy_surface_sliding(waves, &solid(), 1.0)
 }
 
 #[test]
 fn numbers_that_must_be_positive_are_named() {
-    let wave = |name: &str, amplitude: f64, wave_vector: [f64; 2]| {
-        let wave = SurfaceWave {
-            amplitude,
-            wave_vector,
+    let depth = |x| impulse_to_depth(&power(1.0, 1.0), &viscous(1.0), x);
+    refuses("depth", NOT_POSITIVE, depth);
+    let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
+    let on_line = |front, velocity| {
+        let contact = SlidingContact { front, velocity };
+        kelvin_voigt_sliding(&power(1.0, 1.0), &foundation, contact)
+    };
+    refuses("velocity", NOT_POSITIVE, |x| on_line(1.0, x));
+    refuses("front", NOT_POSITIVE, |x| on_line(x, 1.0));
+    let sphere = Sphere::new(2.0).unwrap();
+    for limit in [low_speed_friction, high_speed_friction] {
+        let elastic = |contact_radius, velocity| {
+            let contact = ElasticContact {
+                contact_radius,
+                velocity,
+            };
+            limit(&sphere, &solid(), contact)
         };
-        assert_refused(name, wavy_surface_sliding(&[wave], &solid(), 1.0));
-    };
-    let contact = |name: &str, front: f64, velocity: f64| {
-        let foundation = KelvinVoigt::new(1.0, 1.0).unwrap();
-        let on_line = SlidingContact { front, velocity };
-        assert_refused(
-            name,
-            kelvin_voigt_sliding(&power(1.0, 1.0), &foundation, on_line),
-        );
-    };
-    let elastic = |name: &str, contact_radius: f64, velocity: f64| {
-        let contact = ElasticContact {
-            contact_radius,
-            velocity,
-        };
-        let sphere = Sphere::new(2.0).unwrap();
-        assert_refused(name, low_speed_friction(&sphere, &solid(), contact));
-        assert_refused(name, high_speed_friction(&sphere, &solid(), contact));
-    };
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert_refused(
-            "depth",
-            impulse_to_depth(&power(1.0, 1.0), &viscous(1.0), bad),
-        );
-        elastic("velocity", 0.5, bad);
-        elastic("contact_radius", bad, 1.0);
-        contact("velocity", 1.0, bad);
-        contact("front", bad, 1.0);
-        wave("amplitude", bad, [1.0, 0.0]);
+        refuses("velocity", NOT_POSITIVE, |x| elastic(0.5, x));
+        refuses("contact_radius", NOT_POSITIVE, |x| elastic(x, 1.0));
     }
-    wave("length of a wave vector", 1.0, [0.0, 0.0]);
-    wave("length of a wave vector", 1.0, [f64::NAN, 1.0]);
+    let amplitude = |x| slide_over(&[wave(x, [1.0, 0.0])]);
+    refuses("amplitude", NOT_POSITIVE, amplitude);
+    let vector = |x| slide_over(&[wave(1.0, [x, x])]);
+    refuses("length of a wave vector", &[0.0, f64::NAN], vector);
 }
 
 #[test]
 fn waves_that_interfere_are_refused() {
-    let wave = |wave_vector: [f64; 2]| SurfaceWave {
-        amplitude: 1e-3,
-        wave_vector,
-    };
-    let slide = |waves: &[SurfaceWave]| wavy_surface_sliding(waves, &solid(), 1.0);
-    assert_refused("number of waves", slide(&[]));
+    refused("number of waves", slide_over(&[]));
     for other in [[2.0, 0.0], [-2.0, -0.0]] {
-        assert_refused("wave vector", slide(&[wave([2.0, 0.0]), wave(other)]));
+        let waves = [[2.0, 0.0], other].map(|wave_vector| wave(1e-3, wave_vector));
+        refused("wave vector", slide_over(&waves));
     }
 }
 
@@ -101,11 +91,7 @@ fn results_beyond_the_numbers_are_refused() {
     });
     let (material, load) = with_depth(1.0);
     let sharp = power_sliding(&power(1e-300, 0.6), &material, &load).map(drop);
-    let wave = SurfaceWave {
-        amplitude: 1e-3,
-        wave_vector: [2.0, 0.0],
-    };
-    let fast = wavy_surface_sliding(&[wave], &solid(), f64::MAX).map(drop);
+    let fast = wavy_surface_sliding(&[wave(1e-3, [2.0, 0.0])], &solid(), f64::MAX).map(drop);
     for (named, result) in [
         ("indentation depth", deep),
         ("indentation depth", flat),

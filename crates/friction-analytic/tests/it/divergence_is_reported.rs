@@ -6,7 +6,8 @@ use friction_analytic::{
     power_sliding, superposition_sliding,
 };
 use indenters::{
-    AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Kink, PiecewiseLinearProfile, contact_radius,
+    AnalyticLine, Axisymmetric as _, FlatCone, FlatPunch, Kink, PiecewiseLinearProfile,
+    contact_radius,
 };
 
 use crate::support::{power, with_depth};
@@ -33,16 +34,8 @@ fn jump_at(kink: Kink) -> DivergenceCause {
     }
 }
 
-/// The sum that a chain of `n` elements per (a − b) makes of ∫ h̃'² dx / D, with an element edge at the kink b.
-fn discrete_friction(body: &dyn Axisymmetric, [kink, front]: [f64; 2], n: u32) -> f64 {
-    let spacing = (front - kink) / f64::from(n);
-    let height = |k: u32| body.line_height(kink + spacing * f64::from(k));
-    let squares: f64 = (0..n).map(|k| (height(k + 1) - height(k)).powi(2)).sum();
-    squares / spacing / body.line_height(front)
-}
-
 #[test]
-fn a_slope_jump_diverges_like_a_logarithm() {
+fn a_slope_jump_diverges() {
     for case in casebook::group("FRI-04") {
         let (body, expected) = (case.body(), case.input("D"));
         let (material, load) = with_depth(expected);
@@ -51,9 +44,6 @@ fn a_slope_jump_diverges_like_a_logarithm() {
         let [depth, length] = divergence(result, jump_at(kink));
         assert_close!(depth => expected, within 1e-15; "{}", case.id());
         assert_close!(length => contact_radius(&body, expected).unwrap(), within 1e-15);
-        let [coarse, fine] =
-            [2_000, 20_000].map(|n| discrete_friction(&*body, [kink.radius, length], n));
-        case.check("mu_increment_per_decade_of_dx", fine - coarse);
     }
 }
 

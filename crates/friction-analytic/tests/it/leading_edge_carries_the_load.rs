@@ -1,22 +1,10 @@
 use casebook::{assert_close, assert_matches};
 use friction_analytic::{
-    FrictionError, StationarySliding, axisymmetric_sliding, line_sliding,
-    one_sided_sinking_velocity, sinking_velocity,
+    FrictionError, StationarySliding, line_sliding, one_sided_sinking_velocity, sinking_velocity,
 };
-use indenters::{AnalyticLine, Axisymmetric, EquivalentLine, Hyperboloid, RigidLine, SampledLine};
+use indenters::{AnalyticLine, EquivalentLine, Hyperboloid, RigidLine, SampledLine};
 
 use crate::support::{material_and_load, with_depth};
-
-/// e (x³/3 − 3x²/2 + 2x), moving to the right, or its mirror image on the same interval.
-fn cubic(e: f64, [start, end]: [f64; 2], direction: f64) -> impl RigidLine {
-    let position = move |x: f64| if direction > 0.0 { x } else { start + end - x };
-    let height = move |x: f64| {
-        let x = position(x);
-        e * x * (x * (x / 3.0 - 1.5) + 2.0)
-    };
-    let slope = move |x: f64| direction * e * (position(x) - 1.0) * (position(x) - 2.0);
-    AnalyticLine::new(height, slope, [start, end]).unwrap()
-}
 
 /// 0.2 |x| on [−1, 1].
 fn wedge() -> impl RigidLine {
@@ -48,16 +36,14 @@ fn leading_edge_carries_the_load() {
         if !case.has_input("eps") {
             continue;
         }
-        let (e, domain) = (case.input("eps"), case.input_list("X"));
-        let direction = if case.has_input("direction") {
-            -1.0
-        } else {
-            1.0
-        };
-        let line = cubic(e, [domain[0], domain[1]], direction);
+        let (e, line) = (case.input("eps"), case.cubic(1.0));
         let depth = case.input("D_over_eps") * e;
         if case.expected_error() == Some("NoStationaryState") {
-            let offered = if direction > 0.0 { 1.5 * e } else { 0.0 };
+            let offered = if case.has_input("direction") {
+                0.0
+            } else {
+                1.5 * e
+            };
             assert_matches!(
                 slide(&line, depth),
                 Err(FrictionError::NoStationaryState { needed_depth, available_depth })
@@ -100,23 +86,8 @@ fn a_table_slides_on_the_visible_parts_of_its_pieces() {
 }
 
 #[test]
-fn the_front_half_of_a_body_is_a_line_with_the_same_friction() {
-    let body = Hyperboloid::new(0.5, 0.3).unwrap();
-    let (height, slope) = (|x| body.line_height(x), |x| body.line_slope(x));
-    let line = AnalyticLine::new(height, slope, [-1.0, 1.0]).unwrap();
-    for depth in [1e-3, 0.1] {
-        let (material, load) = with_depth(depth);
-        let from_line = line_sliding(&line, &material, &load).unwrap();
-        let from_body = axisymmetric_sliding(&body, &material, &load).unwrap();
-        let [mu, expected] = [&from_line, &from_body].map(|state| state.friction_coefficient);
-        assert_close!(mu => expected, within 1e-12);
-        assert_close!(from_line.contact_length() => from_body.contact_length(), within 1e-12);
-    }
-}
-
-#[test]
 fn the_stationary_contact_does_not_sink() {
-    let line = cubic(0.05, [0.0, 3.0], 1.0);
+    let line = casebook::group("FRI-03")[0].cubic(1.0);
     let state = slide(&line, 1.2 * 0.05).unwrap();
     for velocity in sink(&line, &state.contact_line, 1.2 * 0.05) {
         // D minus the rise cancels; what is left is the rounding of both, over the contact length.
@@ -152,7 +123,7 @@ fn equation_15_is_refused_where_it_does_not_hold() {
 
 #[test]
 fn contacts_that_are_no_contacts_are_refused() {
-    let line = cubic(0.05, [0.0, 3.0], 1.0);
+    let line = casebook::group("FRI-03")[0].cubic(1.0);
     let sink = |contact: &[[f64; 2]]| sink(&line, contact, 0.05)[0].clone();
     // Of no length, and beyond the end of the line.
     for result in [sink(&[]), sink(&[[2.0, 4.0]])] {

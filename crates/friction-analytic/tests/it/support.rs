@@ -1,10 +1,7 @@
 //! Loads, bodies and comparisons for the tests.
 
-use std::fmt::Debug;
-
 use casebook::Case;
-use friction_analytic::FrictionError;
-use indenters::{Axisymmetric, IndenterError, Kink, PowerProfile, ProfilePoint, SlidingLoad};
+use indenters::{Axisymmetric, Kink, PowerProfile, ProfilePoint, SlidingLoad};
 use rheology::Viscous;
 
 /// The material and load of a row with inputs `F`, `eta` and `v`.
@@ -43,17 +40,6 @@ pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
     );
     for (name, value) in expected {
         case.check(name, *value);
-    }
-}
-
-/// Asserts that an error names a parameter.
-pub(crate) fn assert_refused<T: Debug>(name: &str, result: Result<T, FrictionError>) {
-    match result {
-        Err(
-            FrictionError::InvalidParameter(invalid)
-            | FrictionError::Indenter(IndenterError::InvalidParameter(invalid)),
-        ) => assert_eq!(invalid.parameter, name, "the refused parameter"),
-        other => panic!("{other:?} instead of a refused {name}"),
     }
 }
 

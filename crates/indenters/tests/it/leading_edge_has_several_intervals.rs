@@ -1,28 +1,11 @@
 use casebook::{Case, assert_close, assert_matches, fixed_cases};
 use indenters::{
-    AnalyticLine, EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line,
-    leading_edge, leading_edge_with, leading_indices, running_minimum,
+    EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line, leading_edge,
+    leading_edge_with,
 };
 use proptest::prelude::*;
 
 use crate::support::{sampled, table};
-
-/// The line e (x³/3 − 3x²/2 + 2x) on [0, 3], in a unit of length, or run through backwards.
-fn cubic(case: &Case, unit: f64) -> impl RigidLine {
-    let epsilon = case.input("eps");
-    let (sign, domain) = if case.has_input("direction") {
-        (-1.0, [-3.0 * unit, 0.0])
-    } else {
-        (1.0, [0.0, 3.0 * unit])
-    };
-    let turn = move |x: f64| sign * x / unit;
-    let height = move |x: f64| {
-        let x = turn(x);
-        unit * epsilon * x * (x * (x / 3.0 - 1.5) + 2.0)
-    };
-    let slope = move |x: f64| sign * epsilon * (turn(x) - 1.0) * (turn(x) - 2.0);
-    AnalyticLine::new(height, slope, domain).unwrap()
-}
 
 fn cubic_cases() -> Vec<Case> {
     let cases = casebook::group("FRI-03").into_iter();
@@ -45,7 +28,7 @@ fn contact_lines_of_the_cubic_agree_with_the_casebook() {
         for unit in [1e-12, 1.0, 1e12] {
             let what = format!("{} in the unit {unit}", case.id());
             let depth = unit * case.input("D_over_eps") * case.input("eps");
-            let result = contact_line(&cubic(&case, unit), depth);
+            let result = contact_line(&case.cubic(unit), depth);
             let Some(expected) = case.expected_list("intervals") else {
                 assert_matches!(
                     result,
@@ -69,7 +52,7 @@ fn contact_lines_of_the_cubic_agree_with_the_casebook() {
 fn the_edge_of_the_cubic_does_not_depend_on_the_sampling() {
     let case = &cubic_cases()[0];
     for samples in [2, 7, 100, 1024, 3000] {
-        let edge = leading_edge_with(&cubic(case, 1.0), samples).unwrap();
+        let edge = leading_edge_with(&case.cubic(1.0), samples).unwrap();
         assert_ends(
             &edge.intervals,
             &[0.0, 0.5, 2.0, 3.0],
@@ -82,26 +65,20 @@ fn the_edge_of_the_cubic_does_not_depend_on_the_sampling() {
 }
 
 #[test]
-fn separate_points_agree_with_the_casebook() {
-    for case in casebook::group("FRI-03") {
-        if !case.has_input("h") {
-            continue;
-        }
+fn points_of_a_table_agree_with_the_casebook() {
+    let rows = casebook::group("FRI-03").into_iter();
+    for case in rows.filter(|case| case.expected_list("A").is_some()) {
         let heights = case.input_list("h");
-        let minima = running_minimum(&heights);
-        if let Some(expected) = case.expected_list("A") {
-            let indices = leading_indices(&heights);
-            let actual: Vec<f64> = indices.into_iter().map(|i| i as f64).collect();
-            assert_eq!(actual, expected, "leading edge of {}", case.id());
-            case.check("h0", minima[0]);
-            continue;
-        }
-        let expected = case.expected_list("running_min").unwrap();
-        assert_eq!(minima, expected, "running minimum of {}", case.id());
-        // The increments up to the depth, of which the last one is cut.
-        let until_contact_ends = case.expected_list("increments").unwrap().len();
-        let top = (minima[until_contact_ends] - minima[0]).min(case.input("D"));
-        case.check("sum_increments", top);
+        let positions: Vec<f64> = (0..heights.len()).map(|i| i as f64).collect();
+        let edge = leading_edge(&sampled(&positions, &heights)).unwrap();
+        let end = edge.intervals[edge.intervals.len() - 1][1];
+        let is_leading = |x: &f64| {
+            let mut intervals = edge.intervals.iter();
+            intervals.any(|[start, open]| start <= x && x < open) || *x >= end
+        };
+        let leading: Vec<f64> = positions.into_iter().filter(is_leading).collect();
+        assert_eq!(Some(leading), case.expected_list("A"), "{}", case.id());
+        case.check("h0", edge.lowest);
     }
 }
 

@@ -96,7 +96,7 @@ fn gradients_and_curvatures_are_derivatives() {
             check(&place, across, &|d| body.height([x, y + d]), size);
         }
         for r in [0.1, 0.3, 0.6, 0.9] {
-            let curvature = body.profile_curvature(r);
+            let curvature = body.profile(r).curvature;
             let place = format!("curvature of {name} at {r}");
             let slope = |d: f64| body.profile_slope(r + d);
             check(&place, curvature, &slope, curvature.abs());

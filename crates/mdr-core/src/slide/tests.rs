@@ -1,18 +1,14 @@
 //! Parts of the error of a march, each beside what it stands for.
 
+use casebook::standard_solid;
 use indenters::{EquivalentLine, PowerProfile};
-use rheology::{Maxwell, StandardSolid, StandardSolidParameters};
+use rheology::{Maxwell, StandardSolid};
 
 use super::*;
 use crate::steady::steady;
 
 fn solid(times: f64) -> StandardSolid {
-    let parameters = StandardSolidParameters {
-        equilibrium_modulus: 1.0,
-        maxwell_modulus: 3.0,
-        viscosity: 3.0 * times,
-    };
-    StandardSolid::new(parameters).expect("a material")
+    standard_solid([1.0, 3.0, 3.0 * times]).expect("a material")
 }
 
 /// What is not of first order is smaller by the number of elements along the layer or the contact, and is seen to be:

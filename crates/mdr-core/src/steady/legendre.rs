@@ -115,12 +115,4 @@ mod tests {
             assert_close(value(&slopes, t), slope, 1e-11);
         }
     }
-
-    #[test]
-    fn ends_and_square_integral_are_those_of_the_polynomial() {
-        let coefficients = Interpolation::new().of(|t| 1.0 + 2.0 * t);
-        assert_close(start_value(&coefficients), -1.0, 1e-14);
-        assert_close(end_value(&coefficients), 3.0, 1e-14);
-        assert_close(square_integral(&coefficients), 2.0 + 8.0 / 3.0, 1e-14);
-    }
 }

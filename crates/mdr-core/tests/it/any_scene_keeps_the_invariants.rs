@@ -1,13 +1,13 @@
 //! Random bodies, materials and loads over many decades: force and depth belong to each other, more force is more depth,
 //! and neither units nor the side of a pressed line matter.
 
-use indenters::Control;
+use indenters::{Control, EquivalentLine};
 use mdr_core::{SteadySliding, steady};
 use proptest::prelude::*;
 use rheology::Prony;
 
 use crate::support::{
-    assert_close, at_depth, body, decades, endless, fixed_cases, indent, line_of, load, prony, slid,
+    assert_close, at_depth, body, decades, endless, fixed_cases, indent, load, prony, slid,
 };
 
 /// A scene in units of its own: depths, moduli and times are of the order of one.
@@ -56,7 +56,7 @@ impl Scene {
         let body = body(self.kind, self.size, length);
         let motion = at_depth(depth * length, self.velocity * length / time);
         let state = steady(
-            &line_of(&*body),
+            &EquivalentLine(&*body),
             &self.material([stress, time]),
             &motion,
             1e-11,
@@ -94,7 +94,7 @@ proptest! {
 
         let body = body(scene.kind, scene.size, 1.0);
         let load = load(force, scene.velocity);
-        let back = slid(&line_of(&*body), &scene.material([1.0; 2]), &load);
+        let back = slid(&EquivalentLine(&*body), &scene.material([1.0; 2]), &load);
         assert_close([back.indentation_depth.value, scene.depth], STEADY, 0.0, &scene);
         assert_close([back.normal_force.value, force], STEADY, 0.0, &scene);
         assert_close([back.friction_coefficient.value, friction], STEADY, 0.0, &scene);

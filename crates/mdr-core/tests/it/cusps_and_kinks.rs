@@ -6,7 +6,7 @@ use mdr_core::{MdrError, steady};
 use numerics::Estimate;
 use rheology::{Elastic, KelvinVoigt, Material};
 
-use crate::support::{ASKED, assert_agree, line_of, load, material, power, prony, slid};
+use crate::support::{ASKED, assert_agree, load, material, power, prony, slid};
 
 fn flat_ends(radius: f64) -> [Box<dyn Axisymmetric>; 2] {
     let cone = FlatCone::new(radius, 1.0).expect("a body");
@@ -33,7 +33,7 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
         bodies.extend(flat_ends(radius).map(|body| (body, radius)));
     }
     for (body, kink) in bodies {
-        let line = line_of(&*body);
+        let line = EquivalentLine(&*body);
         for dashpot in &dashpots {
             let error = steady(&line, &**dashpot, &load(4.0, 1.0), ASKED).err();
             let Some(MdrError::FrictionDiverges { position }) = error else {
@@ -85,7 +85,7 @@ fn a_flat_end_on_a_solid_takes_few_polynomials_however_exact_it_is_wanted() {
     let solid = prony([1.0, 0.0], &[(1.0, 1.0)]);
     for exponent in [-6, -3, -1, 0, 1] {
         for body in flat_ends(10_f64.powi(exponent)) {
-            let slid = |error: f64| steady(&line_of(&*body), &solid, &load(4.0, 1.0), error);
+            let slid = |error: f64| steady(&EquivalentLine(&*body), &solid, &load(4.0, 1.0), error);
             let exact = slid(1e-9).expect("a state").friction_coefficient;
             for asked in [1e-6, 1e-9, 1e-11, 1e-12, 1e-13] {
                 let got = match slid(asked) {

@@ -1,5 +1,6 @@
 //! No body is pressed deeper than its profile exists, springs have no friction, and bars hold.
 
+use casebook::standard_solid;
 use indenters::{
     Axisymmetric, Control, EquivalentLine, FlatCone, FlatPunch, PiecewiseLinearProfile,
     PowerProfile, PressingLoad, RigidLine, SlidingLoad, Sphere, TruncatedParaboloid,
@@ -8,11 +9,11 @@ use indenters::{
 use mdr_core::{MdrError, indent, press, slide, steady};
 use numerics::{Accuracy, Estimate};
 use proptest::prelude::*;
-use rheology::{Compressible, Elastic, Material, StandardSolid, StandardSolidParameters};
+use rheology::{Compressible, Elastic, Material};
 
 use crate::support::{
-    Line, assert_agree, assert_close, at_depth, body, decades, fixed_cases, line_of, load, named,
-    power, prony, slid,
+    Line, assert_agree, assert_close, at_depth, body, decades, fixed_cases, load, named, power,
+    prony, slid,
 };
 
 fn spring(modulus: f64) -> Elastic {
@@ -40,7 +41,7 @@ fn no_body_is_pressed_beyond_its_edge() {
     let (force, sliding) = (Control::NormalForce(2.0), load(2.0, 0.01));
     let pressing = PressingLoad::new(force, 1.0).expect("a load");
     for (body, modulus) in bodies.iter().zip([1.0, 316.0, 1.0]) {
-        let (line, spring) = (line_of(&**body), spring(modulus));
+        let (line, spring) = (EquivalentLine(&**body), spring(modulus));
         for (method, error) in [
             ("steady", steady(&line, &spring, &sliding, 1e-3).err()),
             (
@@ -65,7 +66,7 @@ fn bar_holds(
     motion: &SlidingLoad,
     elements: usize,
 ) {
-    let line = line_of(body);
+    let line = EquivalentLine(body);
     let Ok(exact) = steady(&line, material, motion, 1e-7) else {
         return;
     };
@@ -94,7 +95,7 @@ proptest! {
     ) {
         let [length, modulus, velocity] = units;
         let body = body(kind, size, length);
-        let (line, spring) = (line_of(&*body), spring(modulus));
+        let (line, spring) = (EquivalentLine(&*body), spring(modulus));
         let spring = Compressible::new(&spring, poisson_ratio).expect("a material");
         let none = Estimate::exact(0.0);
         let state = slid(&line, &spring, &at_depth(depth * length, velocity));
@@ -143,7 +144,7 @@ proptest! {
         let body = body(kind, size, 1.0);
         let material = prony([1.0, viscosity], &branches);
         let radius = contact_radius(&*body, depth).expect("a radius");
-        let line = line_of(&*body);
+        let line = EquivalentLine(&*body);
         let mut kinks = line.kinks();
         kinks.extend(at.iter().map(|x| x * radius));
         kinks.sort_by(f64::total_cmp);
@@ -164,11 +165,11 @@ proptest! {
 #[test]
 fn the_bar_of_a_worn_paraboloid_on_a_fast_solid_holds() {
     let body = TruncatedParaboloid::new(0.000_230_765_758_366_339_7, 6_354.347_319_607_626);
-    let solid = StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: 2.729_480_640_966_256_6,
-        maxwell_modulus: 266.981_031_645_918_3,
-        viscosity: 18.804_675_392_103_317,
-    });
+    let solid = standard_solid([
+        2.729_480_640_966_256_6,
+        266.981_031_645_918_3,
+        18.804_675_392_103_317,
+    ]);
     let material = Compressible::new(&solid.expect("a solid"), 0.433_184_785_411_541_93);
     let load = load(1.444_287_159_894_830_4e-8, 1.165_293_642_546_575_7e-5);
     bar_holds(

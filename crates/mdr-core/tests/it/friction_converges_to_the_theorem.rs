@@ -6,8 +6,8 @@ use indenters::EquivalentLine;
 use mdr_core::SlideRow;
 
 use crate::support::{
-    DEPTH, VISCOSITY, assert_close, assert_order, body_of, line_of, load_for_depth, march,
-    material, power, power_friction, slide_to,
+    DEPTH, VISCOSITY, assert_close, assert_order, body_of, load_for_depth, march, material, power,
+    power_friction, slide_to,
 };
 
 /// The approach stops within this of the limit, far below the errors of the spacing.
@@ -114,7 +114,7 @@ fn cone_is_exact_at_any_spacing() {
 fn stationary(case: &Case, elements: usize) -> SlideRow {
     let (body, dashpot) = (body_of(case), material(VISCOSITY));
     let load = load_for_depth(case.input("D"));
-    march(&line_of(&*body), &dashpot, &load, elements, 1e-6).last
+    march(&EquivalentLine(&*body), &dashpot, &load, elements, 1e-6).last
 }
 
 /// FRI-02: the mean slope is below the integral by about 1/(4 n²), with n = 200 elements 6e-6.

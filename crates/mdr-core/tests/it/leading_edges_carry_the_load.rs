@@ -8,8 +8,8 @@ use numerics::Estimate;
 use proptest::prelude::*;
 
 use crate::support::{
-    ASKED, VISCOSITY, assert_agree, assert_close, cubic, fixed_cases, load_for_depth, material,
-    slid, slide_to,
+    ASKED, VISCOSITY, assert_agree, assert_close, fixed_cases, load_for_depth, material, slid,
+    slide_to,
 };
 
 /// The gaps and fronts at 1/2, 2, 5/2 fall on elements; the error of the mean slope is below n⁻² with n elements per
@@ -29,7 +29,7 @@ fn depth_of(case: &Case) -> f64 {
 fn friction_and_ends_of_the_cubic_agree_with_the_casebook() {
     let n = 200.0;
     for case in cubic_cases(false) {
-        let line = cubic(&case);
+        let line = case.cubic(1.0);
         let row = slide_to(&line, depth_of(&case), 1.0 / n, 1e-11)
             .expect("a state")
             .last;
@@ -64,7 +64,7 @@ fn too_low_a_leading_edge_has_no_stationary_state() {
     let cases = cubic_cases(true);
     assert_eq!(cases.len(), 2, "rows of the casebook");
     for case in cases {
-        let (line, depth) = (cubic(&case), depth_of(&case));
+        let (line, depth) = (case.cubic(1.0), depth_of(&case));
         // Mirrored, the leading edge is the lowest point alone.
         let mirrored = case.has_input("direction");
         let height = if mirrored {

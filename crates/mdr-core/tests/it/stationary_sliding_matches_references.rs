@@ -14,8 +14,8 @@ use numerics::Estimate;
 use rheology::Compressible;
 
 use crate::support::{
-    ASKED, VISCOSITY, assert_agree, assert_close, at_depth, body_of, line, line_of, line_power,
-    load, load_for_depth, material, material_of, model, named, power, prony, slid,
+    ASKED, VISCOSITY, assert_agree, assert_close, at_depth, body_of, line, line_power, load,
+    load_for_depth, material, material_of, model, named, power, prony, slid,
 };
 
 /// As the lone spring vanishes in EXT-04 the solid becomes the Maxwell fluid.
@@ -26,7 +26,7 @@ const GROUPS: [&str; 7] = [
 /// At the force where one is given, else at the depth of the leading edge.
 fn solve(case: &Case, relative_error: f64) -> SteadySliding {
     let body = body_of(case);
-    let line = line_of(&*body);
+    let line = EquivalentLine(&*body);
     let velocity = case.input("v");
     let load = if case.has_input("F") {
         load(case.input("F"), velocity)
@@ -88,7 +88,7 @@ fn a_dashpot_obeys_the_theorems() {
         for depth in [1e-7, 0.1] {
             let (dashpot, load) = (material(VISCOSITY), load_for_depth(depth));
             let exact = axisymmetric_sliding(&*body, &dashpot, &load).expect("a theorem");
-            let state = slid(&line_of(&*body), &dashpot, &load);
+            let state = slid(&EquivalentLine(&*body), &dashpot, &load);
             assert_close([state.indentation_depth.value, depth], 1e-13, 0.0, &state);
             let value = exact.friction_coefficient;
             let error = 1e-12 * value;

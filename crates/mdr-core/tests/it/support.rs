@@ -2,12 +2,12 @@
 
 use std::fmt::Debug;
 
-use casebook::Case;
+use casebook::{Case, standard_solid};
 pub(crate) use casebook::{fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, Control, EquivalentLine, FlatCone, Hyperboloid, PowerProfile, RigidLine,
-    RoundTippedCone, SlidingLoad, Sphere, TruncatedParaboloid, stretch,
+    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
+    SlidingLoad, Sphere, TruncatedParaboloid, stretch,
 };
 use mdr_core::{
     IndentRow, IndentStep, MdrError, SlideOptions, SteadySliding, Transient, indent_history,
@@ -15,7 +15,7 @@ use mdr_core::{
 };
 use numerics::Estimate;
 use proptest::prelude::*;
-use rheology::{Material, Prony, StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Material, Prony, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
 pub(crate) const VISCOSITY: f64 = 50.0;
@@ -213,15 +213,6 @@ pub(crate) fn assert_agree([actual, expected]: [Estimate; 2], context: &dyn Debu
     );
 }
 
-/// The cubic line of casebook FRI-03 on [0, 3], moved towards positive or, mirrored, negative x.
-pub(crate) fn cubic(case: &Case) -> impl RigidLine + use<> {
-    let (scale, mirrored) = (case.input("eps"), case.has_input("direction"));
-    line([0.0, 3.0], move |x: f64| {
-        let x = if mirrored { 3.0 - x } else { x };
-        scale * x * (x * x / 3.0 - 1.5 * x + 2.0)
-    })
-}
-
 /// The materials that the casebook names.
 pub(crate) fn model(name: &str) -> Prony {
     match name {
@@ -241,11 +232,8 @@ pub(crate) fn material_of(case: &Case) -> Box<dyn Material> {
         Some("MDR-03") => prony([case.input("G"), case.input("eta")], &[]),
         Some("MDR-04") => prony([0.0; 2], &[(case.input("G"), case.input("tau"))]),
         _ if case.has_input("G2") => {
-            let solid = StandardSolid::new(StandardSolidParameters {
-                equilibrium_modulus: case.input("G1"),
-                maxwell_modulus: case.input("G2"),
-                viscosity: case.input("G2") * case.input("tau"),
-            });
+            let [spring, branch, time] = ["G1", "G2", "tau"].map(|name| case.input(name));
+            let solid = standard_solid([spring, branch, branch * time]);
             return Box::new(solid.expect("a solid"));
         }
         _ if case.has_input("Ge") => case.material(),
@@ -281,9 +269,4 @@ pub(crate) fn named(state: &SteadySliding) -> [(&'static str, Estimate); 5] {
         ("x_l", state.ends[0]),
         ("x_r", state.ends[1]),
     ]
-}
-
-/// A line of a body, boxed with it.
-pub(crate) fn line_of(body: &dyn Axisymmetric) -> EquivalentLine<'_, dyn Axisymmetric + '_> {
-    EquivalentLine(body)
 }

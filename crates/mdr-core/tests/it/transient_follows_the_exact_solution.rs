@@ -5,9 +5,7 @@ use friction_analytic::{power_sliding, transient_sliding};
 use indenters::EquivalentLine;
 use mdr_core::{SlideRow, Transient};
 
-use crate::support::{
-    DEPTH, assert_close, body_of, line_of, line_power, load, march, material, slide_to,
-};
+use crate::support::{DEPTH, assert_close, body_of, line_power, load, march, material, slide_to};
 
 const REFINEMENTS: [f64; 6] = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0];
 
@@ -98,7 +96,7 @@ fn casebook_rows_come_out() {
         }
         let (body, dashpot) = (body_of(&case), material(case.input("eta")));
         let load = load(case.input("F"), case.input("v"));
-        let transient = march(&line_of(&*body), &dashpot, &load, 320, 1e-9);
+        let transient = march(&EquivalentLine(&*body), &dashpot, &load, 320, 1e-9);
         let spacing = transient.rows[0].sliding_distance;
         let at_time = |row: &&SlideRow| row.time >= case.input("t") * (1.0 - 1e-9);
         let row = transient.rows.iter().find(at_time).expect("the row");

@@ -1,13 +1,13 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use casebook::assert_close;
+use casebook::{NEGATIVE, NOT_POSITIVE, assert_close, refuses};
 use rheology::RelaxationSpectrum;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
 
-use crate::support::{NEGATIVE, NOT_POSITIVE, named_spectrum, refuses, spectrum};
+use crate::support::{named_spectrum, spectrum};
 
 /// Number of the pairs `x, y, …` of a table with two header lines.
 fn table(text: &str) -> Vec<Vec<f64>> {
