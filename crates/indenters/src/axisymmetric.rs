@@ -96,11 +96,6 @@ pub trait Axisymmetric: Send + Sync {
         self.profile(radius).slope
     }
 
-    /// Second derivative h''(r), \[1/m], away from kinks.
-    fn profile_curvature(&self, radius: f64) -> f64 {
-        self.profile(radius).curvature
-    }
-
     /// Height of the equivalent line h̃(x), \[m]; even in x, `+∞` where the body has ended.
     fn line_height(&self, x: f64) -> f64 {
         let x = x.abs();
@@ -117,34 +112,22 @@ pub trait Axisymmetric: Send + Sync {
         x.signum() * closed.unwrap_or_else(|| abel_slope(self, x.abs()))
     }
 
-    /// Height h(r), \[m].
-    ///
-    /// # Errors
-    /// [`IndenterError::OutOfDomain`] when `radius` is negative, not a number, or the body has ended before it.
-    fn checked_height(&self, radius: f64) -> Result<f64, IndenterError> {
-        within(self, radius).map(|radius| self.profile_height(radius))
-    }
-
     /// Height of the equivalent line h̃(x), \[m].
     ///
     /// # Errors
     /// [`IndenterError::OutOfDomain`] when `x` is not a number or the body has ended before |x|.
     fn checked_line_height(&self, x: f64) -> Result<f64, IndenterError> {
-        within(self, x.abs()).map(|radius| self.line_height(radius))
+        let (radius, upper) = (x.abs(), self.max_radius());
+        // A body of finite radius without a finite height there (the sphere at its equator) has ended.
+        if radius <= upper && self.profile_height(radius).is_finite() {
+            return Ok(self.line_height(radius));
+        }
+        Err(IndenterError::OutOfDomain {
+            position: radius,
+            lower: 0.0,
+            upper,
+        })
     }
-}
-
-fn within(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Result<f64, IndenterError> {
-    let upper = body.max_radius();
-    // A body of finite radius without a finite height there (the sphere at its equator) has ended.
-    if radius >= 0.0 && radius <= upper && body.profile_height(radius).is_finite() {
-        return Ok(radius);
-    }
-    Err(IndenterError::OutOfDomain {
-        position: radius,
-        lower: 0.0,
-        upper,
-    })
 }
 
 /// The transform by quadrature at x ≥ 0: with r = x sin φ the root under the integral disappears,
