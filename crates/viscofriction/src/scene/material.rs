@@ -1,8 +1,14 @@
 //! `[material.…]`: the half space.
 
+use std::path::PathBuf;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
+use toml::Table;
+
+use super::SceneError;
+use super::source::checked;
 
 /// The half space; every kind may have a Poisson ratio.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
@@ -70,6 +76,21 @@ pub enum MaterialTable {
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
     },
+    /// The material of another file.
+    File {
+        /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
+        path: PathBuf,
+        /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        poisson_ratio: Option<f64>,
+    },
+}
+
+/// What the file of a material holds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MaterialFile {
+    material: MaterialTable,
 }
 
 /// A Maxwell branch.
@@ -94,16 +115,26 @@ impl MaterialTable {
         format!("material.{name}")
     }
 
-    /// Poisson ratio ν.
+    /// Poisson ratio ν; none of a file that keeps its own.
     #[must_use]
-    pub const fn poisson_ratio(&self) -> f64 {
+    pub const fn poisson_ratio(&self) -> Option<f64> {
         match self {
             Self::Viscous { poisson_ratio, .. }
             | Self::Elastic { poisson_ratio, .. }
             | Self::KelvinVoigt { poisson_ratio, .. }
             | Self::Maxwell { poisson_ratio, .. }
             | Self::StandardSolid { poisson_ratio, .. }
-            | Self::Prony { poisson_ratio, .. } => *poisson_ratio,
+            | Self::Prony { poisson_ratio, .. } => Some(*poisson_ratio),
+            Self::File { poisson_ratio, .. } => *poisson_ratio,
         }
+    }
+}
+
+/// The material that keys and values describe, of a file with one table `[material.…]`.
+impl TryFrom<Table> for MaterialTable {
+    type Error = SceneError;
+
+    fn try_from(table: Table) -> Result<Self, SceneError> {
+        checked(table, &["material"]).map(|file: MaterialFile| file.material)
     }
 }

@@ -55,6 +55,15 @@ impl FromStr for Scene {
     }
 }
 
+/// The scene that keys and values describe, without the lines of a text.
+impl TryFrom<toml::Table> for Scene {
+    type Error = SceneError;
+
+    fn try_from(table: toml::Table) -> Result<Self, SceneError> {
+        scene_file(table)
+    }
+}
+
 /// The JSON Schema of the scene file, as docs/scene.schema.json holds it.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 use toml::{Table, Value};
 
@@ -93,10 +94,15 @@ impl Source {
 
 /// The scene that keys and values describe, without an unknown or missing key or a value of the wrong type.
 pub(crate) fn scene_file(table: Table) -> Result<Scene, SceneError> {
+    checked(table, &["indenter", "material"])
+}
+
+/// What the tables of a file describe, of which some are one table each, whose name is the kind.
+pub(super) fn checked<T: DeserializeOwned>(table: Table, kinds: &[&str]) -> Result<T, SceneError> {
     for (key, value) in &table {
         check_tables(key, value)?;
     }
-    for key in ["indenter", "material"] {
+    for key in kinds {
         check_kind(key, &table)?;
     }
     serde_path_to_error::deserialize(table).map_err(|error| {
@@ -137,7 +143,7 @@ fn no_table(key: &str, value: &Value) -> SceneError {
     SceneError::at(key, problem)
 }
 
-/// Indenter and material are one table each, whose name is the kind.
+/// Refuses no kind, and several.
 fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
     match table.get(key).and_then(Value::as_table) {
         Some(kinds) if kinds.len() != 1 => {

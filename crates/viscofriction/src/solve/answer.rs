@@ -185,7 +185,8 @@ impl Answer {
     }
 
     /// The names of all [`numbers`](Self::numbers).
-    pub(crate) fn columns() -> Vec<String> {
+    #[must_use]
+    pub fn columns() -> Vec<String> {
         let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
         empty.numbers().into_iter().map(|(name, _)| name).collect()
     }

@@ -1,47 +1,78 @@
 //! The material of a scene.
 
+use std::path::Path;
+
 use rheology::{
     Compressible, Elastic, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch,
     RelaxationSpectrum, RheologyError, StandardSolid, StandardSolidParameters, Viscous,
 };
 
-use crate::scene::{Branch, MaterialTable, SceneError};
+use crate::scene::{Branch, MaterialTable, SceneError, Source};
+use crate::text::{ReadFile, WrongInput};
 
-/// The material of a table of the scene file.
+/// The material of a table of the scene file; a file that it names is in `folder` and read by `read`.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub(crate) fn half_space(table: &MaterialTable) -> Result<Box<dyn Material>, SceneError> {
-    in_shear(table)
-        .and_then(|material| Compressible::new(&*material, table.poisson_ratio()))
-        .map(|material| Box::new(material) as Box<dyn Material>)
+pub fn material(
+    table: &MaterialTable,
+    folder: &Path,
+    read: ReadFile,
+) -> Result<Box<dyn Material>, SceneError> {
+    let material = in_shear(table, folder, read)?;
+    let ratio = table.poisson_ratio();
+    let ratio = ratio.unwrap_or_else(|| material.poisson_ratio());
+    let material = Compressible::new(&*material, ratio);
+    material
+        .map(boxed)
         .map_err(|error| refused(&table.key(), error))
 }
 
-fn in_shear(table: &MaterialTable) -> Result<Box<dyn Material>, RheologyError> {
-    Ok(match table {
-        MaterialTable::Viscous { viscosity, .. } => Box::new(Viscous::new(*viscosity)?),
-        MaterialTable::Elastic { shear_modulus, .. } => Box::new(Elastic::new(*shear_modulus)?),
-        MaterialTable::KelvinVoigt {
+/// The material that another file holds.
+fn of_file(file: &Path, read: ReadFile) -> Result<Box<dyn Material>, SceneError> {
+    let material = || {
+        let source = Source::new(file, read(file)?)?;
+        let table = MaterialTable::try_from(source.table()?);
+        let material = table.and_then(|table| material(&table, Path::new(""), no_file));
+        material.map_err(|error| source.locate(&error))
+    };
+    material().map_err(|WrongInput(problem)| SceneError::at("material.file.path", problem))
+}
+
+fn no_file(file: &Path) -> Result<Vec<u8>, WrongInput> {
+    let problem = "the file of a material names no other";
+    Err(WrongInput(format!("{}: {problem}", file.display())))
+}
+
+fn in_shear(
+    table: &MaterialTable,
+    folder: &Path,
+    read: ReadFile,
+) -> Result<Box<dyn Material>, SceneError> {
+    let material = match table {
+        &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
+        &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
+        &MaterialTable::KelvinVoigt {
             shear_modulus,
             viscosity,
             ..
-        } => Box::new(KelvinVoigt::new(*shear_modulus, *viscosity)?),
-        MaterialTable::Maxwell {
+        } => KelvinVoigt::new(shear_modulus, viscosity).map(boxed),
+        &MaterialTable::Maxwell {
             shear_modulus,
             viscosity,
             ..
-        } => Box::new(Maxwell::new(*shear_modulus, *viscosity)?),
-        MaterialTable::StandardSolid {
+        } => Maxwell::new(shear_modulus, viscosity).map(boxed),
+        &MaterialTable::StandardSolid {
             equilibrium_modulus,
             maxwell_modulus,
             viscosity,
             ..
-        } => Box::new(StandardSolid::new(StandardSolidParameters {
-            equilibrium_modulus: *equilibrium_modulus,
-            maxwell_modulus: *maxwell_modulus,
-            viscosity: *viscosity,
-        })?),
+        } => StandardSolid::new(StandardSolidParameters {
+            equilibrium_modulus,
+            maxwell_modulus,
+            viscosity,
+        })
+        .map(boxed),
         MaterialTable::Prony {
             equilibrium_modulus,
             viscosity,
@@ -53,10 +84,16 @@ fn in_shear(table: &MaterialTable) -> Result<Box<dyn Material>, RheologyError> {
                 relaxation_time: branch.relaxation_time,
             };
             let branches = branches.iter().map(branch).collect();
-            let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches)?;
-            Box::new(Prony::new(spectrum)?)
+            let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
+            spectrum.and_then(Prony::new).map(boxed)
         }
-    })
+        MaterialTable::File { path, .. } => return of_file(&folder.join(path), read),
+    };
+    material.map_err(|error| refused(&table.key(), error))
+}
+
+fn boxed(material: impl Material + 'static) -> Box<dyn Material> {
+    Box::new(material)
 }
 
 /// The number that the library refuses; a derived one belongs to the whole table.

@@ -18,6 +18,7 @@ mod work;
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
 pub use error::{NotOffered, Result, SolveError};
+pub use half_space::material;
 pub(crate) use offer::not_offered;
 pub use offer::{choose, problem_of};
 pub use omission::Omission;

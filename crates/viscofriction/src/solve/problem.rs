@@ -6,7 +6,7 @@ use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
 use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
-use super::half_space::{Simple, half_space, simple};
+use super::half_space::{Simple, material, simple};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::{ReadFile, WrongInput};
 
@@ -59,7 +59,7 @@ impl Problem {
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
         let motion = motion(scene)?;
         let body = body(&scene.indenter, folder, read)?;
-        let material = half_space(&scene.material)?;
+        let material = material(&scene.material, folder, read)?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         Ok(Self {
             body,
