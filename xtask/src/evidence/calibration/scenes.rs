@@ -1,7 +1,6 @@
 //! Random scenes: bodies, materials, loads and units over decades, as a person would type them.
 
 use anyhow::{Result, bail};
-use indenters::Axisymmetric;
 use serde::Serialize;
 use viscofriction::scene::{self, Indenter, MaterialTable};
 use viscofriction::solve::{Body, Problem};
