@@ -131,3 +131,29 @@ fn swapped_columns_are_refused_and_nothing_is_written() {
         "a material from swapped columns"
     );
 }
+
+#[test]
+fn a_scene_names_the_file_of_a_fit() {
+    let folder = Folder::new("named");
+    let table = "DATA/pyvisco_frequency_master.csv";
+    folder.done(format!(
+        "fit-material {table} --out out --branches 5 --poisson-ratio 0.4"
+    ));
+    let parts = |material: &str| {
+        format!(
+            "[indenter.sphere]\nradius = 5e-3\n{material}\n[load]\nnormal_force = 2\nvelocity = 0.1\n[solve]\nmodel = \"line\"\n"
+        )
+    };
+    let answer = |material: &str| {
+        folder.write("scene.toml", parts(material));
+        let mut answer = folder.json("scene.toml");
+        answer["seconds"] = 0.into();
+        answer
+    };
+    let named = "[material.file]\npath = \"out/material.toml\"";
+    let inside = folder.text("out/material.toml");
+    assert_eq!(answer(named), answer(&inside), "by name and in the scene");
+    let other = inside.replace("poisson_ratio = 0.4", "poisson_ratio = 0.3");
+    let named = format!("{named}\npoisson_ratio = 0.3");
+    assert_eq!(answer(&named), answer(&other), "with another Poisson ratio");
+}

@@ -328,6 +328,34 @@ fn a_malformed_table_of_a_scene_is_refused_with_both_lines() {
     assert_refused(&folder, "map.csv", "run scene.toml", wrong);
 }
 
+/// Contents of the file of a material | the line that is named | what is said.
+const MATERIALS: &str = r#"
+ | 1 | missing field `material`
+[material] | 1 | exactly one kind is needed
+[material.steel] | 1 | unknown variant `steel`
+[material.viscous]\nviscosity = -1 | 2 | material.viscous.viscosity must be finite and greater than 0, but is -1
+[material.viscous]\nviscosity = 1\n[load] | 3 | load: unknown field `load`
+[material.file]\npath = "other.toml" | 2 | other.toml: the file of a material names no other
+[material.viscous | 1 | unclosed table
+\xff\n | 1 | the text is no UTF-8
+"#;
+
+#[test]
+fn a_malformed_file_of_a_material_is_refused_with_both_lines() {
+    let folder = Folder::new("malformed-material");
+    let scene = replaced("5-6", "[material.file]\npath = \"rubber.toml\"");
+    folder.write("scene.toml", &scene);
+    let place = "scene.toml:6: material.file.path: rubber.toml";
+    let wrong = cases(MATERIALS, |line| format!("{place}:{line}"));
+    assert_refused(&folder, "rubber.toml", "run scene.toml", wrong);
+    folder.write("rubber.toml", "[material.viscous]\nviscosity = 1\n");
+    folder.done("run scene.toml");
+    let outside = scene.replace("rubber.toml\"", "rubber.toml\"\npoisson_ratio = 0.6");
+    let place = "scene.toml:7: material.file.poisson_ratio must be";
+    folder.write("scene.toml", outside);
+    folder.ends("run scene.toml", 2, place);
+}
+
 #[test]
 fn a_malformed_array_of_heights_is_refused_with_its_file() {
     let (folder, place) = naming("height-map", "map.NPY");

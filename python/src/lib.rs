@@ -1,0 +1,19 @@
+//! What the Python package `viscofriction` asks of the library: scenes solved for arrays of loads, sweeps, properties of
+//! materials, and fits.
+//!
+//! Python holds bodies, materials and results; here nothing is kept. Wrong input is a `ValueError` that names it; what could
+//! not be reached comes back as data, from which Python makes its own exception.
+
+mod background;
+mod materials;
+mod solving;
+mod tables;
+
+/// The native module.
+#[pyo3::pymodule(name = "_native")]
+mod native {
+    #[pymodule_export]
+    use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
+    #[pymodule_export]
+    use super::solving::{solve_loads, sweep_plan, sweep_points};
+}

@@ -1,0 +1,145 @@
+//! Properties of materials, and materials from measurements.
+
+use std::path::{Path, PathBuf};
+
+use numpy::{PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rheology::RheologyError;
+use rheology::fit::{
+    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint,
+    identify,
+};
+use viscofriction::friction_analytic;
+use viscofriction::rheology::Material;
+use viscofriction::scene::MaterialTable;
+use viscofriction::solve::material;
+
+use crate::solving::{mapped, read};
+use crate::tables::{table, wrong};
+
+/// The material of a table `[material.…]`.
+fn of_table(table: toml::Table, folder: &Path) -> PyResult<Box<dyn Material>> {
+    let table = MaterialTable::try_from(table).map_err(wrong)?;
+    material(&table, folder, read).map_err(wrong)
+}
+
+/// One of the functions of a material, for each angular frequency or time.
+#[pyfunction]
+pub(crate) fn material_curve<'py>(
+    scene: &Bound<'py, PyDict>,
+    folder: PathBuf,
+    quantity: &str,
+    values: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let material = of_table(table(scene, "")?, &folder)?;
+    let (relaxation, creep) = (material.relaxation(), material.creep());
+    let modulus = |omega: f64| relaxation.complex_modulus(omega);
+    mapped(&values, |value| {
+        let result = match quantity {
+            "storage_modulus" => modulus(value).map(|modulus| modulus.storage),
+            "loss_modulus" => modulus(value).map(|modulus| modulus.loss),
+            "relaxation_modulus" => relaxation.relaxation_modulus(value),
+            "creep_compliance" => creep.creep_compliance(value),
+            other => return Err(wrong(format!("a material has no {other}"))),
+        };
+        result.map_err(wrong)
+    })
+}
+
+/// s(p) of a power profile, and its error.
+#[pyfunction]
+pub(crate) fn scaling_factor(exponent: f64) -> PyResult<(f64, f64)> {
+    let factor = friction_analytic::scaling_factor(exponent).map_err(wrong)?;
+    Ok((factor.value, factor.error))
+}
+
+/// How a fit is asked for.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Options {
+    /// It flows in the end.
+    liquid: bool,
+    /// At most so many.
+    branches: Option<usize>,
+    /// Excess error allowed for few branches.
+    tolerance: Option<f64>,
+    /// Weight that makes the moduli of equally spaced branches smooth.
+    smoothing: Option<f64>,
+}
+
+impl Options {
+    fn checked(&self) -> PyResult<IdentifyOptions> {
+        let control = match (self.branches, self.tolerance, self.smoothing) {
+            (None, None, None) => IdentifyOptions::default().control,
+            (None, Some(tolerance), None) => Control::Parsimony { tolerance },
+            (Some(n_branches), None, None) => Control::Branches(n_branches),
+            (Some(n_branches), None, Some(weight)) => Control::Smooth { n_branches, weight },
+            (None, _, Some(_)) => return Err(wrong("smoothing needs branches")),
+            (Some(_), Some(_), _) => return Err(wrong("either branches or tolerance, not both")),
+        };
+        let ending = if self.liquid {
+            Ending::Liquid
+        } else {
+            Ending::Solid
+        };
+        Ok(IdentifyOptions { ending, control })
+    }
+}
+
+/// The Prony series of moduli over angular frequency: spring, branches as pairs, and the relative errors rms and at most.
+#[pyfunction]
+pub(crate) fn fit_oscillation<'py>(
+    py: Python<'py>,
+    angular_frequency: PyReadonlyArray1<'py, f64>,
+    storage: PyReadonlyArray1<'py, f64>,
+    loss: PyReadonlyArray1<'py, f64>,
+    options: Options,
+) -> PyResult<Bound<'py, PyDict>> {
+    let options = options.checked()?;
+    let (storage, loss) = (storage.as_array(), loss.as_array());
+    let moduli = storage.iter().zip(loss.iter());
+    let frequencies = angular_frequency.as_array();
+    let point = |(&angular_frequency, (&storage, &loss))| ModulusPoint {
+        angular_frequency,
+        storage,
+        loss,
+    };
+    let points = frequencies.iter().zip(moduli).map(point).collect();
+    let curve = MeasuredCurve::oscillation(points).map_err(wrong)?;
+    fitted(py, py.detach(|| identify(&curve, &options)))
+}
+
+/// The Prony series of relaxation moduli over time, as [`fit_oscillation`].
+#[pyfunction]
+pub(crate) fn fit_relaxation<'py>(
+    py: Python<'py>,
+    time: PyReadonlyArray1<'py, f64>,
+    modulus: PyReadonlyArray1<'py, f64>,
+    options: Options,
+) -> PyResult<Bound<'py, PyDict>> {
+    let options = options.checked()?;
+    let (times, moduli) = (time.as_array(), modulus.as_array());
+    let point = |(&time, &modulus)| RelaxationPoint { time, modulus };
+    let points = times.iter().zip(moduli.iter()).map(point).collect();
+    let curve = MeasuredCurve::relaxation(points).map_err(wrong)?;
+    fitted(py, py.detach(|| identify(&curve, &options)))
+}
+
+fn fitted(
+    py: Python<'_>,
+    found: Result<Identification, RheologyError>,
+) -> PyResult<Bound<'_, PyDict>> {
+    let found = found.map_err(wrong)?;
+    let branches = found.spectrum.branches().iter();
+    let branches: Vec<[f64; 2]> = branches
+        .map(|branch| [branch.modulus, branch.relaxation_time])
+        .collect();
+    let dictionary = PyDict::new(py);
+    let modulus = found.spectrum.equilibrium_modulus();
+    dictionary.set_item("equilibrium_modulus", modulus)?;
+    dictionary.set_item("branches", branches)?;
+    dictionary.set_item("rms_relative_error", found.rms_relative_error)?;
+    dictionary.set_item("max_relative_error", found.max_relative_error)?;
+    Ok(dictionary)
+}

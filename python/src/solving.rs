@@ -1,0 +1,256 @@
+//! Scenes solved for arrays of loads, and the points of sweeps.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use viscofriction::indenters::HeightMap;
+use viscofriction::scene::Source;
+use viscofriction::sweep::{Plan, Vary, header, identity};
+use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
+
+use crate::background;
+use crate::tables::{table, wrong};
+
+/// Numbers of the load that may differ from scene to scene.
+#[derive(Clone, Copy)]
+enum Column {
+    NormalForce,
+    IndentationDepth,
+    Velocity,
+    Duration,
+    SlidingDistance,
+}
+
+/// A scene, and what differs between the scenes that are solved.
+struct Scenes {
+    scene: Scene,
+    folder: PathBuf,
+    heights: Option<HeightMap>,
+    columns: Vec<(Column, Vec<f64>)>,
+}
+
+impl Scenes {
+    fn problem(&self, index: usize) -> PyResult<Problem> {
+        let mut scene = self.scene.clone();
+        for (column, values) in &self.columns {
+            let value = Some(values[index]);
+            match column {
+                Column::NormalForce => scene.load.normal_force = value,
+                Column::IndentationDepth => scene.load.indentation_depth = value,
+                Column::Velocity => scene.load.velocity = values[index],
+                Column::Duration => scene.solve.duration = value,
+                Column::SlidingDistance => scene.solve.sliding_distance = value,
+            }
+        }
+        let mut problem = Problem::new(&scene, &self.folder, read).map_err(wrong)?;
+        if let Some(heights) = &self.heights {
+            problem.body = Body::HeightMap(heights.clone());
+        }
+        choose(&problem).map_err(wrong)?;
+        Ok(problem)
+    }
+}
+
+pub(crate) fn read(file: &Path) -> Result<Vec<u8>, WrongInput> {
+    fs::read(file).map_err(|error| WrongInput(format!("{}: {error}", file.display())))
+}
+
+fn column(name: &str) -> PyResult<Column> {
+    Ok(match name {
+        "normal_force" => Column::NormalForce,
+        "indentation_depth" => Column::IndentationDepth,
+        "velocity" => Column::Velocity,
+        "duration" => Column::Duration,
+        "sliding_distance" => Column::SlidingDistance,
+        other => return Err(wrong(format!("{other} does not vary from scene to scene"))),
+    })
+}
+
+/// What [`solve_loads`] is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Loads<'py> {
+    scene: Bound<'py, PyDict>,
+    /// Where the files are that the scene names.
+    folder: PathBuf,
+    /// Of the body, where the scene holds any other in its place, and their spacing.
+    heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2])>,
+    /// Arrays of one length by their names.
+    columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+}
+
+impl Loads<'_> {
+    fn scenes(&self) -> PyResult<Scenes> {
+        let heights = self.heights.as_ref();
+        let heights = heights.map(|(heights, spacing)| map(heights, *spacing));
+        let columns = self.columns.iter().map(|(name, values)| {
+            let values = values.as_array().to_vec();
+            Ok((column(name)?, values))
+        });
+        Ok(Scenes {
+            scene: Scene::try_from(table(&self.scene, "")?).map_err(wrong)?,
+            folder: self.folder.clone(),
+            heights: heights.transpose()?,
+            columns: columns.collect::<PyResult<_>>()?,
+        })
+    }
+}
+
+/// Solves one scene for each row of the columns.
+///
+/// Returns a dictionary: `columns`, arrays of all numbers by their names, NaN where not known; `answers`, what else is
+/// known of each as dictionaries or None; `failures`, sentences or None.
+#[pyfunction]
+pub(crate) fn solve_loads<'py>(
+    py: Python<'py>,
+    loads: Loads<'py>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let scenes = loads.scenes()?;
+    let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
+    for index in 0..count {
+        scenes.problem(index)?;
+    }
+    let threads = scenes.scene.solve.threads;
+    let answers = background::all(py, count, threads, progress, move |index| {
+        // It was built before.
+        scenes.problem(index).ok().map(|problem| solve(&problem))
+    })?;
+    let answers: Vec<_> = answers.into_iter().flatten().collect();
+    to_python(py, answers)
+}
+
+fn map(heights: &PyReadonlyArray2<'_, f64>, spacing: [f64; 2]) -> PyResult<HeightMap> {
+    let heights = heights.as_array();
+    let shape = [heights.nrows(), heights.ncols()];
+    // Row by row, whatever the strides.
+    let heights = heights.iter().copied().collect();
+    HeightMap::new(shape, spacing, heights).map_err(wrong)
+}
+
+fn to_python(
+    py: Python<'_>,
+    answers: Vec<Result<Answer, SolveError>>,
+) -> PyResult<Bound<'_, PyDict>> {
+    let names = Answer::columns();
+    let mut columns = vec![vec![f64::NAN; answers.len()]; names.len()];
+    let [others, failures] = [PyList::empty(py), PyList::empty(py)];
+    for (index, answer) in answers.into_iter().enumerate() {
+        match answer {
+            Ok(answer) => {
+                for (column, (_, value)) in columns.iter_mut().zip(answer.numbers()) {
+                    column[index] = value.unwrap_or(f64::NAN);
+                }
+                others.append(other(py, answer)?)?;
+                failures.append(py.None())?;
+            }
+            Err(error) => {
+                others.append(py.None())?;
+                failures.append(error.to_string())?;
+            }
+        }
+    }
+    let arrays = PyDict::new(py);
+    for (name, column) in names.into_iter().zip(columns) {
+        arrays.set_item(name, column.into_pyarray(py))?;
+    }
+    let result = PyDict::new(py);
+    result.set_item("columns", arrays)?;
+    result.set_item("answers", others)?;
+    result.set_item("failures", failures)?;
+    Ok(result)
+}
+
+/// What is no single number.
+fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
+    let dictionary = PyDict::new(py);
+    dictionary.set_item("method", answer.method.name())?;
+    dictionary.set_item("model", answer.model.name())?;
+    dictionary.set_item("unknowns", answer.unknowns)?;
+    dictionary.set_item("iterations", answer.iterations)?;
+    dictionary.set_item("warnings", answer.warnings)?;
+    let left_out = answer.left_out.into_iter().map(<&str>::from);
+    let left_out: Vec<&str> = left_out.collect();
+    dictionary.set_item("left_out", left_out)?;
+    if let Some(field) = answer.fields.pressure {
+        let shape = field.grid.shape();
+        let pressure = field.pressure.into_pyarray(py).reshape(shape)?;
+        dictionary.set_item("pressure", pressure)?;
+        dictionary.set_item("origin", field.origin)?;
+        dictionary.set_item("spacing", field.grid.spacing())?;
+    }
+    for (name, pairs) in [
+        ("line_load", &answer.fields.line_load),
+        ("line_pressure", &answer.fields.line_pressure),
+    ] {
+        if !pairs.is_empty() {
+            let flat = pairs.as_flattened().to_vec().into_pyarray(py);
+            dictionary.set_item(name, flat.reshape([pairs.len(), 2])?)?;
+        }
+    }
+    Ok(dictionary)
+}
+
+/// A sweep, as [`sweep_points`] is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Sweep<'py> {
+    scene: Bound<'py, PyDict>,
+    /// Where the files are that the scene names.
+    folder: PathBuf,
+    /// Keys and their values.
+    vary: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+}
+
+impl Sweep<'_> {
+    fn plan(&self) -> PyResult<Plan> {
+        let text = table(&self.scene, "")?.to_string();
+        let source = Source::new(&self.folder.join("scene"), text.into_bytes()).map_err(wrong)?;
+        let vary = self.vary.iter().map(|(key, values)| Vary {
+            key: key.clone(),
+            values: values.as_array().to_vec(),
+        });
+        Plan::new(source, &vary.collect::<Vec<_>>(), read).map_err(wrong)
+    }
+}
+
+/// The names of the columns of a sweep, and what begins the row of each point, after all points were checked.
+#[pyfunction]
+pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, Vec<Vec<String>>)> {
+    let plan = sweep.plan()?;
+    plan.validate().map_err(wrong)?;
+    let identities = (0..plan.n_points()).map(|point| identity(&plan, point));
+    Ok((header(&plan), identities.collect()))
+}
+
+/// The rows of these points of a sweep, in the order of `points`, as the texts that the program writes.
+#[pyfunction]
+pub(crate) fn sweep_points<'py>(
+    py: Python<'py>,
+    sweep: Sweep<'py>,
+    points: Vec<usize>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<Vec<String>>> {
+    let plan = sweep.plan()?;
+    if let Some(point) = points.iter().find(|point| **point >= plan.n_points()) {
+        return Err(wrong(format!("points: there is no point {point}")));
+    }
+    let rows = background::all(py, points.len(), None, progress, move |index| {
+        plan.solve(points[index]).map(|row| row.fields)
+    })?;
+    rows.into_iter().map(|row| row.map_err(wrong)).collect()
+}
+
+/// A number for each value, in a new array.
+pub(crate) fn mapped<'py>(
+    values: &PyReadonlyArray1<'py, f64>,
+    function: impl Fn(f64) -> PyResult<f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let array = values.as_array();
+    let results = array.iter().map(|value| function(*value));
+    let results: Vec<f64> = results.collect::<PyResult<_>>()?;
+    Ok(results.into_pyarray(values.py()))
+}

@@ -1,0 +1,69 @@
+//! Scenes as Python writes them: dictionaries.
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyList, PyString, PyTuple};
+use toml::{Table, Value};
+
+/// A `ValueError` with this sentence.
+pub(crate) fn wrong(problem: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(problem.to_string())
+}
+
+/// The table that a dictionary describes.
+pub(crate) fn table(dictionary: &Bound<'_, PyDict>, path: &str) -> PyResult<Table> {
+    let mut table = Table::new();
+    for (key, value) in dictionary {
+        let key: String = key
+            .extract()
+            .map_err(|_| wrong(format!("{path}: keys must be texts, but one is {key}")))?;
+        let inner = if path.is_empty() {
+            key.clone()
+        } else {
+            format!("{path}.{key}")
+        };
+        // What is None is not given.
+        if !value.is_none() {
+            table.insert(key, self::value(&value, &inner)?);
+        }
+    }
+    Ok(table)
+}
+
+fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
+    if let Ok(dictionary) = object.cast::<PyDict>() {
+        return Ok(Value::Table(table(dictionary, path)?));
+    }
+    if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
+        let elements = object.try_iter()?.enumerate();
+        let element = |(index, element): (usize, PyResult<Bound<'_, PyAny>>)| {
+            value(&element?, &format!("{path}[{index}]"))
+        };
+        return elements
+            .map(element)
+            .collect::<PyResult<_>>()
+            .map(Value::Array);
+    }
+    if object.is_instance_of::<PyString>() {
+        return Ok(Value::String(object.extract()?));
+    }
+    if object.is_instance_of::<PyBool>() {
+        return Ok(Value::Boolean(object.extract()?));
+    }
+    if let Ok(integer) = object.extract::<i64>() {
+        return Ok(Value::Integer(integer));
+    }
+    // Numbers of NumPy are numbers too.
+    if let Ok(number) = object.extract::<f64>() {
+        return Ok(Value::Float(number));
+    }
+    // Paths of files.
+    if let Ok(file) = object.extract::<std::path::PathBuf>() {
+        let file = file.to_string_lossy().into_owned();
+        return Ok(Value::String(file));
+    }
+    let kind = object.get_type();
+    Err(wrong(format!(
+        "{path}: a value of the type {kind} has no place in a scene"
+    )))
+}

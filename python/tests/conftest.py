@@ -1,0 +1,31 @@
+"""What several tests need."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import matplotlib
+import pytest
+
+matplotlib.use("Agg")
+
+ROOT = Path(__file__).parents[2]
+SCENES = ROOT / "examples" / "scenes"
+
+
+@pytest.fixture(scope="session")
+def program() -> Callable[..., str]:
+    """Runs the program of this repository and returns what it prints."""
+    environment = os.environ | {"CARGO_TARGET_DIR": str(ROOT / "target")}
+    build = ["cargo", "build", "--quiet", "--release", "--package", "viscofriction-cli"]
+    subprocess.run(build, check=True, cwd=ROOT, env=environment)
+
+    def run(*arguments: object) -> str:
+        command = [ROOT / "target/release/viscofriction", *map(str, arguments)]
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
+        return done.stdout
+
+    return run

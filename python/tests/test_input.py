@@ -1,0 +1,106 @@
+"""Wrong input is a ValueError that names it; arrays come in any layout."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofriction as vf
+
+RUBBER = vf.Prony(1e6, [(1e7, 1e-3)])
+BALL = vf.Sphere(5e-3)
+BUMP = np.add.outer(np.linspace(-1, 1, 33) ** 2, np.linspace(-1, 1, 33) ** 2) * 1e-3
+
+WRONG: list[tuple[str, dict[str, Any]]] = [
+    ("velocity", {"velocity": np.nan}),
+    ("velocity", {"velocity": [1.0, np.inf]}),
+    ("velocity", {"velocity": []}),
+    ("velocity", {"velocity": np.zeros((0, 3))}),
+    ("velocity", {"velocity": np.array([1.0, None])}),
+    ("velocity", {"velocity": "fast"}),
+    ("velocity", {"velocity": 1j}),
+    ("velocity", {"velocity": [True]}),
+    ("velocity", {"velocity": [[1.0], [1.0, 2.0]]}),
+    ("velocity", {"velocity": 0.0}),
+    ("velocity", {"velocity": [1.0, -1.0]}),
+    ("velocity", {"velocity": np.ones(2), "normal_force": np.ones(3)}),
+    ("normal_force", {"normal_force": -2.0}),
+    ("normal_force", {"normal_force": None}),
+    ("indentation_depth", {"indentation_depth": 1e-5}),
+    ("relative_error", {"relative_error": 2.0}),
+    ("elements", {"elements": 3}),
+    ("threads", {"threads": 0}),
+    ("method", {"method": "guess"}),
+    ("model", {"model": "line", "method": "bem-steady"}),
+    ("radius", {"body": vf.Sphere(-1.0)}),
+    ("radius", {"body": vf.Sphere("large")}),  # type: ignore[arg-type]
+    ("exponent", {"body": vf.Superposition([(1.0, -1.0)])}),
+    ("indenter", {"body": "ball"}),
+    ("poisson_ratio", {"material": vf.Elastic(1e6, poisson_ratio=0.6)}),
+    ("branches[0].relaxation_time", {"material": vf.Prony(1e6, [(1e6, 0.0)])}),
+    ("no-such-file", {"material": vf.MaterialFile("no-such-file.toml")}),
+    ("material", {"material": None}),
+]
+
+
+@pytest.mark.parametrize(("name", "change"), WRONG, ids=lambda value: str(value))
+def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
+    given: dict[str, Any] = {"body": BALL, "material": RUBBER, "normal_force": 2.0, "velocity": 1.0} | change
+    with pytest.raises(ValueError, match=name.replace("[", r"\[")):
+        vf.slide(given.pop("body"), given.pop("material"), **given)
+
+
+@pytest.mark.parametrize(
+    ("name", "heights", "spacing"),
+    [
+        ("heights", np.ones(3), 1.0),
+        ("heights", np.full((3, 3), np.nan), 1.0),
+        ("heights", np.ones((3, 3), dtype=object), 1.0),
+        ("heights", np.ones((0, 3)), 1.0),
+        ("spacing", np.ones((3, 3)), 0.0),
+        ("spacing", np.ones((3, 3)), (1.0, 2.0, 3.0)),
+    ],
+)
+def test_a_wrong_height_map_is_named(name: str, heights: Any, spacing: Any) -> None:
+    with pytest.raises(ValueError, match=name):
+        vf.HeightMap(heights, spacing)
+
+
+def test_heights_come_in_any_layout() -> None:
+    def depth(heights: Any) -> Any:
+        pressed = vf.press(
+            vf.HeightMap(heights, 1e-4), vf.Elastic(1e6), normal_force=0.1, relative_error=1e-2
+        )
+        return pressed.indentation_depth
+
+    expected = depth(BUMP)
+    single = BUMP.astype(np.float32)
+    wide = np.zeros((66, 66))
+    wide[::2, ::2] = BUMP
+    shifted = np.frombuffer(b"." + BUMP.tobytes(), dtype=np.float64, offset=1).reshape(BUMP.shape)
+    assert depth(BUMP.astype(">f8")) == expected
+    for heights in (shifted, np.asfortranarray(BUMP), BUMP[::-1, ::-1][::-1, ::-1], wide[::2, ::2], BUMP.tolist()):
+        assert depth(heights) == expected
+    assert depth(single) == depth(single.astype(np.float64))
+
+
+def test_loads_come_in_any_layout() -> None:
+    speeds = np.array([0.01, 0.02, 0.03, 0.04])
+    cone, oil = vf.Cone(0.1), vf.Viscous(1e4)
+    forces = np.array([[1.0], [2.0]])
+    every = vf.slide(cone, oil, normal_force=forces, velocity=speeds)
+    back = vf.slide(cone, oil, normal_force=forces, velocity=speeds[::-1])
+    assert every.shape == (2, 4)
+    assert every.tangential_force is not None and back.tangential_force is not None
+    assert (every.tangential_force == back.tangential_force[:, ::-1]).all()
+
+
+def test_what_is_not_reached_comes_with_what_was() -> None:
+    soft = vf.Prony(100.0, [(1e3, 1.0)])
+    with pytest.raises(vf.NotReached, match="normal_force = 2000") as raised:
+        vf.slide(BALL, soft, normal_force=[1e-6, 2000.0], velocity=1.0, model="line")
+    answer = raised.value.answer
+    assert answer.mu is not None and np.isfinite(answer.mu[0]) and np.isnan(answer.mu[1])
+    assert answer.failures[0] is None and "2000" in str(answer.failures[1])

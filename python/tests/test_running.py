@@ -1,0 +1,110 @@
+"""Work away from the interpreter: interruption, progress, other threads, tables that go on, clusters."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscofriction as vf
+
+SCENE = {
+    "indenter": vf.Sphere(5e-3),
+    "material": vf.StandardSolid(1e6, 1e7, 1e4),
+    "load": {"normal_force": 2.0, "velocity": 1.0},
+    "solve": {"relative_error": 1e-2},
+}
+SPEEDS = np.logspace(-2, 1, 12)
+
+LONG = """
+import viscofriction as vf
+print("begun", flush=True)
+vf.slide(vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, velocity=[1.0] * 10000)
+"""
+
+
+def test_an_interruption_ends_the_work_at_once() -> None:
+    child = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout is not None
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(1.0)
+    child.send_signal(signal.SIGINT)
+    _, errors = child.communicate(timeout=20)
+    assert "KeyboardInterrupt" in errors
+
+
+def test_other_threads_run_and_progress_is_told() -> None:
+    counted = 0
+    ended = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not ended.is_set():
+            counted += 1
+            time.sleep(1e-3)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    told: list[tuple[int, int]] = []
+    try:
+        vf.slide(
+            vf.Sphere(5e-3),
+            vf.StandardSolid(1e6, 1e7, 1e4),
+            normal_force=2.0,
+            velocity=SPEEDS,
+            relative_error=1e-2,
+            progress=lambda done, count: told.append((done, count)),
+        )
+    finally:
+        ended.set()
+        thread.join()
+    assert counted > 10
+    assert told[-1] == (12, 12) and sorted(told) == told
+
+
+def test_what_progress_raises_comes_back() -> None:
+    def stop(done: int, count: int) -> None:
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        vf.solve(SCENE, progress=stop)
+
+
+def test_a_table_goes_on_where_it_ended(tmp_path: Path) -> None:
+    whole = vf.sweep(SCENE, {"load.velocity": SPEEDS})
+    whole.to_csv(tmp_path / "whole.csv")
+    text = (tmp_path / "whole.csv").read_text()
+    lines = text.splitlines(keepends=True)
+    part = tmp_path / "part.csv"
+    part.write_text("".join(lines[:5]) + lines[5][:20])
+    with pytest.raises(FileExistsError):
+        vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=part)
+    vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=part, resume=True)
+    assert part.read_text() == text
+    with pytest.raises(ValueError, match="other points"):
+        vf.sweep(SCENE, {"load.velocity": 2 * SPEEDS}, out=part, resume=True)
+    assert part.read_text() == text
+
+
+def test_a_cluster_gives_the_same_rows_when_a_worker_dies() -> None:
+    from distributed import Client, LocalCluster
+
+    alone = vf.sweep(SCENE, {"load.velocity": SPEEDS})
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        processes = list(client.run(os.getpid).values())
+
+        def kill(done: int, count: int) -> None:
+            if done >= 3 and processes:
+                os.kill(processes.pop(), signal.SIGKILL)
+                processes.clear()
+
+        shared = vf.sweep(SCENE, {"load.velocity": SPEEDS}, client=client, progress=kill)
+    assert not processes
+    assert shared._rows == alone._rows

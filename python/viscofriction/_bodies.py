@@ -1,0 +1,171 @@
+"""Rigid bodies. Their lowest point is the origin; lengths are in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._arrays import numbers
+
+__all__ = [
+    "Body",
+    "Cone",
+    "Cylinder",
+    "FlatCone",
+    "FlatPunch",
+    "HeightMap",
+    "Hyperboloid",
+    "Paraboloid",
+    "Power",
+    "RoundTippedCone",
+    "Sphere",
+    "Superposition",
+    "TruncatedParaboloid",
+]
+
+
+class Body:
+    """A rigid body. Numbers are checked when it is pressed or slides."""
+
+    _kind: ClassVar[str]
+
+    def _table(self) -> dict[str, Any]:
+        """The table ``[indenter.…]`` of a scene."""
+        keys = {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
+        return {self._kind: keys}
+
+
+@dataclass(frozen=True)
+class Power(Body):
+    """h = coefficient r^exponent, coefficient [m^(1 − exponent)] > 0 and exponent > 0."""
+
+    coefficient: float
+    exponent: float
+    _kind = "power"
+
+
+@dataclass(frozen=True)
+class Cone(Body):
+    """h = slope r, slope > 0."""
+
+    slope: float
+    _kind = "cone"
+
+
+@dataclass(frozen=True)
+class Paraboloid(Body):
+    """h = curvature r², curvature > 0 [1/m]: half the inverse of the radius of curvature."""
+
+    curvature: float
+    _kind = "paraboloid"
+
+
+@dataclass(frozen=True)
+class Sphere(Body):
+    """The exact sphere of a radius > 0 [m]."""
+
+    radius: float
+    _kind = "sphere"
+
+
+@dataclass(frozen=True)
+class FlatPunch(Body):
+    """A flat end of a radius > 0 [m] with a vertical wall."""
+
+    radius: float
+    _kind = "flat-punch"
+
+
+@dataclass(frozen=True)
+class FlatCone(Body):
+    """A cone of a slope > 0 whose tip is cut off at a radius > 0 [m]."""
+
+    radius: float
+    slope: float
+    _kind = "flat-cone"
+
+
+@dataclass(frozen=True)
+class RoundTippedCone(Body):
+    """A cone of a slope > 0 whose tip is part of a sphere of a radius > 0 [m]."""
+
+    radius: float
+    slope: float
+    _kind = "round-tipped-cone"
+
+
+@dataclass(frozen=True)
+class Hyperboloid(Body):
+    """Round at the tip with a radius > 0 [m], a cone of a slope > 0 far from it."""
+
+    radius: float
+    slope: float
+    _kind = "hyperboloid"
+
+
+@dataclass(frozen=True)
+class TruncatedParaboloid(Body):
+    """h = curvature r² [1/m], whose tip is cut off at a radius > 0 [m]."""
+
+    radius: float
+    curvature: float
+    _kind = "truncated-paraboloid"
+
+
+@dataclass(frozen=True)
+class Cylinder(Body):
+    """The parabola of a cylinder of a radius > 0 [m], infinite along y; forces and areas are per length."""
+
+    radius: float
+    _kind = "cylinder"
+
+
+@dataclass(frozen=True)
+class Superposition(Body):
+    """A sum of powers, h = Σ c r^p, from pairs (c [m^(1 − p)], p > 0); that of the lowest p has c > 0."""
+
+    terms: Sequence[tuple[float, float]]
+    _kind = "superposition"
+
+    def _table(self) -> dict[str, Any]:
+        terms = [{"coefficient": c, "exponent": p} for c, p in self.terms]
+        return {self._kind: {"terms": terms}}
+
+
+class HeightMap(Body):
+    """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
+
+    It ends at the edge of the grid with a wall. ``spacing`` is (dx, dy) [m], or one number for both. Any layout, and float32,
+    will do.
+    """
+
+    _kind = "height-map"
+
+    def __init__(self, heights: ArrayLike, spacing: float | tuple[float, float]) -> None:
+        self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2)
+        pair = spacing if isinstance(spacing, Sequence) else (spacing, spacing)
+        steps = numbers("spacing", pair, dimensions=1)
+        if steps.shape != (2,) or not (steps > 0).all():
+            raise ValueError(f"spacing must be one or two numbers greater than 0, but is {spacing}")
+        self.spacing: tuple[float, float] = (float(steps[0]), float(steps[1]))
+
+    @classmethod
+    def from_topography(cls, topography: Any) -> HeightMap:
+        """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
+        scaled = topography.to_unit("m") if topography.unit is not None else topography
+        heights = np.asarray(scaled.heights())
+        if np.ma.is_masked(scaled.heights()):
+            raise ValueError("heights: points are missing; interpolate them first")
+        return cls(heights.max() - heights, tuple(scaled.pixel_size))
+
+    def __repr__(self) -> str:
+        rows, columns = self.heights.shape
+        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing})"
+
+    def _table(self) -> dict[str, Any]:
+        # Its place in the scene, which the heights then take.
+        return Paraboloid(1.0)._table()

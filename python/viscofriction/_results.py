@@ -1,0 +1,285 @@
+"""What comes back: named arrays with their error bars."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Answer", "NotReached"]
+
+Values = np.float64 | NDArray[np.float64]
+
+# Quantities by their names in JSON and CSV, each with its unit; of each there is the error too.
+QUANTITIES = {
+    "friction_coefficient": "",
+    "normal_force": "N",
+    "tangential_force": "N",
+    "indentation_depth": "m",
+    "contact_area": "m²",
+    "peak_pressure": "Pa",
+}
+EDGES = ("x_min", "x_max", "y_min", "y_max")
+
+
+class NotReached(RuntimeError):
+    """The error that was asked for was not reached, or there is no answer.
+
+    ``answer`` holds what was: of an array of loads all that were solved, NaN and a sentence in ``failures`` for the others.
+    """
+
+    def __init__(self, message: str, answer: Answer) -> None:
+        super().__init__(message)
+        self.answer = answer
+
+
+class Answer:
+    """Answers to one scene, or to an array of loads; all numbers in SI.
+
+    Quantities have the shape that the loads have together, and are None where the method does not know them: a line has no
+    area, the front of a viscous contact no peak pressure. Errors are absolute, 0 of what was given or is exact.
+    """
+
+    def __init__(self, found: dict[str, Any], loads: dict[str, NDArray[np.float64]], shape: tuple[int, ...]) -> None:
+        self._columns: dict[str, NDArray[np.float64]] = found["columns"]
+        self._answers: list[dict[str, Any] | None] = found["answers"]
+        #: Of each load, flat: why there is no answer, or None.
+        self.failures: list[str | None] = found["failures"]
+        #: The loads, each in the common shape, by their names.
+        self.loads: dict[str, Values] = {name: values.reshape(shape)[()] for name, values in loads.items()}
+        #: The common shape; () of a single scene.
+        self.shape = shape
+
+    def _values(self, name: str) -> Values | None:
+        column = self._columns[name]
+        return None if np.isnan(column).all() else column.reshape(self.shape)[()]
+
+    @property
+    def mu(self) -> Values | None:
+        """Friction coefficient; None where nothing slides."""
+        return self._values("friction_coefficient")
+
+    @property
+    def mu_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("friction_coefficient_error")
+
+    @property
+    def normal_force(self) -> Values | None:
+        """Normal force [N], or [N/m] of a cylinder."""
+        return self._values("normal_force")
+
+    @property
+    def normal_force_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("normal_force_error")
+
+    @property
+    def tangential_force(self) -> Values | None:
+        """Friction force [N], or [N/m] of a cylinder."""
+        return self._values("tangential_force")
+
+    @property
+    def tangential_force_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("tangential_force_error")
+
+    @property
+    def indentation_depth(self) -> Values | None:
+        """Depth of the lowest point below the undeformed surface [m]."""
+        return self._values("indentation_depth")
+
+    @property
+    def indentation_depth_error(self) -> Values | None:
+        """Its absolute error [m]."""
+        return self._values("indentation_depth_error")
+
+    @property
+    def area(self) -> Values | None:
+        """Contact area [m²], or width [m] of a cylinder's contact."""
+        return self._values("contact_area")
+
+    @property
+    def area_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("contact_area_error")
+
+    @property
+    def peak_pressure(self) -> Values | None:
+        """Largest pressure [Pa], where it has a limit on refinement."""
+        return self._values("peak_pressure")
+
+    @property
+    def peak_pressure_error(self) -> Values | None:
+        """Its absolute error [Pa]."""
+        return self._values("peak_pressure_error")
+
+    @property
+    def contact_box(self) -> dict[str, Values]:
+        """Edges of the contact relative to the lowest point [m], by their names ``x_min`` to ``y_max``."""
+        edges = {name: self._values(name) for name in EDGES}
+        return {name: values for name, values in edges.items() if values is not None}
+
+    @property
+    def contact_box_error(self) -> Values | None:
+        """Absolute error of each edge [m]."""
+        return self._values("contact_box_error")
+
+    @property
+    def method(self) -> str | list[str | None]:
+        """The method that answered; of an array of loads a flat list."""
+        method: str | list[str | None] = self._one_or_all("method")
+        return method
+
+    @property
+    def model(self) -> str | list[str | None]:
+        """What the elastomer was taken to be; of an array of loads a flat list."""
+        model: str | list[str | None] = self._one_or_all("model")
+        return model
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences about the validity of the answers, each once."""
+        every = [warning for answer in self._answers if answer for warning in answer["warnings"]]
+        return list(dict.fromkeys(every))
+
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure [Pa] at ``x[i]``, ``y[j]`` of a single scene on the half space."""
+        return self._field("pressure")
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Where the pressure is along the motion [m], relative to the lowest point."""
+        return self._axis(0)
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """Where the pressure is across the motion [m], relative to the lowest point."""
+        return self._axis(1)
+
+    @property
+    def line_load(self) -> NDArray[np.float64]:
+        """Position [m] and load per length [N/m] of a single scene of the one-dimensional model, two columns."""
+        return self._field("line_load")
+
+    @property
+    def line_pressure(self) -> NDArray[np.float64]:
+        """Position [m] and pressure [Pa] of a single scene of a cylinder, two columns."""
+        return self._field("line_pressure")
+
+    def _single(self) -> dict[str, Any]:
+        if self.shape != () or self._answers[0] is None:
+            raise AttributeError("fields belong to a single scene: ask for one load")
+        return self._answers[0]
+
+    def _field(self, name: str) -> NDArray[np.float64]:
+        answer = self._single()
+        if name not in answer:
+            raise AttributeError(f"{answer['method']} has no {name.replace('_', ' ')}")
+        field: NDArray[np.float64] = answer[name]
+        return field
+
+    def _axis(self, axis: int) -> NDArray[np.float64]:
+        count = self.pressure.shape[axis]
+        answer = self._single()
+        return np.asarray(answer["origin"][axis] + answer["spacing"][axis] * np.arange(count))
+
+    def _one_or_all(self, name: str) -> Any:
+        every = [answer[name] if answer else None for answer in self._answers]
+        return every[0] if self.shape == () else every
+
+    def to_dict(self) -> dict[str, Any]:
+        """All that is known: of a single scene the keys and values of the program's JSON, of an array lists."""
+        entries: dict[str, Any] = {"method": self.method, "model": self.model}
+        scalar = self.shape == ()
+        for name, values in self._columns.items():
+            if name.startswith("error_") or name in EDGES or name == "contact_box_error":
+                continue
+            if not np.isnan(values).all():
+                entries[name] = plain(values, scalar)
+        if self.contact_box:
+            edges = {name: plain(self._columns[name], scalar) for name in self.contact_box}
+            entries["contact_box"] = edges
+            entries["contact_box_error"] = plain(self._columns["contact_box_error"], scalar)
+        parts = {name: values for name, values in self._columns.items() if name.startswith("error_")}
+        known = {name[len("error_") :]: plain(values, scalar) for name, values in parts.items() if not np.isnan(values).all()}
+        if known:
+            entries["error_parts"] = known
+        for name in ("unknowns", "iterations"):
+            entries[name] = self._one_or_all(name)
+        entries["warnings"] = self.warnings
+        entries["left_out"] = self._one_or_all("left_out")
+        return entries
+
+    def _rows(self) -> list[tuple[str, str, str, str]]:
+        """Name, value, error and unit of what a single scene knows."""
+        rows = []
+        for name, unit in QUANTITIES.items():
+            value, error = (self._values(name + end) for end in ("", "_error"))
+            if value is not None and error is not None:
+                rows.append((name, *rounded(float(value), float(error)), unit))
+        return rows
+
+    def __repr__(self) -> str:
+        if self.shape != ():
+            known = [name for name in QUANTITIES if self._values(name) is not None]
+            loads = ", ".join(self.loads)
+            failed = sum(failure is not None for failure in self.failures)
+            failures = f", {failed} without an answer" if failed else ""
+            return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}>"
+        if self.failures[0] is not None:
+            return f"<no answer: {self.failures[0]}>"
+        rows = [f"  {name}: {value} {'± ' + error if error else ''} {unit}".rstrip() for name, value, error, unit in self._rows()]
+        return "\n".join([f"{self.method}, {self.model}", *rows, *(f"  warning: {text}" for text in self.warnings)])
+
+    def _repr_html_(self) -> str:
+        if self.shape != () or self.failures[0] is not None:
+            return f"<pre>{escaped(repr(self))}</pre>"
+        cells = ["".join(f"<td>{escaped(cell)}</td>" for cell in row) for row in self._rows()]
+        head = "".join(f"<th>{name}</th>" for name in ("quantity", "value", "error", "unit"))
+        body = "".join(f"<tr>{row}</tr>" for row in cells)
+        notes = "".join(f"<p>{escaped(text)}</p>" for text in self.warnings)
+        return f"<table><caption>{self.method}, {self.model}</caption><tr>{head}</tr>{body}</table>{notes}"
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws friction with its bars over what varies, or the pressure of a single scene; returns the axes of matplotlib."""
+        from . import _plotting
+
+        return _plotting.plot(self, ax)
+
+
+def plain(values: NDArray[np.float64], scalar: bool) -> Any:
+    """A number, or a list with None for what is not known."""
+    every = [None if math.isnan(value) else value for value in values.tolist()]
+    return every[0] if scalar else every
+
+
+def rounded(value: float, error: float) -> tuple[str, str]:
+    """Value and error to the digits that the error leaves."""
+    if error == 0.0:
+        return f"{value:.10g}", ""
+    if value == 0.0:
+        return "0", f"{error:.2g}"
+    digits = max(1, 2 + math.floor(math.log10(abs(value))) - math.floor(math.log10(error)))
+    return f"{value:.{min(digits, 17)}g}", f"{error:.2g}"
+
+
+def escaped(text: str) -> str:
+    """Text as HTML."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def not_reached(answer: Answer) -> None:
+    """Raises NotReached where a load has no answer."""
+    failed: Sequence[int] = [index for index, failure in enumerate(answer.failures) if failure is not None]
+    if not failed:
+        return
+    first = answer.failures[failed[0]]
+    if answer.shape == ():
+        raise NotReached(str(first), answer)
+    loads = ", ".join(f"{name} = {np.ravel(values)[failed[0]]:g}" for name, values in answer.loads.items())
+    raise NotReached(f"{len(failed)} of {len(answer.failures)} loads have no answer; {loads}: {first}", answer)

@@ -1,0 +1,167 @@
+"""Pressing, sliding, and scenes as the program knows them."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._arrays import numbers, together
+from ._bodies import Body, HeightMap
+from ._materials import Elastic, Material
+from ._results import Answer, not_reached
+
+__all__ = ["press", "slide", "solve"]
+
+#: Called with how many scenes are done and how many there are; True shows a bar of tqdm.
+Progress = Callable[[int, int], object] | bool | None
+Scene = str | os.PathLike[str] | Mapping[str, Any]
+
+
+def slide(
+    body: Body,
+    material: Material,
+    *,
+    velocity: ArrayLike,
+    normal_force: ArrayLike | None = None,
+    indentation_depth: ArrayLike | None = None,
+    sliding_distance: ArrayLike | None = None,
+    model: str | None = None,
+    method: str | None = None,
+    relative_error: float | None = None,
+    elements: int | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Answer:
+    """Friction of a body that slides over a half space of the material.
+
+    Speed > 0 [m/s], and either normal force [N] or depth [m], are numbers or arrays that fit together; so is a sliding
+    distance [m] from first touch, without which the state is stationary. ``model="line"`` asks for the one-dimensional
+    model, ``method`` for one of the program's methods. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
+    given; ``elements`` is a fixed resolution in its place.
+
+    Raises ValueError for wrong input and NotReached where there is no answer.
+    """
+    loads = _given(
+        velocity=velocity,
+        normal_force=normal_force,
+        indentation_depth=indentation_depth,
+        sliding_distance=sliding_distance,
+    )
+    if not (numbers("velocity", velocity) > 0).all():
+        raise ValueError(f"velocity must be greater than 0, but is {velocity!r}")
+    options = _given(
+        model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
+    )
+    return _solved(body, material, loads, options, progress)
+
+
+def press(
+    body: Body,
+    material: Material,
+    *,
+    normal_force: ArrayLike | None = None,
+    indentation_depth: ArrayLike | None = None,
+    duration: ArrayLike | None = None,
+    model: str | None = None,
+    method: str | None = None,
+    relative_error: float | None = None,
+    elements: int | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Answer:
+    """Contact of a body that is pressed into a half space of the material, without sliding.
+
+    Either normal force [N] or depth [m] is held for a duration [s], which an elastic material does not need. ``method=
+    "bem-transient"`` gives the field of pressure of every body; ``relative_error`` is asked of the depth, or of the force at a
+    given depth. Otherwise as ``slide``.
+    """
+    if duration is None and isinstance(material, Elastic):
+        duration = 1.0
+    loads = _given(normal_force=normal_force, indentation_depth=indentation_depth, duration=duration)
+    options = _given(
+        model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
+    )
+    return _solved(body, material, loads, options, progress)
+
+
+def solve(scene: Scene, *, progress: Progress = None) -> Answer:
+    """The answer to a scene: a scene file, or the same as a dictionary.
+
+    In a dictionary bodies and materials may stand in the place of their tables:
+    ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
+    """
+    table, folder, heights = read(scene)
+    request = {"scene": table, "folder": folder, "heights": heights, "columns": []}
+    with shown(progress) as show:
+        answer = Answer(_native.solve_loads(request, show), {}, ())
+    not_reached(answer)
+    return answer
+
+
+def _given(**values: Any) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _solved(
+    body: Body,
+    material: Material,
+    loads: dict[str, ArrayLike],
+    options: dict[str, Any],
+    progress: Progress,
+) -> Answer:
+    scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
+    table, folder, heights = read(scene)
+    columns, shape = together(loads)
+    request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items())}
+    with shown(progress) as show:
+        answer = Answer(_native.solve_loads(request, show), columns, shape)
+    not_reached(answer)
+    return answer
+
+
+def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
+    """The tables of a scene, the folder of the files that it names, and the heights of a map that it holds."""
+    if not isinstance(scene, Mapping):
+        path = Path(scene)
+        try:
+            return tomllib.loads(path.read_text("utf-8")), os.fspath(path.parent), None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise ValueError(f"{path}: {error}") from None
+    table = dict(scene)
+    heights = None
+    body = table.get("indenter")
+    if isinstance(body, HeightMap):
+        heights = (body.heights, body.spacing)
+    for key, kind in (("indenter", Body), ("material", Material)):
+        value = table.get(key)
+        if isinstance(value, kind):
+            table[key] = value._table()
+        elif not isinstance(value, Mapping):
+            raise ValueError(f"{key} must be a {kind.__name__} of this package, but is {value!r}")
+    return table, "", heights
+
+
+@contextmanager
+def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
+    """What is called with the progress."""
+    if progress is not True:
+        yield progress or None
+        return
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        raise ValueError("progress=True needs tqdm; give a function, or install tqdm") from None
+    with tqdm() as bar:
+
+        def show(done: int, count: int) -> None:
+            bar.total = count
+            bar.update(done - bar.n)
+
+        yield show
