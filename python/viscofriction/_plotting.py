@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from ._results import Answer
 
 LABELS = {
     "velocity": "speed [m/s]",
@@ -27,7 +24,7 @@ def axes(ax: Any) -> Any:
     return pyplot.subplots()[1]
 
 
-def plot(answer: Answer, ax: Any) -> Any:
+def plot(answer: Any, ax: Any) -> Any:
     """Friction, or where nothing slides the depth, over what varies; the pressure of a single scene."""
     if answer.shape == ():
         return pressure(answer, axes(ax))
@@ -51,7 +48,7 @@ def plot(answer: Answer, ax: Any) -> Any:
     return ax
 
 
-def pressure(answer: Answer, ax: Any) -> Any:
+def pressure(answer: Any, ax: Any) -> Any:
     """Pressure on the half space, with the direction of motion; load along a line; pressure across a cylinder."""
     answers = answer._single()
     for name, label in (("line_load", "load per length [N/m]"), ("line_pressure", "pressure [Pa]")):

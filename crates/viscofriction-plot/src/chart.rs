@@ -88,7 +88,8 @@ impl Chart {
                 field.size([&self.x, &self.y], largest)
             }
         };
-        let frame = Frame::new(self, [x + left, y], size)?;
+        let title = self.title.as_deref();
+        let frame = Frame::new(title, [&self.x, &self.y], [x + left, y], size)?;
         Ok(Panel {
             chart: self,
             legend: Legend::new(&self.series, &frame, self.legend)?,

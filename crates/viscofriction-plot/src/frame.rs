@@ -2,7 +2,6 @@
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Area, Canvas, FRAME_PEN, Pen, Pixel};
-use crate::chart::Chart;
 use crate::error::PlotError;
 use crate::font::{fitting_width, text_width};
 use crate::ticks::{Tick, ticks};
@@ -68,14 +67,14 @@ fn widest_label(ticks: &[Tick]) -> Result<f64, PlotError> {
 }
 
 impl<'a> Frame<'a> {
-    /// The frame of a chart, with data of this size and the panel's upper left corner, less its left margin, at the
-    /// pixel; refuses texts that are too long.
+    /// The frame of a chart over the axes x and y, with data of this size and the panel's upper left corner, less its
+    /// left margin, at the pixel; refuses texts that are too long.
     pub(crate) fn new(
-        chart: &'a Chart,
+        title: Option<&'a str>,
+        [x, y]: [&'a Axis; 2],
         [left, top]: Pixel,
         [width, height]: [f64; 2],
     ) -> Result<Self, PlotError> {
-        let title = chart.title.as_deref();
         if let Some(title) = title {
             fitting_width(title, TITLE_SIZE, width + SPILL)?;
         }
@@ -86,8 +85,8 @@ impl<'a> Frame<'a> {
             height,
         };
         let axes = [
-            AxisEdge::new(&chart.x, area, Edge::Bottom)?,
-            AxisEdge::new(&chart.y, area, Edge::Left)?,
+            AxisEdge::new(x, area, Edge::Bottom)?,
+            AxisEdge::new(y, area, Edge::Left)?,
         ];
         Ok(Self { title, area, axes })
     }

@@ -199,6 +199,12 @@ fn message(panic: &(dyn Any + Send)) -> &str {
     text.unwrap_or("without a message")
 }
 
+/// 10^first, 10^(first + step), …, 10^last, each as the nearest number; `powi` rounds more than once.
+pub(super) fn decades(first: i32, last: i32, step: usize) -> impl Iterator<Item = f64> {
+    let power = |exponent| format!("1e{exponent}").parse().unwrap_or(f64::NAN);
+    (first..=last).step_by(step).map(power)
+}
+
 #[cfg(test)]
 mod tests {
     use std::env::VarError;

@@ -5,7 +5,7 @@ use indenters::{
 };
 use rheology::{KelvinVoigt, Maxwell};
 
-use super::case::{Family, families};
+use super::case::{Family, decades, families};
 use super::line::sixteen_branches;
 use super::{half_space, line, range};
 use crate::scene::solid;
@@ -30,12 +30,6 @@ pub(super) fn all() -> Vec<Family> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// 10^first, 10^(first + step), …, 10^last, each as the nearest number; `powi` rounds more than once.
-pub(super) fn decades(first: i32, last: i32, step: usize) -> impl Iterator<Item = f64> {
-    let power = |exponent| format!("1e{exponent}").parse().unwrap_or(f64::NAN);
-    (first..=last).step_by(step).map(power)
 }
 
 fn ratios() -> impl Iterator<Item = f64> {

@@ -7,8 +7,7 @@ use indenters::{PowerProfile, SlidingLoad};
 use mdr_core::MdrError;
 use rheology::Viscous;
 
-use super::case::{Family, Row, compare, families, refused};
-use super::families::decades;
+use super::case::{Family, Row, compare, decades, families, refused};
 use super::half_space::{OPTIONS, beside_table, refined};
 use super::line::{self, Dashpot, marched, state};
 
