@@ -55,7 +55,8 @@ pub(crate) struct Evidence {
 impl Evidence {
     /// Runs an experiment with its options, separated by blanks, into an empty folder of this name.
     pub(crate) fn quick(name: &str, line: &str) -> Self {
-        let folder = folder(name);
+        // Tests that share a run may be processes of their own.
+        let folder = folder(&format!("{name}-{}", std::process::id()));
         let common = ["evidence", "--quick", "--out", argument(&folder)];
         let output = run(common.into_iter().chain(line.split(' ')));
         let message = text(&output.stderr);
