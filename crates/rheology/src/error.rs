@@ -59,6 +59,20 @@ pub enum RheologyError {
         /// Temperature of the other.
         second: f64,
     },
+    /// Storage and loss moduli that are those of a relaxing material only when they are exchanged.
+    #[cfg(feature = "fit")]
+    #[error(
+        "storage and loss modulus seem to be swapped: as they are, the best fit is off by {:.0} %, and {:.0} % the \
+         other way round",
+        100.0 * given,
+        100.0 * swapped
+    )]
+    SwappedModuli {
+        /// Root mean square relative error of the best series as they are.
+        given: f64,
+        /// The same of the exchanged ones.
+        swapped: f64,
+    },
     /// The moduli of a Prony series did not settle.
     #[cfg(feature = "fit")]
     #[error("the moduli did not settle in {changes} changes of their signs")]

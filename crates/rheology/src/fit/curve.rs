@@ -92,6 +92,22 @@ impl MeasuredCurve {
         let time_window = ends(&rows, points.len())?;
         Ok(Self { rows, time_window })
     }
+
+    /// The curve of oscillation with the names of its moduli exchanged.
+    pub(super) fn swapped(&self) -> Option<Self> {
+        let swapped = |row: &Row| {
+            let quantity = match row.quantity {
+                Quantity::Storage => Quantity::Loss,
+                Quantity::Loss => Quantity::Storage,
+                Quantity::Relaxation => return None,
+            };
+            Some(Row { quantity, ..*row })
+        };
+        Some(Self {
+            rows: self.rows.iter().map(swapped).collect::<Option<_>>()?,
+            time_window: self.time_window,
+        })
+    }
 }
 
 fn increasing(parameter: &'static str, value: f64, last: f64) -> Result<f64, InvalidParameter> {

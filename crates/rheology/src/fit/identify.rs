@@ -6,6 +6,7 @@ use numerics::{InvalidParameter, in_range, not_negative, positive};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
+use super::swapped;
 use super::system::Row;
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
@@ -78,8 +79,24 @@ const MAX_BRANCHES: usize = 200;
 ///
 /// # Errors
 /// [`RheologyError::InvalidParameter`] when an option is out of range; [`RheologyError::FitNotConverged`];
-/// [`RheologyError::NoStiffness`] when no branch can lower the error.
+/// [`RheologyError::NoStiffness`] when no branch can lower the error; [`RheologyError::SwappedModuli`].
 pub fn identify(
+    curve: &MeasuredCurve,
+    options: &IdentifyOptions,
+) -> Result<Identification, RheologyError> {
+    let found = series_of(curve, options);
+    let is_settled = match &found {
+        Ok(found) => found.rms_relative_error <= swapped::BAD,
+        Err(error) => matches!(error, RheologyError::InvalidParameter(_)),
+    };
+    if !is_settled {
+        swapped::check(curve, options.ending)?;
+    }
+    found
+}
+
+/// The same, however badly it fits.
+pub(super) fn series_of(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {

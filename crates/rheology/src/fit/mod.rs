@@ -5,6 +5,7 @@ mod identify;
 mod master_curve;
 mod nnls;
 mod refine;
+mod swapped;
 mod system;
 
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};

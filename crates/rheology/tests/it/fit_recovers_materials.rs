@@ -2,10 +2,10 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use casebook::{NEGATIVE, NOT_POSITIVE, assert_close, refuses};
-use rheology::RelaxationSpectrum;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
+use rheology::{RelaxationSpectrum, RheologyError};
 
 use crate::support::{named_spectrum, spectrum};
 
@@ -196,6 +196,20 @@ fn identification_does_not_depend_on_units() {
         assert_close!(new.modulus * 1e12 => old.modulus, within 1e-6);
         assert_close!(new.relaxation_time * 1e9 => old.relaxation_time, within 1e-6);
     }
+}
+
+/// As they are, no positive branches come closer than a fifth to them; one branch does not come closer to a broad spectrum.
+#[test]
+fn swapped_moduli_are_refused_and_bad_fits_are_not() {
+    let given = spectrum(1e5, 0.0, &[5e6, 2e7, 3e5], &[1e-5, 1e-2, 1e2]);
+    let swap = |_, [omega, storage, loss]: [f64; 3]| [omega, loss, storage];
+    let one = solid(Control::Branches(1));
+    let refused = identify(&measured(&given, -4..8, swap), &one);
+    let seen = matches!(refused, Err(RheologyError::SwappedModuli { given, swapped })
+        if given > 0.2 && swapped < 1e-3);
+    assert!(seen, "{refused:?}");
+    let found = identify(&oscillation(&given, -4..8), &one).unwrap();
+    assert!(found.rms_relative_error > 0.2, "{found:?}");
 }
 
 #[test]

@@ -4,7 +4,6 @@ mod columns;
 mod output_files;
 mod picture;
 mod shifting;
-mod swapped;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -88,13 +87,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let found = progress::during(format!("fitting {}", options.data.display()), || {
-        let found = identify(&curve, &options.identification()).map_err(wrong_option);
-        if let Points::Oscillation(points) = &points
-            && !found.as_ref().is_ok_and(swapped::is_good)
-        {
-            swapped::check(points, options.ending())?;
-        }
-        found
+        identify(&curve, &options.identification()).map_err(wrong_option)
     })?;
     let fitted = Fitted {
         options,
@@ -155,14 +148,6 @@ impl Points {
 }
 
 impl FitMaterial {
-    const fn ending(&self) -> Ending {
-        if self.liquid {
-            Ending::Liquid
-        } else {
-            Ending::Solid
-        }
-    }
-
     fn identification(&self) -> IdentifyOptions {
         let defaults = IdentifyOptions::default();
         let control = match (self.branches, self.smoothing, self.parsimony) {
@@ -171,10 +156,12 @@ impl FitMaterial {
             (None, _, Some(tolerance)) => Control::Parsimony { tolerance },
             (None, _, None) => defaults.control,
         };
-        IdentifyOptions {
-            ending: self.ending(),
-            control,
-        }
+        let ending = if self.liquid {
+            Ending::Liquid
+        } else {
+            Ending::Solid
+        };
+        IdentifyOptions { ending, control }
     }
 }
 
