@@ -26,6 +26,8 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+#[cfg(feature = "fit")]
+pub mod moduli;
 pub mod npy;
 pub mod scene;
 pub mod solve;

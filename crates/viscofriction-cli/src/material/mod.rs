@@ -1,10 +1,8 @@
 //! `fit-material`: a table of measured moduli becomes the material of a scene.
 
-mod columns;
 mod output_files;
 mod picture;
 mod shifting;
-mod table;
 
 use std::path::{Path, PathBuf};
 
@@ -16,18 +14,21 @@ use rheology::fit::{
 };
 use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
+use viscofriction::moduli::{
+    Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
+};
 
 use crate::input::read_input;
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
-use table::{Measurements, Table};
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: viscofriction fit-material measured.csv --out rubber")]
 pub(crate) struct FitMaterial {
-    /// Table of comma separated values: a line of names (f or ω, E' and E'' or G' and G'', perhaps T; or t and E_relax or
-    /// G_relax), a line of units (Hz or rad/s, Pa to GPa, C or K, s), then one line per measurement.
+    /// Table as an instrument exports it: a line of names (f or ω with two of E', E'' and tan delta, or G' and G'', perhaps
+    /// T; or t with E_relax or G_relax) with units (Hz or rad/s, Pa to GPa, C or K, s) in the names or in the line below,
+    /// then one line per measurement. Separator, decimal mark and encoding are found; text before the names is not read.
     data: PathBuf,
     /// Where material.toml, fit.csv, fit.svg and fit.png are written [default: material.toml on the standard output].
     #[arg(long, value_name = "DIR")]
@@ -43,6 +44,9 @@ pub(crate) struct FitMaterial {
         allow_negative_numbers = true
     )]
     poisson_ratio: f64,
+    /// What a "storage modulus" is where the table does not say E or G.
+    #[arg(long, value_name = "KIND")]
+    deformation: Option<Deformation>,
     /// The material flows in the end: no equilibrium modulus.
     #[arg(long)]
     liquid: bool,
@@ -79,10 +83,10 @@ pub(crate) struct FitMaterial {
 /// Reads the table, fits it, and writes the material and its picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let contents = read_input(&options.data)?;
-    let shear_per_tension = shear_per_tension(options.poisson_ratio)?;
-    let table = Table::read(&options.data, &contents, shear_per_tension)?;
+    let table = options.table()?;
+    let moduli = measured_moduli(&options.data, &contents, &table)?;
     let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
-    let (points, master) = joined(table, options).map_err(wrong)?;
+    let (points, master) = joined(moduli, options).map_err(wrong)?;
     let curve = points.curve().map_err(wrong)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
@@ -105,23 +109,27 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
 
 /// The points of one curve, and of several isotherms their master curve.
 fn joined(
-    table: Table,
+    moduli: MeasuredModuli,
     options: &FitMaterial,
 ) -> Result<(Points, Option<MasterCurve>), RheologyError> {
-    let isotherms = match table.measurements {
+    let isotherms = match moduli.measurements {
         Measurements::Relaxation(points) => return Ok((Points::Relaxation(points), None)),
         Measurements::Oscillation(isotherms) => isotherms,
     };
     if let [only] = &isotherms[..] {
         return Ok((Points::Oscillation(only.points.clone()), None));
     }
-    let master = shifting::master_curve(&isotherms, table.celsius, options)?;
+    let master = shifting::master_curve(&isotherms, moduli.celsius, options)?;
     Ok((Points::Oscillation(master.points.clone()), Some(master)))
 }
 
 /// Checks what would be a table of incompressible material.
 pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
-    Table::read(file, contents, shear_per_tension(0.5)?).map(|_| ())
+    let incompressible = TableOptions {
+        shear_per_tension: 1.0 / 3.0,
+        deformation: None,
+    };
+    measured_moduli(file, contents, &incompressible).map(|_| ())
 }
 
 /// What the command found.
@@ -148,6 +156,14 @@ impl Points {
 }
 
 impl FitMaterial {
+    fn table(&self) -> Result<TableOptions> {
+        Ok(TableOptions {
+            shear_per_tension: shear_per_tension(self.poisson_ratio)
+                .map_err(|refused| wrong_option(refused.into()))?,
+            deformation: self.deformation,
+        })
+    }
+
     fn identification(&self) -> IdentifyOptions {
         let defaults = IdentifyOptions::default();
         let control = match (self.branches, self.smoothing, self.parsimony) {
@@ -176,16 +192,6 @@ impl Fitted<'_> {
     }
 }
 
-/// G/E at a constant Poisson ratio.
-fn shear_per_tension(poisson_ratio: f64) -> Result<f64, WrongInput> {
-    if !(poisson_ratio > -1.0 && poisson_ratio <= 0.5) {
-        return Err(WrongInput(format!(
-            "--poisson-ratio must be greater than -1 and at most 0.5, but is {poisson_ratio}"
-        )));
-    }
-    Ok(0.5 / (1.0 + poisson_ratio))
-}
-
 /// An option that the library refuses is the user's; that a fit does not converge is not.
 fn wrong_option(error: RheologyError) -> anyhow::Error {
     match error {
@@ -194,6 +200,7 @@ fn wrong_option(error: RheologyError) -> anyhow::Error {
                 "n_branches" => "--branches",
                 "tolerance" => "--parsimony",
                 "weight" => "--smoothing",
+                "poisson_ratio" => "--poisson-ratio",
                 other => other,
             };
             let refused = InvalidParameter {

@@ -4,6 +4,7 @@ mod answers_agree;
 mod any_scene_is_answered;
 mod documented_commands;
 mod explained_omissions;
+mod exported_tables;
 mod files;
 mod fit_material;
 mod fuzzed_inputs;

@@ -151,8 +151,7 @@ a,1,2,0.5,\nb,2,2,0.7,\n | 3 | the row is of another sweep
 
 /// Measured moduli | place in the file | what is said.
 const MODULI: &str = r#"
-f,E',E''\nHz,MPa,MPa\n2,10,1\n1,11,1\n | line 4, column 1 (f) | expected more than in the line before, 2, but found '1'
-f,E',E''\nHz,MPa,MPa\n1,10,1\n1,11,1\n | line 4, column 1 (f) | expected more than in the line before, 1, but found '1'
+f,E',E''\nHz,MPa,MPa\n1,10,1\n1,11,1\n | line 4, column 1 (f) | expected a value that no row before has at this temperature, but found '1'
 f,E',E''\nHz,MPa,MPa\n1,10,1\n2,-11,1\n | line 4, column 2 (E') | expected a number greater than 0, but found '-11'
 f,E',E''\nHz,MPa,MPa\n0,10,1\n2,11,1\n | line 3, column 1 (f) | expected a number greater than 0, but found '0'
 f,E',E''\nHz,MPa,MPa\n1,10,nan\n2,11,1\n | line 3, column 3 (E'') | expected a finite number, but found 'nan'
@@ -167,8 +166,14 @@ f,E',G''\nHz,MPa,MPa\n1,1,1\n2,1,1\n | line 1, column 3 (G'') | expected a loss 
 f,E',E'',E'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n | line 1, column 4 (E') | expected a quantity once
 f,E',E'',G'\nHz,MPa,MPa,MPa\n1,1,1,1\n2,1,1,1\n | line 1, column 4 (G') | expected a quantity once, in tension (E) or in shear (G)
 t,E_relax,T\ns,MPa,C\n1,10,20\n2,9,20\n1,8,40\n | line 5 | relaxation at several temperatures is not shifted
-f,E',E''\nHz,MPa,MPa\n1,10,1\n | line 3 | at least 2 measurements are needed after the lines of names and units, but there are 1
- | line 1 | a line of names and a line of units are needed
+f,E',E''\nHz,MPa,MPa\n1,10,1\n | line 3 | at least 2 measurements are needed after the names and units, but there are 1
+f;E2;T\nHz;MPa;C\n1,5;2,5;20\n2,5;3;20\n | line 1 | a line of names is needed: f or ω with two of E'
+f;E2;T\nHz;MPa;C\n1,5;2,5;20\n2,5;3;20\n | line 1 | separated by semicolons, the columns are 'f', 'E2', 'T'
+f;E' (MPa)\nHz;MPa\n1,5;2,5\n2,5;3\n | line 1 | separated by semicolons, the columns are 'f', 'E' (MPa)'
+f (Hz),G' (psi),G'' (Pa)\n1,10,1\n2,11,1\n | line 1, column 2 (G' (psi)) | expected the unit of G' (psi): Pa, kPa, MPa, GPa, but found 'psi'
+# f [Hz];Storage modulus [Pa];Loss modulus [Pa]\n1;10;1\n2;11;1\n | line 1, column 2 (Storage modulus [Pa]) | or else the option deformation
+f (Hz);G' (Pa);tan delta\n1,5;2;0,1\n2.5;2;0,1\n2,5;2;0,1\n | line 3, column 1 (f (Hz)) | expected a finite number, but found '2.5'
+ | line 1 | a line of names is needed
 "#;
 /// Tables of a scene, and keys of each that must be positive numbers.
 const NUMBERS: &str = "

@@ -1,0 +1,82 @@
+//! Rows of a table by their temperatures.
+
+use std::collections::BTreeMap;
+
+/// A measurement, in SI and in shear.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Row {
+    pub(super) line: usize,
+    /// ω or t, greater than 0.
+    pub(super) at: f64,
+    /// G' and G'', or G(t) twice.
+    pub(super) moduli: [f64; 2],
+    pub(super) temperature: Option<f64>,
+    pub(super) set: Option<f64>,
+}
+
+/// Rows of one temperature.
+#[derive(Debug)]
+pub(super) struct Group {
+    /// Where it begins.
+    pub(super) line: usize,
+    pub(super) temperatures: Vec<f64>,
+    set: Option<f64>,
+    /// By the bits of ω or t, which are in the order of the numbers.
+    pub(super) rows: BTreeMap<u64, Row>,
+}
+
+/// Within an isotherm the temperature may drift by this much, \[K].
+const DRIFT: f64 = 1.0;
+
+/// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
+/// frequencies may come in any order, and so may the temperatures.
+///
+/// # Errors
+/// What was expected, when the latest isotherm has a row of this frequency and temperature.
+pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static str> {
+    let key = row.at.to_bits();
+    let distance = |group: &Group| group.distance(&row);
+    if let Some(last) = groups.last()
+        && let Some(same) = last.rows.get(&key)
+        && distance(last).is_some()
+        && (row.set.is_some() || same.temperature == row.temperature)
+    {
+        return Err("a value that no row before has at this temperature");
+    }
+    let free = groups
+        .iter_mut()
+        .rev()
+        .filter(|group| !group.rows.contains_key(&key));
+    let near = free.filter_map(|group| Some((distance(group)?, group)));
+    match near.min_by(|one, other| one.0.total_cmp(&other.0)) {
+        Some((_, group)) => {
+            group.temperatures.extend(row.temperature);
+            group.rows.insert(key, row);
+        }
+        None => groups.push(Group {
+            line: row.line,
+            temperatures: row.temperature.into_iter().collect(),
+            set: row.set,
+            rows: BTreeMap::from([(key, row)]),
+        }),
+    }
+    Ok(())
+}
+
+impl Group {
+    /// How far a row is from the first one in temperature, where it may be of this isotherm.
+    fn distance(&self, row: &Row) -> Option<f64> {
+        match (
+            row.set,
+            self.set,
+            row.temperature,
+            self.temperatures.first(),
+        ) {
+            (Some(set), Some(own), ..) => set.total_cmp(&own).is_eq().then_some(0.0),
+            (.., Some(temperature), Some(first)) => {
+                Some((temperature - first).abs()).filter(|distance| *distance <= DRIFT)
+            }
+            _ => Some(0.0),
+        }
+    }
+}

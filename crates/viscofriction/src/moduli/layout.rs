@@ -1,0 +1,129 @@
+//! From bytes to lines of cells: encoding, separator and decimal mark.
+
+use std::borrow::Cow;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// The text of a file in UTF-8, in UTF-16 with a byte-order mark, or else in Latin-1.
+pub(super) fn text_of(contents: &[u8]) -> Cow<'_, str> {
+    let utf16 = |pairs: &[u8], unit: fn([u8; 2]) -> u16| {
+        let units = pairs.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+        Cow::from(String::from_utf16_lossy(&units.collect::<Vec<_>>()))
+    };
+    match contents {
+        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
+        [0xef, 0xbb, 0xbf, rest @ ..] | rest => str::from_utf8(rest).map_or_else(
+            |_| rest.iter().map(|&byte| char::from(byte)).collect(),
+            Cow::from,
+        ),
+    }
+}
+
+/// How the cells of a table are separated, and their numbers written.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layout {
+    separator: char,
+    decimal_mark: char,
+}
+
+/// Separators and their names, for messages.
+const SEPARATORS: [(char, &str); 4] = [
+    ('\t', "tabs"),
+    (';', "semicolons"),
+    (',', "commas"),
+    (' ', "blanks"),
+];
+
+impl Layout {
+    /// The layout in which the most lines have the same number of cells and of numbers, at least two; of several the one
+    /// with the fewest cells that are no numbers, and of those the first.
+    pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Self {
+        let layouts = SEPARATORS.iter().flat_map(|&(separator, _)| {
+            ['.', ','].map(|decimal_mark| Self {
+                separator,
+                decimal_mark,
+            })
+        });
+        let rank = |layout: &Self| {
+            let mut counts = BTreeMap::new();
+            for line in lines.clone() {
+                let cells = layout.cells(line);
+                let is_number = |cell: &&&str| layout.number(cell).is_some();
+                let numbers = cells.iter().filter(is_number).count();
+                let empty = cells.iter().filter(|cell| cell.is_empty()).count();
+                if numbers >= 2 {
+                    let others = cells.len() - numbers - empty;
+                    *counts.entry((others, cells.len(), numbers)).or_insert(0) += 1;
+                }
+            }
+            let ranks = counts
+                .into_iter()
+                .map(|((others, ..), lines)| (Reverse(lines), others));
+            ranks.min().unwrap_or((Reverse(0), usize::MAX))
+        };
+        // A text without numbers is refused later, with these separators in the message.
+        layouts.min_by_key(rank).unwrap_or(Self {
+            separator: ',',
+            decimal_mark: '.',
+        })
+    }
+
+    /// Whether blanks separate, one or more.
+    pub(super) const fn is_blank(self) -> bool {
+        self.separator == ' '
+    }
+
+    /// What is between the cells, for messages.
+    pub(super) fn separators(self) -> &'static str {
+        let mut known = SEPARATORS.iter();
+        known
+            .find(|(separator, _)| *separator == self.separator)
+            .map_or("", |(_, name)| name)
+    }
+
+    pub(super) fn cells(self, line: &str) -> Vec<&str> {
+        if self.is_blank() {
+            return line.split_whitespace().collect();
+        }
+        let [mut quoted, mut begins] = [false, true];
+        let cells = line.split(|character| {
+            quoted ^= character == '"' && (quoted || begins);
+            let ends = character == self.separator && !quoted;
+            begins = ends || (begins && character == ' ');
+            ends
+        });
+        cells.map(|cell| unquoted(cell.trim())).collect()
+    }
+
+    /// Names and units may stand in a comment. Where blanks separate, names with blanks in them are two blanks apart.
+    pub(super) fn names(self, line: &str) -> Vec<&str> {
+        let line = line.trim_start_matches(MARKS);
+        if self.is_blank() && line.trim().contains("  ") {
+            let names = line.split("  ").map(str::trim);
+            return names.filter(|name| !name.is_empty()).collect();
+        }
+        self.cells(line)
+    }
+
+    pub(super) fn number(self, cell: &str) -> Option<f64> {
+        let number = match self.decimal_mark {
+            '.' => cell.parse().ok(),
+            _ if cell.contains('.') || cell.ends_with(',') => None,
+            _ => cell.replace(',', ".").parse().ok(),
+        };
+        number.filter(|number: &f64| number.is_finite())
+    }
+}
+
+fn unquoted(cell: &str) -> &str {
+    let rest = cell.strip_prefix('"');
+    rest.map_or(cell, |rest| rest.strip_suffix('"').unwrap_or(rest).trim())
+}
+
+const MARKS: [char; 2] = ['#', '%'];
+
+/// Whether a line is a comment.
+pub(super) fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with(MARKS) || line.trim_start().starts_with("//")
+}
