@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use indenters::{Axisymmetric, Cylinder, PowerProfile, contact_radius};
-use numerics::{Estimate, bracketed_root, not_negative};
+use numerics::{Estimate, bracketed_root, in_range, not_negative};
 use rheology::Viscous;
 
 use crate::FrictionError;
@@ -133,6 +133,46 @@ pub fn cylinder_half_width_after_impulse(
     let divisors = [PI, material.viscosity()].map(f64::sqrt);
     let half_width = roots[0] / divisors[0] / divisors[1] * roots[1];
     representable("half width", half_width)
+}
+
+/// Pressure at a `radius` r below that of the contact, under a body that is pressed without sliding to an indentation
+/// `depth` > 0 \[m], over the modulus G/(2 (1 − ν)) of an elastic half space (Sneddon 1965, Int. J. Eng. Sci. 3, 47):
+/// `(4/π) [∫_r^a h̃'(x)/√(x² − r²) dx + (d − h̃(a))/√(a² − r²)]`.
+///
+/// On a viscous half space it is the impulse per area ∫ p dt since first touch, over the viscosity.
+///
+/// # Errors
+/// Like [`impulse_to_depth`]; [`FrictionError::InvalidParameter`] for a radius outside the contact, or under the tip of a
+/// body as sharp as a cone, where the pressure is infinite; [`FrictionError::NotConverged`] when the integral is known to
+/// less than ten digits, as it is below a body with a flat end and a flank.
+pub fn indentation_pressure(
+    body: &(impl Axisymmetric + ?Sized),
+    depth: f64,
+    radius: f64,
+) -> Result<f64, FrictionError> {
+    let contact = contact_radius(body, depth)?;
+    let blunt = radius > 0.0 || body.profile_exponent() > 1.0;
+    let inside = (0.0..contact).contains(&radius) && blunt;
+    in_range(
+        "radius",
+        radius,
+        inside,
+        "inside the contact, and not at a tip",
+    )?;
+    let leg = |x: f64| ((x - radius) * (x + radius)).sqrt();
+    let ends = ends_outside_apex(body, contact).into_iter();
+    let ends = [radius].into_iter().chain(ends.filter(|end| *end > radius));
+    // x = r cosh t removes the root, and there is none at r = 0.
+    let angle = |x: f64| (leg(x) / radius).asinh();
+    let over_angle = |t: f64| body.line_slope((radius * t.cosh()).min(contact));
+    let integral = if radius > 0.0 {
+        over_pieces(over_angle, &ends.map(angle).collect::<Vec<f64>>())
+    } else {
+        over_pieces(|x| body.line_slope(x) / x, &ends.collect::<Vec<f64>>())
+    };
+    let smooth = accepted("pressure", integral)?.value;
+    let punch = (depth - body.line_height(contact)) / leg(contact);
+    Ok(4.0 / PI * (smooth + punch))
 }
 
 /// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.

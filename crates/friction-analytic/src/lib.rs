@@ -5,10 +5,12 @@
 //!   their [sums](superposition_sliding), any [body of revolution](axisymmetric_sliding) and any [line](line_sliding).
 //! - Towards the stationary state: the [sinking velocity](sinking_velocity) (15) and the exact [transient](transient_sliding) of cone and
 //!   paraboloid from first touch.
-//! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too.
+//! - Without sliding: the [indentation after an impulse](indentation_after_impulse), exact on the half space too, with
+//!   its [pressure](indentation_pressure), and the force of a [ramp of the depth](ramp_force) on any material.
 //! - Other materials: cone and paraboloid on a [Kelvin–Voigt](kelvin_voigt_sliding) and a [Maxwell](maxwell_sliding)
 //!   foundation, a [wavy line](wavy_sliding) in full contact on any; for any solid the friction at
 //!   [low](low_speed_friction) and [high](high_speed_friction) speed.
+//! - In plane strain: a [cylinder](cylinder_sliding) on a three-element or Kelvin–Voigt solid (Hunter 1961).
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
@@ -37,12 +39,14 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod axisymmetric;
+mod cylinder;
 mod elastic_limit;
 mod error;
 mod indentation;
 mod line;
 mod pieces;
 mod power;
+mod ramp;
 mod scaling;
 mod sinking;
 mod stationary;
@@ -52,17 +56,19 @@ mod viscoelastic;
 mod wavy;
 
 pub use axisymmetric::axisymmetric_sliding;
+pub use cylinder::{CylinderSliding, LineContact, cylinder_sliding};
 pub use elastic_limit::{
     ElasticContact, ElasticLimitFriction, high_speed_friction, low_speed_friction,
 };
 pub use error::{DivergenceCause, FrictionError};
 pub use indentation::{
     Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
-    power_indentation_after_impulse,
+    indentation_pressure, power_indentation_after_impulse,
 };
 pub use line::line_sliding;
 pub use numerics::InvalidParameter;
 pub use power::power_sliding;
+pub use ramp::{DepthRamp, ramp_force};
 pub use scaling::{half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
 pub use stationary::{StationarySliding, stationary_depth};

@@ -1,0 +1,190 @@
+//! A rigid cylinder that slides on a solid with one relaxation time, in plane strain (Hunter 1961, J. Appl. Mech. 28, 611).
+//!
+//! With T = v τ, the retardation length L = T G(0)/G_∞ and s = (x − x₀)/l in a contact of the length 2l around x₀, the
+//! combination q of the pressure removes the memory from the contact, where u = d − x²/(2R):
+//!
+//! ```text
+//! q = p − T p'         (1/π) ∫ q ds/(s₀ − s) = 2 G_∞ (x − L)/(f R),   f = 2 (1 − ν)                              (1)
+//! f R q/(2 G_∞) = [l (1 − s²) + (L − x₀) s + C]/√(1 − s²)                                                       (2)
+//! ```
+//!
+//! x₀ and C follow from p = 0 at the rear, ∫ e^(−zs) q ds = 0 with z = l/T, and from the slope of the surface ahead of the
+//! front, ∫₁^∞ e^(−ks) [C − x₀ s]/√(s² − 1) ds = 0 with k = l/L. With a = I₁/I₀(z), a₂ = I₂/I₀(z), b = K₀/K₁(k) and
+//! D = L − T,
+//!
+//! ```text
+//! x₀ = D a b/(1 + a b)       C = D a/(1 + a b)                                                                  (3)
+//! F' = π G_∞ l (l + 2C)/(f R)       μ R = D [2 x₀ a/(1 + a b) + l (a b + a₂)/(1 + a b)]/(l + 2C)                (4)
+//! p(s) = z ∫_s^1 e^(−z(σ − s)) q(σ) dσ                                                                          (5)
+//! ```
+//!
+//! No term of (3) and (4) is a difference. (1) to (5) are derived here and numbered as here. Kelvin–Voigt is a = a₂ = 1,
+//! T = 0. For G_∞ → 0, Maxwell, the force tends to 2π η v a l/(f R), and x₀ to infinity like l a ln(1/k): there is no
+//! stationary state of a fluid in plane strain.
+
+use std::f64::consts::PI;
+
+use indenters::Cylinder;
+use numerics::{in_range, integrate, positive};
+use rheology::Material;
+
+use crate::FrictionError;
+use crate::error::representable;
+
+/// Terms e^(−x) with a larger x are below rounding and left out.
+const LARGEST_EXPONENT: f64 = 40.0;
+/// Intervals of a trapezoidal rule at least, and per unit of its length: with these all digits of Bessel functions.
+const INTERVALS: f64 = 64.0;
+const INTERVALS_PER_LENGTH: f64 = 8.0;
+/// Relative accuracy of a pressure.
+const ACCURACY: f64 = 1e-13;
+
+/// A line contact of which the length and the speed are known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LineContact {
+    /// Half the length of the contact l, \[m].
+    pub half_length: f64,
+    /// Sliding speed v, \[m/s].
+    pub velocity: f64,
+}
+
+/// Stationary sliding of a cylinder in plane strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct CylinderSliding {
+    /// Rear and front of the contact relative to the lowest point of the cylinder, \[m].
+    pub contact: [f64; 2],
+    /// Normal force per length F', \[N/m].
+    pub line_load: f64,
+    /// Friction coefficient μ.
+    pub friction_coefficient: f64,
+    /// 2 G_∞ l/(f R), \[Pa].
+    stress: f64,
+    /// T/l.
+    relaxation: f64,
+    /// C/l.
+    singular: f64,
+}
+
+/// Sliding of a rigid cylinder on a three-element solid, Kelvin–Voigt or elastic half space, (3) and (4).
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for a contact that cannot be, a material that flows, or more than one relaxing
+/// element; [`FrictionError::OutOfRange`] when a result overflows or underflows. An elastic solid has μ = 0.
+pub fn cylinder_sliding(
+    cylinder: &Cylinder,
+    material: &(impl Material + ?Sized),
+    contact: LineContact,
+) -> Result<CylinderSliding, FrictionError> {
+    let half_length = positive("half_length", contact.half_length)?;
+    let velocity = positive("velocity", contact.velocity)?;
+    let spectrum = material.relaxation();
+    let modulus = positive("equilibrium_modulus", spectrum.equilibrium_modulus())?;
+    let (branches, dashpot) = (spectrum.branches(), spectrum.viscosity());
+    let relaxing = branches.len() + usize::from(dashpot > 0.0);
+    in_range(
+        "number of relaxing elements",
+        relaxing as f64,
+        relaxing < 2,
+        "0 or 1",
+    )?;
+    // In units of l; both are zero on an elastic solid.
+    let time = branches
+        .first()
+        .map_or(0.0, |branch| branch.relaxation_time);
+    let relaxation = velocity * time / half_length;
+    let difference = velocity * (spectrum.zero_shear_viscosity() / modulus) / half_length;
+    let [a, a2] = ratios_of_i(relaxation.recip());
+    let b = ratio_of_k((relaxation + difference).recip());
+    let rest = (1.0 + a * b).recip();
+    let [middle, singular] = [difference * a * b * rest, difference * a * rest];
+    let work = 2.0 * middle * a * rest + (a * b + a2) * rest;
+    let friction = difference * work / (1.0 + 2.0 * singular);
+    let slope = half_length / cylinder.radius();
+    let stress = 2.0 * modulus / material.half_space_factor() * slope;
+    let line_load = 0.5 * PI * stress * half_length * (1.0 + 2.0 * singular);
+    if relaxing > 0 {
+        representable("friction coefficient", friction * slope)?;
+    }
+    Ok(CylinderSliding {
+        contact: [middle - 1.0, middle + 1.0].map(|end| end * half_length),
+        line_load: representable("line load", line_load)?,
+        friction_coefficient: friction * slope,
+        stress,
+        relaxation,
+        singular,
+    })
+}
+
+impl CylinderSliding {
+    /// Pressure at a distance from the lowest point of the cylinder, (5), \[Pa]; 0 outside the contact and at its ends. On
+    /// a Kelvin–Voigt solid it is infinite at the front.
+    #[must_use]
+    pub fn pressure(&self, x: f64) -> f64 {
+        let [rear, front] = self.contact;
+        let [ahead, behind] = [front - x, x - rear];
+        if ahead.min(behind) <= 0.0 {
+            return 0.0;
+        }
+        // s = cos φ.
+        let angle = 2.0 * ahead.sqrt().atan2(behind.sqrt());
+        let z = self.relaxation.recip();
+        let [a, _] = ratios_of_i(z);
+        // L − x₀ = T + C/a.
+        let odd = self.relaxation + self.singular / a;
+        let even = |sine: f64| sine * sine + self.singular;
+        if z.is_infinite() {
+            let cotangent = (0.5 * angle).tan().recip();
+            return self.stress * (angle.sin() + self.singular * cotangent);
+        }
+        let integrand = |phi: f64| {
+            let distance = 2.0 * (0.5 * (angle - phi)).sin() * (0.5 * (angle + phi)).sin();
+            let (sine, cosine) = phi.sin_cos();
+            z * (-z * distance).exp() * (even(sine) + odd * cosine)
+        };
+        let first = (angle.cos() + LARGEST_EXPONENT / z).min(1.0).acos();
+        self.stress * integrate(integrand, [first, angle], ACCURACY).value
+    }
+}
+
+/// I₁/I₀ and I₂/I₀ of z > 0, from ∫₀^π e^(z cos θ) sin^(2n) θ dθ (NIST DLMF 10.32.2).
+fn ratios_of_i(z: f64) -> [f64; 2] {
+    if z.is_infinite() {
+        return [1.0; 2];
+    }
+    let end = 2.0 * (0.5 * LARGEST_EXPONENT / z).sqrt().min(1.0).asin();
+    let integral = |power: i32| {
+        trapezoid(end, |theta| {
+            (-2.0 * z * (0.5 * theta).sin().powi(2)).exp() * theta.sin().powi(2 * power)
+        })
+    };
+    let zeroth = integral(0);
+    [
+        z * integral(1) / zeroth,
+        z * z * integral(2) / (3.0 * zeroth),
+    ]
+}
+
+/// K₀/K₁ of k > 0, from ∫₀^∞ e^(−k cosh t) cosh νt dt (NIST DLMF 10.32.9).
+fn ratio_of_k(k: f64) -> f64 {
+    if k.is_infinite() {
+        return 1.0;
+    }
+    let end = 2.0 * (0.5 * LARGEST_EXPONENT / k).sqrt().asinh();
+    let weight = |t: f64| (-2.0 * k * (0.5 * t).sinh().powi(2)).exp();
+    trapezoid(end, weight) / trapezoid(end, |t| weight(t) * t.cosh())
+}
+
+/// ∫ from 0 to `end` of an even function that is even about `end` too, or has vanished there.
+fn trapezoid(end: f64, integrand: impl Fn(f64) -> f64) -> f64 {
+    let intervals = (INTERVALS + INTERVALS_PER_LENGTH * end).ceil();
+    let step = end / intervals;
+    let inner: f64 = (1_u32..)
+        .map(f64::from)
+        .take_while(|k| *k < intervals)
+        .map(|k| integrand(k * step))
+        .sum();
+    step * (inner + 0.5 * (integrand(0.0) + integrand(end)))
+}

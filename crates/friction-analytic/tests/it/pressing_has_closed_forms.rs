@@ -1,0 +1,112 @@
+//! The force of ramps of the depth on any material, and the pressure under bodies of revolution.
+
+use std::f64::consts::{PI, TAU};
+
+use casebook::{NOT_POSITIVE, assert_close, model, prony, refused, refuses};
+use friction_analytic::{DepthRamp, impulse_to_depth, indentation_pressure, ramp_force};
+use indenters::{Axisymmetric, FlatPunch, Sphere};
+use numerics::integrate;
+use rheology::{Compressible, Material};
+
+use crate::support::{power, viscous};
+
+/// The force at a time, with a depth rate of 1.
+fn force(exponent: f64, material: &dyn Material, time: f64) -> f64 {
+    let indentation_depth = time;
+    let ramp = DepthRamp {
+        indentation_depth,
+        time,
+    };
+    ramp_force(&power(0.4, exponent), material, ramp).unwrap()
+}
+
+/// M = 2 (y − 1 + e^(−y))/y² for a cone, and (1 − e^(−y))/y for the steepest profiles.
+#[test]
+fn ramps_of_cones_and_steep_profiles_have_elementary_forces() {
+    let maxwell = prony([0.0, 0.0], &[(3.0, 0.5)]);
+    let compressible = Compressible::new(&maxwell, 0.2).unwrap();
+    for y in [1e-3_f64, 0.3, 4.0, 90.0, 1e6] {
+        let elastic = |p| force(p, &prony([3.0, 0.0], &[]), 0.5 * y);
+        let decay = -(-y).exp_m1();
+        let cone = if y < 0.01 {
+            1.0 - y / 3.0 + y * y / 12.0
+        } else {
+            2.0 * (y - decay) / (y * y)
+        };
+        assert_close!(force(1.0, &maxwell, 0.5 * y) => cone * elastic(1.0), within 1e-10; "{y}");
+        assert_close!(force(1.0, &compressible, 0.5 * y) => cone * elastic(1.0) / 1.6, within 1e-10; "{y}");
+        assert_close!(force(1e9, &maxwell, 0.5 * y) => decay / y * elastic(1e9), within 1e-7; "{y}");
+    }
+}
+
+/// The impulse of a ramp on a dashpot is that to its depth, and on a branch F + τ dF/dt = τ dF_e/dt.
+#[test]
+fn ramps_satisfy_the_rate_equation_of_their_material() {
+    for p in [0.3, 1.5, 2.0, 7.0] {
+        // F ~ t^(1/p).
+        let impulse = 0.7 * force(p, &viscous(2.0), 0.7) * p / (p + 1.0);
+        let expected = impulse_to_depth(&power(0.4, p), &viscous(2.0), 0.7).unwrap();
+        assert_close!(impulse => expected, within 1e-10; "{p}");
+        let [elastic, maxwell] = [prony([3.0, 0.0], &[]), prony([0.0, 0.0], &[(3.0, 0.5)])];
+        let both = prony([3.0, 0.0], &[(3.0, 0.5)]);
+        for time in [0.02, 0.4, 5.0] {
+            let rate = |material| {
+                let step = 1e-4 * time;
+                (force(p, material, time + step) - force(p, material, time - step)) / (2.0 * step)
+            };
+            let left = force(p, &maxwell, time) + 0.5 * rate(&maxwell);
+            assert_close!(left => 0.5 * rate(&elastic), within 1e-6; "{p}, {time}");
+            let sum = force(p, &elastic, time) + force(p, &maxwell, time);
+            assert_close!(force(p, &both, time) => sum, within 1e-14; "{p}, {time}");
+        }
+    }
+}
+
+#[test]
+fn pressures_are_those_of_hertz_and_sneddon() {
+    let middle = indentation_pressure(&power(0.5, 2.0), 1.0, 0.0).unwrap();
+    assert_close!(middle => 8.0 / PI, within 1e-12);
+    for r in [1e-6_f64, 0.2, 0.9, 0.999] {
+        let root = ((1.0 - r) * (1.0 + r)).sqrt();
+        // h = r²/2 is 1 deep with a = 1: (4/π) ∫ 2x dx/√(x² − r²).
+        let paraboloid = indentation_pressure(&power(0.5, 2.0), 1.0, r).unwrap();
+        assert_close!(paraboloid => 8.0 / PI * root, within 1e-10; "{r}");
+        // h = r is π/2 deep: (4/π) (π/2) arcosh(1/r).
+        let cone = indentation_pressure(&power(1.0, 1.0), 0.5 * PI, r).unwrap();
+        assert_close!(cone => 2.0 * r.recip().acosh(), within 1e-9; "{r}");
+        let punch = indentation_pressure(&FlatPunch::new(1.0).unwrap(), 0.3, r).unwrap();
+        assert_close!(punch => 1.2 / PI / root, within 1e-10; "{r}");
+    }
+}
+
+#[test]
+fn the_pressure_carries_the_force() {
+    let sphere = Sphere::new(1.0).unwrap();
+    let bodies: [&dyn Axisymmetric; 3] = [&sphere, &power(2.0, 0.8), &power(0.4, 5.0)];
+    for body in bodies {
+        let radius = indenters::contact_radius(body, 0.2).unwrap();
+        let ring = |r: f64| TAU * r * indentation_pressure(body, 0.2, r).unwrap();
+        // The pressure vanishes at the edge, where the radius is rounded.
+        let force = integrate(ring, [0.0, radius * (1.0 - 1e-9)], 1e-10).value;
+        let expected = impulse_to_depth(body, &viscous(1.0), 0.2).unwrap();
+        assert_close!(force => expected, within 1e-7; "{}", body.profile_exponent());
+    }
+}
+
+#[test]
+fn pressing_refuses_what_has_no_number() {
+    let cone = power(1.0, 1.0);
+    for radius in [0.0, -1.0, f64::NAN, 1.0] {
+        refused("radius", indentation_pressure(&cone, 0.5 * PI, radius));
+    }
+    let p10 = model("P10");
+    let ramp = |indentation_depth, time| {
+        let ramp = DepthRamp {
+            indentation_depth,
+            time,
+        };
+        ramp_force(&cone, &p10, ramp)
+    };
+    refuses("time", NOT_POSITIVE, |time| ramp(1.0, time));
+    refuses("indentation_depth", NOT_POSITIVE, |depth| ramp(depth, 1.0));
+}
