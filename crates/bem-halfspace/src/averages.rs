@@ -6,7 +6,8 @@
 pub struct Average {
     /// Mean.
     pub value: f64,
-    /// Standard deviation.
+    /// Standard deviation; of the friction coefficient in plane strain half the difference between the means over every
+    /// other shift.
     pub scatter: f64,
 }
 
@@ -18,6 +19,16 @@ impl Average {
         Self {
             value,
             scatter: (squares.sum::<f64>() / (count - 1.0)).sqrt(),
+        }
+    }
+
+    /// Of shifts of which the second half lies between the first half: each half alone leaves twice as long waves.
+    pub(crate) fn of_halves<State>(states: &[State], quantity: impl Fn(&State) -> f64) -> Self {
+        let (first, second) = states.split_at(states.len() / 2);
+        let [first, second] = [first, second].map(|half| Self::of(half, &quantity).value);
+        Self {
+            value: 0.5 * (first + second),
+            scatter: 0.5 * (first - second).abs(),
         }
     }
 

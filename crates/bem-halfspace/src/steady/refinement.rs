@@ -1,10 +1,10 @@
 //! Refinement to a requested error.
 //!
 //! The outline of the contact follows the elements. On one grid that scatters the friction around its trend, so each
-//! refinement averages over four grids that are shifted by half an element along x and y. The averages converge with
-//! the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p is slower, and are extrapolated.
-//! On materials that recover the outline is closed behind, and what is left of the scatter decides: it widens the error
-//! bar.
+//! refinement averages over four grids that are shifted by half an element along x and y, in plane strain by quarters
+//! along x. The averages converge with the order 3/2, as the singular front edge does, or 2p − 1 where the apex h ∼ r^p
+//! is slower, and are extrapolated. On materials that recover the outline is closed behind, and what is left of the
+//! scatter decides: it widens the error bar.
 
 use indenters::Surface;
 use numerics::{ErrorParts, Estimate, between_zero_and_one, in_range, positive};
@@ -20,7 +20,12 @@ use crate::{BemError, Footprint};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
 const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-const PHASES_OF_STRIP: usize = 2;
+/// Shifts in plane strain. The means over the first two and over the last two differ by the second harmonic of how the
+/// friction varies with the shift, which all four average out.
+const PHASES_OF_STRIP: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
+/// Refinements in plane strain of which the largest scatter counts: on one of them it may be small by chance, and the
+/// extrapolated limit contains the scatter of all that it eliminates.
+const SCATTERING: usize = 4;
 /// Order of the error that the singular front leaves.
 const FRONT_ORDER: f64 = 1.5;
 /// Order in which the area of the elements in contact approaches that of the contact.
@@ -165,14 +170,21 @@ struct Grids<'a> {
 impl Grids<'_> {
     /// On a dashpot the scatter falls as fast as the rest of the error.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
-        let quantity = |refinement: &Refinement| {
-            let mut friction = refinement.friction_coefficient;
-            if self.problem.loading.creep.only_flows() {
-                friction.scatter = 0.0;
-            }
-            friction
+        let Loading { creep, strip, .. } = &self.problem.loading;
+        let counted = match strip {
+            _ if creep.only_flows() => 0,
+            Some(_) => SCATTERING,
+            None => 1,
         };
-        limit(refinements, self.order, quantity)
+        let value = |refinement: &Refinement| Average {
+            scatter: 0.0,
+            ..refinement.friction_coefficient
+        };
+        let mut friction = limit(refinements, self.order, value);
+        let last = refinements.iter().rev().take(counted);
+        let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
+        friction.error += scatter.fold(0.0, f64::max);
+        friction
     }
 
     /// The normal force that is given, or the limit of those at the depth.
@@ -257,7 +269,7 @@ impl Grids<'_> {
 
     fn phases(&self) -> &'static [[f64; 2]] {
         match self.problem.loading.strip {
-            Some(_) => &PHASES[..PHASES_OF_STRIP],
+            Some(_) => &PHASES_OF_STRIP,
             None => &PHASES,
         }
     }
@@ -286,7 +298,10 @@ impl Grids<'_> {
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let averages = Refinement {
             spacing: spacing[0],
-            friction_coefficient: average(&|state| state.friction_coefficient),
+            friction_coefficient: match self.problem.loading.strip {
+                Some(_) => Average::of_halves(&states, |state| state.friction_coefficient),
+                None => average(&|state| state.friction_coefficient),
+            },
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at(distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),
