@@ -22,35 +22,12 @@ pub(super) enum Quantity {
 /// All names, for messages.
 pub(super) const NAMES: &str = "f or ω with two of E', E'' and tan delta (or G' and G''), or t with E_relax (or G_relax), and perhaps T and Set";
 
-/// The name of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Name<'a> {
-    pub(super) quantity: Quantity,
-    /// That of a modulus, where its name has an E or a G.
-    pub(super) deformation: Option<Deformation>,
-    /// Empty where it is no part of the name.
-    pub(super) unit: &'a str,
-}
-
-impl<'a> Name<'a> {
-    /// What a cell names: `E'`, `E' (MPa)`, `E' [MPa]` or `E' / MPa`.
-    pub(super) fn of(cell: &'a str) -> Option<Self> {
-        let bracket = cell.strip_suffix([')', ']']);
-        let parts = [
-            bracket.and_then(|cell| cell.rsplit_once(['(', '['])),
-            cell.split_once('/'),
-        ];
-        let parts = parts.into_iter().flatten();
-        let mut parts = std::iter::once((cell, "")).chain(parts);
-        parts.find_map(|(name, unit)| {
-            let (quantity, deformation, _) = known(name)?;
-            Some(Self {
-                quantity: *quantity,
-                deformation: *deformation,
-                unit,
-            })
-        })
-    }
+/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]` or `E' / MPa` may be divided; without a unit that is empty.
+pub(super) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
+    let bracket = cell.strip_suffix([')', ']']);
+    let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[']));
+    let parts = [Some((cell, "")), bracket, cell.split_once('/')];
+    parts.into_iter().flatten()
 }
 
 const TENSION: Option<Deformation> = Some(Deformation::Tension);
@@ -112,8 +89,8 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 16] = [
     ),
 ];
 
-/// Capitals count in letters that stand alone: T is a temperature and t a time, and F is a force.
-fn known(name: &str) -> Option<&'static (Quantity, Option<Deformation>, &'static str)> {
+/// What a name stands for. Capitals count in letters that stand alone: T is a temperature and t a time, and F is a force.
+pub(super) fn known(name: &str) -> Option<&'static (Quantity, Option<Deformation>, &'static str)> {
     let name = name
         .replace(['′', '’', '´', '`', '\u{92}'], "'")
         .replace(['″', '”', '"', '\u{94}'], "''")

@@ -3,7 +3,7 @@
 use super::columns::Quantity::{
     self, Frequency, Loss, LossFactor, Relaxation, Set, Storage, Temperature, Time,
 };
-use super::columns::{NAMES, Name};
+use super::columns::{NAMES, divided, known};
 use super::isotherms::Row;
 use super::layout::is_comment;
 use super::{Deformation, Source, shown};
@@ -79,11 +79,9 @@ impl Source<'_> {
     pub(super) fn columns<'a>(&self, line: &Line<'a>) -> Vec<Column<'a>> {
         let names = self.layout.names(line.text).into_iter().enumerate();
         let columns = names.filter_map(|(place, name)| {
-            let Name {
-                quantity,
-                deformation,
-                unit,
-            } = Name::of(name)?;
+            let mut parts = divided(name);
+            let (found, unit) = parts.find_map(|(name, unit)| Some((known(name)?, unit)))?;
+            let (quantity, deformation, _) = *found;
             let deformation = deformation.or(self.options.deformation);
             Some(Column {
                 quantity,
