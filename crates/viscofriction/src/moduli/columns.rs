@@ -34,59 +34,32 @@ const TENSION: Option<Deformation> = Some(Deformation::Tension);
 const SHEAR: Option<Deformation> = Some(Deformation::Shear);
 
 /// Names without blanks, points, dashes and underlines.
-const KNOWN: [(Quantity, Option<Deformation>, &str); 16] = [
+const KNOWN: [(Quantity, Option<Deformation>, &str); 25] = [
     (Frequency, None, "f freq frequency frequenz ω omega w"),
-    (
-        Frequency,
-        None,
-        "angularfrequency angfrequency kreisfrequenz",
-    ),
+    (Frequency, None, "angularfrequency angfrequency"),
+    (Frequency, None, "kreisfrequenz"),
     (Time, None, "t time zeit"),
     (Storage, None, "storagemodulus speichermodul"),
-    (
-        Storage,
-        TENSION,
-        "E' Estor Estorage E'storagemodulus storagemodulusE' storagemodulus(E')",
-    ),
-    (
-        Storage,
-        SHEAR,
-        "G' Gstor Gstorage G'storagemodulus storagemodulusG' storagemodulus(G')",
-    ),
-    (
-        Storage,
-        SHEAR,
-        "shearstoragemodulus shearmodulus(elasticcomponent)",
-    ),
+    (Storage, TENSION, "E' Estor Estorage E'storagemodulus"),
+    (Storage, TENSION, "storagemodulusE' storagemodulus(E')"),
+    (Storage, SHEAR, "G' Gstor Gstorage G'storagemodulus"),
+    (Storage, SHEAR, "storagemodulusG' storagemodulus(G')"),
+    (Storage, SHEAR, "shearstoragemodulus"),
+    (Storage, SHEAR, "shearmodulus(elasticcomponent)"),
     (Loss, None, "lossmodulus verlustmodul"),
-    (
-        Loss,
-        TENSION,
-        "E'' Eloss E''lossmodulus lossmodulusE'' lossmodulus(E'')",
-    ),
-    (
-        Loss,
-        SHEAR,
-        "G'' Gloss G''lossmodulus lossmodulusG'' lossmodulus(G'')",
-    ),
-    (
-        Loss,
-        SHEAR,
-        "shearlossmodulus shearmodulus(viscouscomponent)",
-    ),
-    (
-        LossFactor,
-        None,
-        "tandelta tan(delta) tanδ tan(δ) lossfactor dampingfactor verlustfaktor",
-    ),
+    (Loss, TENSION, "E'' Eloss E''lossmodulus lossmodulusE''"),
+    (Loss, TENSION, "lossmodulus(E'')"),
+    (Loss, SHEAR, "G'' Gloss G''lossmodulus lossmodulusG''"),
+    (Loss, SHEAR, "lossmodulus(G'')"),
+    (Loss, SHEAR, "shearlossmodulus"),
+    (Loss, SHEAR, "shearmodulus(viscouscomponent)"),
+    (LossFactor, None, "tandelta tan(delta) tanδ tan(δ)"),
+    (LossFactor, None, "lossfactor dampingfactor verlustfaktor"),
     (Relaxation, TENSION, "E E(t) Erelax"),
     (Relaxation, SHEAR, "G G(t) Grelax"),
     (Set, None, "set"),
-    (
-        Temperature,
-        None,
-        "T Ts temp temperature temperatur sampletemperature",
-    ),
+    (Temperature, None, "T Ts temp temperature temperatur"),
+    (Temperature, None, "sampletemperature"),
 ];
 
 /// What a name stands for. Capitals count in letters that stand alone: T is a temperature and t a time, and F is a force.
