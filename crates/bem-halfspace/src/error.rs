@@ -34,9 +34,7 @@ pub enum BemError {
         value: f64,
     },
     /// The grid would have more elements than can be handled.
-    #[error(
-        "the grid would have {elements:e} elements, but at most {limit:e} are allowed; take a larger spacing"
-    )]
+    #[error("the grid would have {elements:e} elements, but at most {limit:e} are allowed")]
     GridTooLarge {
         /// Number of elements asked for.
         elements: f64,
@@ -44,9 +42,7 @@ pub enum BemError {
         limit: f64,
     },
     /// The stationary contact covers too few elements for its friction to mean anything.
-    #[error(
-        "the contact covers {elements} elements along x, but at least {needed} are needed; take a smaller spacing"
-    )]
+    #[error("the contact covers {elements} elements along x, but at least {needed} are needed")]
     GridTooCoarse {
         /// Number of elements of the contact along x.
         elements: usize,
@@ -56,7 +52,7 @@ pub enum BemError {
     /// The contact reaches the boundary of the footprint in which it was allowed.
     #[error(
         "after sliding {sliding_distance} m the contact reaches the boundary of the footprint \
-         x {x_min}..{x_max}, y {y_min}..{y_max} m; take a larger footprint"
+         x {x_min}..{x_max}, y {y_min}..{y_max} m"
     )]
     ContactReachesBoundary {
         /// Sliding distance at which it happened, \[m]; 0 without sliding.
@@ -82,8 +78,7 @@ pub enum BemError {
     },
     /// The body rises too much over one element in contact for its mean slope to mean anything.
     #[error(
-        "the body rises by {rise} m over one element in contact, more than the depth scale {depth_scale} m; \
-         take a smaller spacing"
+        "the body rises by {rise} m over one element in contact, more than the depth scale {depth_scale} m"
     )]
     SlopeNotResolved {
         /// Rise over the element, \[m].
@@ -147,15 +142,13 @@ pub enum BemError {
         relative_error: f64,
     },
     /// The load has no sliding distance where one is needed.
-    #[error("the load needs a sliding distance (SlidingLoad::after): {why}")]
+    #[error("a sliding distance is needed: {why}")]
     SlidingDistanceMissing {
         /// The reason.
         why: &'static str,
     },
     /// A march would take too long.
-    #[error(
-        "the march would have {steps:e} steps, but at most {limit:e} are allowed; slide over a shorter distance"
-    )]
+    #[error("the march would have {steps:e} steps, but at most {limit:e} are allowed")]
     TooManySteps {
         /// Steps of one element.
         steps: f64,
@@ -165,8 +158,7 @@ pub enum BemError {
     /// The slowest retardation of the material outlasts any march to the stationary state.
     #[error(
         "a march to the stationary state is longer than {limit} contact lengths: the slowest retardation takes {memory:e} m \
-         of sliding, and the contact is about {contact_length:e} m long; solve for the stationary state directly, or slide \
-         over a distance"
+         of sliding, and the contact is about {contact_length:e} m long"
     )]
     MemoryTooLong {
         /// Distance in which the slowest element forgets, \[m].

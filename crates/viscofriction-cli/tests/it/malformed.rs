@@ -219,6 +219,15 @@ cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "bem-transient" |
 cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "mdr-steady" | 2 | a cylinder is none; no other method does either
 "#;
 
+/// Body, material, load and solution that are not reached | what is said, with the keys to change.
+const UNREACHED: &str = r#"
+map; solid; normal_force = 1.0, velocity = 0.01; relative_error = 1e-3 | are allowed; give solve.elements, fewer where they are given, or a shorter
+map; viscous; normal_force = 10.0, velocity = 0.01; elements = 8 | at least 3 are needed; give more solve.elements, or a smaller solve.relative_error
+paraboloid; prony; normal_force = 1.0, velocity = 1.0; method = "bem-transient", elements = 16 | long; give solve.method = "bem-steady", or solve.sliding_distance
+cylinder; solid; normal_force = 1.0, velocity = 0.01; relative_error = 1e-7 | give a larger solve.relative_error, or another solve.method
+paraboloid; viscous; normal_force = 1.0, velocity = 0.01; method = "mdr-transient", elements = 8, sliding_distance = 1e-9 | give fewer solve.elements, or a longer solve.sliding_distance
+"#;
+
 /// Contents of a file, the place in it that is named, and what is said.
 type Case = (Vec<u8>, String, String);
 
@@ -310,6 +319,17 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
     folder.write("scene.toml", SCENE);
     folder.done("run scene.toml");
+}
+
+#[test]
+fn what_is_not_reached_says_which_keys_to_change() {
+    let folder = Folder::new("unreached");
+    folder.write("map.csv", "1,1,1\n1,0,1\n1,1,1\n");
+    for [parts, needed] in rows(UNREACHED) {
+        folder.write("scene.toml", scene(&parts));
+        let said = folder.ends("run scene.toml", 1, &needed);
+        assert_eq!(said.stderr.lines().count(), 1, "{parts}: {said:?}");
+    }
 }
 
 /// A folder with a scene that names a file, and the beginning of what is said about that.

@@ -8,23 +8,24 @@ use rheology::RheologyError;
 use thiserror::Error;
 
 use super::Omission;
+use super::advice::{of_body, of_closed_form, of_half_space, of_line};
 use crate::scene::Method;
 
 /// Why a problem that is well posed has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SolveError {
     /// Of the half space.
-    #[error(transparent)]
-    HalfSpace(#[from] BemError),
+    #[error("{_0}{}", of_half_space(_0))]
+    HalfSpace(BemError),
     /// Of the one-dimensional model.
-    #[error(transparent)]
-    Line(#[from] MdrError),
+    #[error("{_0}{}", of_line(_0))]
+    Line(MdrError),
     /// Of closed forms and quadrature.
-    #[error(transparent)]
-    Analytic(#[from] FrictionError),
+    #[error("{_0}{}", of_closed_form(_0))]
+    Analytic(FrictionError),
     /// Of the rigid body.
-    #[error(transparent)]
-    Indenter(#[from] IndenterError),
+    #[error("{_0}{}", of_body(_0))]
+    Indenter(IndenterError),
     /// Of the material.
     #[error(transparent)]
     Material(#[from] RheologyError),
@@ -80,6 +81,31 @@ pub enum SolveError {
         /// The work.
         omission: Omission,
     },
+}
+
+// Not by the attribute `from`, which would say the cause a second time.
+impl From<BemError> for SolveError {
+    fn from(error: BemError) -> Self {
+        Self::HalfSpace(error)
+    }
+}
+
+impl From<MdrError> for SolveError {
+    fn from(error: MdrError) -> Self {
+        Self::Line(error)
+    }
+}
+
+impl From<FrictionError> for SolveError {
+    fn from(error: FrictionError) -> Self {
+        Self::Analytic(error)
+    }
+}
+
+impl From<IndenterError> for SolveError {
+    fn from(error: IndenterError) -> Self {
+        Self::Indenter(error)
+    }
 }
 
 /// An answer or why there is none.

@@ -1,5 +1,6 @@
 //! From a problem to its answer.
 
+mod advice;
 mod analytic;
 mod answer;
 mod body;

@@ -1,0 +1,121 @@
+//! What to change in a scene where a method fails: it names what it has computed with, and a person has keys.
+
+use bem_halfspace::BemError;
+use friction_analytic::FrictionError;
+use indenters::IndenterError;
+use mdr_core::MdrError;
+
+const FEWER: &str =
+    "; give solve.elements, fewer where they are given, or a shorter solve.sliding_distance";
+const OTHER_DISTANCE: &str = "; give fewer solve.elements, or a longer solve.sliding_distance";
+const FINER: &str = "; give more solve.elements, or a smaller solve.relative_error";
+const LARGER_ERROR: &str = "; give a larger solve.relative_error, or another solve.method";
+const OTHER_ELEMENTS: &str =
+    "; give another number of solve.elements, or a larger solve.relative_error";
+const LESS_LOAD: &str =
+    "; lower load.normal_force or load.indentation_depth, or give a body that reaches further";
+const NO_WALL: &str =
+    "; lower load.normal_force or load.indentation_depth, or give a body without a wall there";
+const DISTANCE: &str = "; give solve.sliding_distance";
+const DISTANCE_OR_STEADY: &str = "; give solve.method = \"bem-steady\", or solve.sliding_distance";
+const UNITS: &str = "; check the units of indenter, material and load, from which it follows";
+
+/// Of the half space.
+pub(super) const fn of_half_space(error: &BemError) -> &'static str {
+    match error {
+        BemError::GridTooLarge { .. } | BemError::TooManySteps { .. } => FEWER,
+        BemError::GridTooCoarse { .. } | BemError::SlopeNotResolved { .. } => FINER,
+        BemError::ContactNotConverged { .. } => OTHER_ELEMENTS,
+        BemError::NotReached { .. } | BemError::TimeNotResolved { .. } => LARGER_ERROR,
+        BemError::ContactReachesBoundary { .. } => LESS_LOAD,
+        BemError::VerticalWall { .. } => NO_WALL,
+        BemError::SlidingDistanceMissing { .. } => DISTANCE,
+        BemError::MemoryTooLong { .. } | BemError::NotStationary { .. } => DISTANCE_OR_STEADY,
+        BemError::InvalidParameter(_) => UNITS,
+        BemError::Indenter(error) => of_body(error),
+        _ => "",
+    }
+}
+
+/// Of the one-dimensional model.
+pub(super) const fn of_line(error: &MdrError) -> &'static str {
+    match error {
+        MdrError::TooManyElements { .. } => OTHER_DISTANCE,
+        MdrError::TooCoarse { .. } => FINER,
+        MdrError::NotConverged { .. }
+        | MdrError::NotReached(_)
+        | MdrError::TooMuchDetail { .. } => LARGER_ERROR,
+        MdrError::DepthBeyondEdge { .. } => LESS_LOAD,
+        MdrError::NotStationary { .. } => DISTANCE,
+        MdrError::InvalidParameter(_) | MdrError::NonFinite { .. } => UNITS,
+        MdrError::Indenter(error) => of_body(error),
+        _ => "",
+    }
+}
+
+/// Of closed forms.
+pub(super) const fn of_closed_form(error: &FrictionError) -> &'static str {
+    match error {
+        FrictionError::NoStationaryState { .. } => LESS_LOAD,
+        FrictionError::InvalidParameter(_) | FrictionError::OutOfRange { .. } => UNITS,
+        FrictionError::Indenter(error) => of_body(error),
+        _ => "",
+    }
+}
+
+/// Of the rigid body.
+pub(super) const fn of_body(error: &IndenterError) -> &'static str {
+    match error {
+        IndenterError::OutOfDomain { .. }
+        | IndenterError::NonMonotoneLine { .. }
+        | IndenterError::NotHighEnough { .. } => LESS_LOAD,
+        IndenterError::InvalidParameter(_) => UNITS,
+        _ => "",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bem_halfspace::BemError;
+    use mdr_core::MdrError;
+
+    use crate::SolveError;
+
+    /// A scene has no spacing but that of a measurement.
+    #[test]
+    fn what_is_not_reached_names_keys_of_the_scene() {
+        let large = BemError::GridTooLarge {
+            elements: 1e9,
+            limit: 2e8,
+        };
+        let coarse = BemError::GridTooCoarse {
+            elements: 2,
+            needed: 3,
+        };
+        let unsolved = BemError::ContactNotConverged {
+            iterations: 100,
+            residual: 1e-3,
+            tolerance: 1e-9,
+        };
+        let few = MdrError::TooCoarse {
+            n_contact: 2,
+            needed: 3,
+            spacing: 1e-3,
+        };
+        for (error, key) in [
+            (
+                large.into(),
+                "give solve.elements, fewer where they are given",
+            ),
+            (coarse.into(), "give more solve.elements"),
+            (unsolved.into(), "a larger solve.relative_error"),
+            (few.into(), "give more solve.elements"),
+        ] {
+            let message = SolveError::to_string(&error);
+            let advice = message.split_once("; ").map(|(_, advice)| advice);
+            let holds = advice.is_some_and(|advice| advice.contains(key));
+            assert!(holds, "no {key} in {message}");
+            assert!(!message.contains("take a"), "{message}");
+        }
+    }
+}
