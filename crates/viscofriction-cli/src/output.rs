@@ -100,6 +100,7 @@ impl OutputFile {
         let write = || -> std::io::Result<()> {
             let folder = folder_of(&self.path);
             fs::create_dir_all(folder)?;
+            remove_parts(folder, &[&name_of(&self.path)]);
             let mut part = new_part(&part_start(&name_of(&self.path)), folder)?;
             part.write_all(contents)?;
             if let Ok(replaced) = fs::metadata(&self.path) {
@@ -149,15 +150,19 @@ fn new_part(start: &str, folder: &Path) -> std::io::Result<tempfile::NamedTempFi
         // What the umask forbids is taken away by the system.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder)
+    let part = builder.tempfile_in(folder)?;
+    // As long as it is open, nobody takes it for one that was left.
+    part.as_file().try_lock().ok();
+    Ok(part)
 }
 
-/// Removes what a program that was killed has left of these files.
+/// Removes what a program that was killed has left of these files; what another one writes is locked.
 pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let part = entry.file_name().to_string_lossy().into_owned();
         let of = |name: &&str| part.starts_with(&part_start(name));
-        if part.ends_with(PART_END) && names.iter().any(of) {
+        let is_left = || File::open(entry.path()).is_ok_and(|part| part.try_lock().is_ok());
+        if part.ends_with(PART_END) && names.iter().any(of) && is_left() {
             fs::remove_file(entry.path()).ok();
         }
     }

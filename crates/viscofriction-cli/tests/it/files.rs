@@ -167,16 +167,18 @@ fn a_run_that_is_killed_leaves_whole_files() {
 /// A kill between writing a file and giving it its name leaves a part; it is too rare to wait for.
 #[test]
 fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
-    // Who merges does not lock the folder.
-    for (line, written) in [WRITING[0], WRITING[1], WRITING[3]] {
+    for (line, written) in WRITING {
         let folder = prepared("parts");
-        let [part, other] = ["viscofriction-4711", "old"].map(|of| format!(".{written}.{of}.part"));
-        for name in [&part, &other] {
+        let of = ["viscofriction-4711", "viscofriction-0815", "old"];
+        let [part, at_work, other] = of.map(|of| format!(".{written}.{of}.part"));
+        for name in [&part, &at_work, &other] {
             folder.write(&format!("out/{name}"), "{");
         }
+        let open = File::open(folder.path("out").join(&at_work)).expect("a part");
+        open.lock().expect("a lock, as of one who writes it");
         folder.done(line);
         let names = folder.names("out");
-        let kept = !names.contains(&part) && names.contains(&other);
+        let kept = !names.contains(&part) && names.contains(&at_work) && names.contains(&other);
         assert!(kept, "{line} leaves {names:?}");
     }
 }
@@ -185,9 +187,11 @@ fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
 #[test]
 fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
     let folder = Folder::new("no-room");
+    folder.done("sweep IN/hertz.toml --vary load.normal_force=1:2:40 --out rows.csv");
     for line in [
         "run IN/half-space-run-in.toml --out out",
         "sweep IN/hertz.toml --vary load.normal_force=1:2:40 --out out/s.csv",
+        "sweep --out out/m.csv --merge rows.csv",
     ] {
         let program = env!("CARGO_BIN_EXE_viscofriction");
         let script = "trap '' XFSZ; ulimit -f 4; exec \"$0\" \"$@\"";

@@ -171,6 +171,19 @@ impl Folder {
         child.kill().ok();
         child.wait().expect("it ends");
     }
+
+    /// Begins to run the program, and kills it as soon as this holds.
+    pub(crate) fn kill_when(&self, line: &str, holds: impl Fn() -> bool) {
+        let child = self.command(line).stdout(Stdio::null()).spawn();
+        let mut child = child.expect("the command runs");
+        while !holds() {
+            let ended = child.try_wait().expect("a state");
+            assert!(ended.is_none(), "{line} ended before: {ended:?}");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        child.kill().ok();
+        child.wait().expect("it ends");
+    }
 }
 
 /// A word of a line with paths in their places.

@@ -65,6 +65,23 @@ fn a_sweep_killed_at_any_moment_goes_on_to_the_same_rows() {
 }
 
 #[test]
+fn a_sweep_killed_after_rows_were_written_keeps_them() {
+    let folder = slow("killed-with-rows");
+    let expected = swept(&folder, "whole.csv", "");
+    let line = format!("sweep scene.toml {VARY} --out rows.csv --resume");
+    let rows = || fs::read_to_string(folder.path("rows.csv")).unwrap_or_default();
+    // The first line has the names.
+    for n_rows in [1, 6, 13] {
+        folder.kill_when(&line, || rows().matches('\n').count() > n_rows);
+        let left = rows();
+        assert!(left.matches('\n').count() > n_rows, "{left} are left");
+        let whole = left.split_inclusive('\n').all(|row| expected.contains(row));
+        assert!(whole, "{left} is not of {expected}");
+    }
+    assert_eq!(swept(&folder, "rows.csv", "--resume"), expected);
+}
+
+#[test]
 fn a_file_cut_anywhere_or_with_a_gap_gets_what_it_lacks() {
     let folder = quick("cut-sweep");
     let expected = swept(&folder, "whole.csv", "");
