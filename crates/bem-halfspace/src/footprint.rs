@@ -100,15 +100,26 @@ impl Footprint {
         }
     }
 
+    /// Distances of the edges behind and ahead of, right and left of the lowest point, \[m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for one that is not finite and greater than 0.
+    pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
+        let mut sides = [self.x, self.y];
+        for (ends, name) in sides
+            .iter_mut()
+            .zip(["footprint along x", "footprint along y"])
+        {
+            *ends = [positive(name, -ends[0])?, positive(name, ends[1])?];
+        }
+        Ok(sides)
+    }
+
     /// Number of elements behind and ahead of, right and left of the element under the lowest point.
     pub(crate) fn elements(&self, spacing: [f64; 2]) -> Result<[[usize; 2]; 2], BemError> {
         let mut counts = [[0; 2]; 2];
-        for (axis, (ends, name)) in [(self.x, "footprint along x"), (self.y, "footprint along y")]
-            .into_iter()
-            .enumerate()
-        {
-            for (side, end) in [-ends[0], ends[1]].into_iter().enumerate() {
-                positive(name, end)?;
+        for (axis, ends) in self.sides()?.into_iter().enumerate() {
+            for (side, end) in ends.into_iter().enumerate() {
                 counts[axis][side] = elements_along(end, spacing[axis])?;
             }
         }

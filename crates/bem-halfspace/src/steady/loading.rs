@@ -56,9 +56,7 @@ impl Loading {
         let [rear, front] = footprint.x;
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
-                let ends = footprint.x.into_iter().chain(footprint.y);
-                let largest = ends.map(f64::abs).fold(0.0, f64::max);
-                let largest = positive("half width of the footprint", largest)?;
+                let largest = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
                 let height = |distance| mean_height(surface, distance);
                 let depth = depth_scale(&creep, force, height, largest)?;
                 (depth, load.sliding_distance())

@@ -86,12 +86,6 @@ fn options_out_of_range_are_refused() {
             assert_bad(bad, slid(1.0, |grid| change(grid, bad)), name);
         }
         for (name, change) in of_states {
-            let is_endless = bad.is_infinite() && name.starts_with("footprint");
-            let name = if is_endless {
-                "half width of the footprint"
-            } else {
-                name
-            };
             assert_bad(bad, steady_with(&body, |grid| change(grid, bad)), name);
         }
         let solved = Scene::unit(2.0).try_steady(bad);
