@@ -125,6 +125,12 @@ impl Footprint {
         }
         Ok(counts)
     }
+
+    /// The same all together, however many.
+    pub(crate) fn n_elements(&self, [dx, dy]: [f64; 2]) -> f64 {
+        let Self { x, y } = self;
+        (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
+    }
 }
 
 fn nowhere_as_high(height: f64) -> InvalidParameter {

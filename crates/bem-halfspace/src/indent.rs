@@ -15,7 +15,9 @@ use crate::error::check_contact_elements;
 use crate::stepping::{March, Motion};
 use crate::{BemError, GridOptions};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
-pub use press::{PressEstimate, PressSolution, indent, indent_on_grid, press, press_on_grid};
+pub use press::{
+    PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,
+};
 
 /// One step of a history; its control holds from the step before, so that a change of it is a jump.
 #[derive(Debug, Clone, Copy, PartialEq)]

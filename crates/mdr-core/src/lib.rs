@@ -44,5 +44,5 @@ pub use indent::{
 };
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, press};
-pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_on_grid};
+pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
 pub use steady::{SteadySliding, steady};

@@ -36,6 +36,16 @@ pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     Source::new(path, contents)
 }
 
+/// Half of the memory that the machine has free, \[bytes]; none where the system does not say.
+pub(crate) fn half_of_free_memory() -> Option<u64> {
+    let table = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let free = table
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes: u64 = free.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(512 * kilobytes)
+}
+
 fn read_at_most(most: u64, file: impl Read) -> Result<Vec<u8>, String> {
     let mut contents = Vec::new();
     let read = file.take(most + 1).read_to_end(&mut contents);

@@ -39,7 +39,7 @@ pub use numerics::{ErrorParts, Estimate};
 pub use scene::Scene;
 pub use solve::{
     Answer, Body, ContactBox, Fields, Grid, HistoryRow, Motion, NotOffered, Omission, Problem,
-    Revolution, SolveError, choose, problem_of, solve, solve_again, solve_by,
+    Revolution, SolveError, check_memory, choose, problem_of, solve, solve_again, solve_by,
 };
 pub use text::{ReadFile, WrongInput, line_of, line_of_record};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, rheology};

@@ -20,6 +20,9 @@ const LARGEST_GRID: usize = 512;
 /// Depth and force converge faster than that, cusps or not.
 const ORDER: f64 = 1.0;
 
+/// Memory for an element in front of the mirrors, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 600.0;
+
 /// A contact under a control that was constant, on one grid.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -76,6 +79,28 @@ pub fn indent(
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::after(material, load)?;
     estimate(&surface, &spring, load.control(), accuracy.into())
+}
+
+/// Memory that [`indent`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`indent`], before anything is solved.
+pub fn indent_memory(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &PressingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let control = Spring::after(material, load)?.scaled(load.control())?;
+    let options = grid(&GridPlan::pressed(&surface, control)?, elements);
+    let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
+    let followed: f64 = mirrored.map(|_| 0.5).product();
+    Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+}
+
+fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
+    let spacing = 2.0 * plan.length() / elements as f64;
+    GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
 }
 
 /// Like [`press`], on one grid.
@@ -213,8 +238,7 @@ fn estimate(
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &Elastic::new(1.0)?),
     };
     let estimate = bars::resolve(&resolution, |elements| {
-        let spacing = 2.0 * plan.length() / elements as f64;
-        let options = GridOptions::new([spacing; 2], plan.footprint.widened(spacing));
+        let options = grid(&plan, elements);
         let state = spring.solve(surface, control, &options)?;
         Ok(state.on_grid(control, options, elements))
     })?;

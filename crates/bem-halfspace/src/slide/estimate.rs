@@ -23,6 +23,10 @@ const LONGEST: f64 = 500.0;
 /// Change of the friction by which a solid counts as stationary, relative to the error asked for.
 const SETTLED: f64 = 0.1;
 
+/// Memory for an element that is followed, but for what it remembers, and for a step of a march, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 150.0;
+const BYTES_PER_STEP: f64 = 600.0;
+
 /// The end of a march with its error bars: after the sliding distance, or in the stationary state.
 pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 
@@ -39,16 +43,33 @@ pub fn slide(
     load: &SlidingLoad,
     accuracy: impl Into<Accuracy>,
 ) -> Result<SlideEstimate, BemError> {
+    Problem::new(&surface, material, load, accuracy.into())?.solve()
+}
+
+/// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
+///
+/// # Errors
+/// As for [`slide`], before anything is solved.
+pub fn slide_memory(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
     let surface: &dyn Surface = &surface;
-    let problem = Problem {
-        plan: GridPlan::sliding(surface, material, load)?,
-        creep: material.creep(),
-        surface,
-        material,
-        load,
-        accuracy: accuracy.into(),
-    };
-    problem.solve()
+    let problem = Problem::new(surface, material, load, Accuracy::Elements(elements))?;
+    let GridOptions {
+        spacing, footprint, ..
+    } = problem.options(problem.plan.length() / elements as f64);
+    let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
+    let steps = problem.distance() / spacing[0];
+    // A material without memory needs no more elements than the footprint has.
+    let behind = if n_fields > 0 { steps } else { 0.0 };
+    let across = (footprint.y[1] - footprint.y[0]) / spacing[1];
+    let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
+    let n_elements = followed * (footprint.n_elements(spacing) + behind * across);
+    let per_element = BYTES_PER_ELEMENT + (n_fields * size_of::<f64>()) as f64;
+    Ok(per_element * n_elements + BYTES_PER_STEP * steps)
 }
 
 /// The end of one march.
@@ -68,7 +89,23 @@ struct Problem<'a, M: ?Sized> {
     accuracy: Accuracy,
 }
 
-impl<M: Material + ?Sized> Problem<'_, M> {
+impl<'a, M: Material + ?Sized> Problem<'a, M> {
+    fn new(
+        surface: &'a dyn Surface,
+        material: &'a M,
+        load: &'a SlidingLoad,
+        accuracy: Accuracy,
+    ) -> Result<Self, BemError> {
+        Ok(Self {
+            plan: GridPlan::sliding(surface, material, load)?,
+            creep: material.creep(),
+            surface,
+            material,
+            load,
+            accuracy,
+        })
+    }
+
     fn solve(&self) -> Result<SlideEstimate, BemError> {
         let resolution = Resolution {
             goal: Goal {
@@ -157,7 +194,7 @@ impl<M: Material + ?Sized> Problem<'_, M> {
         if memory > 0.0 {
             return self.until_forgotten(memory, options);
         }
-        let load = self.load.after(LENGTHS * self.plan.length())?;
+        let load = self.load.after(self.distance())?;
         let mut end = self.over_distance(&load, options)?;
         if !self.is_elastic() {
             let state = end.transient.stationary(DRIFT)?;
@@ -170,7 +207,7 @@ impl<M: Material + ?Sized> Problem<'_, M> {
     /// Slides until a material that recovers has forgotten the first touch.
     fn until_forgotten(&self, memory: f64, options: &GridOptions) -> Result<End, BemError> {
         let length = self.plan.length();
-        let distance = LENGTHS * length + MEMORIES * memory;
+        let distance = self.distance();
         if distance > LONGEST * length {
             return Err(BemError::MemoryTooLong {
                 memory,
@@ -192,6 +229,12 @@ impl<M: Material + ?Sized> Problem<'_, M> {
             truncation: Some(end.change * end.friction_coefficient.abs()),
             transient: end.transient,
         })
+    }
+
+    /// Distance of the march, at most, \[m].
+    fn distance(&self) -> f64 {
+        let to_stationary = LENGTHS * self.plan.length() + MEMORIES * self.memory();
+        self.load.sliding_distance().unwrap_or(to_stationary)
     }
 
     /// Distance in which the slowest element forgets, \[m].

@@ -21,7 +21,7 @@ pub use crate::pressure_field::PressureField;
 pub use crate::resolution::SlideOmission;
 pub use crate::stepping::{March, MarchState, Motion, MotionRow};
 use crate::{BemError, GridOptions};
-pub use estimate::{SlideEstimate, slide};
+pub use estimate::{SlideEstimate, slide, slide_memory};
 pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
 pub use transient::{SlideRow, Transient};
 

@@ -14,6 +14,31 @@ use crate::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 
 /// Δy/Δx of a grid of a given number of elements.
 const ASPECT: f64 = 0.5;
+/// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
+const BYTES_PER_ELEMENT: f64 = 900.0;
+
+/// Memory that [`steady`] takes at most for a number of elements along the contact, \[bytes]; a relative error is not sought
+/// on grids that take more than 2 GB.
+///
+/// # Errors
+/// As for [`steady`], before anything is solved.
+pub fn steady_memory(
+    surface: &(impl Surface + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<f64, BemError> {
+    let plan = GridPlan::sliding(&surface, material, load)?;
+    let options = grid(&plan, elements);
+    // A mirror halves the unknowns, and saves less of the kernel.
+    let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
+    Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+}
+
+fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
+    let dx = plan.length() / elements as f64;
+    SteadyOptions::new([dx, ASPECT * dx], plan.footprint.widened(dx))
+}
 
 /// Solves the stationary sliding of `surface` on a linear viscoelastic half space, under a force or at a depth, to a
 /// relative error of the friction coefficient, and of the normal force where that is not given; or with a number of
@@ -77,8 +102,7 @@ fn with_elements(
     let has_peak = peak_has_limit(surface, material);
     let resolution = resolution(accuracy, load.control(), plan.apex_exponent, has_peak);
     let estimate = bars::resolve(&resolution, |elements| {
-        let dx = plan.length() / elements as f64;
-        let options = SteadyOptions::new([dx, ASPECT * dx], plan.footprint.widened(dx));
+        let options = grid(&plan, elements);
         let state = steady_on_grid(surface, material, load, &options)?;
         Ok(state.on_grid(options, load.sliding_distance()))
     })?;

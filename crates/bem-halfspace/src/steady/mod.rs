@@ -47,7 +47,7 @@ use crate::chunks::in_pool;
 use crate::{BemError, Footprint};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
-pub use estimate::{steady, steady_refined};
+pub use estimate::{steady, steady_memory, steady_refined};
 pub use kernel::wake_influence;
 pub use line::{LineEstimate, LineOptions, LineSliding, steady_line, steady_line_on_grid};
 use loading::Loading;

@@ -9,6 +9,7 @@
 use indenters::Surface;
 use numerics::{ErrorParts, Estimate, between_zero_and_one, in_range, positive};
 
+use crate::BemError;
 use crate::averages::{Average, Refinement};
 use crate::bars::{self, FORCE, FRICTION, NAMES};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
@@ -16,7 +17,6 @@ use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
 use crate::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::steady::{Reuse, SteadyOptions, solve};
-use crate::{BemError, Footprint};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
 const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
@@ -255,9 +255,8 @@ impl Grids<'_> {
 
     /// Elements of the footprint.
     fn n_elements(&self, refinement: i32) -> f64 {
-        let Footprint { x, y } = self.problem.plan.footprint;
-        let [dx, dy] = self.edges(refinement);
-        (x[1] - x[0]) / dx * ((y[1] - y[0]) / dy)
+        let footprint = &self.problem.plan.footprint;
+        footprint.n_elements(self.edges(refinement))
     }
 
     /// Edges of an element.

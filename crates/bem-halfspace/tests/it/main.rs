@@ -13,6 +13,7 @@ mod indentation_follows_lee_radok_and_ting;
 mod interrupted_marches;
 mod invariance;
 mod kernels;
+mod memory;
 mod mirrors;
 mod nested_grids;
 mod omissions;

@@ -14,7 +14,7 @@ use crate::chain::is_elastic;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
 use memory::ahead;
-pub use on_grid::{SlideOptions, Transient, slide_on_grid};
+pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
 pub use row::SlideRow;
 
 /// Elements along the contact after which a march is given up.

@@ -96,6 +96,25 @@ pub struct Transient {
     pub(super) unresolved: Unresolved,
 }
 
+/// Memory that [`slide`](super::slide) takes at most for a number of elements along the contact, most of it for its steps,
+/// \[bytes].
+///
+/// # Errors
+/// As for [`SlideOptions::with_elements`].
+pub fn slide_memory(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    elements: usize,
+) -> Result<f64, MdrError> {
+    let options = SlideOptions::with_elements(elements, line, material, load)?;
+    let distance = load.sliding_distance();
+    let steps = distance.unwrap_or(options.max_sliding_distance) / options.spacing;
+    // Lists grow by doubling, and their rows are taken out of them.
+    let per_step = 3 * size_of::<Stepped>() + 2 * size_of::<SlideRow>();
+    Ok(steps * per_step as f64)
+}
+
 /// Slides a line over an undeformed chain until the state is stationary, or over the sliding distance of the load, to half a
 /// step; a state that has become stationary before stays as it is.
 ///

@@ -12,9 +12,9 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use viscofriction::scene::Method;
-use viscofriction::solve::{Answer, Omission, Problem, problem_of, solve};
+use viscofriction::solve::{Answer, Omission, Problem, check_memory, problem_of, solve};
 
-use crate::input::{read_input, read_scene};
+use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{OutputFolder, print_line, say};
 use crate::progress;
 pub(crate) use pictures::around;
@@ -62,7 +62,10 @@ pub(crate) struct Timed<'a> {
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
-    let (problem, method) = problem_of(&source, options.method, read_input)?;
+    let (mut problem, method) = problem_of(&source, options.method, read_input)?;
+    problem.max_memory = problem.max_memory.or_else(half_of_free_memory);
+    let fits = check_memory(&problem, method, problem.accuracy);
+    fits.map_err(|error| source.locate(&error))?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let path = source.path().display();

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, Shard, Vary, header};
 
-use crate::input::{read_input, read_scene};
+use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{print_text, say};
 use crate::progress;
 use file::{Existing, SweepFile, checked, line};
@@ -62,7 +62,10 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let Some(scene) = &options.scene else {
         return merge::merge(&options.merge, options.out.as_deref(), options.overwrite);
     };
-    let plan = Plan::new(read_scene(scene)?, &options.vary, read_input)?;
+    let mut plan = Plan::new(read_scene(scene)?, &options.vary, read_input)?;
+    // As many points are computed at the same time.
+    let at_once = plan.n_points().min(rayon::current_num_threads()) as u64;
+    plan.max_memory = half_of_free_memory().map(|bytes| bytes / at_once);
     let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();

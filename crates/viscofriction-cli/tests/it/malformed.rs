@@ -54,6 +54,14 @@ const SCENES: &str = r#"
 13 | elements = -8 | 13 | solve.elements
 13 | elements = 32.0 | 13 | solve.elements
 13 | threads = 0 | 13 | solve.threads must be from 1 to 1024, but is 0
+13 | max_memory = 8 | 13 | solve.max_memory
+13 | max_memory = "8 GiX" | 13 | solve.max_memory: a positive number with one of the units B, kB
+13 | max_memory = "-1 GiB" | 13 | solve.max_memory: a positive number with one of the units B, kB
+13 | method = "bem-steady"\nelements = 100000 | 14 | solve.elements: bem-steady needs up to
+13 | method = "bem-steady"\nelements = 4800\nmax_memory = "9 GiB" | 14 | of memory for 4800 elements along the contact, and max_memory allows 9.0 GiB; give fewer elements or a larger max_memory
+13 | method = "bem-steady"\nmax_memory = "10 kB" | 14 | solve.max_memory: bem-steady needs up to
+13 | method = "bem-transient"\nelements = 32\nmax_memory = "1e6B" | 14 | give fewer elements, a shorter sliding_distance or a larger max_memory
+13 | method = "mdr-transient"\nelements = 100000\nmax_memory = "0.1 GB" | 14 | solve.elements: mdr-transient needs up to
 13 | duration = 1.0\nsliding_distance = 1.0 | 14 | solve.sliding_distance: either duration or sliding_distance
 13 | duration = -1.0 | 13 | solve.duration must be finite and greater than 0, but is -1
 13 | sliding_distance = 0.0 | 13 | solve.sliding_distance

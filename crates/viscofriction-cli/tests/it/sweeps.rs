@@ -111,11 +111,11 @@ fn shards_join_to_the_whole_and_say_what_is_missing() {
 }
 
 #[test]
-fn several_threads_write_the_same_rows() {
+fn several_threads_and_a_limit_of_memory_write_the_same_rows() {
     let folder = slow("threads");
     let expected = swept(&folder, "whole.csv", "");
     let text = folder.text("scene.toml");
-    folder.write("scene.toml", text + "threads = 3\n");
+    folder.write("scene.toml", text + "threads = 3\nmax_memory = \"1 GiB\"\n");
     assert_eq!(swept(&folder, "threads.csv", ""), expected);
 }
 

@@ -33,6 +33,9 @@ pub struct Solve {
     /// Threads that compute, from 1 to 1024; without it all that the machine has.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
+    /// Memory that one solution may take, such as "8 GiB"; without it half of what the machine has free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_memory: Option<String>,
 }
 
 /// How the answer is computed.
@@ -71,6 +74,21 @@ impl Model {
         self.into()
     }
 }
+
+/// Units of memory, \[bytes].
+const UNITS: [(&str, f64); 9] = [
+    ("B", 1.0),
+    ("kB", 1e3),
+    ("MB", 1e6),
+    ("GB", 1e9),
+    ("TB", 1e12),
+    ("KiB", 1024.0),
+    ("MiB", 1_048_576.0),
+    ("GiB", 1_073_741_824.0),
+    ("TiB", 1_099_511_627_776.0),
+];
+/// Whole numbers are exact up to here.
+const MOST_BYTES: f64 = (1_u64 << 53) as f64;
 
 /// Unless the scene says otherwise.
 const RELATIVE_ERROR: f64 = 1e-3;
@@ -137,6 +155,31 @@ impl Solve {
             in_range("solve.threads", threads as f64, holds, "from 1 to 1024")?;
         }
         Ok(self.threads)
+    }
+
+    /// Memory that one solution may take, \[bytes]; none where the scene does not say.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a text that is no positive number with a unit.
+    pub fn checked_memory(&self) -> Result<Option<u64>, SceneError> {
+        let Some(text) = &self.max_memory else {
+            return Ok(None);
+        };
+        let number = text.trim_end_matches(char::is_alphabetic);
+        let unit = &text[number.len()..];
+        let unit = UNITS.iter().find(|(name, _)| *name == unit);
+        let number: Option<f64> = number.trim().parse().ok();
+        let bytes = number.zip(unit).map(|(number, (_, size))| number * size);
+        let bytes = bytes.filter(|bytes| (1.0..=MOST_BYTES).contains(bytes));
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "1 <= bytes <= 2^53"
+        )]
+        let whole = bytes.map(|bytes| bytes as u64);
+        let needed = "a positive number with one of the units B, kB, MB, GB, TB, KiB, MiB, GiB, TiB is needed, as in \"8 GiB\"";
+        let refused = || SceneError::at("solve.max_memory", needed);
+        whole.ok_or_else(refused).map(Some)
     }
 
     /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.

@@ -23,6 +23,17 @@ pub enum Body {
     HeightMap(HeightMap),
 }
 
+impl Body {
+    /// Its surface; none of a cylinder, which has no end.
+    pub(crate) fn surface(&self) -> Option<&dyn Surface> {
+        match self {
+            Self::Revolution(body) => Some(body.surface()),
+            Self::HeightMap(map) => Some(map),
+            Self::Cylinder(_) => None,
+        }
+    }
+}
+
 /// A body of revolution.
 pub enum Revolution {
     /// h = c r^p.

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::Omission;
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
-use crate::scene::Method;
+use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -29,6 +29,9 @@ pub enum SolveError {
     /// Of the material.
     #[error(transparent)]
     Material(#[from] RheologyError),
+    /// The method needs more memory than the scene or the caller allows.
+    #[error(transparent)]
+    TooMuchMemory(#[from] SceneError),
     /// No method was asked.
     #[error(transparent)]
     NotOffered(#[from] NotOffered),

@@ -9,6 +9,7 @@ mod error;
 mod half_space;
 mod left_out;
 mod mdr;
+mod memory;
 mod offer;
 mod omission;
 mod problem;
@@ -20,6 +21,7 @@ pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
 pub use error::{NotOffered, Result, SolveError};
 pub use half_space::material;
+pub use memory::check_memory;
 pub(crate) use offer::not_offered;
 pub use offer::{choose, problem_of};
 pub use omission::Omission;
@@ -44,6 +46,7 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 /// # Errors
 /// [`SolveError`] where what was asked for was not reached.
 pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
+    check_memory(problem, method, accuracy)?;
     let refused = |why| SolveError::Refused { method, why };
     let answer = work(problem, method, accuracy).map_err(refused)?()?;
     let left_out = plan(problem, &answer);

@@ -27,6 +27,8 @@ pub struct Problem {
     pub model: Model,
     /// Threads that the scene asks for; the caller provides them.
     pub threads: Option<usize>,
+    /// Memory that one solution may take, \[bytes]; none for as much as it needs.
+    pub max_memory: Option<u64>,
     /// The material, where it is one of those that have closed forms.
     pub(crate) simple: Option<Simple>,
 }
@@ -70,6 +72,7 @@ impl Problem {
             method: scene.solve.method,
             model: scene.solve.checked_model(),
             threads: scene.solve.checked_threads()?,
+            max_memory: scene.solve.checked_memory()?,
         })
     }
 }

@@ -12,7 +12,6 @@ use rheology::{Material, Viscous};
 
 use super::analytic::impulse;
 use super::answer::{Answer, Grid};
-use super::body::Body;
 use super::error::{Result, SolveError};
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
@@ -40,11 +39,7 @@ pub fn solve_again(
     answer: &Answer,
     kept: Option<Omission>,
 ) -> Result<Vec<Number>> {
-    let surface: &dyn Surface = match &problem.body {
-        Body::Revolution(body) => body.surface(),
-        Body::HeightMap(map) => map,
-        Body::Cylinder(_) => return Err(SolveError::NoGrid),
-    };
+    let surface = problem.body.surface().ok_or(SolveError::NoGrid)?;
     let unmirrored = Unmirrored(surface);
     let (surface, kept): (&dyn Surface, _) = match kept {
         Some(Omission::MirrorHalf) => (&unmirrored, None),

@@ -4,7 +4,7 @@ use toml::{Table, Value};
 
 use super::vary::{MOST_POINTS, Vary};
 use crate::scene::{SceneError, Source, scene_file, split_index};
-use crate::solve::{self, Answer, Problem, choose, not_offered, solve};
+use crate::solve::{self, Answer, Problem, check_memory, choose, not_offered, solve};
 use crate::text::{ReadFile, WrongInput};
 
 /// Keys of a scene whose values are names of files.
@@ -18,6 +18,8 @@ pub struct Plan {
     vary: Vec<Vary>,
     /// Of the scene, the contents of the files that it names, and what varies, whatever comments and order.
     pub fingerprint: String,
+    /// Memory that a point may take where the scene does not say, \[bytes].
+    pub max_memory: Option<u64>,
     read: ReadFile,
 }
 
@@ -43,9 +45,10 @@ impl Plan {
             )));
         }
         let mut scene = table.clone();
-        // How many points are computed at the same time does not change them.
+        // On how many threads a point is computed, and how much memory it may take, does not change it.
         if let Some(Value::Table(solve)) = scene.get_mut("solve") {
             solve.remove("threads");
+            solve.remove("max_memory");
         }
         let mut text = format!("{scene}\n{vary:?}").into_bytes();
         for file in named_files(&table) {
@@ -58,6 +61,7 @@ impl Plan {
             table,
             vary: vary.to_vec(),
             fingerprint,
+            max_memory: None,
             read,
         })
     }
@@ -95,7 +99,9 @@ impl Plan {
         let mut threads = None;
         for point in 0..self.n_points() {
             let problem = self.problem(point)?;
-            choose(&problem).map_err(|error| not_offered(&self.source, &error))?;
+            let method = choose(&problem).map_err(|error| not_offered(&self.source, &error))?;
+            let fits = check_memory(&problem, method, problem.accuracy);
+            fits.map_err(|error| self.source.locate(&error))?;
             threads = problem.threads;
         }
         Ok(threads)
@@ -119,7 +125,11 @@ impl Plan {
             for (key, value) in self.keys().zip(&values) {
                 set(&mut table, key, *value)?;
             }
-            Problem::new(&scene_file(table)?, self.source.folder(), self.read)
+            let problem = Problem::new(&scene_file(table)?, self.source.folder(), self.read)?;
+            Ok(Problem {
+                max_memory: problem.max_memory.or(self.max_memory),
+                ..problem
+            })
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);

@@ -1,0 +1,75 @@
+//! The memory that a method needs, known before it begins.
+
+use bem_halfspace::{indent::indent_memory, slide::slide_memory, steady::steady_memory};
+use indenters::EquivalentLine;
+
+use super::problem::{Motion, Problem};
+use crate::scene::{Accuracy, Method, SceneError};
+
+/// Elements along the contact with which a relative error is first sought.
+const FIRST: usize = 16;
+
+/// Refuses a method that needs more memory than [`Problem::max_memory`], if there is one.
+///
+/// # Errors
+/// [`SceneError`] with what is needed, what is allowed, and the key that is best changed.
+pub fn check_memory(
+    problem: &Problem,
+    method: Method,
+    accuracy: Accuracy,
+) -> Result<(), SceneError> {
+    let (elements, key, finer) = match accuracy {
+        Accuracy::Elements(elements) => (elements, "solve.elements", "fewer elements"),
+        Accuracy::RelativeError(_) => (FIRST, "solve.max_memory", "another method"),
+    };
+    let Some((needed, allowed)) = needed(problem, method, elements).zip(problem.max_memory) else {
+        return Ok(());
+    };
+    if needed <= allowed as f64 {
+        return Ok(());
+    }
+    let shorter = match method {
+        Method::BemTransient | Method::MdrTransient => ", a shorter sliding_distance",
+        _ => "",
+    };
+    let [needed, allowed] = [needed, allowed as f64].map(written);
+    let problem = format!(
+        "{} needs up to {needed} of memory for {elements} elements along the contact, and max_memory allows {allowed}; \
+         give {finer}{shorter} or a larger max_memory",
+        method.name()
+    );
+    Err(SceneError::at(key, problem))
+}
+
+/// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
+fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
+    let material = &*problem.material;
+    let surface = problem.body.surface()?;
+    match (method, problem.motion) {
+        (Method::BemSteady, Motion::Sliding(load)) => {
+            steady_memory(surface, material, &load, elements).ok()
+        }
+        (Method::BemTransient, Motion::Sliding(load)) => {
+            slide_memory(surface, material, &load, elements).ok()
+        }
+        (Method::BemTransient, Motion::Pressing(load)) => {
+            indent_memory(surface, material, &load, elements).ok()
+        }
+        (Method::MdrTransient, Motion::Sliding(load)) => {
+            let line = EquivalentLine(surface.as_axisymmetric()?);
+            mdr_core::slide_memory(&line, material, &load, elements).ok()
+        }
+        _ => None,
+    }
+}
+
+fn written(bytes: f64) -> String {
+    let units = ["GiB", "MiB", "KiB"];
+    let powers = [30, 20, 10].map(|power: i32| 2.0_f64.powi(power));
+    let unit = powers
+        .into_iter()
+        .zip(units)
+        .find(|(size, _)| bytes >= *size);
+    let (size, unit) = unit.unwrap_or((1.0, "B"));
+    format!("{:.1} {unit}", bytes / size)
+}
