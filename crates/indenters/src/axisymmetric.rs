@@ -86,6 +86,11 @@ pub trait Axisymmetric: Send + Sync {
         None
     }
 
+    /// Radius at which the equivalent line has a height > 0, \[m], for bodies with a closed form of it.
+    fn closed_radius(&self, _height: f64) -> Option<f64> {
+        None
+    }
+
     /// Height h(r) above the lowest point, \[m], at a `radius` r ≥ 0 \[m]; `+∞` where the body has ended.
     fn profile_height(&self, radius: f64) -> f64 {
         self.profile(radius).height

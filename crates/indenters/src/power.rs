@@ -99,6 +99,10 @@ impl Axisymmetric for PowerProfile {
             slope: self.stretch * self.profile_slope(x),
         })
     }
+
+    fn closed_radius(&self, height: f64) -> Option<f64> {
+        Some(self.line_position(height))
+    }
 }
 
 surface_of_revolution!(PowerProfile);

@@ -126,6 +126,15 @@ pub enum MdrError {
         /// Time since first touch, \[s].
         time: f64,
     },
+    /// A contact that was pressed again is not a disc any more, and the one-dimensional model not exact.
+    #[error(
+        "at time {time} s the surface has recovered in such a way that a part of the contact opens inside it, or closes \
+         outside: press again later, or less"
+    )]
+    NotADisc {
+        /// When, \[s].
+        time: f64,
+    },
     /// Too few elements are in contact at the end for the result to mean anything.
     #[error(
         "at least {needed} elements must be in contact at spacing {spacing}, but only {n_contact} are"

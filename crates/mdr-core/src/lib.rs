@@ -33,12 +33,14 @@ mod compensated;
 mod contact;
 mod element_heights;
 mod error;
+mod history;
 mod indent;
 mod press;
 mod slide;
 mod steady;
 
 pub use error::MdrError;
+pub use history::{CurvePoint, Follow, HistoryPoint, indent_along};
 pub use indent::{
     IndentOptions, IndentRow, IndentStep, Indentation, indent, indent_history, indent_on_grid,
 };

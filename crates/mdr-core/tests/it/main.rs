@@ -5,6 +5,7 @@ mod bad_input_is_refused;
 mod cusps_and_kinks;
 mod edges_and_bars;
 mod friction_converges_to_the_theorem;
+mod histories_match_quadrature;
 mod leading_edges_carry_the_load;
 mod march_ends_in_the_stationary_state;
 mod pressing;

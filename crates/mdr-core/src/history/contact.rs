@@ -1,0 +1,391 @@
+//! The contact circle along a path, and the force in it.
+//!
+//! ```text
+//! F = 8/(2 (1 − ν)) [η₀ ḋ a + Σ Φ_k]      Φ_k = ∫₀^a σ_k dx
+//! Φ_k(t) = e^(−(t − s)/τ_k) Φ_k(s) + G_k ∫ e^(−(t − s')/τ_k) ḋ a ds'      while the contact grows over new elements
+//! ```
+//! The contact is a stack of rings in the order in which they were touched, each with the Φ_k of everything inside it at
+//! the moment it began. All elements inside stay in contact from then on, so that the sums follow from these at any later
+//! time; a contact that shrinks takes rings from the top (Ting 1966, J. Appl. Mech. 33, 845). Elements that are touched
+//! again are followed one by one, each from event to event in closed form, and summed over a ring by quadrature.
+
+use indenters::Axisymmetric;
+use numerics::{LobattoRule, bracketed_root, lobatto_rule};
+
+use super::edge::Edge;
+use super::element::{Elements, Free, State};
+use super::path::{Instant, Path, ROUNDING};
+use super::radius::Radii;
+use super::sums::Weights;
+use crate::MdrError;
+
+/// How the edge moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Motion {
+    /// Outwards, over elements that were never touched.
+    First,
+    /// Outwards, over elements that were touched before.
+    Again,
+    /// Inwards.
+    Leaving,
+}
+
+/// A ring over which the edge moves in one direction, within one segment of the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    pub(super) motion: Motion,
+    pub(super) from: Instant,
+    pub(super) to: Instant,
+    /// Radii of the ring, \[m].
+    pub(super) inner: f64,
+    pub(super) outer: f64,
+    /// Number of legs before it.
+    pub(super) before: usize,
+}
+
+/// A body that follows a path, from one point to the next.
+#[derive(Clone)]
+pub(super) struct Contact<'a> {
+    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) path: Path,
+    pub(super) radii: Radii,
+    /// Rings in contact, from the centre outwards.
+    pub(super) rings: Vec<Leg>,
+    /// Φ_k inside each ring when it began, ring by ring.
+    pub(super) inside: Vec<f64>,
+    /// All that happened.
+    pub(super) legs: Vec<Leg>,
+    /// Φ_k of the whole contact now, and σ_k at its edge.
+    pub(super) sums: Vec<f64>,
+    edge: Vec<f64>,
+    /// Largest radius and depth that were ever in contact.
+    widest: [f64; 2],
+    pub(super) rule: LobattoRule,
+    /// Error of Σ Φ_k by quadrature.
+    pub(super) quadrature_error: f64,
+    pub(super) weights: Weights,
+    /// Modulus G(t − s) of the element at the edge; none while it is being touched.
+    pub(super) edge_modulus: Option<f64>,
+    /// What comes after the edge has turned within a segment.
+    turned: Option<Motion>,
+    /// The element at the centre after the contact was lost.
+    centre: Option<Free>,
+}
+
+/// Nodes of a panel.
+const NODES: usize = 8;
+/// Gaps and loads of the wrong sign, relative to the depth and to the terms of a load, that rounding may leave.
+pub(super) const WRONG_SIGN: f64 = 1e-10;
+
+impl<'a> Contact<'a> {
+    /// A body at the first point of a path, which will not be deeper than its radii are known.
+    pub(super) fn new(body: &'a dyn Axisymmetric, path: Path, radii: Radii) -> Self {
+        let nothing = vec![0.0; path.n_branches()];
+        Self {
+            body,
+            path,
+            radii,
+            rings: Vec::new(),
+            inside: Vec::new(),
+            legs: Vec::new(),
+            sums: nothing.clone(),
+            edge: nothing,
+            widest: [0.0; 2],
+            rule: lobatto_rule(NODES),
+            quadrature_error: 0.0,
+            weights: Weights::default(),
+            edge_modulus: None,
+            turned: None,
+            centre: None,
+        }
+    }
+
+    /// Contact radius, \[m].
+    pub(super) fn radius(&self) -> f64 {
+        self.rings.last().map_or(0.0, |ring| ring.outer)
+    }
+
+    /// η₀ ḋ a + Σ Φ_k, and the size of its terms.
+    pub(super) fn load(&self) -> [f64; 2] {
+        let segment = self.path.times.len() - 2;
+        let viscous = match self.path.step(segment) {
+            0.0 => 0.0,
+            _ => self.path.viscosity * self.path.speed(segment) * self.radius(),
+        };
+        let end = Instant { segment, part: 1.0 };
+        let sum = viscous + self.sums.iter().sum::<f64>();
+        let inner = self.sums.iter().map(|sum| sum.abs()).sum::<f64>();
+        [
+            sum,
+            viscous.abs() + inner + self.radius() * self.path.scale(end),
+        ]
+    }
+
+    /// Change of the edge by a change of its load, \[1/Pa], and the size of the terms of that load, \[Pa m].
+    pub(super) fn edge_compliance(&self) -> [f64; 2] {
+        let end = Instant {
+            segment: self.path.times.len() - 2,
+            part: 1.0,
+        };
+        match (self.rings.last(), self.edge_modulus) {
+            (Some(ring), Some(modulus)) => {
+                let depths = [ring.from, ring.to].map(|at| self.path.depth(at));
+                let [_, slope] = self.radii.at([depths[0].max(0.0), depths[1].max(0.0)]);
+                [slope.abs() / modulus, self.path.scale(end)]
+            }
+            _ => [0.0; 2],
+        }
+    }
+
+    pub(super) fn elements(&self) -> Elements<'_> {
+        Elements {
+            body: self.body,
+            path: &self.path,
+        }
+    }
+
+    /// Follows the body to a point, at a later time or at once.
+    ///
+    /// # Errors
+    /// [`MdrError::NotADisc`].
+    pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
+        self.path.push(time, depth);
+        let segment = self.path.times.len() - 2;
+        let mut at = Instant { segment, part: 0.0 };
+        while at.part < 1.0 {
+            at = self.move_on(at)?;
+        }
+        Ok(())
+    }
+
+    /// One leg; returns its end.
+    fn move_on(&mut self, at: Instant) -> Result<Instant, MdrError> {
+        let end = Instant { part: 1.0, ..at };
+        if self.rings.is_empty() {
+            if let Some(centre) = &self.centre {
+                // A contact that begins and ends within one segment is not seen.
+                if self.elements().gap(centre, end) > 0.0 {
+                    return Ok(end);
+                }
+                return self.grow_again([at, end], true);
+            }
+            if self.path.depth(end) <= 0.0 || self.path.rise(at.segment) <= 0.0 {
+                return Ok(end);
+            }
+            let touch = self.path.passes(at.segment, 0.0);
+            return Ok(self.grow(if touch.part > at.part { touch } else { at }, end));
+        }
+        let turned = self.turned.take();
+        let tendency = match turned {
+            Some(Motion::Leaving) => -1.0,
+            Some(_) => 1.0,
+            None => self.path.tendency(&self.edge, at),
+        };
+        if tendency > 0.0 && self.radius() < self.widest[0] {
+            return self.grow_again([at, end], turned.is_some());
+        }
+        if tendency > 0.0 {
+            return Ok(self.grow(at, end));
+        }
+        let stays =
+            |edge: Edge| self.path.load(&edge.stresses, end) >= -ROUNDING * self.path.scale(end);
+        if tendency == 0.0 && self.outermost(end).is_some_and(stays) {
+            self.hold(end);
+            return Ok(end);
+        }
+        self.shrink([at, end], turned.is_some())
+    }
+
+    /// Over elements that were never touched.
+    fn grow(&mut self, at: Instant, end: Instant) -> Instant {
+        let deepest = self.widest[1];
+        let path = &self.path;
+        if path.depth(end) <= deepest {
+            self.hold(end);
+            return end;
+        }
+        let mut depths = [path.depth(at).max(deepest), path.depth(end)];
+        let mut to = end;
+        let limit = self.radii.end_of_piece(depths[0]);
+        if limit < depths[1] {
+            depths[1] = limit;
+            to = path.passes(at.segment, limit);
+        }
+        let [outer, _] = self.radii.at(depths);
+        self.widest = [outer, depths[1]];
+        self.edge.fill(0.0);
+        self.add(Motion::First, [at, to], outer);
+        to
+    }
+
+    /// Over elements that recover, up to the last one that was ever touched.
+    fn grow_again(
+        &mut self,
+        [at, end]: [Instant; 2],
+        has_turned: bool,
+    ) -> Result<Instant, MdrError> {
+        let [widest, deepest] = self.widest;
+        let instant = |part: f64| Instant { part, ..at };
+        let mut to = end;
+        let passes = self.path.rise(at.segment) > 0.0 && self.path.depth(end) > deepest;
+        if passes {
+            to = self.path.passes(at.segment, deepest);
+        } else {
+            let tendency = |part: f64| {
+                let at = instant(part);
+                self.path
+                    .tendency(&self.touching(self.edge_outwards(at), at), at)
+            };
+            if tendency(1.0) < 0.0
+                && let Some(turn) = turn(tendency, at, has_turned)
+            {
+                to = turn;
+                self.turned = Some(Motion::Leaving);
+            }
+        }
+        // Where it passes, whatever rounding makes of a gap there.
+        let outer = if passes {
+            widest
+        } else {
+            self.edge_outwards(to)
+        };
+        if outer <= self.radius() {
+            self.hold(to);
+            return Ok(to);
+        }
+        self.check_gaps([outer, widest], to)?;
+        self.edge = self.touching(outer, to);
+        self.add(Motion::Again, [at, to], outer);
+        Ok(to)
+    }
+
+    /// Height of the body over an element that is not in contact.
+    fn gap(&self, radius: f64, at: Instant) -> f64 {
+        let radius = radius.max(self.radius().next_up());
+        match self.elements().follow(radius, &self.legs) {
+            State::Free(free) => self.elements().gap(&free, at),
+            _ => self.body.line_height(radius) - self.path.depth(at),
+        }
+    }
+
+    /// σ_k of an element that is touched at that moment.
+    fn touching(&self, radius: f64, at: Instant) -> Vec<f64> {
+        let radius = radius.max(self.radius().next_up());
+        match self.elements().follow(radius, &self.legs) {
+            State::Free(free) => self.elements().free_stresses(&free, at),
+            _ => vec![0.0; self.path.n_branches()],
+        }
+    }
+
+    /// The radius up to which free elements are touched.
+    fn edge_outwards(&self, at: Instant) -> f64 {
+        let (inner, widest) = (self.radius(), self.widest[0]);
+        match bracketed_root(|radius| self.gap(radius, at), [inner, widest]) {
+            Some(edge) => edge,
+            None if self.gap(inner, at) <= 0.0 => widest,
+            None => inner,
+        }
+    }
+
+    /// Refuses a body that touches free elements in another order than from inside outwards.
+    fn check_gaps(&self, [edge, widest]: [f64; 2], at: Instant) -> Result<(), MdrError> {
+        let inner = self.radius();
+        let allowed = WRONG_SIGN * self.widest[1];
+        for node in &self.rule.nodes[1..NODES - 1] {
+            let between = |[from, to]: [f64; 2]| from + 0.5 * (to - from) * (1.0 + node);
+            let touched = self.gap(between([inner, edge]), at) <= allowed;
+            let free = self.gap(between([edge, widest]), at) >= -allowed;
+            if !(touched && free) {
+                return Err(MdrError::NotADisc {
+                    time: self.path.time(at),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The contact stays as it is up to an instant.
+    fn hold(&mut self, to: Instant) {
+        if let Some(edge) = self.outermost(to) {
+            self.edge = edge.stresses;
+        }
+        self.sums = self.sums_at(to, None);
+    }
+
+    /// A ring around the contact, which ends with the σ_k at the edge.
+    fn add(&mut self, motion: Motion, [from, to]: [Instant; 2], outer: f64) {
+        let leg = Leg {
+            motion,
+            from,
+            to,
+            inner: self.radius(),
+            outer,
+            before: self.legs.len(),
+        };
+        self.legs.push(leg);
+        self.rings.push(leg);
+        self.inside.extend_from_slice(&self.sums);
+        self.sums = self.sums_at(to, None);
+    }
+
+    fn shrink(&mut self, [at, end]: [Instant; 2], has_turned: bool) -> Result<Instant, MdrError> {
+        let instant = |part: f64| Instant { part, ..at };
+        let tendency = |edge: &Option<Edge>, part: f64| match edge {
+            Some(edge) => self.path.tendency(&edge.stresses, instant(part)),
+            None => -1.0,
+        };
+        let mut to = end;
+        let mut edge = self.edge_inwards(to);
+        let later = |part: f64| tendency(&self.edge_inwards(instant(part)), part);
+        if self.path.step(at.segment) > 0.0
+            && tendency(&edge, 1.0) > 0.0
+            && let Some(turn) = turn(later, at, has_turned)
+        {
+            to = turn;
+            self.turned = Some(Motion::Again);
+            edge = self.edge_inwards(to);
+        }
+        let outer = self.radius();
+        let Some(edge) = edge else {
+            self.leave([at, to], [0.0, outer]);
+            self.rings.clear();
+            self.inside.clear();
+            self.sums.fill(0.0);
+            if let State::Free(free) = self.elements().follow(f64::MIN_POSITIVE, &self.legs) {
+                self.centre = Some(free);
+            }
+            return Ok(to);
+        };
+        self.leave([at, to], [edge.radius, outer]);
+        self.rings.truncate(edge.n_rings);
+        self.inside.truncate(edge.n_rings * self.path.n_branches());
+        let first = edge.first.map(|(since, lag)| {
+            self.rings[edge.n_rings - 1].to = since;
+            lag
+        });
+        self.rings[edge.n_rings - 1].outer = edge.radius;
+        self.edge = edge.stresses;
+        self.sums = self.sums_at(to, first);
+        self.check_load(to)?;
+        Ok(to)
+    }
+
+    fn leave(&mut self, [from, to]: [Instant; 2], [inner, outer]: [f64; 2]) {
+        if inner < outer {
+            self.legs.push(Leg {
+                motion: Motion::Leaving,
+                from,
+                to,
+                inner,
+                outer,
+                before: self.legs.len(),
+            });
+        }
+    }
+}
+
+/// The instant after another one in its segment at which the edge turns; right after a turn none, lest the edge stands still.
+fn turn(tendency: impl Fn(f64) -> f64, at: Instant, has_turned: bool) -> Option<Instant> {
+    let part = bracketed_root(tendency, [at.part, 1.0])?;
+    (part > at.part || !has_turned).then_some(Instant { part, ..at })
+}

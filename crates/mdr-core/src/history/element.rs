@@ -1,0 +1,153 @@
+//! One element of the line: when the body touches and leaves it, and what it remembers.
+//!
+//! ```text
+//! touched at s:  u = d − h̃       σ_k(t) = G_k (q_k(t) − e^(−(t − s)/τ_k) q_k(s)) + e^(−(t − s)/τ_k) σ_k(s)
+//! free from s:   u = Σ y_j e^(−(t − s)/λ_j)       w = 0
+//! y_j = (J_j/λ_j) [η₀ u + Σ G_k τ_k z_k/(1 − τ_k/λ_j)]      z_k = u − σ_k/G_k
+//! ```
+//! The last line is the expansion of u in the poles of 1/(s Ĝ(s)), with what the branches hold at the moment s.
+
+use indenters::Axisymmetric;
+use numerics::bracketed_root;
+
+use super::contact::{Leg, Motion};
+use super::path::{Instant, Mode, Path};
+
+/// An element in contact.
+#[derive(Debug, Clone)]
+pub(super) struct Touched {
+    since: Instant,
+    /// σ_k at that moment.
+    stresses: Vec<f64>,
+}
+
+/// An element that the body has left.
+#[derive(Debug, Clone)]
+pub(super) struct Free {
+    since: Instant,
+    height: f64,
+    /// y_j.
+    amplitudes: Vec<f64>,
+}
+
+/// What became of an element in the last event of its history.
+#[derive(Debug, Clone)]
+pub(super) enum State {
+    Untouched,
+    Touched(Touched),
+    Free(Free),
+}
+
+/// Elements of one line under one path.
+pub(super) struct Elements<'a> {
+    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) path: &'a Path,
+}
+
+impl Elements<'_> {
+    /// The element at a radius after the legs of a contact.
+    pub(super) fn follow(&self, radius: f64, legs: &[Leg]) -> State {
+        let inside = |leg: &&Leg| leg.inner < radius && radius <= leg.outer;
+        let height = self.body.line_height(radius);
+        let mut state = State::Untouched;
+        for leg in legs.iter().filter(inside) {
+            state = match (leg.motion, state) {
+                (Motion::First, State::Untouched) => {
+                    let at = self.path.passes(leg.from.segment, height);
+                    let part = at.part.clamp(leg.from.part, leg.to.part);
+                    State::Touched(Touched {
+                        since: Instant { part, ..at },
+                        stresses: vec![0.0; self.path.n_branches()],
+                    })
+                }
+                (Motion::Again, State::Free(free)) => {
+                    let at = within(leg, |at| self.gap(&free, at));
+                    State::Touched(Touched {
+                        since: at,
+                        stresses: self.free_stresses(&free, at),
+                    })
+                }
+                (Motion::Leaving, State::Touched(touched)) => {
+                    let at = within(leg, |at| self.load(&touched, at));
+                    State::Free(self.release(height, &self.stresses(&touched, at), at))
+                }
+                (_, state) => state,
+            };
+        }
+        state
+    }
+
+    /// σ_k of an element in contact.
+    pub(super) fn stresses(&self, touched: &Touched, at: Instant) -> Vec<f64> {
+        let lag = self.path.lag(touched.since, at);
+        let held = touched.stresses.iter().zip(&lag.decays);
+        let held = held.map(|(stress, decay)| stress * decay);
+        held.zip(lag.stresses)
+            .map(|(held, gained)| held + gained)
+            .collect()
+    }
+
+    /// w of an element in contact, \[Pa m].
+    fn load(&self, touched: &Touched, at: Instant) -> f64 {
+        self.path.load(&self.stresses(touched, at), at)
+    }
+
+    fn release(&self, height: f64, stresses: &[f64], since: Instant) -> Free {
+        let path = self.path;
+        let displacement = path.depth(since) - height;
+        let amplitude = |mode: &Mode| {
+            let held = (0..path.n_branches()).filter(|k| path.rates[*k] > 0.0);
+            let held = held.map(|k| {
+                let viscous = path.moduli[k] * displacement - stresses[k];
+                viscous / (path.rates[k] - mode.rate)
+            });
+            mode.fluidity * (path.viscosity * displacement + held.sum::<f64>())
+        };
+        Free {
+            since,
+            height,
+            amplitudes: path.modes.iter().map(amplitude).collect(),
+        }
+    }
+
+    /// Height of the body over a free element, \[m].
+    pub(super) fn gap(&self, free: &Free, at: Instant) -> f64 {
+        free.height + self.recovering(free, at).sum::<f64>() - self.path.depth(at)
+    }
+
+    /// y_j e^(−(t − s)/λ_j).
+    fn recovering(&self, free: &Free, at: Instant) -> impl Iterator<Item = f64> {
+        let lag = self.path.time(at) - self.path.time(free.since);
+        let modes = self.path.modes.iter().zip(&free.amplitudes);
+        modes.map(move |(mode, amplitude)| amplitude * (-mode.rate * lag).exp())
+    }
+
+    /// σ_k = G_k (u − z_k) of a free element; in one mode z is y/(1 − τ_k/λ_j).
+    pub(super) fn free_stresses(&self, free: &Free, at: Instant) -> Vec<f64> {
+        let path = self.path;
+        let modes: Vec<f64> = self.recovering(free, at).collect();
+        let stress = |k: usize| {
+            let parts = modes.iter().zip(&path.modes);
+            let strain = parts.map(|(y, mode)| match path.rates[k] {
+                0.0 => *y,
+                rate => y * mode.rate / (mode.rate - rate),
+            });
+            path.moduli[k] * strain.sum::<f64>()
+        };
+        (0..path.n_branches()).map(stress).collect()
+    }
+}
+
+/// The instant of a leg at which a falling quantity vanishes; its beginning or end where it does not.
+fn within(leg: &Leg, falling: impl Fn(Instant) -> f64) -> Instant {
+    let at = |part| Instant { part, ..leg.from };
+    let ends = [leg.from.part, leg.to.part];
+    let root = bracketed_root(|part| falling(at(part)), ends);
+    at(root.unwrap_or_else(|| {
+        if falling(leg.from) <= 0.0 {
+            ends[0]
+        } else {
+            ends[1]
+        }
+    }))
+}

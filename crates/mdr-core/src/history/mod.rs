@@ -1,0 +1,224 @@
+//! Pressing, unloading and pressing again, on any path of the depth.
+//!
+//! ```text
+//! w(x, t) = η₀ ḋ + ∫_s^t G(t − t') ḋ dt'        of an element touched at s(x), as long as w > 0
+//! F(t) = 8/(2 (1 − ν)) ∫₀^a w dx
+//! ```
+//! The elements of the line touch and leave the body one by one; on a half space that is exact as long as the contact is
+//! a disc (Ting 1966, J. Appl. Mech. 33, 845; Argatov & Popov 2016, ZAMM 96, 956).
+
+mod contact;
+mod edge;
+mod element;
+mod force;
+mod path;
+mod radius;
+mod sums;
+
+use indenters::{Axisymmetric, Control};
+use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};
+use rheology::Material;
+
+use self::contact::Contact;
+use self::force::Pressed;
+use self::path::Path;
+use self::radius::Radii;
+use crate::MdrError;
+use crate::error;
+
+/// Force or depth at one time of a history, straight in between; two of the same time are a jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct HistoryPoint {
+    /// Time, \[s].
+    pub time: f64,
+    /// Force ≥ 0, or depth of the lowest point below the undeformed surface, of either sign.
+    pub control: Control,
+}
+
+/// The contact at one point of a history; an error of 0 says that a quantity is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CurvePoint {
+    /// Time, \[s].
+    pub time: f64,
+    /// Depth d of the lowest point, \[m].
+    pub indentation_depth: Estimate,
+    /// Normal force F_N, \[N], at the end of the segment that leads there: with a lone dashpot it jumps where the speed does.
+    pub normal_force: Estimate,
+    /// Radius a of the contact circle, \[m]; 0 without contact.
+    pub contact_radius: Estimate,
+}
+
+/// How a history is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Follow {
+    /// Relative error of the modulus of a material that stands for another one, as a Prony series for a springpot
+    /// ([`PronyExpansion::relative_error`](rheology::PronyExpansion::relative_error)), which is part of all error bars.
+    pub modulus_error: f64,
+    /// Error of the depth under a force that falls, relative to the largest depth; everything else is exact.
+    pub relative_error: f64,
+}
+
+impl Default for Follow {
+    /// A material that stands for itself, and depths to one part in a thousand.
+    fn default() -> Self {
+        Self {
+            modulus_error: 0.0,
+            relative_error: 1e-3,
+        }
+    }
+}
+
+/// Presses a body into an undeformed material along a path of the depth or of the force, and lets it go again, as often as
+/// it says.
+///
+/// The surface is at rest before the first point, to which a body jumps that is below the surface there, or pressed. At a
+/// depth everything is exact up to rounding; between two points the edge of the contact may turn once. So is the depth
+/// under a force as long as the force does not fall; without force the body touches.
+///
+/// # Errors
+/// [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
+/// depth on a material with a lone dashpot; [`MdrError::Empty`] without points; [`MdrError::Indenter`] when the line of the
+/// body turns down or ends before the largest depth; [`MdrError::NotADisc`] when a part of the contact would open inside
+/// it, or close outside; [`MdrError::NotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
+pub fn indent_along(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &(impl Material + ?Sized),
+    history: &[HistoryPoint],
+    options: &Follow,
+) -> Result<Vec<CurvePoint>, MdrError> {
+    not_negative("modulus_error", options.modulus_error)?;
+    between_zero_and_one("relative_error", options.relative_error)?;
+    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
+    let points = checked(history)?;
+    if points.iter().all(|[_, value]| *value <= 0.0) {
+        return Ok(points.into_iter().map(free).collect());
+    }
+    // As a pointer to it, a body of any size is one that can be an object.
+    let (body, material): (&dyn Axisymmetric, &dyn Material) = (&body, &material);
+    let curve = match first.control {
+        Control::IndentationDepth(_) => along_depth(body, material, &points, options)?,
+        Control::NormalForce(_) => Pressed {
+            body,
+            material,
+            options: *options,
+            points,
+        }
+        .curve()?,
+    };
+    for point in &curve {
+        error::finite("normal force", point.normal_force.value, point.time)?;
+        error::finite(
+            "indentation depth",
+            point.indentation_depth.value,
+            point.time,
+        )?;
+    }
+    Ok(curve)
+}
+
+/// A body without load.
+const fn free([time, depth]: [f64; 2]) -> CurvePoint {
+    CurvePoint {
+        time,
+        indentation_depth: Estimate::exact(depth),
+        normal_force: Estimate::exact(0.0),
+        contact_radius: Estimate::exact(0.0),
+    }
+}
+
+/// Times and depths, or times and forces.
+fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
+    let is_force = |point: &HistoryPoint| matches!(point.control, Control::NormalForce(_));
+    let forces = is_force(&history[0]);
+    let mut before = history[0].time;
+    let mut points = Vec::with_capacity(history.len());
+    for point in history {
+        let time = finite("time", point.time)?;
+        not_negative("time between two points", time - before)?;
+        before = time;
+        let value = match point.control {
+            Control::IndentationDepth(depth) => finite("indentation_depth", depth)?,
+            Control::NormalForce(force) => not_negative("normal_force", force)?,
+        };
+        let allowed = "a force at all points of a history, or a depth at all";
+        in_range("control", value, is_force(point) == forces, allowed)?;
+        points.push([time, value]);
+    }
+    Ok(points)
+}
+
+fn along_depth(
+    body: &dyn Axisymmetric,
+    material: &dyn Material,
+    points: &[[f64; 2]],
+    options: &Follow,
+) -> Result<Vec<CurvePoint>, MdrError> {
+    let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
+    let bars = Bars {
+        factor: 8.0 / material.half_space_factor(),
+        modulus_error: options.modulus_error,
+    };
+    let mut path = Path::new(material);
+    let mut rest = points;
+    let mut curve = Vec::with_capacity(points.len());
+    // A body that begins above the surface is there; one below it jumps there.
+    path.push(points[0][0], points[0][1].min(0.0));
+    if points[0][1] <= 0.0 {
+        curve.push(free(points[0]));
+        rest = &points[1..];
+    }
+    let mut contact = Contact::new(body, path, Radii::new(body, deepest)?);
+    let mut largest = 0.0_f64;
+    for [time, depth] in rest {
+        if contact.path.viscosity > 0.0 {
+            positive("time between two depths", time - contact.path.last().0)?;
+        }
+        contact.follow(*time, *depth)?;
+        let point = bars.point(&contact, largest);
+        largest = largest.max(point.normal_force.value);
+        curve.push(point);
+    }
+    Ok(curve)
+}
+
+/// What errors are made of.
+#[derive(Debug, Clone, Copy)]
+struct Bars {
+    /// 8/(2 (1 − ν)).
+    factor: f64,
+    modulus_error: f64,
+}
+
+/// Units in the last place of the terms of a sum that rounding may leave; the tests compare it with 40 digits.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+impl Bars {
+    /// The last point of a contact, after a largest force.
+    fn point(&self, contact: &Contact<'_>, largest: f64) -> CurvePoint {
+        let (time, depth) = contact.path.last();
+        let radius = contact.radius();
+        let [sum, terms] = contact.load();
+        let force = self.factor * sum;
+        let [compliance, terms_at_edge] = contact.edge_compliance();
+        let rounding = ROUNDING * terms
+            + contact.quadrature_error
+            + contact.path.glass_modulus() * contact.radii.area_error;
+        // By a shift of the edge the force changes in second order only, because its elements carry nothing.
+        let expansion = 2.0 * self.modulus_error * largest.max(force);
+        let shift = (ROUNDING + 2.0 * self.modulus_error) * terms_at_edge * compliance;
+        CurvePoint {
+            time,
+            indentation_depth: Estimate::exact(depth),
+            normal_force: Estimate {
+                value: force,
+                error: self.factor * rounding + expansion,
+            },
+            contact_radius: Estimate {
+                value: radius,
+                error: ROUNDING * radius + shift,
+            },
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! A depth that is straight from point to point, and what a material remembers of it.
+//!
+//! ```text
+//! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ(s) ds        a lone spring is a branch with 1/τ = 0
+//! ```
+//! An element that stays in contact from the time s on has the stress σ_k(t) = G_k q_k(t) + r_k e^(−(t − s)/τ_k) in
+//! branch k, with r_k = −G_k q_k(s) where it was never touched before, and the load w = η₀ ḋ + Σ σ_k.
+
+use std::borrow::Cow;
+
+use rheology::Material;
+
+/// A time in a segment between two points, `part` ∈ [0, 1] of it after its beginning.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instant {
+    pub(super) segment: usize,
+    pub(super) part: f64,
+}
+
+/// An exponential in which a free element recovers; free flow has the rate 0.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mode {
+    /// 1/λ, \[1/s].
+    pub(super) rate: f64,
+    /// J/λ, [1/(Pa s)].
+    pub(super) fluidity: f64,
+}
+
+/// Depth over time on one material.
+#[derive(Debug, Clone)]
+pub(super) struct Path {
+    /// Moduli G_k of the branches, \[Pa].
+    pub(super) moduli: Vec<f64>,
+    /// 1/τ_k, \[1/s].
+    pub(super) rates: Vec<f64>,
+    /// Viscosity η₀ of the lone dashpot.
+    pub(super) viscosity: f64,
+    pub(super) modes: Vec<Mode>,
+    pub(super) times: Vec<f64>,
+    pub(super) depths: Vec<f64>,
+    /// q_k at the points, branch by branch within a point.
+    memory: Vec<f64>,
+    /// Length of the last step, and (1 − e^(−x))/x of each branch over it.
+    last_step: f64,
+    means: Vec<f64>,
+}
+
+impl Path {
+    /// The path that is still without points.
+    pub(super) fn new(material: &(impl Material + ?Sized)) -> Self {
+        let (relaxation, creep) = (material.relaxation(), material.creep());
+        let branches = relaxation.branches().iter();
+        let branches = branches.map(|branch| [branch.modulus, branch.relaxation_time.recip()]);
+        let spring = Some([relaxation.equilibrium_modulus(), 0.0]).filter(|[g, _]| *g > 0.0);
+        let branches: Vec<[f64; 2]> = branches.chain(spring).collect();
+        let delayed = creep.elements().iter().map(|element| Mode {
+            rate: element.retardation_time.recip(),
+            fluidity: element.fluidity(),
+        });
+        let flow = Some(creep.fluidity()).filter(|fluidity| *fluidity > 0.0);
+        let flow = flow.map(|fluidity| Mode {
+            rate: 0.0,
+            fluidity,
+        });
+        Self {
+            moduli: branches.iter().map(|[modulus, _]| *modulus).collect(),
+            rates: branches.iter().map(|[_, rate]| *rate).collect(),
+            viscosity: relaxation.viscosity(),
+            modes: delayed.chain(flow).collect(),
+            times: Vec::new(),
+            depths: Vec::new(),
+            memory: Vec::new(),
+            last_step: f64::NAN,
+            means: Vec::new(),
+        }
+    }
+
+    /// Goes on to a point, at a later time or at once.
+    pub(super) fn push(&mut self, time: f64, depth: f64) {
+        let before = self.times.last().copied().zip(self.depths.last().copied());
+        self.times.push(time);
+        self.depths.push(depth);
+        let Some((time_before, depth_before)) = before else {
+            self.memory = vec![0.0; self.n_branches()];
+            return;
+        };
+        let step = time - time_before;
+        if !same_step(step, self.last_step, time) {
+            let means = self.rates.iter().map(|rate| mean_exponential(-rate * step));
+            self.means = means.collect();
+            self.last_step = step;
+        }
+        let start = self.memory.len() - self.n_branches();
+        for (k, mean) in self.means.iter().enumerate() {
+            let kept = 1.0 - self.rates[k] * self.last_step * mean;
+            self.memory
+                .push(kept * self.memory[start + k] + (depth - depth_before) * mean);
+        }
+    }
+
+    /// Time and depth of the last point.
+    pub(super) fn last(&self) -> (f64, f64) {
+        let last = self.times.len() - 1;
+        (self.times[last], self.depths[last])
+    }
+
+    pub(super) fn n_branches(&self) -> usize {
+        self.moduli.len()
+    }
+
+    /// Modulus of all springs, \[Pa].
+    pub(super) fn glass_modulus(&self) -> f64 {
+        self.moduli.iter().sum()
+    }
+
+    pub(super) fn step(&self, segment: usize) -> f64 {
+        self.times[segment + 1] - self.times[segment]
+    }
+
+    pub(super) fn rise(&self, segment: usize) -> f64 {
+        self.depths[segment + 1] - self.depths[segment]
+    }
+
+    /// Speed ḋ in a segment; of a jump, its height instead, which has the same sign.
+    pub(super) fn speed(&self, segment: usize) -> f64 {
+        match self.step(segment) {
+            0.0 => self.rise(segment),
+            step => self.rise(segment) / step,
+        }
+    }
+
+    pub(super) fn time(&self, at: Instant) -> f64 {
+        self.times[at.segment] + at.part * self.step(at.segment)
+    }
+
+    pub(super) fn depth(&self, at: Instant) -> f64 {
+        self.depths[at.segment] + at.part * self.rise(at.segment)
+    }
+
+    /// The instant of a segment at which the body has a depth; its beginning or end where that is outside.
+    pub(super) fn passes(&self, segment: usize, depth: f64) -> Instant {
+        let part = (depth - self.depths[segment]) / self.rise(segment);
+        Instant {
+            segment,
+            part: part.clamp(0.0, 1.0),
+        }
+    }
+
+    /// q_k of all branches.
+    pub(super) fn remembered(&self, at: Instant) -> Cow<'_, [f64]> {
+        let n = self.n_branches();
+        let here = &self.memory[at.segment * n..];
+        if at.part == 0.0 {
+            return Cow::Borrowed(&here[..n]);
+        }
+        // The end of a segment is known as such.
+        if at.part >= 1.0 {
+            return Cow::Borrowed(&here[n..2 * n]);
+        }
+        let (step, rise) = (
+            at.part * self.step(at.segment),
+            at.part * self.rise(at.segment),
+        );
+        let later = self.rates.iter().zip(here).map(|(rate, before)| {
+            let mean = mean_exponential(-rate * step);
+            (1.0 - rate * step * mean) * before + rise * mean
+        });
+        Cow::Owned(later.collect())
+    }
+
+    /// What became of the branches from one instant to another.
+    pub(super) fn lag(&self, since: Instant, at: Instant) -> Lag {
+        let time = self.time(at) - self.time(since);
+        let decays: Vec<f64> = self.rates.iter().map(|rate| (-rate * time).exp()).collect();
+        let (then, now) = (self.remembered(since), self.remembered(at));
+        let gained =
+            (0..self.n_branches()).map(|k| self.moduli[k] * (now[k] - decays[k] * then[k]));
+        Lag {
+            stresses: gained.collect(),
+            decays,
+        }
+    }
+
+    /// G(t − s) \[Pa] and its derivative with s, [Pa/s].
+    pub(super) fn modulus(&self, lag: &Lag) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (k, decay) in lag.decays.iter().enumerate() {
+            let modulus = self.moduli[k] * decay;
+            sums[0] += modulus;
+            sums[1] += self.rates[k] * modulus;
+        }
+        sums
+    }
+
+    /// Size of the terms that cancel in the load of an element, \[Pa m].
+    pub(super) fn scale(&self, at: Instant) -> f64 {
+        let remembered = self.remembered(at);
+        let stresses = self.moduli.iter().zip(remembered.iter());
+        let stresses = stresses.map(|(modulus, strain)| modulus * strain.abs());
+        self.viscosity * self.speed(at.segment).abs() + stresses.sum::<f64>()
+    }
+
+    /// w of an element of these stresses, \[Pa m].
+    pub(super) fn load(&self, stresses: &[f64], at: Instant) -> f64 {
+        self.viscosity * self.speed(at.segment) + stresses.iter().sum::<f64>()
+    }
+
+    /// Whether an element of these stresses at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
+    pub(super) fn tendency(&self, stresses: &[f64], at: Instant) -> f64 {
+        let speed = self.speed(at.segment);
+        if self.step(at.segment) == 0.0 {
+            return speed;
+        }
+        let (mut rate, mut rate_scale) = (self.glass_modulus() * speed, 0.0);
+        let remembered = self.remembered(at);
+        for (k, stress) in stresses.iter().enumerate() {
+            rate -= self.rates[k] * stress;
+            rate_scale += self.rates[k] * self.moduli[k] * remembered[k].abs();
+        }
+        let load = self.load(stresses, at);
+        if self.viscosity > 0.0 && load.abs() > ROUNDING * self.scale(at) {
+            load
+        } else if rate.abs() > ROUNDING * rate_scale {
+            rate
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Loads and rates below this, relative to the terms that cancel in them, are rounding.
+pub(super) const ROUNDING: f64 = 1e-14;
+
+/// The branches between two instants.
+#[derive(Debug, Clone)]
+pub(super) struct Lag {
+    /// e^(−(t − s)/τ_k).
+    pub(super) decays: Vec<f64>,
+    /// σ_k of an element that was touched for the first time at the earlier instant.
+    pub(super) stresses: Vec<f64>,
+}
+
+/// Whether two steps that end at a time differ by the rounding of times only.
+pub(super) fn same_step(step: f64, other: f64, time: f64) -> bool {
+    (step - other).abs() <= 4.0 * f64::EPSILON * time.abs().min(1e3 * step)
+}
+
+/// (e^x − 1)/x.
+#[inline]
+pub(super) fn mean_exponential(x: f64) -> f64 {
+    if x.abs() > SERIES_UP_TO {
+        return (x.exp() - 1.0) / x;
+    }
+    let terms = RECIPROCALS[2..N_TERMS].iter().rev();
+    terms.fold(1.0, |sum, reciprocal| 1.0 + sum * x * reciprocal)
+}
+
+/// Up to here the series is as accurate as the exponential, with so many terms.
+const SERIES_UP_TO: f64 = 0.5;
+const N_TERMS: usize = 14;
+
+/// 1/n.
+const RECIPROCALS: [f64; 64] = {
+    let mut reciprocals = [0.0; 64];
+    let mut n = 1;
+    while n < 64 {
+        reciprocals[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    reciprocals
+};
+
+/// ∫₀¹ e^(−z (1 − θ)) θ^j dθ for j = 0, 1, …, to rounding at every z ≥ 0.
+///
+/// By μ_j = (1 − j μ_(j−1))/z upwards to j ≤ z and downwards from the last one, each where it does not amplify errors.
+pub(super) fn moments(z: f64, moments: &mut [f64]) {
+    let last = moments.len() - 1;
+    moments[0] = mean_exponential(-z);
+    let mut order = 1;
+    while order <= last && (order as f64) <= z {
+        moments[order] = (1.0 - order as f64 * moments[order - 1]) / z;
+        order += 1;
+    }
+    if order > last {
+        return;
+    }
+    // 1/(n+1) − z/((n+1)(n+2)) + …, whose terms fall from the first on, and by 50 of them as far as rounding.
+    let mut term = RECIPROCALS[last + 1];
+    let mut sum = term;
+    for reciprocal in &RECIPROCALS[last + 2..] {
+        term *= -z * reciprocal;
+        sum += term;
+        if term.abs() <= 1e-17 * sum {
+            break;
+        }
+    }
+    moments[last] = sum;
+    for order in (order + 1..=last).rev() {
+        moments[order - 1] = (1.0 - z * moments[order]) * RECIPROCALS[order];
+    }
+}

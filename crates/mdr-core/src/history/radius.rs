@@ -1,0 +1,247 @@
+//! The radius of the contact circle over the depth, as polynomials.
+//!
+//! ```text
+//! h̃(a(d)) = d        ∫ e^(−(t − s)/τ) a(d(s)) ḋ ds   is exact for a polynomial
+//! ```
+
+use std::f64::consts::PI;
+
+use indenters::{Axisymmetric, contact_radius};
+use numerics::bracketed_root;
+
+use crate::MdrError;
+
+/// Number of coefficients of a piece.
+pub(super) const ORDER: usize = 16;
+/// Last two coefficients, relative to the radius, below which a piece is not divided. Those that are missing are a
+/// hundredth of that.
+const TAIL: f64 = 2e-13;
+/// Share of a piece in the area a d below which its error does not matter.
+const NEGLIGIBLE: f64 = 1e-14;
+
+/// a(d) from first touch to the largest depth.
+#[derive(Debug, Clone)]
+pub(super) struct Radii {
+    /// By increasing depth.
+    pieces: Vec<Piece>,
+    /// Bound of the error of ∫ a dd, [m²].
+    pub(super) area_error: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    depths: [f64; 2],
+    /// Of the powers of ξ, which goes from −1 to 1.
+    coefficients: [f64; ORDER],
+}
+
+impl Radii {
+    /// For a body whose line rises up to the largest depth > 0.
+    pub(super) fn new(body: &dyn Axisymmetric, deepest: f64) -> Result<Self, MdrError> {
+        let mut radii = Self {
+            pieces: Vec::new(),
+            area_error: 0.0,
+        };
+        let largest = match body.closed_radius(deepest) {
+            Some(radius) => radius,
+            None => contact_radius(body, deepest)?,
+        };
+        let negligible = NEGLIGIBLE * deepest * largest;
+        let exponent = body.profile_exponent();
+        let cosines = std::array::from_fn(|m| (0.5 * PI * m as f64 / ORDER as f64).cos());
+        let mut open = vec![([0.0, deepest], [0.0, largest])];
+        while let Some((depths, radii_there)) = open.pop() {
+            let [[low, high], [inner, outer]] = [depths, radii_there];
+            let middle = 0.5 * (low + high);
+            let tiny = outer * (high - low) <= negligible || middle <= low || middle >= high;
+            // At the apex d^(1/p) is a polynomial only of a cone and of a flat end.
+            let root = low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
+            if tiny || !root {
+                let fitted = Piece::fitted(body, depths, radii_there, &cosines);
+                if tiny || fitted.tail <= TAIL * outer {
+                    // At the apex the radius itself is the bound.
+                    let tail = if root { outer } else { fitted.tail };
+                    radii.area_error += 0.01 * tail * (high - low);
+                    radii.pieces.push(fitted.piece);
+                    continue;
+                }
+            }
+            let between = radius(body, middle, [inner, outer]);
+            open.push(([middle, high], [between, outer]));
+            open.push(([low, middle], [inner, between]));
+        }
+        Ok(radii)
+    }
+
+    /// The piece into which a body goes on from a depth.
+    fn from(&self, depth: f64) -> &Piece {
+        let inside = &self.pieces[..self.pieces.len() - 1];
+        &self.pieces[inside.partition_point(|piece| piece.depths[1] <= depth)]
+    }
+
+    /// The largest depth, \[m].
+    pub(super) fn deepest(&self) -> f64 {
+        self.pieces[self.pieces.len() - 1].depths[1]
+    }
+
+    /// ∫ a dd up to the largest depth, [m²].
+    pub(super) fn area(&self) -> f64 {
+        self.pieces.iter().map(|piece| piece.area(1.0)).sum()
+    }
+
+    /// The depth at which ∫ a dd is an area; the largest one beyond.
+    pub(super) fn depth_of_area(&self, area: f64) -> f64 {
+        let mut below = 0.0;
+        for piece in &self.pieces {
+            let whole = piece.area(1.0);
+            if below + whole >= area {
+                let excess = |position: f64| below + piece.area(position) - area;
+                let position = bracketed_root(excess, [-1.0, 1.0]).unwrap_or(-1.0);
+                let [low, high] = piece.depths;
+                return low + 0.5 * (high - low) * (1.0 + position);
+            }
+            below += whole;
+        }
+        self.deepest()
+    }
+
+    /// The depth up to which one polynomial holds from `depth` on.
+    pub(super) fn end_of_piece(&self, depth: f64) -> f64 {
+        self.from(depth).depths[1]
+    }
+
+    /// Coefficients of a over the powers of θ, which goes from 0 to 1 while the body sinks through a part of a piece.
+    pub(super) fn along(&self, [from, to]: [f64; 2]) -> Polynomial {
+        // By its middle, because rounding may put the ends into the pieces next to it.
+        let piece = self.from(0.5 * (from + to));
+        let (start, length) = (
+            piece.position(from),
+            piece.position(to) - piece.position(from),
+        );
+        // What a piece stands for is smooth in a circle of radius 2 around any of its points, or it would be divided.
+        let fourth = (0.5 * length).powi(4);
+        let enough = |quarters: &i32| fourth.powi(*quarters) < 0.1 * f64::EPSILON;
+        let quarters = (2..4).find(enough).map_or(4, i32::unsigned_abs);
+        let n_terms = 4 * quarters as usize;
+        let mut coefficients = piece.coefficients;
+        for first in 0..n_terms {
+            for order in (first..ORDER - 1).rev() {
+                coefficients[order] += start * coefficients[order + 1];
+            }
+        }
+        let mut scale = 1.0;
+        for coefficient in &mut coefficients[..n_terms] {
+            *coefficient *= scale;
+            scale *= length;
+        }
+        Polynomial {
+            coefficients,
+            n_terms,
+        }
+    }
+
+    /// The radius, and its derivative, where a body that came from a depth above has another one.
+    pub(super) fn at(&self, [from, depth]: [f64; 2]) -> [f64; 2] {
+        let piece = self.from(0.5 * (from + depth));
+        let position = piece.position(depth);
+        let powers = piece.coefficients.iter().rev();
+        let [radius, slope] = powers.fold([0.0; 2], |[value, slope], coefficient| {
+            [coefficient + position * value, value + position * slope]
+        });
+        [radius, 2.0 * slope / (piece.depths[1] - piece.depths[0])]
+    }
+}
+
+/// A radius over the powers of θ.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Polynomial {
+    coefficients: [f64; ORDER],
+    n_terms: usize,
+}
+
+impl Polynomial {
+    pub(super) fn terms(&self) -> &[f64] {
+        &self.coefficients[..self.n_terms]
+    }
+}
+
+struct Fitted {
+    piece: Piece,
+    tail: f64,
+}
+
+impl Piece {
+    /// ∫ a dd from the beginning of the piece up to ξ, [m²].
+    fn area(&self, position: f64) -> f64 {
+        let antiderivative = |position: f64| {
+            let terms = self.coefficients.iter().enumerate().rev();
+            position * terms.fold(0.0, |sum, (n, c)| sum * position + c / (n as f64 + 1.0))
+        };
+        0.5 * (self.depths[1] - self.depths[0]) * (antiderivative(position) - antiderivative(-1.0))
+    }
+
+    /// ξ.
+    fn position(&self, depth: f64) -> f64 {
+        let [low, high] = self.depths;
+        (depth - low) / (0.5 * (high - low)) - 1.0
+    }
+
+    /// Interpolates at the zeros of the Chebyshev polynomial T_n.
+    fn fitted(
+        body: &dyn Axisymmetric,
+        depths: [f64; 2],
+        [inner, outer]: [f64; 2],
+        cosines: &[f64; 4 * ORDER],
+    ) -> Fitted {
+        let [low, high] = depths;
+        // cos(order · angle) at the angles π (2 node + 1)/(2 n).
+        let cosine = |order: usize, node: usize| cosines[order * (2 * node + 1) % (4 * ORDER)];
+        let mut above = outer;
+        let values: [f64; ORDER] = std::array::from_fn(|node| {
+            let depth = low + 0.5 * (high - low) * (1.0 + cosine(1, node));
+            above = radius(body, depth, [inner, above]);
+            above
+        });
+        let mut series: [f64; ORDER] = std::array::from_fn(|order| {
+            let terms = values.iter().enumerate();
+            let sum: f64 = terms.map(|(n, v)| v * cosine(order, n)).sum();
+            2.0 / ORDER as f64 * sum
+        });
+        series[0] *= 0.5;
+        let coefficients = powers(&series);
+        Fitted {
+            tail: series[ORDER - 2].abs() + series[ORDER - 1].abs(),
+            piece: Self {
+                depths,
+                coefficients,
+            },
+        }
+    }
+}
+
+/// From Chebyshev polynomials to powers.
+fn powers(series: &[f64; ORDER]) -> [f64; ORDER] {
+    let mut coefficients = [0.0; ORDER];
+    let (mut before, mut this) = ([0.0; ORDER], [0.0; ORDER]);
+    this[0] = 1.0;
+    for (order, factor) in series.iter().enumerate() {
+        for (sum, power) in coefficients.iter_mut().zip(this) {
+            *sum += factor * power;
+        }
+        let twice = if order == 0 { 1.0 } else { 2.0 };
+        let next = std::array::from_fn(|power| {
+            let shifted = if power == 0 { 0.0 } else { this[power - 1] };
+            twice * shifted - before[power]
+        });
+        (before, this) = (this, next);
+    }
+    coefficients
+}
+
+/// The radius between two others at which the line has a height; the outer one where it is lower up to there, as a punch
+/// is.
+fn radius(body: &dyn Axisymmetric, height: f64, [inner, outer]: [f64; 2]) -> f64 {
+    let closed = body.closed_radius(height);
+    let excess = |x: f64| body.line_height(x) - height;
+    closed.unwrap_or_else(|| bracketed_root(excess, [inner, outer]).unwrap_or(outer))
+}

@@ -1,0 +1,134 @@
+//! The stresses of all elements in contact, summed.
+
+use super::contact::{Contact, Leg, Motion};
+use super::path::{Instant, Lag, moments, same_step};
+
+/// The moments of all branches over one step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Weights {
+    step: f64,
+    n_terms: usize,
+    /// Branch by branch.
+    moments: Vec<f64>,
+}
+
+/// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided, and how often it
+/// may be.
+const PANEL: f64 = 1e-14;
+const MAX_DIVISIONS: u32 = 12;
+impl Contact<'_> {
+    /// Φ_k; the lag since the element at the edge was touched is found where it is not given.
+    pub(super) fn sums_at(&mut self, at: Instant, since_edge: Option<Lag>) -> Vec<f64> {
+        let n_branches = self.path.n_branches();
+        let Some(ring) = self.rings.last().copied() else {
+            return vec![0.0; n_branches];
+        };
+        let mut sums = self.inside[(self.rings.len() - 1) * n_branches..].to_vec();
+        self.edge_modulus = None;
+        if ring.motion == Motion::First {
+            self.grown(&ring, &mut sums);
+            if ring.to != at {
+                let lag = since_edge.unwrap_or_else(|| self.path.lag(ring.to, at));
+                held(&mut sums, ring.outer, &lag);
+                self.edge_modulus = Some(self.path.modulus(&lag)[0]);
+            }
+            return sums;
+        }
+        let lag = self.path.lag(ring.from, at);
+        held(&mut sums, ring.inner, &lag);
+        self.edge_modulus = Some(self.path.modulus(&lag)[0]);
+        let around = self.ring_sums(&ring, at);
+        sums.iter_mut()
+            .zip(around)
+            .for_each(|(sum, around)| *sum += around);
+        sums
+    }
+
+    /// Φ_k when a ring over new elements has grown.
+    fn grown(&mut self, ring: &Leg, sums: &mut [f64]) {
+        let path = &self.path;
+        let (start, end) = (path.time(ring.from), path.time(ring.to));
+        let rise = path.depth(ring.to) - path.depth(ring.from);
+        let radius = self
+            .radii
+            .along([ring.from, ring.to].map(|at| path.depth(at)));
+        let radius = radius.terms();
+        let n_terms = radius.len();
+        if n_terms != self.weights.n_terms || !same_step(end - start, self.weights.step, end) {
+            self.weights.step = end - start;
+            self.weights.n_terms = n_terms;
+            self.weights
+                .moments
+                .resize(path.n_branches() * n_terms, 0.0);
+            for (rate, row) in path
+                .rates
+                .iter()
+                .zip(self.weights.moments.chunks_exact_mut(n_terms))
+            {
+                moments(rate * (end - start), row);
+            }
+        }
+        let rows = self.weights.moments.chunks_exact(n_terms);
+        for ((k, sum), row) in sums.iter_mut().enumerate().zip(rows) {
+            let mean: f64 = radius.iter().zip(row).map(|(a, moment)| a * moment).sum();
+            let kept = 1.0 - path.rates[k] * self.weights.step * row[0];
+            *sum = kept * *sum + path.moduli[k] * rise * mean;
+        }
+    }
+
+    /// ∫ σ_k dx over a ring of elements that were touched again.
+    fn ring_sums(&mut self, ring: &Leg, at: Instant) -> Vec<f64> {
+        let mut radii = vec![ring.inner, ring.outer];
+        let inside = |radius: &f64| *radius > ring.inner && *radius < ring.outer;
+        let known = self.legs[..ring.before].iter();
+        radii.extend(known.flat_map(|leg| [leg.inner, leg.outer]).filter(inside));
+        radii.sort_by(f64::total_cmp);
+        radii.dedup();
+        let mut sums = vec![0.0; self.path.n_branches()];
+        let tolerance = PANEL * self.path.scale(at) * ring.outer;
+        let whole = |ends: [f64; 2]| (ends, self.panel(ring, ends, at), 0);
+        let mut open: Vec<([f64; 2], Vec<f64>, u32)> = radii
+            .windows(2)
+            .map(|ends| whole([ends[0], ends[1]]))
+            .collect();
+        while let Some((ends, whole, divisions)) = open.pop() {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            let halves = [[ends[0], middle], [middle, ends[1]]];
+            let parts = halves.map(|ends| self.panel(ring, ends, at));
+            let fine = parts[0]
+                .iter()
+                .zip(&parts[1])
+                .map(|(one, other)| one + other);
+            let change: f64 = fine.clone().zip(&whole).map(|(a, b)| (a - b).abs()).sum();
+            if change <= tolerance || divisions == MAX_DIVISIONS {
+                self.quadrature_error += change;
+                sums.iter_mut()
+                    .zip(fine)
+                    .for_each(|(sum, part)| *sum += part);
+            } else {
+                let divided = halves.into_iter().zip(parts);
+                open.extend(divided.map(|(ends, part)| (ends, part, divisions + 1)));
+            }
+        }
+        sums
+    }
+
+    fn panel(&self, ring: &Leg, [inner, outer]: [f64; 2], at: Instant) -> Vec<f64> {
+        let mut sums = vec![0.0; self.path.n_branches()];
+        let half = 0.5 * (outer - inner);
+        for (node, weight) in self.rule.nodes.iter().zip(&self.rule.weights) {
+            let stresses = self.stresses_in(ring, inner + half * (1.0 + node), at);
+            for (sum, stress) in sums.iter_mut().zip(stresses) {
+                *sum += half * weight * stress;
+            }
+        }
+        sums
+    }
+}
+
+/// Φ_k later, inside a radius in which all elements stay in contact.
+fn held(sums: &mut [f64], radius: f64, lag: &Lag) {
+    for ((sum, decay), stress) in sums.iter_mut().zip(&lag.decays).zip(&lag.stresses) {
+        *sum = decay * *sum + radius * stress;
+    }
+}

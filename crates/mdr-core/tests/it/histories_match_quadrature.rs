@@ -1,0 +1,397 @@
+//! Force and contact radius along a path of the depth match quadrature with 40 digits, and both casebooks.
+
+use indenters::{
+    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, PowerTerm, Sphere, Superposition,
+};
+use mdr_core::{CurvePoint, Follow, HistoryPoint, MdrError, indent_along};
+use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
+
+fn prony(spring: f64, viscosity: f64, branches: &[[f64; 2]]) -> Prony {
+    let branch = |[modulus, relaxation_time]: &[f64; 2]| RelaxationBranch {
+        modulus: *modulus,
+        relaxation_time: *relaxation_time,
+    };
+    let branches = branches.iter().map(branch).collect();
+    let spectrum = RelaxationSpectrum::new(spring, viscosity, branches).expect("a spectrum");
+    Prony::new(spectrum).expect("a material")
+}
+
+/// The materials of tests/data/histories.py.
+fn material(name: &str) -> Prony {
+    match name {
+        "elastic" => prony(2.0, 0.0, &[]),
+        "solid" => prony(1.0, 0.0, &[[4.0, 1.0]]),
+        "maxwell" => prony(0.0, 0.0, &[[3.0, 0.7]]),
+        "kelvin-voigt" => prony(1.0, 0.2, &[]),
+        "three" => prony(0.5, 0.0, &[[20.0, 0.001], [2.0, 0.1], [1.0, 30.0]]),
+        _ => prony(0.0, 0.05, &[[1.0, 0.02], [2.0, 5.0]]),
+    }
+}
+
+fn body(name: &str) -> Box<dyn Axisymmetric> {
+    match name {
+        "paraboloid" => Box::new(PowerProfile::paraboloid(0.5).expect("a paraboloid")),
+        "cone" => Box::new(PowerProfile::cone(0.3).expect("a cone")),
+        "power" => Box::new(PowerProfile::new(0.4, 1.5).expect("a power")),
+        "sphere" => Box::new(Sphere::new(1.0).expect("a sphere")),
+        "flat-cone" => Box::new(FlatCone::new(0.02, 0.4).expect("a cone")),
+        _ => Box::new(Hyperboloid::new(0.05, 0.5).expect("a hyperboloid")),
+    }
+}
+
+fn knots(name: &str) -> &'static [[f64; 2]] {
+    match name {
+        "triangle" => &[[0.0, 0.0], [1.0, 0.01], [2.0, 0.0]],
+        "dwell" => &[[0.0, 0.0], [1.0, 0.01], [2.0, 0.01], [3.0, 0.0]],
+        "slow-fast" => &[
+            [0.0, 0.0],
+            [0.5, 0.002],
+            [1.0, 0.01],
+            [1.1, 0.008],
+            [2.0, 0.0],
+        ],
+        "late" => &[[0.25, -0.005], [1.0, 0.01], [1.5, 0.0125], [1.75, -0.0025]],
+        "step" => &[[0.0, 0.01], [1.0, 0.01], [3.0, -0.005]],
+        _ => &[
+            [0.0, 0.0],
+            [1.0, 0.01],
+            [1.3, 0.007],
+            [2.1, 0.015],
+            [3.6, 0.0],
+        ],
+    }
+}
+
+/// The path through its knots and other times.
+fn path(knots: &[[f64; 2]], times: &[f64]) -> Vec<HistoryPoint> {
+    let mut all: Vec<f64> = knots
+        .iter()
+        .map(|knot| knot[0])
+        .chain(times.iter().copied())
+        .collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    let depth = |time: f64| {
+        let after = knots
+            .iter()
+            .position(|knot| time <= knot[0])
+            .expect("inside")
+            .max(1);
+        let [[t0, d0], [t1, d1]] = [knots[after - 1], knots[after]];
+        if time >= t1 {
+            d1
+        } else {
+            d0 + (time - t0) * ((d1 - d0) / (t1 - t0))
+        }
+    };
+    let point = |time: &f64| HistoryPoint {
+        time: *time,
+        control: Control::IndentationDepth(depth(*time)),
+    };
+    all.iter().map(point).collect()
+}
+
+fn follow(
+    body: &dyn Axisymmetric,
+    material: &dyn Material,
+    path: &[HistoryPoint],
+) -> Vec<CurvePoint> {
+    indent_along(body, material, path, &Follow::default()).expect("a disc")
+}
+
+/// Every bar holds the reference, which has so many digits, and no bar is above 1e-10 of the largest value.
+fn assert_bars(curve: &[CurvePoint], expected: &[[f64; 3]], reference: f64, name: &str) {
+    let largest = |column: usize| expected.iter().map(|row| row[column]).fold(0.0, f64::max);
+    let mut checked = 0;
+    for [time, force, radius] in expected {
+        let point = curve
+            .iter()
+            .find(|point| (point.time - time).abs() <= 1e-15 * time);
+        let point = point.unwrap_or_else(|| panic!("{name}: no point at {time}"));
+        let pairs = [
+            (point.normal_force, force, 1),
+            (point.contact_radius, radius, 2),
+        ];
+        for (got, expected, column) in pairs {
+            let scale = largest(column);
+            let deviation = (got.value - expected).abs();
+            assert!(
+                deviation <= got.error + reference * scale && got.error <= 1e-10 * scale,
+                "{name} at {time}, column {column}: {got:?}, expected {expected}, off by {deviation:e}"
+            );
+        }
+        checked += 1;
+    }
+    assert!(checked > 0, "{name} has rows");
+}
+
+#[test]
+fn one_way_in_and_out() {
+    let table = include_str!("../data/histories.csv");
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .skip(2)
+        .map(|line| line.split(',').collect())
+        .collect();
+    let mut cases: Vec<&[&str]> = rows.iter().map(|row| &row[..3]).collect();
+    cases.dedup();
+    assert_eq!(cases.len(), 15, "histories in the table");
+    for case in cases {
+        let number = |text: &&str| text.parse::<f64>().expect("a number");
+        let rows = rows.iter().filter(|row| &row[..3] == case);
+        let rows: Vec<[f64; 3]> = rows.map(|row| [3, 4, 5].map(|k| number(&row[k]))).collect();
+        let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+        let material = material(case[0]);
+        let curve = follow(&*body(case[1]), &material, &path(knots(case[2]), &times));
+        assert_bars(&curve, &rows, 1e-17, &case.join(", "));
+    }
+}
+
+/// `/work/shared` of the project, casebook-2.json, reapproach: 11 digits.
+#[test]
+fn pressing_again_before_the_surface_has_recovered() {
+    let expected = [
+        [0.5, 0.008113170658034765, 0.07071067811865477],
+        [1.0, 0.020114789112124724, 0.1],
+        [1.15, 0.012640425201550915, 0.09111933986361723],
+        [1.3, 0.006649398554322738, 0.0783200359258782],
+        [1.5, 0.012478303405807521, 0.0944593877313644],
+        [1.8, 0.021399272337306686, 0.10954451150103323],
+        [2.1, 0.03011547928571352, 0.1224744871391589],
+        [2.3, 0.01772452165822294, 0.1124200051921736],
+        [2.6, 0.004484729193578699, 0.08314938993835587],
+    ];
+    let times: Vec<f64> = expected.iter().map(|row| row[0]).collect();
+    let (body, material) = (body("paraboloid"), material("solid"));
+    let curve = follow(&*body, &material, &path(knots("again"), &times));
+    assert_bars(&curve, &expected, 1e-11, "again");
+    // The same in many short segments.
+    let finer: Vec<f64> = (0..360).map(|n| 0.01 * f64::from(n)).chain(times).collect();
+    let curve = follow(&*body, &material, &path(knots("again"), &finer));
+    assert_bars(&curve, &expected, 1e-11, "again, in short segments");
+}
+
+/// Segments may be divided anywhere: turns of the edge inside them are found, with dashpot or without.
+#[test]
+fn points_in_between_change_nothing() {
+    // Fast away and slowly on, so that the recovering surface catches up with the body, which then outruns it again.
+    let catch = [
+        [0.0, 0.0],
+        [1.0, 0.01],
+        [1.1, 0.006],
+        [3.0, 0.0055],
+        [4.0, 0.012],
+        [5.0, -0.004],
+    ];
+    // Back into a dent, twice.
+    let dent = [
+        [0.0, 0.0],
+        [1.0, 0.01],
+        [1.2, -0.001],
+        [1.4, 0.006],
+        [1.6, -0.001],
+        [2.2, 0.012],
+        [3.0, 0.0],
+    ];
+    for (knots, name) in [(catch.as_slice(), "catch"), (dent.as_slice(), "dent")] {
+        for solid in ["solid", "three", "kelvin-voigt"] {
+            let (body, material) = (body("paraboloid"), material(solid));
+            let times: Vec<f64> = (1..40).map(|n| 0.07 * f64::from(n)).collect();
+            let coarse = follow(&*body, &material, &path(knots, &[]));
+            let fine = follow(&*body, &material, &path(knots, &times));
+            for point in &coarse {
+                let same = fine
+                    .iter()
+                    .find(|other| other.time.total_cmp(&point.time).is_eq())
+                    .expect("a knot");
+                let scale = 8e-3;
+                let deviation = (point.normal_force.value - same.normal_force.value).abs();
+                assert!(
+                    deviation <= 1e-11 * scale,
+                    "{name} on {solid}: off by {deviation:e}: {point:?} and {same:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Power laws over the whole curve, with the error of their expansion in the bar.
+#[test]
+fn power_laws_come_back_as_theory_says() {
+    // Force at parts of the time from the turn to the end of contact, over the peak: casebook-2.json and issue 20.
+    let expected = [
+        (0.1, [0.802136, 0.522573, 0.305592, 0.074767]),
+        (0.3, [0.694786, 0.411157, 0.226806, 0.052176]),
+    ];
+    for (exponent, forces) in expected {
+        let springpot = Springpot::new(1.0, exponent).expect("a springpot");
+        let expansion = springpot.expand([1e-4, 1e6], 1e-10).expect("an expansion");
+        let error = expansion.relative_error;
+        let material = Prony::new(expansion.spectrum).expect("a material");
+        let body = PowerProfile::paraboloid(0.5).expect("a paraboloid");
+        // ∫ G ḋ from first touch vanishes: 2 (t − 1)^(1−β) = t^(1−β).
+        let end = 1.0 / (1.0 - 0.5_f64.powf(1.0 / (1.0 - exponent)));
+        let times = [0.1, 0.3, 0.5, 0.8].map(|part| 1.0 + part * (end - 1.0));
+        let path = path(knots("triangle"), &times);
+        let options = Follow {
+            modulus_error: error,
+            ..Follow::default()
+        };
+        let curve = indent_along(&body, &material, &path, &options).expect("a disc");
+        let peak = curve[1].normal_force;
+        for (point, force) in curve[2..].iter().zip(forces) {
+            let ratio = point.normal_force.value / peak.value;
+            assert!(
+                (ratio - force).abs() <= 5.1e-7,
+                "exponent {exponent}: {ratio}, expected {force}"
+            );
+            let bar = point.normal_force.error / peak.value;
+            assert!(
+                bar > error && bar < 1e-9,
+                "exponent {exponent}: bar {bar:e}"
+            );
+        }
+    }
+}
+
+/// Casebook-2.json, force_control: 14 digits. Both forces jump.
+#[test]
+fn depth_under_a_force_that_does_not_fall() {
+    let forces = [
+        [0.0, 0.0],
+        [0.0, 0.01],
+        [1.0, 0.01],
+        [2.0, 0.01],
+        [2.0, 0.02],
+        [3.0, 0.02],
+        [6.0, 0.02],
+        [20.0, 0.02],
+    ];
+    let expected = [
+        [0.07211247851537042, 0.005200209557629761],
+        [0.08648615370306872, 0.007479854782350828],
+        [0.09544646473447954, 0.009110027630310246],
+        [0.1075640845496547, 0.011570032285005265],
+        [0.11931757126909669, 0.014236682813555968],
+        [0.1379324607537341, 0.0190253637295804],
+        [0.15441039910332832, 0.023842571351249137],
+    ];
+    let curve = under(&forces, 1e-3).expect("a depth");
+    for (point, [radius, depth]) in curve[1..].iter().zip(expected) {
+        for (got, expected) in [
+            (point.contact_radius, radius),
+            (point.indentation_depth, depth),
+        ] {
+            let deviation = (got.value - expected).abs();
+            assert!(
+                deviation <= got.error + 1e-14 * expected && got.error <= 1e-12 * expected,
+                "{point:?}, expected {expected}, off by {deviation:e}"
+            );
+        }
+    }
+}
+
+fn under(forces: &[[f64; 2]], relative_error: f64) -> Result<Vec<CurvePoint>, MdrError> {
+    let point = |[time, force]: &[f64; 2]| HistoryPoint {
+        time: *time,
+        control: Control::NormalForce(*force),
+    };
+    let history: Vec<HistoryPoint> = forces.iter().map(point).collect();
+    let options = Follow {
+        relative_error,
+        ..Follow::default()
+    };
+    indent_along(&*body("paraboloid"), &material("solid"), &history, &options)
+}
+
+/// The force of a path of the depth, given back, gives the depth; and a step down makes contact and depth jump.
+#[test]
+fn depth_and_force_are_inverse() {
+    let (body, material) = (body("paraboloid"), material("solid"));
+    let times: Vec<f64> = (1..28).map(|n| 0.1 * f64::from(n)).collect();
+    let curve = follow(&*body, &material, &path(knots("again"), &times)[..27]);
+    let forces: Vec<[f64; 2]> = curve
+        .iter()
+        .map(|p| [p.time, p.normal_force.value])
+        .collect();
+    let back = under(&forces, 1e-3).expect("a depth");
+    for (point, given) in back.iter().zip(&curve) {
+        let deviation = (point.indentation_depth.value - given.indentation_depth.value).abs();
+        // The force is not straight between the points.
+        assert!(deviation <= 2e-2 * 0.015, "{point:?}, given {given:?}");
+    }
+    let step_down =
+        under(&[[0.0, 0.0], [1.0, 0.02], [1.0, 0.005], [2.0, 0.005]], 1e-4).expect("a depth");
+    let depths: Vec<f64> = step_down
+        .iter()
+        .map(|point| point.indentation_depth.value)
+        .collect();
+    assert!(
+        depths[2] < 0.8 * depths[1] && depths[3] > depths[2],
+        "{depths:?}"
+    );
+}
+
+#[test]
+fn wrong_histories_are_refused() {
+    let depth = |time: f64, depth: f64| HistoryPoint {
+        time,
+        control: Control::IndentationDepth(depth),
+    };
+    let force = |time: f64, force: f64| HistoryPoint {
+        time,
+        control: Control::NormalForce(force),
+    };
+    let cases = [
+        (
+            vec![depth(1.0, 0.0), depth(0.5, 1e-3)],
+            "time between two points",
+        ),
+        (vec![depth(f64::NAN, 0.0)], "time"),
+        (vec![depth(0.0, f64::INFINITY)], "indentation_depth"),
+        (vec![force(0.0, -1.0)], "normal_force"),
+        (vec![depth(0.0, 0.0), force(1.0, 1.0)], "control"),
+        (
+            vec![depth(0.0, 1e-3), depth(1.0, 1e-3)],
+            "time between two depths",
+        ),
+    ];
+    for (history, parameter) in cases {
+        let result = indent_along(
+            &*body("cone"),
+            &material("kelvin-voigt"),
+            &history,
+            &Follow::default(),
+        );
+        match result {
+            Err(MdrError::InvalidParameter(refused)) => {
+                assert_eq!(refused.parameter, parameter, "{history:?}");
+            }
+            other => panic!("{history:?}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn no_points_and_a_line_that_turns_down_are_refused() {
+    let nothing = indent_along(&*body("cone"), &material("solid"), &[], &Follow::default());
+    assert_eq!(
+        nothing,
+        Err(MdrError::Empty { list: "history" }),
+        "no points"
+    );
+    let term = |coefficient, exponent| PowerTerm {
+        coefficient,
+        exponent,
+    };
+    let hump = Superposition::new(vec![term(1.0, 1.0), term(-1.0, 2.0)]).expect("a body");
+    let deep = [0.0, 1.0].map(|depth| HistoryPoint {
+        time: depth,
+        control: Control::IndentationDepth(depth),
+    });
+    let result = indent_along(&hump, &material("solid"), &deep, &Follow::default());
+    assert!(
+        matches!(result, Err(MdrError::Indenter(_))),
+        "the line turns down: {result:?}"
+    );
+}
