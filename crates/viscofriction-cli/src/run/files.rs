@@ -1,6 +1,7 @@
 //! The files of one answer: result.json, fields as NPY and CSV, pictures as SVG and PNG.
 
 use anyhow::Result;
+use viscofriction::Estimate;
 use viscofriction::npy::to_npy;
 use viscofriction::solve::{Answer, HistoryRow};
 
@@ -8,7 +9,7 @@ use super::{Timed, pictures};
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that an answer may have.
-pub(super) const NAMES: &str = "result.json history.csv history.svg history.png \
+pub(super) const NAMES: &str = "result.json history.csv history.svg history.png history_over_time.svg history_over_time.png \
     pressure.csv pressure.npy pressure.svg pressure.png pressure_x.npy pressure_y.npy \
     line_load.csv line_load.npy line_load.svg line_load.png \
     line_pressure.csv line_pressure.npy line_pressure.svg line_pressure.png";
@@ -63,7 +64,43 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
     Ok(())
 }
 
+/// A history that was asked for: its points with their errors, force over depth and force over time.
+fn write_curve(answer: &Answer, out: &OutputFolder) -> Result<()> {
+    let curve = &answer.fields.curve;
+    let rows = curve.iter().map(|point| {
+        let quantities = [
+            point.normal_force,
+            point.indentation_depth,
+            point.contact_radius,
+        ];
+        let numbers = quantities.map(|Estimate { value, error }| [value, error]);
+        [vec![point.time], numbers.concat()].concat()
+    });
+    let names = [
+        "time_s",
+        "normal_force_n",
+        "normal_force_error_n",
+        "indentation_depth_m",
+        "indentation_depth_error_m",
+        "contact_radius_m",
+        "contact_radius_error_m",
+    ];
+    out.write("history.csv", &to_csv(&names, rows)?)?;
+    let force = "normal force [N]";
+    let points = curve
+        .iter()
+        .map(|p| [p.indentation_depth.value, p.normal_force.value]);
+    let figure = pictures::curve("indentation depth [m]", force, points.collect());
+    out.draw("history", &figure)?;
+    let points = curve.iter().map(|p| [p.time, p.normal_force.value]);
+    let figure = pictures::curve("time [s]", force, points.collect());
+    out.draw("history_over_time", &figure)
+}
+
 fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
+    if !answer.fields.curve.is_empty() {
+        return write_curve(answer, out);
+    }
     let rows = &answer.fields.history;
     if rows.is_empty() {
         return Ok(());

@@ -9,6 +9,7 @@ mod files;
 mod fit_material;
 mod fuzzed_inputs;
 mod height_maps_of_numpy;
+mod histories;
 mod malformed;
 mod scenes;
 mod support;

@@ -46,6 +46,17 @@ const SCENES: &str = r#"
 10 | velocity = 0.0 | 10 | load.velocity: a velocity of 0 is pure indentation, which needs solve.duration
 10 |  | 8 | load.velocity: missing field
 10 | speed = 0.01 | 10 | load.speed: unknown field
+9-10 | history = [{ time = 0, indentation_depth = 0 }] | 9 | load.history: at least two points are needed
+9-10 | history = [\n{ time = 0, indentation_depth = 0 },\n{ time = -1, indentation_depth = 0 },\n] | 11 | load.history[1].time must be finite, at least 0, and not before the time of the point before, but is -1
+9-10 | history = [\n{ time = 0, indentation_depth = 0 },\n{ time = nan, indentation_depth = 0 },\n] | 11 | load.history[1].time must be finite
+9-10 | history = [\n{ time = 0, normal_force = 0 },\n{ time = 1, normal_force = -1 },\n] | 11 | load.history[1].normal_force must be finite and at least 0, but is -1
+9-10 | history = [\n{ time = 0, normal_force = 0 },\n{ time = 1, indentation_depth = 1 },\n] | 11 | load.history[1]: all points have a force, or all a depth
+9-10 | history = [\n{ time = 0, normal_force = 0, indentation_depth = 0 },\n{ time = 1, normal_force = 1 },\n] | 10 | load.history[0]: either normal_force or indentation_depth is needed
+9 | history = [{ time = 0, normal_force = 0 }, { time = 1, normal_force = 1 }] | 10 | load.velocity: a history says how the body moves
+10 | history = [{ time = 0, normal_force = 0 }, { time = 1, normal_force = 1 }] | 9 | load.normal_force: a history says how the body moves
+9-13 | history = [{ time = 0, normal_force = 0 }, { time = 1, normal_force = 1 }]\n[solve]\nduration = 1.0 | 11 | solve.duration: a history ends with its last point
+9-10 | history_file = "is-not-there.csv" | 9 | is-not-there.csv
+9-10 | history_file = "is-not-there.csv"\nhistory = [] | 9 | load.history_file: either history or history_file
 12 | [[solve]] | 12 | solve: a table is needed, and not a value of type array
 13 | relative_error = 0.0 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0
 13 | relative_error = 0.5 | 13 | solve.relative_error must be greater than 0 and at most 0.1, but is 0.5

@@ -1,11 +1,13 @@
-//! The tables of numbers that a scene names: radii and heights of a profile, and grids of heights.
+//! The tables of numbers that a scene names: radii and heights of a profile, grids of heights, and histories.
 
 use std::path::Path;
 
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use indenters::{HeightMap, IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
+use super::load::LoadPoint;
 use crate::npy::{NpyTable, from_npy};
 use crate::text::line_of_record;
 
@@ -22,11 +24,50 @@ struct Row {
 /// File, line and what is wrong there.
 pub fn profile(file: &Path, contents: &[u8]) -> Result<PiecewiseLinearProfile, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
-    let rows = rows(contents).map_err(wrong)?;
+    let rows = rows::<Row>(contents).map_err(wrong)?;
     let radii = rows.iter().map(|(_, row)| row.radius_m).collect();
     let heights = rows.iter().map(|(_, row)| row.height_m).collect();
     PiecewiseLinearProfile::new(radii, heights)
         .map_err(|error| wrong((line_of_error(&error, &rows), error.to_string())))
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HistoryTableRow {
+    time_s: f64,
+    normal_force_n: Option<f64>,
+    indentation_depth_m: Option<f64>,
+}
+
+/// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`.
+///
+/// # Errors
+/// File, line and what is wrong there.
+pub fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
+    let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
+    let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
+    let mut before = 0.0;
+    let point = |(line, row): (usize, HistoryTableRow)| {
+        let numbers = [
+            row.normal_force_n,
+            row.indentation_depth_m,
+            Some(row.time_s),
+        ];
+        let problem = if numbers.iter().flatten().any(|number| !number.is_finite()) {
+            "finite numbers are needed"
+        } else if row.time_s < before {
+            "time_s must be at least 0, and not less than in the row before"
+        } else {
+            before = row.time_s;
+            return Ok(LoadPoint {
+                time: row.time_s,
+                normal_force: row.normal_force_n,
+                indentation_depth: row.indentation_depth_m,
+            });
+        };
+        Err(wrong((line, problem.to_owned())))
+    };
+    rows.into_iter().map(point).collect()
 }
 
 fn at(file: &Path, line: usize, problem: &str) -> String {
@@ -34,7 +75,7 @@ fn at(file: &Path, line: usize, problem: &str) -> String {
 }
 
 /// The rows and the lines they begin at, or a line and what is wrong there.
-fn rows(contents: &[u8]) -> Result<Vec<(usize, Row)>, (usize, String)> {
+fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
     let mut reader = csv::Reader::from_reader(contents);
     let line = |error: &csv::Error| line_of_record(contents, error.position());
     let names = reader.headers().cloned();

@@ -17,10 +17,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
-pub use files::{height_map, profile};
+pub use files::{height_map, history, profile};
 pub use indenter::{Indenter, Term};
 pub use indenters::Control;
-pub use load::Load;
+pub use load::{Load, LoadPoint};
 pub use material::{Branch, MaterialTable};
 pub use numerics::Accuracy;
 pub use solve::{Method, Model, Solve};

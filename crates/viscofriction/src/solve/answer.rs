@@ -3,6 +3,7 @@
 use bem_halfspace::GridOptions;
 use bem_halfspace::slide::PressureField;
 use bem_halfspace::steady::SteadyOptions;
+use mdr_core::CurvePoint;
 use numerics::{ErrorParts, Estimate};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
@@ -86,6 +87,8 @@ pub struct Fields {
     pub line_pressure: Vec<[f64; 2]>,
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
+    /// The points of the history that was asked for.
+    pub curve: Vec<CurvePoint>,
 }
 
 /// One step of sliding.
@@ -99,6 +102,50 @@ pub struct HistoryRow {
     pub indentation_depth_m: f64,
     /// F_h/F_N of the step.
     pub friction_coefficient: f64,
+}
+
+/// A point of a history in JSON.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+struct CurveRow {
+    time: f64,
+    normal_force: f64,
+    indentation_depth: f64,
+    contact_radius: f64,
+}
+
+impl From<&CurvePoint> for CurveRow {
+    fn from(point: &CurvePoint) -> Self {
+        Self {
+            time: point.time,
+            normal_force: point.normal_force.value,
+            indentation_depth: point.indentation_depth.value,
+            contact_radius: point.contact_radius.value,
+        }
+    }
+}
+
+/// Largest errors of a history in JSON.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+struct CurveError {
+    normal_force: f64,
+    indentation_depth: f64,
+    contact_radius: f64,
+}
+
+impl CurveError {
+    fn of(curve: &[CurvePoint]) -> Self {
+        let largest = |quantity: fn(&CurvePoint) -> Estimate| {
+            curve
+                .iter()
+                .map(|point| quantity(point).error)
+                .fold(0.0, f64::max)
+        };
+        Self {
+            normal_force: largest(|point| point.normal_force),
+            indentation_depth: largest(|point| point.indentation_depth),
+            contact_radius: largest(|point| point.contact_radius),
+        }
+    }
 }
 
 /// A value that is known to a relative error.
@@ -251,6 +298,11 @@ impl Serialize for Answer {
         }
         if !self.error_parts.is_none() {
             map.serialize_entry("error_parts", &self.error_parts)?;
+        }
+        if !self.fields.curve.is_empty() {
+            let values: Vec<CurveRow> = self.fields.curve.iter().map(CurveRow::from).collect();
+            map.serialize_entry("history", &values)?;
+            map.serialize_entry("history_error", &CurveError::of(&self.fields.curve))?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

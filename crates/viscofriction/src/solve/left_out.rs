@@ -36,6 +36,8 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (Method::Analytic, Motion::Pressing(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::HalfSpace)]
         }
+        // No other method does it.
+        (_, Motion::History(_)) => Vec::new(),
         (Method::MdrSteady, _) => vec![Some(Omission::TimeSteps)],
         (Method::MdrTransient, Motion::Pressing(_)) => vec![Some(Omission::HalfSpace)],
         (Method::BemSteady, Motion::Sliding(load)) => {

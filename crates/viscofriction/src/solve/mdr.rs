@@ -1,12 +1,13 @@
 //! What the one-dimensional model says, as answers.
 
 use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
-use mdr_core::{SlideRow, indent, slide, steady};
+use mdr_core::{Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
 use numerics::{ErrorParts, Estimate};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::error::Result;
+use super::problem::Problem;
 use crate::scene::{Accuracy, Method, Model};
 
 /// The stationary state.
@@ -64,6 +65,36 @@ pub(crate) fn pressed(
         iterations: state.options.n_steps,
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
     })
+}
+
+/// Pressing and letting go along a history; the answer is its last point.
+pub(crate) fn followed(
+    problem: &Problem,
+    body: &dyn Axisymmetric,
+    method: Method,
+    relative_error: f64,
+) -> Result<Answer> {
+    let options = Follow {
+        relative_error,
+        ..Follow::default()
+    };
+    let curve = indent_along(body, &*problem.material, &problem.history, &options)?;
+    let last = curve.last().copied();
+    let last = last.ok_or(MdrError::Empty { list: "history" })?;
+    let radius = last.contact_radius;
+    let ends = Estimate {
+        value: -radius.value,
+        ..radius
+    };
+    let touches = radius.value > 0.0;
+    let mut answer = Answer {
+        indentation_depth: Some(last.indentation_depth),
+        contact_box: touches.then(|| contact_box([ends, radius])),
+        iterations: curve.len(),
+        ..Answer::new(method, problem.model, last.normal_force)
+    };
+    answer.fields.curve = curve;
+    Ok(answer)
 }
 
 fn contact_box([rear, front]: [Estimate; 2]) -> ContactBox {

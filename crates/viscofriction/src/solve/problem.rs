@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
+use mdr_core::HistoryPoint;
 use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
@@ -19,6 +20,8 @@ pub struct Problem {
     pub material: Box<dyn Material>,
     /// How the body is pressed and moves.
     pub motion: Motion,
+    /// Points of the history that the body follows; none of any other motion.
+    pub history: Vec<HistoryPoint>,
     /// How well the answer is asked for.
     pub accuracy: Accuracy,
     /// The method that the scene names; without it the cheapest is taken.
@@ -40,6 +43,8 @@ pub enum Motion {
     Sliding(SlidingLoad),
     /// Is pressed with a force or to a depth for a time, without sliding.
     Pressing(PressingLoad),
+    /// Follows [`Problem::history`], which ends with this.
+    History(Control),
 }
 
 impl Motion {
@@ -49,6 +54,7 @@ impl Motion {
         match self {
             Self::Sliding(load) => load.control(),
             Self::Pressing(load) => load.control(),
+            Self::History(last) => *last,
         }
     }
 }
@@ -59,7 +65,14 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
-        let motion = motion(scene)?;
+        let history = scene
+            .load
+            .checked_history(folder, read)?
+            .unwrap_or_default();
+        let motion = match history.last() {
+            Some(last) => followed(scene, last)?,
+            None => motion(scene)?,
+        };
         let body = body(&scene.indenter, folder, read)?;
         let material = material(&scene.material, folder, read)?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
@@ -68,6 +81,7 @@ impl Problem {
             simple: simple(&*material).map_err(not_reduced)?,
             material,
             motion,
+            history,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
             model: scene.solve.checked_model(),
@@ -88,6 +102,18 @@ impl TryFrom<&Scene> for Problem {
         };
         Self::new(scene, Path::new(""), no_files)
     }
+}
+
+fn followed(scene: &Scene, last: &HistoryPoint) -> Result<Motion, SceneError> {
+    let times = [
+        ("solve.duration", scene.solve.duration),
+        ("solve.sliding_distance", scene.solve.sliding_distance),
+    ];
+    if let Some((key, _)) = times.into_iter().find(|(_, given)| given.is_some()) {
+        let problem = "a history ends with its last point; leave this out";
+        return Err(SceneError::at(key, problem));
+    }
+    Ok(Motion::History(last.control))
 }
 
 fn motion(scene: &Scene) -> Result<Motion, SceneError> {

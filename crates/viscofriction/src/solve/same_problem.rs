@@ -58,7 +58,9 @@ pub fn solve_again(
         (Motion::Sliding(load), Grid::Stationary { options, .. }) => {
             stationary(surface, material, &load, options, kept)
         }
-        (Motion::Pressing(_), Grid::Stationary { .. }) => Err(SolveError::NoGrid),
+        (Motion::Pressing(_), Grid::Stationary { .. }) | (Motion::History(_), _) => {
+            Err(SolveError::NoGrid)
+        }
     }
 }
 

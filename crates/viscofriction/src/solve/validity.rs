@@ -19,7 +19,10 @@ pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
              its answers are rough"
         ));
     }
-    let depth = answer.indentation_depth.map_or(0.0, |depth| depth.value);
+    let curve = answer.fields.curve.iter();
+    let deepest = curve.map(|point| point.indentation_depth.value);
+    let last = answer.indentation_depth.map_or(0.0, |depth| depth.value);
+    let depth = deepest.fold(last, f64::max);
     if let Body::Revolution(Revolution::Sphere(sphere)) = body
         && depth > DEEPEST * sphere.radius()
     {
@@ -35,10 +38,13 @@ pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
 /// From the lowest point to the farthest edge of the contact; where no edge is known the friction, which is a mean of the
 /// slope.
 fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
+    let curve = answer.fields.curve.iter();
+    let widest = curve.map(|point| point.contact_radius.value);
+    let widest = widest.fold(0.0, f64::max);
     let Some(contact) = &answer.contact_box else {
         return answer.friction_coefficient.map(|friction| friction.value);
     };
-    let radius = contact.x[0].abs().max(contact.x[1].abs());
+    let radius = contact.x[0].abs().max(contact.x[1].abs()).max(widest);
     let height = match body {
         Body::Revolution(body) => body.profile_height(radius),
         Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),

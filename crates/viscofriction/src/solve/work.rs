@@ -23,6 +23,9 @@ const NOTHING_SLIDES: Refusal =
 
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
+    if let Motion::History(_) = problem.motion {
+        return followed(problem, method, accuracy);
+    }
     match (&problem.body, method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
@@ -54,6 +57,23 @@ fn flows(problem: &Problem) -> bool {
 
 fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion.control(), Control::NormalForce(_))
+}
+
+/// The one-dimensional model is exact here, on the half space too.
+fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
+    let Body::Revolution(body) = &problem.body else {
+        return Err("a history needs a body of revolution");
+    };
+    match method {
+        Method::Analytic | Method::MdrTransient => {
+            let Accuracy::RelativeError(asked) = accuracy else {
+                return Err(NO_ELEMENTS);
+            };
+            ready(move || mdr::followed(problem, &**body, method, asked))
+        }
+        Method::MdrSteady | Method::BemSteady => Err(NOTHING_SLIDES),
+        Method::BemTransient => Err("it follows no history in a scene; analytic does, exactly"),
+    }
 }
 
 fn line_contact<'a>(
@@ -114,6 +134,7 @@ fn boundary_elements<'a>(
     let is_stationary = method == Method::BemSteady;
     let material = &*problem.material;
     let load = match problem.motion {
+        Motion::History(_) => return Err(NOTHING_SLIDES),
         Motion::Pressing(_) if is_stationary => return Err(NOTHING_SLIDES),
         Motion::Pressing(load) => {
             return ready(move || elements::pressed(surface, material, &load, accuracy));
@@ -153,7 +174,7 @@ fn one_dimensional<'a>(
             };
             ready(move || mdr::stationary(body, material, &load, error))
         }
-        (Method::MdrSteady, Motion::Pressing(_)) => Err(NOTHING_SLIDES),
+        (Method::MdrSteady, Motion::Pressing(_)) | (_, Motion::History(_)) => Err(NOTHING_SLIDES),
         (_, Motion::Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
             ready(move || mdr::transient(body, material, &load, accuracy))
@@ -173,6 +194,7 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let (control, material) = (problem.motion.control(), &*problem.material);
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion, &problem.simple, problem.model) {
+        (Motion::History(_), _, _) => Err(NOTHING_SLIDES),
         (Motion::Pressing(load), _, _) => ready(move || pressed(load.duration())),
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
         (Motion::Sliding(_), Some(Simple::Elastic), _) => {

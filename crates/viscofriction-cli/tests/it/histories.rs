@@ -1,0 +1,134 @@
+//! Histories of depth and force, in a scene and in a file, against casebook-2.json (11 and 14 digits).
+
+use serde_json::Value;
+
+use crate::support::{Folder, assert_close, number};
+
+/// A ball of 1 m on a solid of G∞ = 1 Pa with one branch of 4 Pa and 1 s.
+const BALL: &str = "indenter.paraboloid.curvature = 0.5
+material.standard-solid = { equilibrium_modulus = 1.0, maxwell_modulus = 4.0, viscosity = 4.0 }";
+
+fn scene(load: &str, more: &str) -> String {
+    format!("load = {{ {load} }}\n{BALL}\n{more}\n")
+}
+
+/// One quantity at all points.
+fn column(result: &Value, name: &str) -> Vec<f64> {
+    let rows = result["history"].as_array().expect("a history");
+    rows.iter()
+        .map(|row| row[name].as_f64().expect("a number"))
+        .collect()
+}
+
+const TABLE: &str = "time_s,indentation_depth_m\n0,0\n1,0.01\n1.15,0.0085\n1.3,0.007\n1.5,0.009\n2.1,0.015\n2.3,0.013\n";
+
+#[test]
+fn a_surface_that_has_not_recovered_is_pressed_again() {
+    let folder = Folder::new("histories");
+    let file = scene("history_file = \"table.csv\"", "");
+    folder.write("table.csv", TABLE);
+    folder.write("file.toml", &file);
+    let points = TABLE.lines().skip(1).map(|row| {
+        let (time, depth) = row.split_once(',').expect("two columns");
+        format!("{{ time = {time}, indentation_depth = {depth} }}")
+    });
+    let points: Vec<String> = points.collect();
+    let inline = format!("history = [{}]", points.join(", "));
+    folder.write("inline.toml", scene(&inline, "solve.model = \"line\""));
+    let expected = [
+        0.0,
+        0.020114789112124724,
+        0.012640425201550915,
+        0.006649398554322738,
+        0.012478303405807521,
+        0.03011547928571352,
+        0.01772452165822294,
+    ];
+    let [of_file, of_scene] = ["file.toml", "inline.toml"].map(|scene| folder.json(scene));
+    assert_eq!(
+        column(&of_file, "normal_force"),
+        column(&of_scene, "normal_force"),
+        "both ways"
+    );
+    for (force, expected) in column(&of_file, "normal_force").into_iter().zip(expected) {
+        assert!(
+            (force - expected).abs() <= 1e-11 * 0.03,
+            "{force}, expected {expected}"
+        );
+    }
+    let radius = column(&of_file, "contact_radius")[4];
+    assert_close("contact radius", radius, 0.0944593877313644, 1e-11);
+    assert_close(
+        "last force",
+        number(&of_file, "normal_force"),
+        expected[6],
+        1e-11,
+    );
+    let bar = of_file["history_error"]["normal_force"]
+        .as_f64()
+        .expect("a bar");
+    assert!(bar > 0.0 && bar < 1e-12, "bar {bar:e}");
+    assert_eq!(
+        of_file["history_error"]["indentation_depth"], 0.0,
+        "the depth is given"
+    );
+}
+
+#[test]
+fn a_history_is_written_and_drawn() {
+    let folder = Folder::new("written-histories");
+    folder.write("table.csv", TABLE);
+    folder.write("file.toml", scene("history_file = \"table.csv\"", ""));
+    let of_file = folder.json("file.toml");
+    folder.done("run file.toml --out out");
+    let forces = folder.column("out/history.csv", 1);
+    assert_eq!(
+        forces,
+        column(&of_file, "normal_force"),
+        "forces in history.csv"
+    );
+    let names = folder.names("out");
+    for picture in [
+        "history.svg",
+        "history.png",
+        "history_over_time.svg",
+        "history_over_time.png",
+    ] {
+        assert!(
+            names.iter().any(|name| name == picture),
+            "{picture} among {names:?}"
+        );
+    }
+}
+
+#[test]
+fn a_force_that_rises_gives_the_depth_of_theory() {
+    let folder = Folder::new("force-histories");
+    let point =
+        |[time, force]: [f64; 2]| format!("{{ time = {time:?}, normal_force = {force:?} }}");
+    let points = [
+        [0.0, 0.01],
+        [1.0, 0.01],
+        [2.0, 0.01],
+        [2.0, 0.02],
+        [3.0, 0.02],
+        [20.0, 0.02],
+    ];
+    let load = format!("history = [{}]", points.map(point).join(", "));
+    folder.write("force.toml", scene(&load, ""));
+    let result = folder.json("force.toml");
+    let expected = [
+        0.005200209557629761,
+        0.007479854782350828,
+        0.009110027630310246,
+        0.011570032285005265,
+        0.014236682813555968,
+        0.023842571351249137,
+    ];
+    for (depth, expected) in column(&result, "indentation_depth")
+        .into_iter()
+        .zip(expected)
+    {
+        assert_close("depth", depth, expected, 1e-11);
+    }
+}
