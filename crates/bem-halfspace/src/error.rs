@@ -173,6 +173,12 @@ pub enum BemError {
         "a material that flows never comes to rest under a load: press it for a duration with `indent`"
     )]
     NoEquilibrium,
+    /// A material that flows creeps under a periodic surface for ever.
+    #[error(
+        "a material that flows never reaches a stationary state under a periodic surface: waves with crests along the motion \
+         sink until the contact is full; give the material an equilibrium modulus"
+    )]
+    FlowsUnderWaves,
     /// The rigid body refuses.
     #[error(transparent)]
     Indenter(#[from] IndenterError),

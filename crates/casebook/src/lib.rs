@@ -9,11 +9,13 @@ mod assertions;
 mod bodies;
 mod contacts;
 mod materials;
+mod rough;
 
 pub use assertions::{NEGATIVE, NOT_POSITIVE, refused, refuses};
 pub use bodies::{GaussianDip, superposition};
 pub use contacts::{SquareContact, deviation};
 pub use materials::{model, prony, standard_solid};
+pub use rough::{RoughCase, rough_cases};
 
 use std::fmt::Write as _;
 

@@ -10,7 +10,7 @@ use crate::chunks::Starts;
 
 /// Neighbours in contact, in one row and not continued in it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
+pub(crate) struct Run {
     /// The first element.
     element: usize,
     /// Its place in the part of a list that belongs to the band.
@@ -19,26 +19,26 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub(super) fn elements(&self) -> Range<usize> {
+    pub(crate) fn elements(&self) -> Range<usize> {
         self.element..self.element + self.length
     }
 
     /// Counted from the element `first`.
-    pub(super) fn elements_from(&self, first: usize) -> Range<usize> {
+    pub(crate) fn elements_from(&self, first: usize) -> Range<usize> {
         self.element - first..self.element - first + self.length
     }
 
-    pub(super) fn places(&self) -> Range<usize> {
+    pub(crate) fn places(&self) -> Range<usize> {
         self.place..self.place + self.length
     }
 }
 
 /// Elements in contact, as runs of neighbours.
 #[derive(Debug, Clone)]
-pub(super) struct ActiveSet {
+pub(crate) struct ActiveSet {
     in_contact: Vec<bool>,
-    pub(super) columns: usize,
-    pub(super) bands: Bands,
+    pub(crate) columns: usize,
+    pub(crate) bands: Bands,
     /// Of each band, with room for as many as there can be, so that a change does not allocate.
     runs: Vec<Vec<Run>>,
     /// Number of elements in contact before each band, and of all.
@@ -47,7 +47,7 @@ pub(super) struct ActiveSet {
 
 impl ActiveSet {
     /// The empty contact on a grid of the given shape.
-    pub(super) fn new(shape: [usize; 2]) -> Self {
+    pub(crate) fn new(shape: [usize; 2]) -> Self {
         let bands = Bands::new(shape);
         let most_runs = |band| bands.rows(band).len() * shape[1].div_ceil(2);
         let runs = (0..bands.n_bands()).map(|band| Vec::with_capacity(most_runs(band)));
@@ -63,7 +63,7 @@ impl ActiveSet {
     /// Replaces the active set by the elements for which `in_contact` is true.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
-    pub(super) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
+    pub(crate) fn assign(&mut self, in_contact: impl Fn(usize) -> bool + Sync) {
         self.change(|element, is| in_contact(element) != is);
     }
 
@@ -71,7 +71,7 @@ impl ActiveSet {
     /// in contact.
     ///
     /// [`find_runs`](Self::find_runs) must follow.
-    pub(super) fn change(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
+    pub(crate) fn change(&mut self, changes: impl Fn(usize, bool) -> bool + Sync) {
         let bands = self.bands;
         bands.for_each([&mut self.in_contact], |band, [in_contact]| {
             for (element, is) in bands.elements(band).zip(in_contact) {
@@ -81,7 +81,7 @@ impl ActiveSet {
     }
 
     /// Finds the runs after changes.
-    pub(super) fn find_runs(&mut self) {
+    pub(crate) fn find_runs(&mut self) {
         let (bands, columns, in_contact) = (self.bands, self.columns, &self.in_contact);
         let in_band = |band, [runs]: [&mut [Vec<Run>]; 1]| {
             let elements = bands.elements(band);
@@ -97,22 +97,22 @@ impl ActiveSet {
         }
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.starts[self.bands.n_bands()]
     }
 
     /// The neighbours in contact in a band, increasing.
-    pub(super) fn runs(&self, band: usize) -> &[Run] {
+    pub(crate) fn runs(&self, band: usize) -> &[Run] {
         &self.runs[band]
     }
 
     /// The part of a list that belongs to a band.
-    pub(super) fn places(&self, band: usize) -> Range<usize> {
+    pub(crate) fn places(&self, band: usize) -> Range<usize> {
         self.starts[band]..self.starts[band + 1]
     }
 
     /// The elements of a band outside the contact as ranges, increasing.
-    pub(super) fn gaps(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
+    pub(crate) fn gaps(&self, band: usize) -> impl Iterator<Item = Range<usize>> {
         let Range { start, end } = self.bands.elements(band);
         let runs = self.runs(band).iter().map(Run::elements);
         let starts = std::iter::once(start).chain(runs.clone().map(|run| run.end));
@@ -121,17 +121,17 @@ impl ActiveSet {
     }
 
     /// A list, for [`Bands::fold`].
-    pub(super) fn list<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+    pub(crate) fn list<'a, T>(&'a self, list: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (list, Starts::Listed(&self.starts))
     }
 
     /// A field with one value per element, for [`Bands::fold`].
-    pub(super) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
+    pub(crate) fn field<'a, T>(&self, field: &'a mut [T]) -> (&'a mut [T], Starts<'a>) {
         (field, self.bands.starts_of_blocks(1))
     }
 
     /// A field with one value per block of so many elements along an edge, for [`Bands::fold`].
-    pub(super) fn blocks<'a, T>(
+    pub(crate) fn blocks<'a, T>(
         &self,
         edge: usize,
         field: &'a mut [T],
@@ -140,26 +140,26 @@ impl ActiveSet {
     }
 
     /// Sum over bands, from the places of the elements of each.
-    pub(super) fn sum(&self, of_places: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
+    pub(crate) fn sum(&self, of_places: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
         self.bands.sum(|band| of_places(self.places(band)))
     }
 
     /// Lists the values of a field.
-    pub(super) fn gather(&self, field: &[f64], list: &mut [f64]) {
+    pub(crate) fn gather(&self, field: &[f64], list: &mut [f64]) {
         self.bands.for_each_part([self.list(list)], |band, [list]| {
             self.gather_in(band, field, list);
         });
     }
 
     /// Lists the values of a field in a band.
-    pub(super) fn gather_in(&self, band: usize, field: &[f64], list: &mut [f64]) {
+    pub(crate) fn gather_in(&self, band: usize, field: &[f64], list: &mut [f64]) {
         for run in self.runs(band) {
             list[run.places()].copy_from_slice(&field[run.elements()]);
         }
     }
 
     /// Writes the values of a list into a field.
-    pub(super) fn scatter(&self, list: &[f64], field: &mut [f64]) {
+    pub(crate) fn scatter(&self, list: &[f64], field: &mut [f64]) {
         self.bands
             .for_each_part([self.field(field)], |band, [field]| {
                 self.scatter_in(band, &list[self.places(band)], field);
@@ -167,7 +167,7 @@ impl ActiveSet {
     }
 
     /// Writes the part of a list that belongs to a band into the same part of a field.
-    pub(super) fn scatter_in(&self, band: usize, list: &[f64], field: &mut [f64]) {
+    pub(crate) fn scatter_in(&self, band: usize, list: &[f64], field: &mut [f64]) {
         let first = self.bands.elements(band).start;
         for run in self.runs(band) {
             field[run.elements_from(first)].copy_from_slice(&list[run.places()]);
@@ -176,7 +176,7 @@ impl ActiveSet {
 
     /// Number of elements for which `is` is true, which gets the element and whether that is in contact, and the last of
     /// them.
-    pub(super) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
+    pub(crate) fn find_last(&self, is: impl Fn(usize, bool) -> bool + Sync) -> (usize, usize) {
         let in_band = |band| {
             let found = |&element: &usize| is(element, self.in_contact[element]);
             let found = self.bands.elements(band).filter(found);
@@ -187,7 +187,7 @@ impl ActiveSet {
         self.bands.gather(in_band, both)
     }
 
-    pub(super) fn contains(&self, element: usize) -> bool {
+    pub(crate) fn contains(&self, element: usize) -> bool {
         self.in_contact[element]
     }
 }
@@ -212,7 +212,7 @@ fn find_runs_in<'a>(rows: impl Iterator<Item = &'a [bool]>, mut end: usize, runs
 
 /// Sums over the elements of each block of a band that are in contact, of the terms that their places in the part of a
 /// list have that belongs to the band.
-pub(super) fn sum_blocks<const EDGE: usize>(
+pub(crate) fn sum_blocks<const EDGE: usize>(
     contact: &ActiveSet,
     band: usize,
     term: impl Fn(usize) -> f64,

@@ -8,7 +8,7 @@
 //! compliance of the step: `1/G` for an elastic half space, `Δt/η` for a viscous one (implicit over the step).
 //! Either the normal force `Σ P ΔA` is given and the depth d follows, or the other way round.
 
-mod active_set;
+pub(crate) mod active_set;
 mod far_loads;
 mod fields;
 mod folded;

@@ -18,6 +18,7 @@ mod mirrors;
 mod nested_grids;
 mod omissions;
 mod periodic_contact;
+mod periodic_sliding;
 mod stationary_state;
 mod support;
 #[cfg(feature = "rayon")]

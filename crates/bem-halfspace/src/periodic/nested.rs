@@ -1,0 +1,127 @@
+//! Nested grids, and the full contact.
+
+use std::f64::consts::PI;
+
+use rustfft::num_complex::Complex;
+
+use crate::periodic::kernel::Kernel;
+use crate::periodic::search::{self, Problem, Solved};
+use crate::periodic::waves::{WaveNumbers, Waves};
+use crate::plane_transform::ZERO;
+use crate::{BemError, Grid};
+
+/// Grids with fewer elements along an edge are not made coarser.
+const SMALLEST_EDGE: usize = 32;
+/// Tolerance of a solution that is only a start.
+const COARSE_TOLERANCE: f64 = 1e-3;
+const COARSE_PRODUCTS: usize = 300;
+
+/// Solves the problem; the pressure is filled in.
+pub(super) fn solve(problem: Problem, pressure: &mut Vec<f64>) -> Result<Solved, BemError> {
+    if let Some(solved) = full_contact(&problem, pressure)? {
+        return Ok(solved);
+    }
+    start(&problem, pressure)?;
+    search::solve(problem, pressure)
+}
+
+/// Starts from the solution on elements of twice the edges, if they can be so long.
+fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
+    let shape = problem.grid.shape();
+    if !shape
+        .iter()
+        .all(|n| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE)
+    {
+        return Ok(());
+    }
+    let grid = Grid::new(
+        shape.map(|n| n / 2),
+        problem.grid.spacing().map(|edge| 2.0 * edge),
+    )?;
+    let heights = halved(problem.grid, problem.heights);
+    let coarse = Problem {
+        grid: &grid,
+        heights: &heights,
+        tolerance: problem.tolerance.max(COARSE_TOLERANCE),
+        max_products: problem.max_products.min(COARSE_PRODUCTS),
+        ..*problem
+    };
+    let mut guess = Vec::new();
+    start(&coarse, &mut guess)?;
+    match search::solve(coarse, &mut guess) {
+        // Whatever was reached is a guess.
+        Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
+        Err(error) => return Err(error),
+    }
+    *pressure = doubled(&guess, grid.shape());
+    Ok(())
+}
+
+/// The waves that fit on a grid of twice the edges, at the centres of its elements.
+fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
+    let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
+    let along_x = WaveNumbers::new(grid).along_x;
+    let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
+    let mut field = vec![0.0; heights.len()];
+    Waves::new(grid).apply(heights, &mut field, |row, q| {
+        let q_x = along_x[row];
+        // For the mean this is another mean, which changes nothing but the depth of a guess.
+        let q_y = if row == 0 {
+            q
+        } else {
+            (q * q - q_x * q_x).max(0.0).sqrt()
+        };
+        let is_kept = (q_x * dx).abs() < cut && q_y * dy < cut;
+        if is_kept {
+            Complex::from_polar(1.0, 0.5 * (q_x * dx + q_y * dy))
+        } else {
+            ZERO
+        }
+    });
+    let rows = field.chunks_exact(columns).step_by(2);
+    rows.flat_map(|row| row.iter().step_by(2).copied())
+        .collect()
+}
+
+/// Bilinear between the centres of elements of twice the edges, in those of them that are in contact.
+fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
+    let value = |element: usize| {
+        let place = [element / (2 * columns), element % (2 * columns)];
+        let [row, column] = place.map(|index| index / 2);
+        let beside = |index: usize, length: usize| match index % 2 {
+            0 => (index / 2 + length - 1) % length,
+            _ => (index / 2 + 1) % length,
+        };
+        let [next_row, next_column] = [beside(place[0], rows), beside(place[1], columns)];
+        let at = |row: usize, column: usize| field[row * columns + column].max(0.0);
+        if at(row, column) <= 0.0 {
+            return 0.0;
+        }
+        (9.0 * at(row, column)
+            + 3.0 * (at(next_row, column) + at(row, next_column))
+            + at(next_row, next_column))
+            / 16.0
+    };
+    (0..4 * field.len()).map(value).collect()
+}
+
+/// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
+fn full_contact(problem: &Problem, pressure: &mut Vec<f64>) -> Result<Option<Solved>, BemError> {
+    let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
+    let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
+    let kernel = Kernel::new(problem.sliding, problem.grid)?;
+    pressure.resize(displacement.len(), 0.0);
+    kernel.invert_at_centre(&mut Waves::new(problem.grid), &displacement, pressure);
+    let total: f64 = pressure.iter().sum();
+    let rest = problem.mean_pressure - total / pressure.len() as f64;
+    pressure.iter_mut().for_each(|pressure| *pressure += rest);
+    if pressure.iter().all(|pressure| *pressure > 0.0) {
+        return Ok(Some(Solved {
+            depth: mean,
+            products: 1,
+            residual: 0.0,
+        }));
+    }
+    pressure.clear();
+    Ok(None)
+}

@@ -1,0 +1,285 @@
+//! Search of the active set: solve the equations of a contact, take elements in tension out of it and those that penetrate
+//! into it.
+//!
+//! The equations of the first contacts are solved to a thirtieth, those of later ones to a tenth of the residual that the
+//! change has left; penetrations are told from what is left of it. Should the number of violations not fall below its
+//! minimum in ten contacts, only the larger ones change sides, and after thirty only the last one, after an accurate
+//! solution: the operator has a positive symmetric part, so that this ends (Murty 1974).
+
+use crate::reductions::larger;
+use crate::periodic::equations::{Equations, Residual};
+use crate::periodic::kernel::Sliding;
+use crate::{BemError, Grid};
+
+/// Parts of the residual to which the equations of the first contacts and of later ones are solved.
+const FIRST_PART: f64 = 0.03;
+const LATER_PART: f64 = 0.1;
+const FIRST_CONTACTS: usize = 2;
+/// Part of the elements in contact that violate the conditions, below which the equations are solved to the tolerance.
+const FEW: f64 = 2e-3;
+/// Penetrations below this part of the largest residual in the contact are not told from it.
+const HIDDEN: f64 = 0.3;
+/// Part of the pressure up to which tension is small.
+const SMALL_TENSION: f64 = 1e-2;
+/// Contacts without fewer violations up to which all violating elements change sides, and then the larger ones.
+const ALL: i32 = 10;
+const LARGER: i32 = 30;
+/// Part of the largest violation from which others count as large.
+const LARGE: f64 = 0.3;
+/// Part of the tolerance to which the equations are solved.
+const LAST: f64 = 0.5;
+
+/// A contact problem on one grid.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) sliding: &'a Sliding,
+    pub(super) grid: &'a Grid,
+    /// At the centres of the elements, \[m].
+    pub(super) heights: &'a [f64],
+    /// \[Pa].
+    pub(super) mean_pressure: f64,
+    /// Largest residual, relative to the largest displacement.
+    pub(super) tolerance: f64,
+    /// Products with the kernel.
+    pub(super) max_products: usize,
+}
+
+/// A solved contact; the pressure is a field of its own.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Solved {
+    /// Mean of h + u over the contact, \[m].
+    pub(super) depth: f64,
+    pub(super) products: usize,
+    pub(super) residual: f64,
+}
+
+/// The fields of a search.
+struct Search<'a> {
+    problem: Problem<'a>,
+    equations: Equations,
+    /// Where the gaps are evaluated, \[m].
+    heights: Vec<f64>,
+    contact: Vec<bool>,
+    pressure: Vec<f64>,
+    gap: Vec<f64>,
+    /// Depth that has been taken from the gap, and the largest displacement, \[m].
+    depth: f64,
+    scale: f64,
+    /// Largest residual, relative to the largest displacement.
+    residual: f64,
+}
+
+/// Which of the elements on the wrong side change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Choice {
+    All,
+    Larger,
+    Last,
+}
+
+/// Solves the problem from a first guess of the pressure, which is the solution afterwards; without one, half of the
+/// elements are taken for the contact.
+pub(super) fn solve(problem: Problem, pressure: &mut Vec<f64>) -> Result<Solved, BemError> {
+    let mut search = Search::new(problem, std::mem::take(pressure))?;
+    let solved = search.run();
+    *pressure = search.pressure;
+    pressure
+        .iter_mut()
+        .for_each(|pressure| *pressure = pressure.max(0.0));
+    solved
+}
+
+impl<'a> Search<'a> {
+    fn new(problem: Problem<'a>, mut pressure: Vec<f64>) -> Result<Self, BemError> {
+        let n = problem.grid.n_elements();
+        let mut equations = Equations::new(problem.sliding, problem.grid)?;
+        let mut heights = vec![0.0; n];
+        let Equations { kernel, waves, .. } = &mut equations;
+        kernel.shifted(waves, problem.heights, &mut heights);
+        if pressure.iter().all(|pressure| *pressure <= 0.0) {
+            let mean = heights.iter().sum::<f64>() / n as f64;
+            pressure = heights
+                .iter()
+                .map(|height| f64::from(*height <= mean))
+                .collect();
+        }
+        Ok(Self {
+            contact: pressure.iter().map(|pressure| *pressure > 0.0).collect(),
+            gap: vec![0.0; n],
+            problem,
+            equations,
+            heights,
+            pressure,
+            depth: 0.0,
+            scale: 0.0,
+            residual: f64::INFINITY,
+        })
+    }
+
+    fn run(&mut self) -> Result<Solved, BemError> {
+        let Problem {
+            tolerance,
+            max_products,
+            ..
+        } = self.problem;
+        self.balance();
+        self.renew_gaps();
+        let (mut fewest, mut vain, mut share, mut peak) = (usize::MAX, 0, 1.0, 10.0);
+        for number in 0.. {
+            self.equations
+                .take(&self.contact, &self.pressure, &self.gap);
+            let choice = match vain {
+                0..=ALL => Choice::All,
+                ..=LARGER => Choice::Larger,
+                _ => Choice::Last,
+            };
+            let last = 0.5_f64.powi(vain.min(10)) * LAST * tolerance * self.scale / peak;
+            let part = match number {
+                // What cycles with rough solutions may end with better ones.
+                _ if choice == Choice::Last || share < FEW => 0.0,
+                0..FIRST_CONTACTS => FIRST_PART,
+                _ => LATER_PART * 0.3_f64.powi((vain - 2).clamp(0, 3)),
+            };
+            let residual = self.equations.iterate(part, last);
+            peak = (residual.largest / residual.root_mean_square).clamp(5.0, 1e3);
+            let (violations, is_solved) = self.change(residual, choice);
+            if is_solved {
+                return Ok(self.solved());
+            }
+            if self.equations.products >= max_products {
+                break;
+            }
+            share = violations as f64 / self.equations.n_contact;
+            if violations < fewest {
+                (fewest, vain) = (violations, 0);
+            } else {
+                vain += 1;
+            }
+        }
+        Err(BemError::ContactNotConverged {
+            iterations: self.equations.products,
+            residual: self.residual,
+            tolerance,
+        })
+    }
+
+    fn solved(&self) -> Solved {
+        Solved {
+            depth: self.depth,
+            products: self.equations.products,
+            residual: self.residual,
+        }
+    }
+
+    /// Moves the elements that violate the conditions, or the last of them, to the other side; how many there were, and
+    /// whether the problem is solved.
+    fn change(&mut self, residual: Residual, choice: Choice) -> (usize, bool) {
+        let tolerance = self.problem.tolerance;
+        self.equations.give(&mut self.pressure, &mut self.gap);
+        let tension = -self
+            .pressure
+            .iter()
+            .map(|pressure| pressure.min(0.0))
+            .sum::<f64>();
+        let is_slight = tension <= tolerance * self.total();
+        // Without much tension the gaps far away are hardly changed by what is taken from it.
+        let hidden = if tension <= SMALL_TENSION * self.total() {
+            HIDDEN
+        } else {
+            1.0
+        };
+        let allowed = (HIDDEN * residual.largest).max(tolerance * self.scale);
+        let mut changed = self.exchange(allowed, choice, true);
+        for (pressure, inside) in self.pressure.iter_mut().zip(&self.contact) {
+            *pressure = if *inside { *pressure } else { 0.0 };
+        }
+        self.balance();
+        self.renew_gaps();
+        let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
+        let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
+        let is_solved = is_slight && is_open && self.residual <= tolerance;
+        if changed == 0 || choice != Choice::Last {
+            let allowed = (hidden * self.residual).max(tolerance) * self.scale;
+            changed += self.exchange(allowed, choice, false);
+        }
+        (changed, is_solved)
+    }
+
+    /// Exchanges elements that are listed by the equations, or others, and counts those that should be.
+    fn exchange(&mut self, allowed: f64, choice: Choice, is_near: bool) -> usize {
+        let own = self.equations.own_displacement;
+        let size = |element: usize| {
+            if self.equations.near.contains(element) != is_near {
+                return None;
+            }
+            let [pressure, gap] = [self.pressure[element], self.gap[element]];
+            let size = if self.contact[element] {
+                -pressure * own
+            } else {
+                -gap
+            };
+            let least = if self.contact[element] { 0.0 } else { allowed };
+            (size >= least).then_some(size)
+        };
+        let violations: Vec<(usize, f64)> = (0..self.contact.len())
+            .filter_map(|element| Some((element, size(element)?)))
+            .collect();
+        let largest = violations
+            .iter()
+            .fold(0.0, |top, (_, size)| larger(top, *size));
+        let from = match choice {
+            Choice::All => 0.0,
+            Choice::Larger => LARGE * largest,
+            Choice::Last => 0.0,
+        };
+        let skipped = if choice == Choice::Last {
+            violations.len().saturating_sub(1)
+        } else {
+            0
+        };
+        for (element, size) in violations.iter().skip(skipped) {
+            self.contact[*element] ^= *size >= from;
+        }
+        violations.len()
+    }
+
+    /// Sum of the pressures, \[Pa].
+    fn total(&self) -> f64 {
+        self.problem.mean_pressure * self.pressure.len() as f64
+    }
+
+    /// Gives the pressure its mean.
+    fn balance(&mut self) {
+        let factor = self.total() / self.pressure.iter().sum::<f64>();
+        self.pressure
+            .iter_mut()
+            .for_each(|pressure| *pressure *= factor);
+    }
+
+    /// The gaps under the pressure, less their mean in the contact, and the largest residual there.
+    fn renew_gaps(&mut self) {
+        self.equations.displace(&self.pressure, &mut self.gap);
+        let n = self.gap.len() as f64;
+        let mean = self.gap.iter().sum::<f64>() / n;
+        let above = |top: f64, moved: &f64| larger(top, (moved - mean).abs());
+        self.scale = self.gap.iter().fold(0.0, above);
+        for (gap, height) in self.gap.iter_mut().zip(&self.heights) {
+            *gap += height - mean;
+        }
+        let in_contact = || {
+            self.gap
+                .iter()
+                .zip(&self.contact)
+                .filter(|(_, inside)| **inside)
+        };
+        self.depth = in_contact().map(|(gap, _)| gap).sum::<f64>() / in_contact().count() as f64;
+        self.gap.iter_mut().for_each(|gap| *gap -= self.depth);
+        let in_contact = self
+            .gap
+            .iter()
+            .zip(&self.contact)
+            .filter(|(_, inside)| **inside);
+        let largest = in_contact.fold(0.0, |top, (gap, _)| larger(top, gap.abs()));
+        self.residual = largest / self.scale;
+    }
+}

@@ -1,0 +1,232 @@
+//! Stationary sliding of periodic surfaces: known frictions and areas, limits, and invariances.
+
+use std::f64::consts::PI;
+
+use bem_halfspace::{
+    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    PeriodicLoad, PeriodicOptions, PeriodicSliding, solve_contact, steady_periodic_on_grid,
+};
+use casebook::{RoughCase, prony, rough_cases};
+use rheology::{Elastic, Material, Viscous};
+
+macro_rules! assert_is {
+    ($result:expr, $pattern:pat $(if $guard:expr)? $(,)?) => {{
+        let result = $result;
+        assert!(matches!(result, $pattern $(if $guard)?), "{result:?}");
+    }};
+}
+
+/// Heights of waves [m, n, a, φ] over a unit square, `copies` of it along x, from `origin` on.
+fn heights(
+    waves: &[[f64; 4]],
+    [rows, columns]: [usize; 2],
+    copies: usize,
+    origin: f64,
+) -> Vec<f64> {
+    let height = |index: usize| -> f64 {
+        let x = copies as f64 * (index / columns) as f64 / rows as f64 + origin;
+        let y = (index % columns) as f64 / columns as f64;
+        let wave = |[m, n, a, phase]: &[f64; 4]| a * (2.0 * PI * (m * x + n * y) + phase).cos();
+        waves.iter().map(wave).sum()
+    };
+    (0..rows * columns).map(height).collect()
+}
+
+fn slide(
+    grid: &Grid,
+    heights: &[f64],
+    material: &impl Material,
+    load: [f64; 2],
+) -> Result<PeriodicSliding, BemError> {
+    let load = PeriodicLoad::new(load[0], load[1])?;
+    let options = PeriodicOptions {
+        tolerance: 1e-8,
+        ..PeriodicOptions::default()
+    };
+    steady_periodic_on_grid(grid, heights, material, &load, &options)
+}
+
+fn solve(case: &RoughCase, n: usize) -> PeriodicSliding {
+    let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a valid grid");
+    let heights = heights(&case.waves, [n; 2], 1, 0.0);
+    let load = [case.mean_pressure, case.velocity];
+    let solved = slide(&grid, &heights, &case.material, load);
+    solved.unwrap_or_else(|error| panic!("{}: {error}", case.id))
+}
+
+#[test]
+fn friction_and_area_are_those_of_the_casebook() {
+    for case in rough_cases("cases") {
+        let solved = solve(&case, 128);
+        let off = |value: f64, exact: f64| value / exact - 1.0;
+        eprintln!(
+            "{} slope {:.4} dissipation {:.4} area {:.4} counted {:.4} products {}",
+            case.id,
+            off(solved.friction_coefficient, case.friction_coefficient),
+            off(solved.friction_from_dissipation, case.friction_coefficient),
+            off(solved.area_fraction, case.area),
+            off(solved.counted_area_fraction, case.area),
+            solved.products
+        );
+    }
+}
+
+#[test]
+fn full_contact_is_exact() {
+    for case in rough_cases("full_contact") {
+        let solved = solve(&case, 48);
+        for friction in [
+            solved.friction_coefficient,
+            solved.friction_from_dissipation,
+        ] {
+            let deviation = friction / case.friction_coefficient - 1.0;
+            assert!(deviation.abs() < 1e-11, "{}: {deviation:e}", case.id);
+        }
+    }
+}
+
+#[test]
+fn at_rest_the_contact_is_the_elastic_one() {
+    let case = &rough_cases("cases")[2];
+    let (n, modulus) = (96, 3.0);
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
+    let heights = heights(&case.waves, [n; 2], 1, 0.0);
+    let material = Elastic::new(modulus).expect("a material");
+    let solved = slide(&grid, &heights, &material, [0.02, 0.0]).expect("a contact");
+    let convolution = Convolution::periodic(&grid);
+    let problem = ContactProblem {
+        convolution: &convolution,
+        separation: &heights,
+        compliance: 1.0 / modulus,
+        control: Control::NormalForce(0.02),
+    };
+    let mut state = ContactState::new(&convolution);
+    let options = ContactOptions {
+        tolerance: 1e-10,
+        ..ContactOptions::default()
+    };
+    let contact = solve_contact(&problem, &mut state, &options).expect("a contact");
+    for (actual, expected) in solved.pressure.pressure.iter().zip(state.pressure()) {
+        assert!(
+            (actual - expected).abs() < 1e-5,
+            "{actual} instead of {expected}"
+        );
+    }
+    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    let depth = solved.mean_depth + mean;
+    let expected = contact.indentation_depth;
+    assert!(
+        (depth - expected).abs() < 1e-8,
+        "{depth} instead of {expected}"
+    );
+    assert!(solved.friction_from_dissipation.abs() < 1e-15, "{solved:?}");
+}
+
+/// The elastic pressure in the dissipation integral is the first order in the velocity.
+#[test]
+fn slow_friction_is_the_dissipation_of_the_elastic_pressure() {
+    let case = &rough_cases("cases")[0];
+    let slow = |velocity: f64| RoughCase {
+        velocity,
+        ..case.clone()
+    };
+    let [one, two] = [1e-6, 2e-6].map(|v| solve(&slow(v), 64).friction_from_dissipation / v);
+    assert!((two / one - 1.0).abs() < 1e-4, "{one} and {two}");
+}
+
+#[test]
+fn units_translation_copies_and_split_branches_change_nothing() {
+    let case = &rough_cases("cases")[4];
+    let n = 64;
+    let [p0, v] = [case.mean_pressure, case.velocity];
+    let expected = solve(case, n);
+    let check = |what: &str, solved: Result<PeriodicSliding, BemError>, slope: f64| {
+        let solved = solved.expect(what);
+        for (actual, expected) in [
+            (
+                solved.friction_coefficient / slope,
+                expected.friction_coefficient,
+            ),
+            (
+                solved.friction_from_dissipation / slope,
+                expected.friction_from_dissipation,
+            ),
+            (solved.area_fraction, expected.area_fraction),
+        ] {
+            let deviation = actual / expected - 1.0;
+            assert!(
+                deviation.abs() < 1e-6,
+                "{what}: {actual} instead of {expected}"
+            );
+        }
+    };
+    let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a grid");
+    let shape = heights(&case.waves, [n; 2], 1, 0.0);
+    let moved = heights(&case.waves, [n; 2], 1, 0.375);
+    check(
+        "translation",
+        slide(&grid, &moved, &case.material, [p0, v]),
+        1.0,
+    );
+    let split = prony([0.25, 0.0], &[(1.0, 1.0), (1.25, 1.0)]);
+    check("split branches", slide(&grid, &shape, &split, [p0, v]), 1.0);
+    let long = Grid::new([2 * n, n], [1.0 / n as f64; 2]).expect("a grid");
+    let copies = heights(&case.waves, [2 * n, n], 2, 0.0);
+    check(
+        "two periods",
+        slide(&long, &copies, &case.material, [p0, v]),
+        1.0,
+    );
+    let (length, pressure, time, steep) = (1e-6, 1e7, 1e-5, 0.3);
+    let small = Grid::new([n; 2], [length / n as f64; 2]).expect("a grid");
+    let scaled: Vec<f64> = shape.iter().map(|height| height * length * steep).collect();
+    let stiff = prony([0.25 * pressure, 0.0], &[(2.25 * pressure, time)]);
+    let load = [p0 * pressure * steep, v * length / time];
+    check("units", slide(&small, &scaled, &stiff, load), steep);
+}
+
+#[test]
+fn what_has_no_stationary_state_is_refused() {
+    let grid = Grid::new([16, 16], [1.0; 2]).expect("a grid");
+    let wave = heights(&[[1.0, 0.0, 0.1, 0.0]], [16, 16], 1, 0.0);
+    let solid = Elastic::new(1.0).expect("a material");
+    let fluid = Viscous::new(1.0).expect("a material");
+    assert_is!(
+        slide(&grid, &wave, &fluid, [1.0, 1.0]),
+        Err(BemError::FlowsUnderWaves)
+    );
+    assert_is!(
+        slide(&grid, &[0.5; 256], &solid, [1.0, 1.0]),
+        Err(BemError::InvalidParameter(refused)) if refused.parameter == "height"
+    );
+    assert_is!(
+        slide(&grid, &wave[1..], &solid, [1.0, 1.0]),
+        Err(BemError::LengthMismatch { .. })
+    );
+    let mut hole = wave.clone();
+    hole[17] = f64::NAN;
+    assert_is!(
+        slide(&grid, &hole, &solid, [1.0, 1.0]),
+        Err(BemError::InvalidHeight {
+            row: 1,
+            column: 1,
+            ..
+        })
+    );
+    let row = Grid::new([1, 256], [1.0; 2]).expect("a grid");
+    assert_is!(
+        slide(&row, &wave, &solid, [1.0, 1.0]),
+        Err(BemError::InvalidParameter(refused)) if refused.parameter == "rows of heights"
+    );
+    for load in [
+        [0.0, 1.0],
+        [f64::NAN, 1.0],
+        [1.0, -1.0],
+        [1.0, f64::INFINITY],
+    ] {
+        assert_is!(
+            slide(&grid, &wave, &solid, load),
+            Err(BemError::InvalidParameter(_))
+        );
+    }
+}
