@@ -12,10 +12,10 @@ use std::ops::Range;
 
 use crate::bands::{copies, resize};
 use crate::contact::active_set::ActiveSet;
-use crate::reductions::{add, larger, sum};
 use crate::periodic::far_loads::FarLoads;
 use crate::periodic::kernel::{Kernel, Sliding};
 use crate::periodic::waves::Waves;
+use crate::reductions::{add, larger, sum};
 use crate::{BemError, Grid};
 
 /// Steps tried with one contact.

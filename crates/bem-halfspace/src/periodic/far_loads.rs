@@ -17,9 +17,9 @@ use rustfft::num_complex::Complex;
 use crate::bands::{Bands, copies};
 use crate::chunks::Starts;
 use crate::contact::active_set::ActiveSet;
-use crate::reductions::{add, sum};
 use crate::periodic::kernel::{Kernel, Sliding};
 use crate::periodic::waves::Waves;
+use crate::reductions::{add, sum};
 use crate::{BemError, Grid};
 
 /// Length of a block in elements.

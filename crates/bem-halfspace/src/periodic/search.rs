@@ -6,9 +6,9 @@
 //! minimum in ten contacts, only the larger ones change sides, and after thirty only the last one, after an accurate
 //! solution: the operator has a positive symmetric part, so that this ends (Murty 1974).
 
-use crate::reductions::larger;
 use crate::periodic::equations::{Equations, Residual};
 use crate::periodic::kernel::Sliding;
+use crate::reductions::larger;
 use crate::{BemError, Grid};
 
 /// Parts of the residual to which the equations of the first contacts and of later ones are solved.
