@@ -44,6 +44,8 @@ mod power;
 #[doc(hidden)]
 pub mod revolution;
 mod right_triangle;
+#[cfg(feature = "rough")]
+pub mod rough;
 mod round_tipped;
 mod sampled_line;
 mod shape;

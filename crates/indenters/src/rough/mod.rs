@@ -1,0 +1,157 @@
+//! Periodic surfaces as finite sums of waves: the same surface on every grid.
+//!
+//! ```text
+//! h(x, y) = Σ a cos(2π (m x/L_x + n y/L_y) + φ)
+//! ```
+
+mod self_affine;
+
+use std::f64::consts::TAU;
+
+use numerics::{InvalidParameter, finite, in_range, positive};
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
+
+use crate::IndenterError;
+pub use self_affine::SelfAffine;
+
+/// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Wave {
+    /// Numbers m and n of waves in the periods along x and y, not both 0.
+    pub numbers: [i32; 2],
+    /// Amplitude a, \[m].
+    pub amplitude: f64,
+    /// Phase φ at the origin, \[rad].
+    pub phase: f64,
+}
+
+/// A rigid surface that repeats itself along x and y.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PeriodicSurface {
+    period: [f64; 2],
+    waves: Vec<Wave>,
+}
+
+impl PeriodicSurface {
+    /// The sum of some waves, with the `period` [L_x, L_y] \[m].
+    ///
+    /// # Errors
+    /// [`IndenterError::TooFew`] without waves; [`IndenterError::InvalidParameter`] for a period that is not positive, a
+    /// wave without length, and an amplitude or a phase that is not finite.
+    pub fn new(period: [f64; 2], waves: Vec<Wave>) -> Result<Self, IndenterError> {
+        positive("period along x", period[0])?;
+        positive("period along y", period[1])?;
+        if waves.is_empty() {
+            return Err(IndenterError::TooFew {
+                list: "waves",
+                needed: 1,
+                length: 0,
+            });
+        }
+        for wave in &waves {
+            let allowed = "other than 0 along x or y: a mean height changes nothing";
+            in_range("number of waves", 0.0, wave.numbers != [0, 0], allowed)?;
+            finite("amplitude", wave.amplitude)?;
+            finite("phase", wave.phase)?;
+        }
+        Ok(Self { period, waves })
+    }
+
+    /// The periods along x and y, \[m].
+    #[must_use]
+    pub const fn period(&self) -> [f64; 2] {
+        self.period
+    }
+
+    /// The waves.
+    #[must_use]
+    pub fn waves(&self) -> &[Wave] {
+        &self.waves
+    }
+
+    /// Largest numbers of waves in the periods along x and y.
+    #[must_use]
+    pub fn largest_numbers(&self) -> [usize; 2] {
+        [0, 1].map(|axis| {
+            let numbers = self
+                .waves
+                .iter()
+                .map(|wave| wave.numbers[axis].unsigned_abs());
+            numbers.fold(0, u32::max) as usize
+        })
+    }
+
+    /// Root mean square of |∇h|.
+    #[must_use]
+    pub fn rms_slope(&self) -> f64 {
+        // Waves of opposite numbers are one; those that are given twice count as independent.
+        let square = |wave: &Wave| {
+            let [q_x, q_y] = self.wave_vector(wave);
+            0.5 * wave.amplitude * wave.amplitude * (q_x * q_x + q_y * q_y)
+        };
+        self.waves.iter().map(square).sum::<f64>().sqrt()
+    }
+
+    fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
+        [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])
+    }
+
+    /// Heights \[m] on so many elements along x and y, row-major with y fastest; the first element is at the origin.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for a grid with no more than two elements per shortest wave.
+    pub fn heights(&self, [rows, columns]: [usize; 2]) -> Result<Vec<f64>, InvalidParameter> {
+        let [along_x, along_y] = self.largest_numbers();
+        let allowed = "more than two for each of the shortest waves";
+        in_range("elements along x", rows as f64, rows > 2 * along_x, allowed)?;
+        in_range(
+            "elements along y",
+            columns as f64,
+            columns > 2 * along_y,
+            allowed,
+        )?;
+        let n_columns = columns / 2 + 1;
+        let mut spectrum = vec![Complex::default(); n_columns * rows];
+        for wave in &self.waves {
+            add_wave(wave, &mut spectrum, rows);
+        }
+        let along_x = FftPlanner::new().plan_fft_inverse(rows);
+        along_x.process(&mut spectrum);
+        let along_y = RealFftPlanner::new().plan_fft_inverse(columns);
+        let mut coefficients = along_y.make_input_vec();
+        let mut scratch = along_y.make_scratch_vec();
+        let mut heights = vec![0.0; rows * columns];
+        for (row, heights) in heights.chunks_exact_mut(columns).enumerate() {
+            for (coefficient, column) in coefficients.iter_mut().zip(spectrum.chunks_exact(rows)) {
+                *coefficient = column[row];
+            }
+            // Of a column that stands for itself only the real part counts.
+            coefficients[0].im = 0.0;
+            if columns.is_multiple_of(2) {
+                coefficients[n_columns - 1].im = 0.0;
+            }
+            let done = along_y.process_with_scratch(&mut coefficients, heights, &mut scratch);
+            debug_assert!(done.is_ok(), "the lengths are those of the plan");
+        }
+        Ok(heights)
+    }
+}
+
+/// Adds a wave to the columns of a spectrum whose inverse transform is not normalised.
+fn add_wave(wave: &Wave, spectrum: &mut [Complex<f64>], rows: usize) {
+    let half = Complex::from_polar(0.5 * wave.amplitude, wave.phase);
+    let [m, n] = wave.numbers;
+    for (m, n, coefficient) in [(m, n, half), (-m, -n, half.conj())] {
+        if n >= 0 {
+            let row = i64::from(m).rem_euclid(rows as i64).unsigned_abs();
+            let place = i64::from(n).unsigned_abs() * rows as u64 + row;
+            #[expect(clippy::cast_possible_truncation, reason = "within the spectrum")]
+            let place = place as usize;
+            spectrum[place] += coefficient;
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! Periodic surfaces are the same on every grid, and random ones have the spectrum asked for.
+
+use std::f64::consts::TAU;
+
+use indenters::rough::{PeriodicSurface, SelfAffine, Wave};
+
+const RANDOM: SelfAffine = SelfAffine {
+    period: [2.0, 1.0],
+    hurst_exponent: 0.8,
+    rms_slope: 0.1,
+    longest_wavelength: 0.5,
+    shortest_wavelength: 0.04,
+    roll_off_wavelength: 0.25,
+    seed: 7,
+};
+
+#[test]
+fn heights_are_the_sum_of_the_waves_on_any_grid() {
+    let numbers = [[0, 2], [3, 0], [2, -3], [-1, 2]];
+    let waves: Vec<Wave> = (numbers.into_iter().zip([0.3, 0.2, 0.5, 0.1]))
+        .map(|(numbers, amplitude)| Wave {
+            numbers,
+            amplitude,
+            phase: 4.0 * amplitude,
+        })
+        .collect();
+    let surface = PeriodicSurface::new([0.5, 3.0], waves.clone()).expect("a surface");
+    for [rows, columns] in [[7, 7], [8, 9], [30, 12]] {
+        let heights = surface.heights([rows, columns]).expect("heights");
+        for (index, height) in heights.into_iter().enumerate() {
+            let x = (index / columns) as f64 / rows as f64;
+            let y = (index % columns) as f64 / columns as f64;
+            let wave = |wave: &Wave| {
+                let [m, n] = wave.numbers.map(f64::from);
+                wave.amplitude * (TAU * (m * x + n * y) + wave.phase).cos()
+            };
+            let expected: f64 = waves.iter().map(wave).sum();
+            assert!(
+                (height - expected).abs() < 1e-14,
+                "{height} instead of {expected} at {index}"
+            );
+        }
+    }
+    let refused = surface.heights([6, 9]).map_err(|error| error.parameter);
+    assert_eq!(
+        refused,
+        Err("elements along x"),
+        "two elements per shortest wave"
+    );
+}
+
+#[test]
+fn the_rms_slope_is_that_of_the_surface() {
+    let surface = RANDOM.surface().expect("a surface");
+    let (n, slope) = (128, surface.rms_slope());
+    assert!((slope - 0.1).abs() < 1e-15, "{slope}");
+    // Differences of the eighth order, whose error is (q Δ)^8/630 of a wave.
+    let heights = surface.heights([8 * n, 4 * n]).expect("heights");
+    let at = |row: usize, column: usize| heights[row % (8 * n) * 4 * n + column % (4 * n)];
+    let spacing = 0.25 / n as f64;
+    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let square = |index: usize| {
+        let [row, column] = [index / (4 * n) + 8 * n, index % (4 * n) + 4 * n];
+        let sum = |difference: &dyn Fn(usize) -> f64| -> f64 {
+            let terms = weights
+                .iter()
+                .enumerate()
+                .map(|(k, weight)| weight * difference(k + 1));
+            terms.sum::<f64>() / spacing
+        };
+        let along_x = sum(&|k| at(row + k, column) - at(row - k, column));
+        let along_y = sum(&|k| at(row, column + k) - at(row, column - k));
+        along_x * along_x + along_y * along_y
+    };
+    let mean = (0..heights.len()).map(square).sum::<f64>() / heights.len() as f64;
+    assert!((mean.sqrt() - 0.1).abs() < 1e-7, "{}", mean.sqrt());
+}
+
+#[test]
+fn amplitudes_depend_on_the_wave_vector_and_the_seed_only() {
+    let all = RANDOM.surface().expect("a surface");
+    let half = SelfAffine {
+        shortest_wavelength: 0.08,
+        ..RANDOM
+    }
+    .surface()
+    .expect("a surface");
+    let other = SelfAffine { seed: 8, ..RANDOM }
+        .surface()
+        .expect("a surface");
+    let find = |wave: &Wave| {
+        let same = all
+            .waves()
+            .iter()
+            .find(|other| other.numbers == wave.numbers);
+        *same.expect("the same wave")
+    };
+    let ratio = find(&half.waves()[0]).amplitude / half.waves()[0].amplitude;
+    for wave in half.waves() {
+        let same = find(wave);
+        assert!(
+            (same.phase - wave.phase).abs() < 1e-15,
+            "{wave:?}, {same:?}"
+        );
+        let deviation = same.amplitude / wave.amplitude / ratio - 1.0;
+        assert!(deviation.abs() < 1e-13, "{wave:?}, {same:?}");
+    }
+    let changed = other
+        .waves()
+        .iter()
+        .filter(|wave| find(wave).phase != wave.phase);
+    assert_eq!(
+        changed.count(),
+        all.waves().len(),
+        "another seed, another surface"
+    );
+}
+
+/// The mean squares of amplitudes fall like the spectrum, and are constant above the roll-off wave length.
+#[test]
+fn the_spectrum_is_self_affine() {
+    let mut means = [0.0; 3];
+    let bands = [[2.0, 4.0], [7.0, 8.0], [22.0, 25.0]];
+    for seed in 0..20 {
+        let surface = SelfAffine { seed, ..RANDOM }.surface().expect("a surface");
+        for (mean, [from, to]) in means.iter_mut().zip(bands) {
+            // In units of the spectrum asked for.
+            let squares = surface.waves().iter().filter_map(|wave| {
+                let [m, n] = wave.numbers.map(f64::from);
+                let inverse = (0.5 * m).hypot(n);
+                let spectrum = (inverse / 4.0).max(1.0).powf(-3.6);
+                (inverse >= from && inverse <= to).then(|| wave.amplitude.powi(2) / spectrum)
+            });
+            let squares: Vec<f64> = squares.collect();
+            *mean += squares.iter().sum::<f64>() / squares.len() as f64 / 20.0;
+        }
+    }
+    // At least 40 waves on 20 surfaces: the mean square of 800 Gaussian numbers is known to 4 %.
+    for mean in means {
+        assert!((mean / means[0] - 1.0).abs() < 0.2, "{means:?}");
+    }
+}
+
+#[test]
+fn impossible_spectra_are_refused() {
+    let refused = |surface: SelfAffine| surface.surface().expect_err("refused").to_string();
+    for (surface, name) in [
+        (
+            SelfAffine {
+                hurst_exponent: 1.0,
+                ..RANDOM
+            },
+            "hurst_exponent",
+        ),
+        (
+            SelfAffine {
+                rms_slope: f64::NAN,
+                ..RANDOM
+            },
+            "rms_slope",
+        ),
+        (
+            SelfAffine {
+                period: [0.0, 1.0],
+                ..RANDOM
+            },
+            "period along x",
+        ),
+        (
+            SelfAffine {
+                shortest_wavelength: 1e-9,
+                ..RANDOM
+            },
+            "period along x",
+        ),
+        (
+            SelfAffine {
+                roll_off_wavelength: 0.6,
+                ..RANDOM
+            },
+            "roll_off_wavelength",
+        ),
+        (
+            SelfAffine {
+                longest_wavelength: 0.3,
+                shortest_wavelength: 0.2995,
+                roll_off_wavelength: 0.2997,
+                ..RANDOM
+            },
+            "shortest_wavelength",
+        ),
+    ] {
+        let message = refused(surface);
+        assert!(message.starts_with(name), "{message} instead of {name}");
+    }
+    let nothing = PeriodicSurface::new([1.0; 2], Vec::new());
+    assert!(nothing.is_err(), "no waves: {nothing:?}");
+}
