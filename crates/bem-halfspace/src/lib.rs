@@ -62,6 +62,8 @@ pub use indent::{indent, indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, PressingLoad, SlidingLoad};
 pub use influence::influence;
 pub use numerics::InvalidParameter;
+#[cfg(feature = "rough")]
+pub use periodic::{PeriodicEstimate, steady_periodic};
 pub use periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid};
 pub use resolution::GridOptions;
 pub use slide::{PressureField, slide, slide_on_grid};

@@ -12,6 +12,8 @@
 //! equations of a given contact in `equations.rs`.
 
 mod equations;
+#[cfg(feature = "rough")]
+mod estimate;
 mod far_loads;
 mod friction;
 mod kernel;
@@ -25,6 +27,8 @@ use rheology::Material;
 use crate::chunks::in_pool;
 use crate::contact::check_length;
 use crate::{BemError, Grid, PressureField};
+#[cfg(feature = "rough")]
+pub use estimate::{PeriodicEstimate, steady_periodic};
 use friction::Friction;
 use kernel::Sliding;
 
@@ -208,7 +212,7 @@ fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
     }
     let is_flat = heights
         .iter()
-        .all(|height| *height <= heights[0] && *height >= heights[0]);
+        .all(|height| height.total_cmp(&heights[0]).is_eq());
     let allowed = "not the same everywhere: a flat surface has no friction";
     in_range("height", heights[0], !is_flat, allowed)?;
     Ok(())

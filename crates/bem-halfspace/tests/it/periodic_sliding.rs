@@ -250,3 +250,38 @@ fn what_has_no_stationary_state_is_refused() {
         );
     }
 }
+
+/// The bars of friction and area hold the numbers of the casebook, whose own uncertainty is smaller.
+#[cfg(feature = "rough")]
+#[test]
+fn the_bars_of_the_casebook_hold() {
+    use bem_halfspace::steady_periodic;
+    use indenters::rough::{PeriodicSurface, Wave};
+    for case in rough_cases("cases") {
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "numbers of waves are whole"
+        )]
+        let wave = |[m, n, amplitude, phase]: &[f64; 4]| Wave {
+            numbers: [*m as i32, *n as i32],
+            amplitude: *amplitude,
+            phase: *phase,
+        };
+        let waves = case.waves.iter().map(wave).collect();
+        let surface = PeriodicSurface::new([1.0; 2], waves).expect("a surface");
+        let load = PeriodicLoad::new(case.mean_pressure, case.velocity).expect("a load");
+        let estimate = steady_periodic(&surface, &case.material, &load, 0.1, 1 << 18);
+        let estimate = estimate.unwrap_or_else(|error| panic!("{}: {error}", case.id));
+        for (bar, exact) in [
+            (estimate.friction_coefficient, case.friction_coefficient),
+            (estimate.area_fraction, case.area),
+        ] {
+            let deviation = (bar.value - exact).abs();
+            assert!(
+                deviation <= bar.error,
+                "{}: {bar:?} instead of {exact}",
+                case.id
+            );
+        }
+    }
+}
