@@ -40,7 +40,7 @@ impl Scenes {
             match column {
                 Column::NormalForce => scene.load.normal_force = value,
                 Column::IndentationDepth => scene.load.indentation_depth = value,
-                Column::Velocity => scene.load.velocity = values[index],
+                Column::Velocity => scene.load.velocity = value,
                 Column::Duration => scene.solve.duration = value,
                 Column::SlidingDistance => scene.solve.sliding_distance = value,
             }
@@ -102,7 +102,7 @@ impl Loads<'_> {
 /// Solves one scene for each row of the columns.
 ///
 /// Returns a dictionary: `columns`, arrays of all numbers by their names, NaN where not known; `answers`, what else is
-/// known of each as dictionaries or None; `failures`, sentences or None.
+/// known of each as dictionaries or None, with the text of the program of a single one; `failures`, sentences or None.
 #[pyfunction]
 pub(crate) fn solve_loads<'py>(
     py: Python<'py>,
@@ -138,13 +138,21 @@ fn to_python(
     let names = Answer::columns();
     let mut columns = vec![vec![f64::NAN; answers.len()]; names.len()];
     let [others, failures] = [PyList::empty(py), PyList::empty(py)];
+    let single = answers.len() == 1;
     for (index, answer) in answers.into_iter().enumerate() {
         match answer {
             Ok(answer) => {
                 for (column, (_, value)) in columns.iter_mut().zip(answer.numbers()) {
                     column[index] = value.unwrap_or(f64::NAN);
                 }
-                others.append(other(py, answer)?)?;
+                let json = if single {
+                    Some(serde_json::to_string(&answer).map_err(wrong)?)
+                } else {
+                    None
+                };
+                let other = other(py, answer)?;
+                other.set_item("json", json)?;
+                others.append(other)?;
                 failures.append(py.None())?;
             }
             Err(error) => {

@@ -42,3 +42,10 @@ def test_arrays_have_the_answers_of_single_loads() -> None:
         one = vf.slide(vf.Sphere(5e-3), rubber, normal_force=2.0, velocity=speeds[index], relative_error=1e-2)
         assert every.mu is not None and every.mu[index] == one.mu
         assert every.area is not None and every.area[index] == one.area
+
+
+def test_a_history_is_named_arrays() -> None:
+    answer = vf.solve(SCENES / "press-hold-pull-press.toml")
+    history = answer.history
+    assert set(history) == {"time", "normal_force", "indentation_depth", "contact_radius"}
+    assert (np.diff(history["time"]) >= 0).all() and history["normal_force"].max() > 0

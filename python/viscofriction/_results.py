@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -171,6 +172,14 @@ class Answer:
         """Position [m] and pressure [Pa] of a single scene of a cylinder, two columns."""
         return self._field("line_pressure")
 
+    @property
+    def history(self) -> dict[str, NDArray[np.float64]]:
+        """Time [s], normal force [N], depth [m] and contact radius [m] of a single scene with a history, by their names."""
+        rows = self.to_dict().get("history")
+        if self.shape != () or rows is None:
+            raise AttributeError("a history belongs to a single scene with [load] history or history_file")
+        return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+
     def _single(self) -> dict[str, Any]:
         if self.shape != () or self._answers[0] is None:
             raise AttributeError("fields belong to a single scene: ask for one load")
@@ -194,19 +203,21 @@ class Answer:
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known: of a single scene the keys and values of the program's JSON, of an array lists."""
+        if self.shape == () and self._answers[0] is not None:
+            whole: dict[str, Any] = json.loads(self._answers[0]["json"])
+            return whole
         entries: dict[str, Any] = {"method": self.method, "model": self.model}
-        scalar = self.shape == ()
         for name, values in self._columns.items():
             if name.startswith("error_") or name in EDGES or name == "contact_box_error":
                 continue
             if not np.isnan(values).all():
-                entries[name] = plain(values, scalar)
+                entries[name] = plain(values)
         if self.contact_box:
-            edges = {name: plain(self._columns[name], scalar) for name in self.contact_box}
+            edges = {name: plain(self._columns[name]) for name in self.contact_box}
             entries["contact_box"] = edges
-            entries["contact_box_error"] = plain(self._columns["contact_box_error"], scalar)
+            entries["contact_box_error"] = plain(self._columns["contact_box_error"])
         parts = {name: values for name, values in self._columns.items() if name.startswith("error_")}
-        known = {name[len("error_") :]: plain(values, scalar) for name, values in parts.items() if not np.isnan(values).all()}
+        known = {name[len("error_") :]: plain(values) for name, values in parts.items() if not np.isnan(values).all()}
         if known:
             entries["error_parts"] = known
         for name in ("unknowns", "iterations"):
@@ -252,10 +263,9 @@ class Answer:
         return _plotting.plot(self, ax)
 
 
-def plain(values: NDArray[np.float64], scalar: bool) -> Any:
-    """A number, or a list with None for what is not known."""
-    every = [None if math.isnan(value) else value for value in values.tolist()]
-    return every[0] if scalar else every
+def plain(values: NDArray[np.float64]) -> list[float | None]:
+    """A flat list, with None for what is not known."""
+    return [None if math.isnan(value) else value for value in values.tolist()]
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:

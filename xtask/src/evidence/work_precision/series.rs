@@ -132,7 +132,7 @@ impl Measured {
     /// Times the methods on a scene, each in at most `runs` runs; a model whose reference is not reached is refused.
     pub(super) fn add_scene(&mut self, scene: &Scene, runs: usize) -> Result<()> {
         let mut file: scene::Scene = scene.text.parse()?;
-        file.load.velocity = scene.velocity.unwrap_or(file.load.velocity);
+        file.load.velocity = scene.velocity.or(file.load.velocity);
         let requests = requests(presses(&file), runs);
         for of_model in requests.chunk_by(|one, other| one.model == other.model) {
             let reference = match reference(&file, &of_model[0]) {
