@@ -114,7 +114,7 @@ impl Request {
 
 /// Whether nothing slides.
 pub(super) fn presses(scene: &Scene) -> bool {
-    scene.load.velocity <= Some(0.0)
+    scene.load.velocity.is_none_or(|velocity| velocity <= 0.0)
 }
 
 /// The stationary state of a model to the first of some relative errors that is reached.

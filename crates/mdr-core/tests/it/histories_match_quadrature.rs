@@ -147,7 +147,7 @@ fn one_way_in_and_out() {
     }
 }
 
-/// `/work/shared` of the project, casebook-2.json, reapproach: 11 digits.
+/// Casebook-2.json, reapproach: 11 digits.
 #[test]
 fn pressing_again_before_the_surface_has_recovered() {
     let expected = [
