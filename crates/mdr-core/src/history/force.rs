@@ -163,8 +163,16 @@ fn press(contact: &mut Contact<'_>, time: f64, needed: f64, deepest: f64) -> Res
 
 /// The radii up to a depth at which ∫ a dd is well above an area.
 fn reaching(body: &dyn Axisymmetric, area: f64) -> Result<Radii, MdrError> {
-    // From 1 m, which stands for "anywhere", in steps that a body of finite height survives.
-    let mut deepest = body.line_height(body.max_radius()).min(1.0) * 0.5;
+    // From 1 m, which stands for "anywhere", in steps that a body of finite height survives; of a body that ends at a
+    // vertical edge, as the sphere, from well inside it.
+    let end = body.max_radius();
+    let whole = body.line_height(end);
+    let start = if end.is_finite() && whole == f64::INFINITY {
+        body.line_height(0.5 * end)
+    } else {
+        whole.min(1.0)
+    };
+    let mut deepest = 0.5 * start;
     let mut radii = Radii::new(body, deepest)?;
     while radii.area() > 16.0 * area {
         deepest *= 0.25;

@@ -80,7 +80,8 @@ impl Default for Follow {
 /// # Errors
 /// [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
 /// depth on a material with a lone dashpot; [`MdrError::Empty`] without points; [`MdrError::Indenter`] when the line of the
-/// body turns down or ends before the largest depth; [`MdrError::NotADisc`] when a part of the contact would open inside
+/// body turns down or ends before the largest depth; [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical
+/// edge, as the equator of a sphere; [`MdrError::NotADisc`] when a part of the contact would open inside
 /// it, or close outside; [`MdrError::NotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
     body: &(impl Axisymmetric + ?Sized),

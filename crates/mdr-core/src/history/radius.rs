@@ -16,6 +16,9 @@ pub(super) const ORDER: usize = 16;
 /// Last two coefficients, relative to the radius, below which a piece is not divided. Those that are missing are a
 /// hundredth of that.
 const TAIL: f64 = 2e-13;
+/// A contact that is as near as this to a vertical edge, such as the equator of a sphere, relative to its radius, has reached
+/// the edge.
+const EDGE: f64 = 1e-10;
 /// Share of a piece in the area a d below which its error does not matter.
 const NEGLIGIBLE: f64 = 1e-14;
 
@@ -46,6 +49,15 @@ impl Radii {
             Some(radius) => radius,
             None => contact_radius(body, deepest)?,
         };
+        let end = body.max_radius();
+        let edge = (1.0 - EDGE) * end;
+        if largest > edge && body.line_height(end) == f64::INFINITY {
+            return Err(MdrError::DepthBeyondEdge {
+                position: end,
+                available: body.line_height(edge),
+                indentation_depth: deepest,
+            });
+        }
         let negligible = NEGLIGIBLE * deepest * largest;
         let exponent = body.profile_exponent();
         let cosines = std::array::from_fn(|m| (0.5 * PI * m as f64 / ORDER as f64).cos());

@@ -395,3 +395,22 @@ fn no_points_and_a_line_that_turns_down_are_refused() {
         "the line turns down: {result:?}"
     );
 }
+
+#[test]
+fn a_sphere_is_not_pressed_beyond_its_equator() {
+    let sphere = Sphere::new(5e-6).expect("a sphere");
+    for control in [Control::IndentationDepth(1e-2), Control::NormalForce(10.0)] {
+        let start = match control {
+            Control::NormalForce(_) => Control::NormalForce(0.0),
+            Control::IndentationDepth(_) => Control::IndentationDepth(0.0),
+        };
+        let history = [(0.0, start), (1.0, control)];
+        let history = history.map(|(time, control)| HistoryPoint { time, control });
+        let result = indent_along(&sphere, &material("solid"), &history, &Follow::default());
+        let refused = matches!(
+            result,
+            Err(MdrError::DepthBeyondEdge { position: 5e-6, .. })
+        );
+        assert!(refused, "{control:?}: {result:?}");
+    }
+}

@@ -90,10 +90,10 @@ fn write_curve(answer: &Answer, out: &OutputFolder) -> Result<()> {
     let points = curve
         .iter()
         .map(|p| [p.indentation_depth.value, p.normal_force.value]);
-    let figure = pictures::curve("indentation depth [m]", force, points.collect());
+    let figure = pictures::points("indentation depth [m]", force, points.collect());
     out.draw("history", &figure)?;
     let points = curve.iter().map(|p| [p.time, p.normal_force.value]);
-    let figure = pictures::curve("time [s]", force, points.collect());
+    let figure = pictures::points("time [s]", force, points.collect());
     out.draw("history_over_time", &figure)
 }
 

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use viscofriction::PressureField;
-use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Series};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 /// The pressure over the contact.
 pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
@@ -26,12 +26,23 @@ pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
     Ok(Figure::single(Chart::map(x, y, logarithms)))
 }
 
-/// One quantity over another.
+/// One quantity over another, straight between the points.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
-    let [x, y] = [(0, x), (1, y)]
-        .map(|(axis, label)| Axis::linear(label, around(points.iter().map(|point| point[axis]))));
+    let [x, y] = axes([x, y], &points);
     let line = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
     Figure::single(Chart::new(x, y, vec![line]))
+}
+
+/// One quantity over another at points between which nothing is known.
+pub(super) fn points(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
+    let [x, y] = axes([x, y], &points);
+    let markers = Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue);
+    Figure::single(Chart::new(x, y, vec![markers]))
+}
+
+fn axes([x, y]: [&str; 2], points: &[[f64; 2]]) -> [Axis; 2] {
+    [(0, x), (1, y)]
+        .map(|(axis, label)| Axis::linear(label, around(points.iter().map(|point| point[axis]))))
 }
 
 /// A range that holds zero and all values, with some room.
