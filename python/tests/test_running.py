@@ -30,13 +30,17 @@ vf.slide(vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, vel
 """
 
 
-def test_an_interruption_ends_the_work_at_once() -> None:
-    child = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert child.stdout is not None
-    assert child.stdout.readline() == "begun\n"
-    time.sleep(1.0)
-    child.send_signal(signal.SIGINT)
-    _, errors = child.communicate(timeout=20)
+def test_an_interruption_ends_the_work_at_once(tmp_path: Path) -> None:
+    # In a folder without the sources of the package, which would hide the installed one.
+    command = [sys.executable, "-c", LONG]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path
+    ) as child:
+        assert child.stdout is not None
+        assert child.stdout.readline() == "begun\n"
+        time.sleep(1.0)
+        child.send_signal(signal.SIGINT)
+        _, errors = child.communicate(timeout=20)
     assert "KeyboardInterrupt" in errors
 
 
