@@ -1,11 +1,12 @@
-//! Pressing and pulling back a paraboloid: 1000 segments on a material with 10 branches.
+//! Pressing and pulling back a paraboloid: 1000 segments on a material with 10 branches, and the derivatives of the force on
+//! a standard solid, as a fit needs them.
 
 use std::error::Error;
 
 use benches::report_error;
 use criterion::Criterion;
 use indenters::{Control, PowerProfile};
-use mdr_core::{Follow, HistoryPoint, indent_along};
+use mdr_core::{Follow, HistoryPoint, force_derivatives, indent_along};
 use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
 /// 8 ∫ G(1 − s) √(0.01 s) 0.01 ds by quadrature with 40 digits (mpmath 1.3).
@@ -33,6 +34,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     report_error("history/1000 segments", "peak force", [peak, PEAK]);
     let mut group = criterion.benchmark_group("history");
     group.bench_function("1000 segments, 10 branches", |bencher| bencher.iter(run));
+    let branch = RelaxationBranch {
+        modulus: 4.0,
+        relaxation_time: 1.0,
+    };
+    let solid = Prony::new(RelaxationSpectrum::new(1.0, 0.0, vec![branch])?)?;
+    let differentiate = || force_derivatives(&body, &solid, &history);
+    // Casebook-2.json, sphere on SLS at t = 1.
+    report_error(
+        "history/derivatives",
+        "peak force",
+        [differentiate()?.normal_force[500], 0.020_114_789_112_124_74],
+    );
+    group.bench_function("1000 segments, standard solid, derivatives", |bencher| {
+        bencher.iter(differentiate);
+    });
     group.finish();
     criterion.final_summary();
     Ok(())

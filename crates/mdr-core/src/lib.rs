@@ -40,7 +40,9 @@ mod slide;
 mod steady;
 
 pub use error::MdrError;
-pub use history::{CurvePoint, Follow, HistoryPoint, indent_along};
+pub use history::{
+    CurvePoint, Follow, ForceDerivatives, HistoryPoint, force_derivatives, indent_along,
+};
 pub use indent::{
     IndentOptions, IndentRow, IndentStep, Indentation, indent, indent_history, indent_on_grid,
 };

@@ -12,11 +12,11 @@
 use indenters::Axisymmetric;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
+use super::Measured;
 use super::edge::Edge;
 use super::element::{Elements, Free, State};
 use super::path::{Instant, Path, ROUNDING};
 use super::radius::Radii;
-use super::sums::Weights;
 use crate::MdrError;
 
 /// How the edge moves.
@@ -63,7 +63,6 @@ pub(super) struct Contact<'a> {
     pub(super) rule: LobattoRule,
     /// Error of Σ Φ_k by quadrature.
     pub(super) quadrature_error: f64,
-    pub(super) weights: Weights,
     /// Modulus G(t − s) of the element at the edge; none while it is being touched.
     pub(super) edge_modulus: Option<f64>,
     /// What comes after the edge has turned within a segment.
@@ -93,7 +92,6 @@ impl<'a> Contact<'a> {
             widest: [0.0; 2],
             rule: lobatto_rule(NODES),
             quadrature_error: 0.0,
-            weights: Weights::default(),
             edge_modulus: None,
             turned: None,
             centre: None,
@@ -121,19 +119,28 @@ impl<'a> Contact<'a> {
         ]
     }
 
-    /// Change of the edge by a change of its load, \[1/Pa], and the size of the terms of that load, \[Pa m].
-    pub(super) fn edge_compliance(&self) -> [f64; 2] {
+    pub(super) fn measured(&self) -> Measured {
+        let (time, depth) = self.path.last();
+        let [load, terms] = self.load();
         let end = Instant {
             segment: self.path.times.len() - 2,
             part: 1.0,
         };
-        match (self.rings.last(), self.edge_modulus) {
-            (Some(ring), Some(modulus)) => {
-                let depths = [ring.from, ring.to].map(|at| self.path.depth(at));
-                let [_, slope] = self.radii.at([depths[0].max(0.0), depths[1].max(0.0)]);
-                [slope.abs() / modulus, self.path.scale(end)]
-            }
-            _ => [0.0; 2],
+        let edge = self
+            .rings
+            .last()
+            .zip(self.edge_modulus)
+            .map(|(ring, modulus)| {
+                let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
+                self.radii.at(depths)[1].abs() / modulus * self.path.scale(end)
+            });
+        Measured {
+            point: [time, depth],
+            load,
+            terms,
+            load_error: self.quadrature_error + self.path.glass_modulus() * self.radii.area_error,
+            radius: self.radius(),
+            edge: edge.unwrap_or(0.0),
         }
     }
 
@@ -309,7 +316,7 @@ impl<'a> Contact<'a> {
         if let Some(edge) = self.outermost(to) {
             self.edge = edge.stresses;
         }
-        self.sums = self.sums_at(to, None);
+        self.sums = self.sums_at(to);
     }
 
     /// A ring around the contact, which ends with the σ_k at the edge.
@@ -325,7 +332,7 @@ impl<'a> Contact<'a> {
         self.legs.push(leg);
         self.rings.push(leg);
         self.inside.extend_from_slice(&self.sums);
-        self.sums = self.sums_at(to, None);
+        self.sums = self.sums_at(to);
     }
 
     fn shrink(&mut self, [at, end]: [Instant; 2], has_turned: bool) -> Result<Instant, MdrError> {
@@ -359,13 +366,11 @@ impl<'a> Contact<'a> {
         self.leave([at, to], [edge.radius, outer]);
         self.rings.truncate(edge.n_rings);
         self.inside.truncate(edge.n_rings * self.path.n_branches());
-        let first = edge.first.map(|(since, lag)| {
-            self.rings[edge.n_rings - 1].to = since;
-            lag
-        });
-        self.rings[edge.n_rings - 1].outer = edge.radius;
+        let ring = &mut self.rings[edge.n_rings - 1];
+        ring.to = edge.since.unwrap_or(ring.to);
+        ring.outer = edge.radius;
         self.edge = edge.stresses;
-        self.sums = self.sums_at(to, first);
+        self.sums = self.sums_at(to);
         self.check_load(to)?;
         Ok(to)
     }

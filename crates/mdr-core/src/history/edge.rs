@@ -4,7 +4,7 @@ use numerics::bracketed_root;
 
 use super::contact::{Contact, Leg, Motion, WRONG_SIGN};
 use super::element::State;
-use super::path::{Instant, Lag, mean_exponential};
+use super::path::Instant;
 use crate::MdrError;
 
 /// The edge of a contact that shrinks.
@@ -14,14 +14,10 @@ pub(super) struct Edge {
     pub(super) radius: f64,
     /// σ_k there.
     pub(super) stresses: Vec<f64>,
-    /// In a ring over new elements: when the one at the edge was touched, and what became of the branches since.
-    pub(super) first: Option<(Instant, Lag)>,
+    /// In a ring over new elements: when the one at the edge was touched.
+    pub(super) since: Option<Instant>,
 }
 
-/// Steps of Halley's method before a bracketed root is searched instead; the one after a step so short, relative to the
-/// ring, would be below rounding.
-const STEPS: usize = 8;
-const CLOSE: f64 = 1e-5;
 impl Contact<'_> {
     /// Refuses a tension half way between the beginning of a ring of elements touched again and the edge in it.
     pub(super) fn check_load(&self, at: Instant) -> Result<(), MdrError> {
@@ -43,15 +39,16 @@ impl Contact<'_> {
     /// The edge as it is, later.
     pub(super) fn outermost(&self, at: Instant) -> Option<Edge> {
         let ring = self.rings.last()?;
-        let lag = (ring.motion == Motion::First).then(|| self.path.lag(ring.to, at));
+        let is_first = ring.motion == Motion::First;
         Some(Edge {
             n_rings: self.rings.len(),
             radius: ring.outer,
-            stresses: match &lag {
-                Some(lag) => lag.stresses.clone(),
-                None => self.stresses_in(ring, ring.outer, at),
+            stresses: if is_first {
+                self.path.lag(ring.to, at).stresses
+            } else {
+                self.stresses_in(ring, ring.outer, at)
             },
-            first: lag.map(|lag| (ring.to, lag)),
+            since: is_first.then_some(ring.to),
         })
     }
 
@@ -71,63 +68,22 @@ impl Contact<'_> {
         })
     }
 
-    /// The edge in a ring over new elements, by Halley's method from its inner side: the load falls outwards.
+    /// The edge in a ring over new elements: the load falls outwards.
     fn edge_in_first(&self, ring: &Leg, at: Instant) -> Option<Edge> {
         let path = &self.path;
-        let inner = path.lag(ring.from, at);
-        if path.load(&inner.stresses, at) < 0.0 {
+        let since = |part: f64| Instant { part, ..ring.from };
+        let load = |part: f64| path.load(&path.lag(since(part), at).stresses, at);
+        let ends = [ring.from.part, ring.to.part];
+        if load(ends[0]) < 0.0 {
             return None;
         }
-        let parts = [ring.from.part, ring.to.part];
-        let mut lag = inner.clone();
-        let mut part = parts[0];
-        let mut converged = false;
-        for _ in 0..STEPS {
-            let load = path.load(&lag.stresses, at);
-            let [modulus, rate] = path.modulus(&lag);
-            let shift = load / (modulus * path.rise(ring.from.segment));
-            // Halley's step: the modulus grows towards the edge.
-            let bent = 1.0 + 0.5 * shift * rate / modulus * path.step(ring.from.segment);
-            let next = (part + shift / bent.max(0.5)).clamp(parts[0], parts[1]);
-            converged = (next - part).abs() <= CLOSE * (parts[1] - parts[0]);
-            part = next;
-            let times = [Instant { part, ..ring.from }, at];
-            self.lag_inside(ring, times, &inner, &mut lag);
-            if converged {
-                break;
-            }
-        }
-        if !converged {
-            let load =
-                |part: f64| path.load(&path.lag(Instant { part, ..ring.from }, at).stresses, at);
-            part = bracketed_root(load, parts).unwrap_or(parts[1]);
-            self.lag_inside(ring, [Instant { part, ..ring.from }, at], &inner, &mut lag);
-        }
-        let since = Instant { part, ..ring.from };
+        let since = since(bracketed_root(load, ends).unwrap_or(ends[1]));
         Some(Edge {
             n_rings: 0,
             radius: self.radii.at([ring.from, since].map(|at| path.depth(at)))[0],
-            stresses: lag.stresses.clone(),
-            first: Some((since, lag)),
+            stresses: path.lag(since, at).stresses,
+            since: Some(since),
         })
-    }
-
-    /// From the beginning of a ring to a later instant in it: e^(−(t − s)/τ) grows, the stresses fall.
-    fn lag_inside(&self, ring: &Leg, times: [Instant; 2], inner: &Lag, lag: &mut Lag) {
-        let path = &self.path;
-        let [since, at] = times;
-        let (at, later) = (path.time(at), since.part - ring.from.part);
-        let (step, sunk) = (path.step(since.segment), later * path.rise(since.segment));
-        for (k, rate) in path.rates.iter().enumerate() {
-            let x = rate * (later * step);
-            let mean = mean_exponential(-x);
-            lag.decays[k] = if x < 1.0 {
-                inner.decays[k] / (1.0 - x * mean)
-            } else {
-                (-rate * (at - path.time(since))).exp()
-            };
-            lag.stresses[k] = inner.stresses[k] - path.moduli[k] * sunk * mean * lag.decays[k];
-        }
     }
 
     /// The edge in a ring of elements that were touched again.
@@ -142,7 +98,7 @@ impl Contact<'_> {
             n_rings: 0,
             radius,
             stresses: self.stresses_in(ring, radius, at),
-            first: None,
+            since: None,
         })
     }
 

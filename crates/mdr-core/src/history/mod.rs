@@ -7,10 +7,13 @@
 //! The elements of the line touch and leave the body one by one; on a half space that is exact as long as the contact is
 //! a disc (Ting 1966, J. Appl. Mech. 33, 845; Argatov & Popov 2016, ZAMM 96, 956).
 
+mod approach;
 mod contact;
+mod derivatives;
 mod edge;
 mod element;
 mod force;
+mod memory;
 mod path;
 mod radius;
 mod sums;
@@ -19,6 +22,9 @@ use indenters::{Axisymmetric, Control};
 use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};
 use rheology::Material;
 
+pub use self::derivatives::{ForceDerivatives, force_derivatives};
+
+use self::approach::Approach;
 use self::contact::Contact;
 use self::force::Pressed;
 use self::path::Path;
@@ -161,6 +167,39 @@ fn along_depth(
         factor: 8.0 / material.half_space_factor(),
         modulus_error: options.modulus_error,
     };
+    let radii = Radii::new(body, deepest)?;
+    let spectrum = material.relaxation();
+    for pair in points.windows(2).filter(|_| spectrum.viscosity() > 0.0) {
+        positive("time between two depths", pair[1][0] - pair[0][0])?;
+    }
+    if spectrum.viscosity() > 0.0 && points[0][1] > 0.0 {
+        // To the first point the body would jump.
+        positive("time between two depths", 0.0)?;
+    }
+    let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);
+    approach.start(points[0]);
+    let mut curve = Vec::with_capacity(points.len());
+    let mut largest = 0.0_f64;
+    for point in points {
+        approach.follow(*point);
+        if approach.is_touched_again {
+            return touched_again(body, material, points, radii, &bars);
+        }
+        let point = bars.point(&approach.measured(), largest);
+        largest = largest.max(point.normal_force.value);
+        curve.push(point);
+    }
+    Ok(curve)
+}
+
+/// A contact that grows again over elements which it left.
+fn touched_again(
+    body: &dyn Axisymmetric,
+    material: &dyn Material,
+    points: &[[f64; 2]],
+    radii: Radii,
+    bars: &Bars,
+) -> Result<Vec<CurvePoint>, MdrError> {
     let mut path = Path::new(material);
     let mut rest = points;
     let mut curve = Vec::with_capacity(points.len());
@@ -170,14 +209,11 @@ fn along_depth(
         curve.push(free(points[0]));
         rest = &points[1..];
     }
-    let mut contact = Contact::new(body, path, Radii::new(body, deepest)?);
+    let mut contact = Contact::new(body, path, radii);
     let mut largest = 0.0_f64;
     for [time, depth] in rest {
-        if contact.path.viscosity > 0.0 {
-            positive("time between two depths", time - contact.path.last().0)?;
-        }
         contact.follow(*time, *depth)?;
-        let point = bars.point(&contact, largest);
+        let point = bars.point(&contact.measured(), largest);
         largest = largest.max(point.normal_force.value);
         curve.push(point);
     }
@@ -195,20 +231,28 @@ struct Bars {
 /// Units in the last place of the terms of a sum that rounding may leave; the tests compare it with 40 digits.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
+/// A contact as it is computed, and what its rounding is made of.
+#[derive(Debug, Clone, Copy, Default)]
+struct Measured {
+    point: [f64; 2],
+    /// Sum of the loads of all elements, \[Pa m²], and of the sizes of the terms in it.
+    load: f64,
+    terms: f64,
+    /// Error of the sum by anything but rounding.
+    load_error: f64,
+    radius: f64,
+    /// Change of the radius by the terms that cancel at its edge.
+    edge: f64,
+}
+
 impl Bars {
-    /// The last point of a contact, after a largest force.
-    fn point(&self, contact: &Contact<'_>, largest: f64) -> CurvePoint {
-        let (time, depth) = contact.path.last();
-        let radius = contact.radius();
-        let [sum, terms] = contact.load();
-        let force = self.factor * sum;
-        let [compliance, terms_at_edge] = contact.edge_compliance();
-        let rounding = ROUNDING * terms
-            + contact.quadrature_error
-            + contact.path.glass_modulus() * contact.radii.area_error;
+    /// A contact after a largest force.
+    fn point(&self, contact: &Measured, largest: f64) -> CurvePoint {
+        let [time, depth] = contact.point;
+        let force = self.factor * contact.load;
+        let rounding = ROUNDING * contact.terms + contact.load_error;
         // By a shift of the edge the force changes in second order only, because its elements carry nothing.
         let expansion = 2.0 * self.modulus_error * largest.max(force);
-        let shift = (ROUNDING + 2.0 * self.modulus_error) * terms_at_edge * compliance;
         CurvePoint {
             time,
             indentation_depth: Estimate::exact(depth),
@@ -217,8 +261,9 @@ impl Bars {
                 error: self.factor * rounding + expansion,
             },
             contact_radius: Estimate {
-                value: radius,
-                error: ROUNDING * radius + shift,
+                value: contact.radius,
+                error: ROUNDING * contact.radius
+                    + (ROUNDING + 2.0 * self.modulus_error) * contact.edge,
             },
         }
     }

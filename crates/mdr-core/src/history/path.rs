@@ -40,9 +40,6 @@ pub(super) struct Path {
     pub(super) depths: Vec<f64>,
     /// q_k at the points, branch by branch within a point.
     memory: Vec<f64>,
-    /// Length of the last step, and (1 − e^(−x))/x of each branch over it.
-    last_step: f64,
-    means: Vec<f64>,
 }
 
 impl Path {
@@ -70,8 +67,6 @@ impl Path {
             times: Vec::new(),
             depths: Vec::new(),
             memory: Vec::new(),
-            last_step: f64::NAN,
-            means: Vec::new(),
         }
     }
 
@@ -84,17 +79,12 @@ impl Path {
             self.memory = vec![0.0; self.n_branches()];
             return;
         };
-        let step = time - time_before;
-        if !same_step(step, self.last_step, time) {
-            let means = self.rates.iter().map(|rate| mean_exponential(-rate * step));
-            self.means = means.collect();
-            self.last_step = step;
-        }
+        let (step, rise) = (time - time_before, depth - depth_before);
         let start = self.memory.len() - self.n_branches();
-        for (k, mean) in self.means.iter().enumerate() {
-            let kept = 1.0 - self.rates[k] * self.last_step * mean;
-            self.memory
-                .push(kept * self.memory[start + k] + (depth - depth_before) * mean);
+        for (k, rate) in self.rates.iter().enumerate() {
+            let mean = mean_exponential(-rate * step);
+            let kept = (1.0 - rate * step * mean) * self.memory[start + k];
+            self.memory.push(kept + rise * mean);
         }
     }
 
@@ -240,27 +230,40 @@ pub(super) struct Lag {
     pub(super) stresses: Vec<f64>,
 }
 
-/// Whether two steps that end at a time differ by the rounding of times only.
-pub(super) fn same_step(step: f64, other: f64, time: f64) -> bool {
-    (step - other).abs() <= 4.0 * f64::EPSILON * time.abs().min(1e3 * step)
-}
-
 /// (e^x − 1)/x.
 #[inline]
 pub(super) fn mean_exponential(x: f64) -> f64 {
     if x.abs() > SERIES_UP_TO {
         return (x.exp() - 1.0) / x;
     }
-    let terms = RECIPROCALS[2..N_TERMS].iter().rev();
-    terms.fold(1.0, |sum, reciprocal| 1.0 + sum * x * reciprocal)
+    let n_terms = if x.abs() < SHORT_UP_TO {
+        N_SHORT
+    } else {
+        N_TERMS
+    };
+    let terms = FACTORS[..n_terms].iter().rev();
+    terms.fold(0.0, |sum, factor| sum * x + factor)
 }
 
 /// Up to here the series is as accurate as the exponential, with so many terms.
 const SERIES_UP_TO: f64 = 0.5;
 const N_TERMS: usize = 14;
+const SHORT_UP_TO: f64 = 0.02;
+const N_SHORT: usize = 7;
+
+/// 1/(n + 1)!.
+const FACTORS: [f64; N_TERMS] = {
+    let mut factors = [1.0; N_TERMS];
+    let mut n = 1;
+    while n < N_TERMS {
+        factors[n] = factors[n - 1] / (n + 1) as f64;
+        n += 1;
+    }
+    factors
+};
 
 /// 1/n.
-const RECIPROCALS: [f64; 64] = {
+pub(super) const RECIPROCALS: [f64; 64] = {
     let mut reciprocals = [0.0; 64];
     let mut n = 1;
     while n < 64 {

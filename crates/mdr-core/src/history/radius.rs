@@ -60,7 +60,11 @@ impl Radii {
         }
         let negligible = NEGLIGIBLE * deepest * largest;
         let exponent = body.profile_exponent();
-        let cosines = std::array::from_fn(|m| (0.5 * PI * m as f64 / ORDER as f64).cos());
+        // cos(order · angle) at the angles π (2 node + 1)/(2 n).
+        let cosine = |n: usize| (0.5 * PI * n as f64 / ORDER as f64).cos();
+        let table: [f64; 4 * ORDER] = std::array::from_fn(cosine);
+        let cosine = |order, node| table[order * (2 * node + 1) % (4 * ORDER)];
+        let cosines = std::array::from_fn(|order| std::array::from_fn(|node| cosine(order, node)));
         let mut open = vec![([0.0, deepest], [0.0, largest])];
         while let Some((depths, radii_there)) = open.pop() {
             let [[low, high], [inner, outer]] = [depths, radii_there];
@@ -135,12 +139,11 @@ impl Radii {
         let enough = |quarters: &i32| fourth.powi(*quarters) < 0.1 * f64::EPSILON;
         let quarters = (2..4).find(enough).map_or(4, i32::unsigned_abs);
         let n_terms = 4 * quarters as usize;
-        let mut coefficients = piece.coefficients;
-        for first in 0..n_terms {
-            for order in (first..ORDER - 1).rev() {
-                coefficients[order] += start * coefficients[order + 1];
-            }
-        }
+        let mut coefficients = match quarters {
+            2 => piece.about::<8>(start),
+            3 => piece.about::<12>(start),
+            _ => piece.about::<ORDER>(start),
+        };
         let mut scale = 1.0;
         for coefficient in &mut coefficients[..n_terms] {
             *coefficient *= scale;
@@ -183,6 +186,17 @@ struct Fitted {
 }
 
 impl Piece {
+    /// The first coefficients over the powers of ξ − start.
+    fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; ORDER] {
+        let mut coefficients = self.coefficients;
+        for first in 0..N_TERMS {
+            for order in (first..ORDER - 1).rev() {
+                coefficients[order] += start * coefficients[order + 1];
+            }
+        }
+        coefficients
+    }
+
     /// ∫ a dd from the beginning of the piece up to ξ, [m²].
     fn area(&self, position: f64) -> f64 {
         let antiderivative = |position: f64| {
@@ -203,20 +217,18 @@ impl Piece {
         body: &dyn Axisymmetric,
         depths: [f64; 2],
         [inner, outer]: [f64; 2],
-        cosines: &[f64; 4 * ORDER],
+        cosines: &[[f64; ORDER]; ORDER],
     ) -> Fitted {
         let [low, high] = depths;
-        // cos(order · angle) at the angles π (2 node + 1)/(2 n).
-        let cosine = |order: usize, node: usize| cosines[order * (2 * node + 1) % (4 * ORDER)];
         let mut above = outer;
         let values: [f64; ORDER] = std::array::from_fn(|node| {
-            let depth = low + 0.5 * (high - low) * (1.0 + cosine(1, node));
+            let depth = low + 0.5 * (high - low) * (1.0 + cosines[1][node]);
             above = radius(body, depth, [inner, above]);
             above
         });
         let mut series: [f64; ORDER] = std::array::from_fn(|order| {
-            let terms = values.iter().enumerate();
-            let sum: f64 = terms.map(|(n, v)| v * cosine(order, n)).sum();
+            let terms = values.iter().zip(&cosines[order]);
+            let sum: f64 = terms.map(|(value, cosine)| value * cosine).sum();
             2.0 / ORDER as f64 * sum
         });
         series[0] *= 0.5;

@@ -1,24 +1,16 @@
 //! The stresses of all elements in contact, summed.
 
 use super::contact::{Contact, Leg, Motion};
-use super::path::{Instant, Lag, moments, same_step};
-
-/// The moments of all branches over one step.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Weights {
-    step: f64,
-    n_terms: usize,
-    /// Branch by branch.
-    moments: Vec<f64>,
-}
+use super::path::{Instant, Lag, moments};
+use super::radius::ORDER;
 
 /// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided, and how often it
 /// may be.
 const PANEL: f64 = 1e-14;
 const MAX_DIVISIONS: u32 = 12;
 impl Contact<'_> {
-    /// Φ_k; the lag since the element at the edge was touched is found where it is not given.
-    pub(super) fn sums_at(&mut self, at: Instant, since_edge: Option<Lag>) -> Vec<f64> {
+    /// Φ_k.
+    pub(super) fn sums_at(&mut self, at: Instant) -> Vec<f64> {
         let n_branches = self.path.n_branches();
         let Some(ring) = self.rings.last().copied() else {
             return vec![0.0; n_branches];
@@ -28,7 +20,7 @@ impl Contact<'_> {
         if ring.motion == Motion::First {
             self.grown(&ring, &mut sums);
             if ring.to != at {
-                let lag = since_edge.unwrap_or_else(|| self.path.lag(ring.to, at));
+                let lag = self.path.lag(ring.to, at);
                 held(&mut sums, ring.outer, &lag);
                 self.edge_modulus = Some(self.path.modulus(&lag)[0]);
             }
@@ -45,34 +37,18 @@ impl Contact<'_> {
     }
 
     /// Φ_k when a ring over new elements has grown.
-    fn grown(&mut self, ring: &Leg, sums: &mut [f64]) {
+    fn grown(&self, ring: &Leg, sums: &mut [f64]) {
         let path = &self.path;
-        let (start, end) = (path.time(ring.from), path.time(ring.to));
-        let rise = path.depth(ring.to) - path.depth(ring.from);
-        let radius = self
-            .radii
-            .along([ring.from, ring.to].map(|at| path.depth(at)));
-        let radius = radius.terms();
-        let n_terms = radius.len();
-        if n_terms != self.weights.n_terms || !same_step(end - start, self.weights.step, end) {
-            self.weights.step = end - start;
-            self.weights.n_terms = n_terms;
-            self.weights
-                .moments
-                .resize(path.n_branches() * n_terms, 0.0);
-            for (rate, row) in path
-                .rates
-                .iter()
-                .zip(self.weights.moments.chunks_exact_mut(n_terms))
-            {
-                moments(rate * (end - start), row);
-            }
-        }
-        let rows = self.weights.moments.chunks_exact(n_terms);
-        for ((k, sum), row) in sums.iter_mut().enumerate().zip(rows) {
-            let mean: f64 = radius.iter().zip(row).map(|(a, moment)| a * moment).sum();
-            let kept = 1.0 - path.rates[k] * self.weights.step * row[0];
-            *sum = kept * *sum + path.moduli[k] * rise * mean;
+        let step = path.time(ring.to) - path.time(ring.from);
+        let depths = [ring.from, ring.to].map(|at| path.depth(at));
+        let radius = self.radii.along(depths);
+        let mut row = [0.0; ORDER];
+        let row = &mut row[..radius.terms().len()];
+        for ((sum, rate), modulus) in sums.iter_mut().zip(&path.rates).zip(&path.moduli) {
+            moments(rate * step, row);
+            let terms = radius.terms().iter().zip(&*row);
+            let mean: f64 = terms.map(|(a, moment)| a * moment).sum();
+            *sum = (1.0 - rate * step * row[0]) * *sum + modulus * (depths[1] - depths[0]) * mean;
         }
     }
 

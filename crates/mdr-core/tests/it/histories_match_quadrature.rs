@@ -6,7 +6,7 @@ use indenters::{
 use mdr_core::{CurvePoint, Follow, HistoryPoint, MdrError, indent_along};
 use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
 
-fn prony(spring: f64, viscosity: f64, branches: &[[f64; 2]]) -> Prony {
+pub(crate) fn prony(spring: f64, viscosity: f64, branches: &[[f64; 2]]) -> Prony {
     let branch = |[modulus, relaxation_time]: &[f64; 2]| RelaxationBranch {
         modulus: *modulus,
         relaxation_time: *relaxation_time,
@@ -17,7 +17,7 @@ fn prony(spring: f64, viscosity: f64, branches: &[[f64; 2]]) -> Prony {
 }
 
 /// The materials of tests/data/histories.py.
-fn material(name: &str) -> Prony {
+pub(crate) fn material(name: &str) -> Prony {
     match name {
         "elastic" => prony(2.0, 0.0, &[]),
         "solid" => prony(1.0, 0.0, &[[4.0, 1.0]]),
@@ -39,7 +39,7 @@ fn body(name: &str) -> Box<dyn Axisymmetric> {
     }
 }
 
-fn knots(name: &str) -> &'static [[f64; 2]] {
+pub(crate) fn knots(name: &str) -> &'static [[f64; 2]] {
     match name {
         "triangle" => &[[0.0, 0.0], [1.0, 0.01], [2.0, 0.0]],
         "dwell" => &[[0.0, 0.0], [1.0, 0.01], [2.0, 0.01], [3.0, 0.0]],
@@ -51,6 +51,7 @@ fn knots(name: &str) -> &'static [[f64; 2]] {
             [2.0, 0.0],
         ],
         "late" => &[[0.25, -0.005], [1.0, 0.01], [1.5, 0.0125], [1.75, -0.0025]],
+        "late dwell" => &[[0.25, -0.005], [1.0, 0.01], [1.5, 0.01], [1.9, -0.0025]],
         "step" => &[[0.0, 0.01], [1.0, 0.01], [3.0, -0.005]],
         _ => &[
             [0.0, 0.0],
@@ -63,7 +64,7 @@ fn knots(name: &str) -> &'static [[f64; 2]] {
 }
 
 /// The path through its knots and other times.
-fn path(knots: &[[f64; 2]], times: &[f64]) -> Vec<HistoryPoint> {
+pub(crate) fn path(knots: &[[f64; 2]], times: &[f64]) -> Vec<HistoryPoint> {
     let mut all: Vec<f64> = knots
         .iter()
         .map(|knot| knot[0])
@@ -91,7 +92,7 @@ fn path(knots: &[[f64; 2]], times: &[f64]) -> Vec<HistoryPoint> {
     all.iter().map(point).collect()
 }
 
-fn follow(
+pub(crate) fn follow(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     path: &[HistoryPoint],

@@ -1,0 +1,490 @@
+//! A contact that grows over new elements and then shrinks, in closed form.
+//!
+//! ```text
+//! F = 8/(2 (1 − ν)) [a w + Σ G_k e^(−(t − t₁)/τ_k) P_k(t₁)]        w = η₀ ḋ + Σ G_k [q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁)]
+//! q_k(t) = ∫ e^(−(t − s)/τ_k) ḋ ds        P_k(t) = ∫ e^(−(t − s)/τ_k) a(D) ḋ ds        D(s) = max d(s') up to s
+//! ```
+//! The element at the edge was touched at t₁ and carries w: nothing where the contact shrinks, so that ∂F/∂t₁ ∝ w = 0 there
+//! (Ting 1966, J. Appl. Mech. 33, 845).
+
+use rheology::RelaxationSpectrum;
+
+use super::Measured;
+use super::memory::{Late, Memory, Ring, Step};
+use super::path::{ROUNDING, mean_exponential};
+use super::radius::{ORDER, Radii};
+
+/// The element at the edge, and what became of the branches since it was touched.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edge {
+    ring: usize,
+    theta: f64,
+    /// a, a' and D there; none without contact.
+    pub(super) place: Option<[f64; 3]>,
+    /// By how much deeper it lies than where all this is computed, and what that adds to the sum of the loads.
+    shift: f64,
+    correction: f64,
+    /// t − t₁.
+    pub(super) lag: f64,
+    /// w, and G(t − t₁).
+    pub(super) load: f64,
+    pub(super) modulus: f64,
+    /// e^(−(t − t₁)/τ_k).
+    pub(super) decays: Vec<f64>,
+    /// q_k(t) − e^(−(t − t₁)/τ_k) q_k(t₁).
+    pub(super) strains: Vec<f64>,
+    /// ∫ of the same over the contact, without G_k, [m²].
+    pub(super) sums: Vec<f64>,
+}
+
+/// The body on its way.
+#[derive(Debug)]
+pub(super) struct Approach {
+    radii: Radii,
+    /// Of the branches, the lone spring last.
+    pub(super) moduli: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    pub(super) viscosity: f64,
+    pub(super) now: Memory,
+    /// Time and depth, and the speed up to there.
+    pub(super) point: [f64; 2],
+    pub(super) speed: f64,
+    rings: Vec<Ring>,
+    coefficients: Vec<f64>,
+    /// At the beginning of every ring, q of all branches, then P.
+    touched: Vec<f64>,
+    touched_late: Vec<Late>,
+    /// At the end of the last one, and when the element at the edge was touched.
+    front: Memory,
+    pub(super) then: Memory,
+    pub(super) edge: Edge,
+    /// Whether the depth has been less than it was.
+    is_held: bool,
+    /// Whether elements were left, and touched again.
+    left: bool,
+    pub(super) is_touched_again: bool,
+    /// Change of the depth of the edge in the last step.
+    last_shift: f64,
+    step: Step,
+    partial: Step,
+}
+
+/// Of Newton's method, which converges quadratically once the fastest branch that counts is resolved.
+const MOST_STEPS: usize = 200;
+/// Its last relative change of the depth: the derivatives are known to that, the force to its square and better.
+const CLOSE: f64 = 1e-8;
+
+impl Approach {
+    pub(super) fn new(
+        radii: Radii,
+        spectrum: &RelaxationSpectrum,
+        n_points: usize,
+        differentiates: bool,
+    ) -> Self {
+        let branches = spectrum.branches().iter();
+        let rates = branches
+            .clone()
+            .map(|branch| branch.relaxation_time.recip());
+        let moduli = branches.map(|branch| branch.modulus);
+        let rates: Vec<f64> = rates.chain([0.0]).collect();
+        let n = rates.len();
+        let now = Memory {
+            depth: vec![0.0; n],
+            load: vec![0.0; n],
+            late: vec![Late::default(); if differentiates { n } else { 0 }],
+        };
+        Self {
+            radii,
+            moduli: moduli.chain([spectrum.equilibrium_modulus()]).collect(),
+            viscosity: spectrum.viscosity(),
+            front: now.clone(),
+            then: now.clone(),
+            now,
+            point: [0.0; 2],
+            speed: 0.0,
+            rings: Vec::with_capacity(n_points),
+            coefficients: Vec::with_capacity(8 * n_points),
+            touched: Vec::with_capacity(2 * n * n_points),
+            touched_late: Vec::new(),
+            edge: Edge {
+                decays: vec![1.0; n],
+                strains: vec![0.0; n],
+                sums: vec![0.0; n],
+                ..Edge::default()
+            },
+            is_held: false,
+            left: false,
+            is_touched_again: false,
+            last_shift: 0.0,
+            step: Step::default(),
+            partial: Step::default(),
+            rates,
+        }
+    }
+
+    /// Begins at a point, or above it at the undeformed surface.
+    pub(super) fn start(&mut self, [time, depth]: [f64; 2]) {
+        self.point = [time, depth.min(0.0)];
+    }
+
+    pub(super) fn measured(&self) -> Measured {
+        let Some([radius, slope, _]) = self.edge.place else {
+            return Measured {
+                point: self.point,
+                ..Measured::default()
+            };
+        };
+        let viscous = self.viscosity * self.speed * radius;
+        let [mut load, mut terms] = [viscous + self.edge.correction, viscous.abs()];
+        for (modulus, sum) in self.moduli.iter().zip(&self.edge.sums) {
+            load += modulus * sum;
+            terms += modulus * sum.abs();
+        }
+        let [scale, _] = self.scales();
+        Measured {
+            point: self.point,
+            load,
+            terms: terms + radius * scale,
+            load_error: self.moduli.iter().sum::<f64>() * self.radii.area_error,
+            radius: self.radius(),
+            edge: slope.abs() / self.edge.modulus * scale,
+        }
+    }
+
+    pub(super) fn radius(&self) -> f64 {
+        let Edge {
+            ring, theta, shift, ..
+        } = self.edge;
+        match self.edge.place {
+            Some([radius, ..]) if shift == 0.0 => radius,
+            Some(_) => self.place(ring, theta + shift / self.rings[ring].rise)[0],
+            None => 0.0,
+        }
+    }
+
+    /// D.
+    fn deepest(&self) -> f64 {
+        self.rings
+            .last()
+            .map_or(0.0, |ring| ring.start[1] + ring.rise)
+    }
+
+    /// Σ G_k q_k and so on: sizes of the terms that cancel in w, and in its rate.
+    pub(super) fn scales(&self) -> [f64; 2] {
+        let mut scales = [self.viscosity * self.speed.abs(), 0.0];
+        for (k, depth) in self.now.depth.iter().enumerate() {
+            let stress = self.moduli[k] * depth.abs();
+            scales[0] += stress;
+            scales[1] += self.rates[k] * stress;
+        }
+        scales
+    }
+
+    /// Goes on to the next point; a surface counts as recovered once the body is above its undeformed position.
+    pub(super) fn follow(&mut self, [end, next]: [f64; 2]) {
+        let [start, depth] = self.point;
+        self.point = [end, next];
+        self.speed = match end - start {
+            0.0 => 0.0,
+            step => (next - depth) / step,
+        };
+        if next <= 0.0 {
+            self.recover();
+            return;
+        }
+        let at = |there: f64| {
+            let part = (there - depth) / (next - depth);
+            [start + part * (end - start), there]
+        };
+        let mut here = if depth < 0.0 { at(0.0) } else { [start, depth] };
+        self.is_touched_again |= end > start && self.turns();
+        let deepest = self.deepest();
+        if next <= deepest {
+            self.hold(here, [end, next]);
+            let before = self.radius();
+            self.find_edge();
+            let wider = self.left && self.radius() > before * (1.0 + LEFT);
+            self.is_touched_again |= wider || (end > start && self.turns());
+            let edge = self.edge.place.map(|[.., depth]| depth);
+            self.left |= edge.is_none_or(|depth| depth < (1.0 - LEFT) * deepest);
+            return;
+        }
+        self.is_touched_again |= self.left;
+        self.left = false;
+        if here[1] < deepest {
+            let there = at(deepest);
+            self.hold(here, there);
+            here = there;
+        }
+        if self.is_held {
+            self.resume(here[0]);
+        }
+        while self.deepest() < next {
+            let limit = self.radii.end_of_piece(self.deepest()).min(next);
+            let there = if limit < next { at(limit) } else { [end, next] };
+            self.grow(here, there);
+            here = there;
+        }
+        self.edge_at_front();
+    }
+
+    /// The body is above the surface, which is taken as undeformed.
+    fn recover(&mut self) {
+        self.left |= !self.rings.is_empty();
+        self.rings.clear();
+        self.coefficients.clear();
+        self.touched.clear();
+        self.touched_late.clear();
+        self.now.depth.fill(0.0);
+        self.now.load.fill(0.0);
+        self.now.late.fill(Late::default());
+        self.edge.place = None;
+    }
+
+    /// Whether an edge that has moved inwards turns, at the speed of now.
+    fn turns(&self) -> bool {
+        self.left && self.edge.place.is_some() && self.tendency() > 0.0
+    }
+
+    /// Whether the element at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
+    fn tendency(&self) -> f64 {
+        let [mut load, mut rate] = [self.viscosity * self.speed, 0.0];
+        for (k, strain) in self.edge.strains.iter().enumerate() {
+            load += self.moduli[k] * strain;
+            rate += self.moduli[k] * (self.speed - self.rates[k] * strain);
+        }
+        let scales = self.scales();
+        // Of a dashpot the speed counts at once.
+        if self.viscosity > 0.0 && load.abs() > LEFT * scales[0] {
+            return load;
+        }
+        if rate.abs() > ROUNDING * scales[1] {
+            rate
+        } else {
+            0.0
+        }
+    }
+
+    /// Over elements that were touched before: only q goes on, the rest follows from the front.
+    fn hold(&mut self, from: [f64; 2], to: [f64; 2]) {
+        if self.rings.is_empty() {
+            return;
+        }
+        self.is_held = true;
+        let step = to[0] - from[0];
+        self.step.set(&self.rates, step, 2, rounding(to[0], step));
+        self.step.hold(&mut self.now, to[1] - from[1]);
+    }
+
+    /// What is remembered at the front, later.
+    fn resume(&mut self, time: f64) {
+        self.is_held = false;
+        let Some(ring) = self.rings.last().copied() else {
+            return;
+        };
+        let lag = time - (ring.start[0] + ring.step);
+        let [radius, slope, depth] = self.place(self.rings.len() - 1, 1.0);
+        for (k, rate) in self.rates.iter().enumerate() {
+            let decay = (-rate * lag).exp();
+            let [then, load] = [self.front.depth[k], self.front.load[k]];
+            let strain = self.now.depth[k] - decay * then;
+            self.now.load[k] = radius * strain + decay * load;
+            if let Some(late) = self.now.late.get_mut(k) {
+                let before = self.front.late[k];
+                late.load = radius * (late.depth - decay * (before.depth + lag * then))
+                    + decay * (before.load + lag * load);
+                late.edge = decay * before.edge + slope * strain;
+                late.stretch = decay * before.stretch - depth * slope * strain;
+            }
+        }
+    }
+
+    /// Over new elements, within a piece of the radii.
+    fn grow(&mut self, from: [f64; 2], to: [f64; 2]) {
+        let deepest = self.deepest();
+        let radius = self.radii.along([deepest, to[1]]);
+        let terms = radius.terms();
+        let ring = Ring {
+            start: [from[0], deepest],
+            step: to[0] - from[0],
+            rise: to[1] - deepest,
+            first: self.coefficients.len(),
+            n_terms: terms.len(),
+        };
+        self.coefficients.extend_from_slice(terms);
+        if self.rings.is_empty() {
+            // A flat end is touched at once.
+            for late in &mut self.now.late {
+                late.edge = terms[0];
+            }
+        }
+        self.rings.push(ring);
+        self.touched.extend_from_slice(&self.now.depth);
+        self.touched.extend_from_slice(&self.now.load);
+        self.touched_late.extend_from_slice(&self.now.late);
+        let n_moments = terms.len() + usize::from(!self.now.late.is_empty());
+        self.step.set(
+            &self.rates,
+            ring.step,
+            n_moments,
+            rounding(to[0], ring.step),
+        );
+        self.step.grow(&mut self.now, &ring, terms);
+        self.front.copy_from(&self.now);
+    }
+
+    /// a, a' and D at θ of a ring.
+    fn place(&self, ring: usize, theta: f64) -> [f64; 3] {
+        let ring = &self.rings[ring];
+        let terms = self.coefficients[ring.first..ring.first + ring.n_terms]
+            .iter()
+            .rev();
+        let [radius, slope] = terms.fold([0.0; 2], |[value, slope], term| {
+            [term + theta * value, value + theta * slope]
+        });
+        [radius, slope / ring.rise, ring.start[1] + theta * ring.rise]
+    }
+
+    fn edge_at_front(&mut self) {
+        let ring = self.rings.len() - 1;
+        self.edge.place = Some(self.place(ring, 1.0));
+        (self.edge.ring, self.edge.theta, self.edge.lag) = (ring, 1.0, 0.0);
+        self.edge.load = self.viscosity * self.speed;
+        self.edge.modulus = f64::INFINITY;
+        self.edge.decays.fill(1.0);
+        self.edge.strains.fill(0.0);
+        self.edge.sums.copy_from_slice(&self.now.load);
+        self.then.copy_from(&self.now);
+        self.last_shift = 0.0;
+        (self.edge.shift, self.edge.correction) = (0.0, 0.0);
+    }
+
+    /// The element of a ring that was touched at a depth; by how much its modulus changes on the way to the edge.
+    fn load_at(&mut self, ring: usize, depth: f64) -> f64 {
+        let n = self.rates.len();
+        let touched = &self.touched[2 * ring * n..(2 * ring + 1) * n];
+        let index = ring;
+        let ring = &self.rings[ring];
+        let theta = ((depth - ring.start[1]) / ring.rise).clamp(0.0, 1.0);
+        let (step, rise) = (theta * ring.step, theta * ring.rise);
+        let edge = &mut self.edge;
+        (edge.ring, edge.theta, edge.lag) = (index, theta, self.point[0] - (ring.start[0] + step));
+        edge.load = self.viscosity * self.speed;
+        let [mut modulus, mut slope] = [0.0; 2];
+        for (k, then) in touched.iter().enumerate() {
+            let (rate, glass) = (self.rates[k], self.moduli[k]);
+            let mean = mean_exponential(-rate * step);
+            let then = (1.0 - rate * step * mean) * then + rise * mean;
+            let decay = (-rate * edge.lag).exp();
+            let strain = self.now.depth[k] - decay * then;
+            (edge.decays[k], edge.strains[k]) = (decay, strain);
+            edge.load += glass * strain;
+            modulus += glass * decay;
+            slope += rate * glass * decay;
+        }
+        edge.modulus = modulus;
+        0.5 * edge.load / modulus * slope / modulus * (ring.step / ring.rise)
+    }
+
+    /// By Newton's method for the depth at which the element at the edge was touched: its load falls outwards, ever more
+    /// steeply, so that it comes from outside; Halley's correction where the modulus changes little.
+    fn find_edge(&mut self) {
+        let Some(last) = self.rings.len().checked_sub(1) else {
+            return;
+        };
+        let deepest = self.deepest();
+        let (mut ring, before) = match self.edge.place {
+            Some([.., depth]) => (self.edge.ring, depth + self.edge.shift),
+            None => (0, 0.0),
+        };
+        let mut depth = (before + self.last_shift).clamp(0.0, deepest);
+        self.edge.place = None;
+        for _ in 0..MOST_STEPS {
+            while ring > 0 && depth < self.rings[ring].start[1] {
+                ring -= 1;
+            }
+            while ring < last && depth > self.rings[ring + 1].start[1] {
+                ring += 1;
+            }
+            let bend = self.load_at(ring, depth);
+            let load = self.edge.load;
+            if depth <= 0.0 && load < 0.0 {
+                return;
+            }
+            let correction = if bend.abs() < 0.25 { 1.0 + bend } else { 1.0 };
+            let shift = load / (self.edge.modulus * correction);
+            let next = (depth + shift).clamp(0.0, deepest);
+            let change = (next - depth).abs() / next;
+            let of_force = change * change * (change + bend.abs()) <= CLOSE * CLOSE;
+            if next.total_cmp(&depth).is_eq()
+                || change <= CLOSE
+                || (of_force && self.now.late.is_empty())
+            {
+                self.last_shift = next - before;
+                self.sum_up(next - depth);
+                return;
+            }
+            depth = next;
+        }
+        self.sum_up(0.0);
+    }
+
+    /// Φ_k/G_k from the edge as it was found but for a last shift of its depth.
+    fn sum_up(&mut self, shift: f64) {
+        let Edge { ring, theta, .. } = self.edge;
+        let [radius, slope, depth] = self.place(ring, theta);
+        if ring + 1 == self.rings.len() && theta >= 1.0 {
+            self.then.copy_from(&self.front);
+        } else {
+            self.find_then();
+        }
+        let edge = &mut self.edge;
+        for (k, sum) in edge.sums.iter_mut().enumerate() {
+            *sum = radius * edge.strains[k] + edge.decays[k] * self.then.load[k];
+        }
+        // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
+        (edge.shift, edge.correction) = (shift, 0.5 * slope * edge.load * shift);
+        edge.place = Some([radius, slope, depth]);
+    }
+
+    /// A ring up to θ.
+    fn part(&self, ring: usize, theta: f64) -> (Ring, [f64; ORDER]) {
+        let mut ring = self.rings[ring];
+        let mut terms = [0.0; ORDER];
+        let mut power = 1.0;
+        for (part, term) in terms
+            .iter_mut()
+            .zip(&self.coefficients[ring.first..ring.first + ring.n_terms])
+        {
+            *part = power * term;
+            power *= theta;
+        }
+        ring.step *= theta;
+        ring.rise *= theta;
+        (ring, terms)
+    }
+
+    /// What the branches remembered when the element at the edge was touched.
+    fn find_then(&mut self) {
+        let (n, index) = (self.rates.len(), self.edge.ring);
+        let (ring, terms) = self.part(index, self.edge.theta);
+        let touched = &self.touched[2 * index * n..2 * (index + 1) * n];
+        let n_late = self.now.late.len();
+        self.then.depth.copy_from_slice(&touched[..n]);
+        self.then.load.copy_from_slice(&touched[n..]);
+        let late = &self.touched_late[index * n_late..(index + 1) * n_late];
+        self.then.late.copy_from_slice(late);
+        let n_moments = ring.n_terms + usize::from(n_late > 0);
+        self.partial.set(&self.rates, ring.step, n_moments, 0.0);
+        self.partial
+            .grow(&mut self.then, &ring, &terms[..ring.n_terms]);
+    }
+}
+
+/// By how much steps that end at a time may differ, as times are rounded.
+fn rounding(time: f64, step: f64) -> f64 {
+    4.0 * f64::EPSILON * time.abs().min(1e3 * step)
+}
+
+/// Relative changes of radii and depths that rounding may leave.
+const LEFT: f64 = 1e-10;

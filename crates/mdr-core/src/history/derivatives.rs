@@ -1,0 +1,140 @@
+//! The derivatives of a force along a path of the depth by everything that a fit may vary.
+//!
+//! At the edge of a contact that shrinks w = 0, so that they are those of the closed form at constant t₁.
+
+use indenters::{Axisymmetric, Control};
+use numerics::{in_range, positive};
+use rheology::Material;
+
+use super::approach::Approach;
+use super::radius::Radii;
+use super::{HistoryPoint, checked};
+use crate::{MdrError, error};
+
+/// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceDerivatives {
+    /// Normal force F, \[N].
+    pub normal_force: Vec<f64>,
+    /// Contact radius a, \[m].
+    pub contact_radius: Vec<f64>,
+    /// ∂F/∂G_∞, \[m²].
+    pub equilibrium_modulus: Vec<f64>,
+    /// ∂F/∂η₀ of the lone dashpot, [m²/s].
+    pub viscosity: Vec<f64>,
+    /// ∂F/∂G_k, \[m²], branch by branch in the order of the relaxation spectrum.
+    pub moduli: Vec<Vec<f64>>,
+    /// ∂F/∂τ_k, [N/s], branch by branch.
+    pub relaxation_times: Vec<Vec<f64>>,
+    /// Change by a shift of all depths, [N/m]: minus the derivative by the position of first contact.
+    pub depth: Vec<f64>,
+    /// ∂F/∂ln c, \[N], of a body whose heights are all multiplied by c: the slope of a cone, the inverse radius of a
+    /// paraboloid; for the radius R of a sphere ∂F/∂R is the sum of F and this over R.
+    pub stretch: Vec<f64>,
+    /// Number of points up to which all this is exact; after that elements are touched that the contact had left.
+    pub exact_until: usize,
+}
+
+/// The force along a path of the depth with its derivatives, for a contact that grows once and shrinks once, with holds.
+///
+/// Small dips of the depth are allowed: an element that is touched again counts as if it had never been left, which is
+/// wrong in the second order of the dip, and a surface as recovered once the body is above its undeformed position. Where
+/// that begins, judged at the points, is [`ForceDerivatives::exact_until`]; [`indent_along`](super::indent_along) is
+/// exact there too.
+///
+/// # Errors
+/// Like [`indent_along`](super::indent_along); [`MdrError::InvalidParameter`] for a force, too.
+pub fn force_derivatives(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &(impl Material + ?Sized),
+    history: &[HistoryPoint],
+) -> Result<ForceDerivatives, MdrError> {
+    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
+    let points = checked(history)?;
+    if let Control::NormalForce(force) = first.control {
+        let allowed = "a depth, whose force is differentiated";
+        in_range("control", force, false, allowed)?;
+    }
+    let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
+    let spectrum = material.relaxation();
+    let mut result = ForceDerivatives::empty(spectrum.branches().len());
+    if deepest == 0.0 {
+        result.exact_until = points.len();
+        points.iter().for_each(|_| result.push(None, 0.0));
+        return Ok(result);
+    }
+    let mut approach = Approach::new(Radii::new(&body, deepest)?, &spectrum, points.len(), true);
+    approach.start(points[0]);
+    let factor = 8.0 / material.half_space_factor();
+    for (index, point) in points.iter().enumerate() {
+        if approach.viscosity > 0.0 && index > 0 {
+            positive("time between two depths", point[0] - points[index - 1][0])?;
+        }
+        approach.follow(*point);
+        let place = approach.edge.place;
+        result.push(place.map(|place| (&approach, place)), factor);
+        error::finite("normal force", result.normal_force[index], point[0])?;
+        if !approach.is_touched_again {
+            result.exact_until = index + 1;
+        }
+    }
+    Ok(result)
+}
+
+impl ForceDerivatives {
+    fn empty(n_branches: usize) -> Self {
+        Self {
+            normal_force: Vec::new(),
+            contact_radius: Vec::new(),
+            equilibrium_modulus: Vec::new(),
+            viscosity: Vec::new(),
+            moduli: vec![Vec::new(); n_branches],
+            relaxation_times: vec![Vec::new(); n_branches],
+            depth: Vec::new(),
+            stretch: Vec::new(),
+            exact_until: 0,
+        }
+    }
+
+    fn push(&mut self, contact: Option<(&Approach, [f64; 3])>, factor: f64) {
+        let n_branches = self.moduli.len();
+        let [
+            mut force,
+            mut by_depth,
+            mut by_stretch,
+            mut by_viscosity,
+            mut contact_radius,
+        ] = [0.0; 5];
+        let mut columns = vec![[0.0; 2]; n_branches + 1];
+        if let Some((approach, place)) = contact {
+            let [radius, slope, depth] = place;
+            contact_radius = approach.radius();
+            let (edge, then, rates) = (&approach.edge, &approach.then, &approach.rates);
+            by_viscosity = approach.speed * radius;
+            force = approach.viscosity * by_viscosity;
+            by_depth = slope * edge.load;
+            by_stretch = -depth * slope * edge.load;
+            for (k, late) in then.late.iter().enumerate() {
+                let (modulus, decay, lag) = (approach.moduli[k], edge.decays[k], edge.lag);
+                by_depth += modulus * decay * late.edge;
+                by_stretch += modulus * decay * late.stretch;
+                let slower =
+                    approach.now.late[k].depth - decay * (late.depth + lag * then.depth[k]);
+                let by_rate = -radius * slower - decay * (late.load + lag * then.load[k]);
+                force += modulus * edge.sums[k];
+                columns[k] = [edge.sums[k], -modulus * by_rate * rates[k] * rates[k]];
+            }
+        }
+        self.normal_force.push(factor * force);
+        self.contact_radius.push(contact_radius);
+        self.viscosity.push(factor * by_viscosity);
+        self.depth.push(factor * by_depth);
+        self.stretch.push(factor * by_stretch);
+        self.equilibrium_modulus
+            .push(factor * columns[n_branches][0]);
+        for (k, [by_modulus, by_time]) in columns[..n_branches].iter().enumerate() {
+            self.moduli[k].push(factor * by_modulus);
+            self.relaxation_times[k].push(factor * by_time);
+        }
+    }
+}

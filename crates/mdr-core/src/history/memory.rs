@@ -1,0 +1,159 @@
+//! What the branches remember of a contact that grows over new elements.
+
+use super::path::{RECIPROCALS, moments};
+use super::radius::ORDER;
+
+/// A sweep over new elements, the radius a polynomial of θ ∈ [0, 1].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring {
+    /// Time and depth at its beginning, and what is added up to its end.
+    pub(super) start: [f64; 2],
+    pub(super) step: f64,
+    pub(super) rise: f64,
+    /// Its coefficients are those from here on.
+    pub(super) first: usize,
+    pub(super) n_terms: usize,
+}
+
+/// Integrals of e^(−(t − s)/τ) f ds up to now, branch by branch.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Memory {
+    /// q, f = ḋ.
+    pub(super) depth: Vec<f64>,
+    /// P, f = a ḋ.
+    pub(super) load: Vec<f64>,
+    /// Empty where no derivatives are wanted.
+    pub(super) late: Vec<Late>,
+}
+
+impl Memory {
+    /// Takes the values of another one of as many branches.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.depth.copy_from_slice(&other.depth);
+        self.load.copy_from_slice(&other.load);
+        self.late.copy_from_slice(&other.late);
+    }
+}
+
+/// The same of f (t − s), and of what the force changes by with first contact and body.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Late {
+    /// f = (t − s) ḋ.
+    pub(super) depth: f64,
+    /// f = (t − s) a ḋ.
+    pub(super) load: f64,
+    /// f = a' ḋ.
+    pub(super) edge: f64,
+    /// f = −D a' ḋ.
+    pub(super) stretch: f64,
+}
+
+/// A step of a length, branch by branch.
+#[derive(Debug, Default)]
+pub(super) struct Step {
+    length: f64,
+    pub(super) decays: Vec<f64>,
+    /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ, order by order.
+    moments: Vec<f64>,
+    sums: Vec<f64>,
+}
+
+/// Orders above the last one whose error has fallen below rounding there, for steps up to τ.
+const FORGOTTEN: usize = 16;
+
+impl Step {
+    /// Orders below `n_moments` of a length that may differ from the last one by rounding of the time at its end.
+    pub(super) fn set(&mut self, rates: &[f64], length: f64, n_moments: usize, rounding: f64) {
+        let n = rates.len();
+        if self.moments.len() >= n_moments * n && (length - self.length).abs() <= rounding {
+            return;
+        }
+        self.length = length;
+        self.moments.resize(n_moments * n, 0.0);
+        self.decays.clear();
+        self.decays.extend(rates.iter().map(|rate| rate * length));
+        // Downwards from far above, where it does not matter what they are: of all branches at once.
+        self.sums.clear();
+        self.sums.resize(n, 0.0);
+        for order in (1..=n_moments + FORGOTTEN).rev() {
+            for (moment, z) in self.sums.iter_mut().zip(&self.decays) {
+                *moment = (1.0 - z * *moment) * RECIPROCALS[order];
+            }
+            if order <= n_moments {
+                self.moments[(order - 1) * n..order * n].copy_from_slice(&self.sums);
+            }
+        }
+        for (k, decay) in self.decays.iter_mut().enumerate() {
+            if *decay > 1.0 {
+                let mut row = [0.0; ORDER + 1];
+                moments(*decay, &mut row[..n_moments]);
+                for (moments, moment) in self.moments.chunks_exact_mut(n).zip(row) {
+                    moments[k] = moment;
+                }
+            }
+            *decay = 1.0 - *decay * self.moments[k];
+        }
+    }
+
+    /// ∫₀¹ e^(−(1 − θ) Δt/τ) θ^j dθ of a branch.
+    fn moment(&self, order: usize, branch: usize) -> f64 {
+        self.moments[order * self.decays.len() + branch]
+    }
+
+    /// Over elements that were touched before: only the depth goes on.
+    pub(super) fn hold(&self, memory: &mut Memory, rise: f64) {
+        for (k, late) in memory.late.iter_mut().enumerate() {
+            let gained = rise * self.length * (self.moment(0, k) - self.moment(1, k));
+            late.depth = self.decays[k] * (late.depth + self.length * memory.depth[k]) + gained;
+        }
+        for ((depth, decay), mean) in memory.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
+            *depth = decay * *depth + rise * mean;
+        }
+    }
+
+    /// Over new elements.
+    pub(super) fn grow(&mut self, memory: &mut Memory, ring: &Ring, terms: &[f64]) {
+        for (k, late) in memory.late.iter_mut().enumerate() {
+            let gained = self.late(k, ring, terms);
+            let (decay, step) = (self.decays[k], self.length);
+            late.depth = decay * (late.depth + step * memory.depth[k]) + gained.depth;
+            late.load = decay * (late.load + step * memory.load[k]) + gained.load;
+            late.edge = decay * late.edge + gained.edge;
+            late.stretch = decay * late.stretch + gained.stretch;
+        }
+        let n = self.decays.len();
+        self.sums.clear();
+        self.sums.resize(n, 0.0);
+        for (term, moments) in terms.iter().zip(self.moments.chunks_exact(n)) {
+            for (sum, moment) in self.sums.iter_mut().zip(moments) {
+                *sum += term * moment;
+            }
+        }
+        for ((load, decay), sum) in memory.load.iter_mut().zip(&self.decays).zip(&self.sums) {
+            *load = decay * *load + ring.rise * sum;
+        }
+        for ((depth, decay), mean) in memory.depth.iter_mut().zip(&self.decays).zip(&self.moments) {
+            *depth = decay * *depth + ring.rise * mean;
+        }
+    }
+
+    /// What a branch gains.
+    fn late(&self, k: usize, ring: &Ring, terms: &[f64]) -> Late {
+        let [mut load, mut edge, mut stretch] = [0.0; 3];
+        let mut before = 0.0;
+        for (j, term) in terms.iter().enumerate() {
+            let (here, slope) = (self.moment(j, k), j as f64 * term);
+            load += term * (here - self.moment(j + 1, k));
+            edge += slope * before;
+            stretch += slope * (ring.start[1] * before + ring.rise * here);
+            before = here;
+        }
+        let scale = ring.rise * self.length;
+        Late {
+            depth: scale * (self.moment(0, k) - self.moment(1, k)),
+            load: scale * load,
+            edge,
+            stretch: -stretch,
+        }
+    }
+}
