@@ -69,9 +69,10 @@ pub(super) struct Approach {
     partial: Step,
 }
 
-/// Of Newton's method, which converges quadratically once the fastest branch that counts is resolved.
+/// Steps towards the edge before every other one halves a bracket, and until it is as narrow as rounding.
+const NEWTON_STEPS: usize = 16;
 const MOST_STEPS: usize = 200;
-/// Its last relative change of the depth: the derivatives are known to that, the force to its square and better.
+/// Last relative change of the depth: the derivatives are known to that, the force to its square and better.
 const CLOSE: f64 = 1e-8;
 
 impl Approach {
@@ -151,15 +152,11 @@ impl Approach {
         }
     }
 
+    /// Contact radius, \[m].
     pub(super) fn radius(&self) -> f64 {
-        let Edge {
-            ring, theta, shift, ..
-        } = self.edge;
-        match self.edge.place {
-            Some([radius, ..]) if shift == 0.0 => radius,
-            Some(_) => self.place(ring, theta + shift / self.rings[ring].rise)[0],
-            None => 0.0,
-        }
+        let from = |depth: f64| [self.rings[self.edge.ring].start[1], depth + self.edge.shift];
+        let place = self.edge.place;
+        place.map_or(0.0, |[.., depth]| self.radii.at(from(depth))[0])
     }
 
     /// D.
@@ -359,8 +356,9 @@ impl Approach {
         (self.edge.shift, self.edge.correction) = (0.0, 0.0);
     }
 
-    /// The element of a ring that was touched at a depth; by how much its modulus changes on the way to the edge.
-    fn load_at(&mut self, ring: usize, depth: f64) -> f64 {
+    /// The element of a ring that was touched at a depth: how much deeper the edge is by Halley's method, and by how much the
+    /// modulus changes on the way there; where that is much, by Newton's.
+    fn load_at(&mut self, ring: usize, depth: f64) -> [f64; 2] {
         let n = self.rates.len();
         let touched = &self.touched[2 * ring * n..(2 * ring + 1) * n];
         let index = ring;
@@ -383,11 +381,20 @@ impl Approach {
             slope += rate * glass * decay;
         }
         edge.modulus = modulus;
-        0.5 * edge.load / modulus * slope / modulus * (ring.step / ring.rise)
+        if edge.load == 0.0 || modulus <= f64::MIN_POSITIVE {
+            // What has forgotten when it was touched is loaded or not whenever that was.
+            return [edge.load * f64::INFINITY, 0.0].map(|x| if x.is_nan() { 0.0 } else { x });
+        }
+        let shift = edge.load / modulus;
+        let bend = 0.5 * shift * slope / modulus * (ring.step / ring.rise);
+        match bend.abs() < 0.25 {
+            true => [shift / (1.0 + bend), bend],
+            false => [shift, bend],
+        }
     }
 
-    /// By Newton's method for the depth at which the element at the edge was touched: its load falls outwards, ever more
-    /// steeply, so that it comes from outside; Halley's correction where the modulus changes little.
+    /// For the depth at which the element at the edge was touched: its load falls outwards, ever more steeply, so that the
+    /// steps come from outside; those that are too short are replaced by halving a bracket.
     fn find_edge(&mut self) {
         let Some(last) = self.rings.len().checked_sub(1) else {
             return;
@@ -399,32 +406,35 @@ impl Approach {
         };
         let mut depth = (before + self.last_shift).clamp(0.0, deepest);
         self.edge.place = None;
-        for _ in 0..MOST_STEPS {
+        let mut bracket = [0.0, deepest];
+        for step in 0..MOST_STEPS {
             while ring > 0 && depth < self.rings[ring].start[1] {
                 ring -= 1;
             }
             while ring < last && depth > self.rings[ring + 1].start[1] {
                 ring += 1;
             }
-            let bend = self.load_at(ring, depth);
-            let load = self.edge.load;
-            if depth <= 0.0 && load < 0.0 {
+            let [shift, bend] = self.load_at(ring, depth);
+            let is_left = self.edge.load < 0.0;
+            if depth <= 0.0 && is_left {
                 return;
             }
-            let correction = if bend.abs() < 0.25 { 1.0 + bend } else { 1.0 };
-            let shift = load / (self.edge.modulus * correction);
+            bracket[usize::from(is_left)] = depth;
             let next = (depth + shift).clamp(0.0, deepest);
             let change = (next - depth).abs() / next;
             let of_force = change * change * (change + bend.abs()) <= CLOSE * CLOSE;
-            if next.total_cmp(&depth).is_eq()
-                || change <= CLOSE
-                || (of_force && self.now.late.is_empty())
-            {
+            let is_still = next.total_cmp(&depth).is_eq();
+            if is_still || change <= CLOSE || (of_force && self.now.late.is_empty()) {
                 self.last_shift = next - before;
                 self.sum_up(next - depth);
                 return;
             }
-            depth = next;
+            depth = match step {
+                _ if step < NEWTON_STEPS => next,
+                NEWTON_STEPS => 0.0,
+                _ if step % 2 == 0 => 0.5 * (bracket[0] + bracket[1]),
+                _ => next,
+            };
         }
         self.sum_up(0.0);
     }

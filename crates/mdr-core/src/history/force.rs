@@ -4,7 +4,7 @@
 //! 8/(2 (1 − ν)) ∫₀^a x h̃' dx = ∫ J(t − s) dF        as long as the force does not fall (Lee & Radok 1960)
 //! ```
 //! After that the depth is taken as straight over parts of each segment, at whose ends the force is as given; the parts are
-//! halved until that does not matter.
+//! halved until that does not matter, and extrapolated in their length.
 
 use indenters::Axisymmetric;
 use numerics::{Estimate, NotReached, try_bracketed_root};
@@ -40,51 +40,50 @@ impl Pressed<'_> {
             .fold(0.0, f64::max);
         let area = largest * self.material.creep_compliance(duration)? / factor;
         let radii = reaching(self.body, area)?;
-        let grown = self.grown(&radii, factor);
+        let grown = self.grown(&self.points, &radii, factor);
         if grown.len() == self.points.len() {
             return Ok(grown);
         }
-        let mut parts = 1;
-        let mut coarse = self.march(&radii, parts)?;
-        let deepest = |curve: &[CurvePoint]| {
-            let depths = curve.iter().map(|point| point.indentation_depth.value);
-            depths.fold(0.0, f64::max)
-        };
+        let mut parts = 2;
+        let mut fine = self.march(&radii, parts)?;
+        let mut better = extrapolated(&self.march(&radii, 1)?, &fine);
         loop {
             parts *= 2;
-            let mut fine = self.march(&radii, parts)?;
-            let change = changes(&coarse, &fine, |point| point.indentation_depth.value);
-            let radius_change = changes(&coarse, &fine, |point| point.contact_radius.value);
-            if change <= self.options.relative_error * deepest(&fine) {
-                for point in &mut fine {
+            let coarse = std::mem::replace(&mut fine, self.march(&radii, parts)?);
+            let before = std::mem::replace(&mut better, extrapolated(&coarse, &fine));
+            let change = changes(&before, &better, |point| point.indentation_depth.value);
+            let radius_change = changes(&before, &better, |point| point.contact_radius.value);
+            let depths = better.iter().map(|point| point.indentation_depth.value);
+            let deepest = depths.fold(0.0, f64::max);
+            if change <= self.options.relative_error * deepest {
+                for point in &mut better {
                     let depth = &mut point.indentation_depth;
                     depth.error = change + 2.0 * self.options.modulus_error * depth.value.abs();
                     point.contact_radius.error = radius_change;
                 }
-                fine[..grown.len()].copy_from_slice(&grown);
-                return Ok(fine);
+                better[..grown.len()].copy_from_slice(&grown);
+                return Ok(better);
             }
             if 2 * parts * self.points.len() > MOST_PARTS {
                 return Err(MdrError::NotReached(NotReached {
                     quantity: 0,
                     asked: self.options.relative_error,
-                    value: deepest(&fine),
+                    value: deepest,
                     error: change,
                     elements: parts,
                 }));
             }
-            coarse = fine;
         }
     }
 
     /// The points before the force falls for the first time.
-    fn grown(&self, radii: &Radii, factor: f64) -> Vec<CurvePoint> {
+    fn grown(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
         let mut delayed = vec![0.0; creep.elements().len()];
         let mut flown = 0.0;
-        let mut before = [self.points[0][0], 0.0];
+        let mut before = [points[0][0], 0.0];
         let mut curve = Vec::new();
-        for point in &self.points {
+        for point in points {
             let ([time, force], step, rise) = (*point, point[0] - before[0], point[1] - before[1]);
             if rise < 0.0 {
                 break;
@@ -116,30 +115,40 @@ impl Pressed<'_> {
 
     /// The curve with so many parts per segment.
     fn march(&self, radii: &Radii, parts: usize) -> Result<Vec<CurvePoint>, MdrError> {
+        let mut before = [self.points[0][0], 0.0];
+        let mut points = Vec::new();
+        for point in &self.points {
+            let step = [point[0] - before[0], point[1] - before[1]];
+            let n = if step[0] > 0.0 { parts } else { 1 };
+            for part in 1..=n {
+                // Shorter parts at both ends, where the depth goes with a root of the time.
+                let share = part as f64 / n as f64;
+                let share = share * share * (3.0 - 2.0 * share);
+                points.push(([0, 1].map(|k| before[k] + share * step[k]), part == n));
+            }
+            before = *point;
+        }
+        let forces: Vec<[f64; 2]> = points.iter().map(|(point, _)| *point).collect();
+        let factor = 8.0 / self.material.half_space_factor();
+        let grown = self.grown(&forces, radii, factor);
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
         let mut contact = Contact::new(self.body, path, radii.clone());
-        let factor = 8.0 / self.material.half_space_factor();
-        let mut before = [self.points[0][0], 0.0];
         let mut curve = Vec::with_capacity(self.points.len());
-        for [time, force] in &self.points {
-            let [step, rise] = [time - before[0], force - before[1]];
-            let parts = if step > 0.0 { parts } else { 1 };
-            for part in 1..=parts {
-                let share = part as f64 / parts as f64;
-                let (time, force) = (before[0] + share * step, before[1] + share * rise);
-                // A dashpot keeps the depth while the force jumps.
-                if step > 0.0 || contact.path.viscosity == 0.0 {
-                    press(&mut contact, time, force / factor, radii.deepest())?;
-                }
+        for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
+            if let Some(point) = grown.get(index) {
+                contact.follow(time, point.indentation_depth.value)?;
+            } else if time > contact.path.last().0 || contact.path.viscosity == 0.0 {
+                press(&mut contact, time, force / factor, radii.deepest())?;
             }
-            curve.push(CurvePoint {
-                time: *time,
-                indentation_depth: Estimate::exact(contact.path.last().1),
-                normal_force: Estimate::exact(*force),
-                contact_radius: Estimate::exact(contact.radius()),
-            });
-            before = [*time, *force];
+            if is_asked {
+                curve.push(CurvePoint {
+                    time,
+                    indentation_depth: Estimate::exact(contact.path.last().1),
+                    normal_force: Estimate::exact(force),
+                    contact_radius: Estimate::exact(contact.radius()),
+                });
+            }
         }
         Ok(curve)
     }
@@ -172,7 +181,8 @@ fn reaching(body: &dyn Axisymmetric, area: f64) -> Result<Radii, MdrError> {
     } else {
         whole.min(1.0)
     };
-    let mut deepest = 0.5 * start;
+    // A line that is flat up to its end says nothing.
+    let mut deepest = if start > 0.0 { 0.5 * start } else { 1.0 };
     let mut radii = Radii::new(body, deepest)?;
     while radii.area() > 16.0 * area {
         deepest *= 0.25;
@@ -183,6 +193,19 @@ fn reaching(body: &dyn Axisymmetric, area: f64) -> Result<Radii, MdrError> {
         radii = Radii::new(body, deepest)?;
     }
     Ok(radii)
+}
+
+/// From the errors of second order of both, the finer one with twice as many parts.
+fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint]) -> Vec<CurvePoint> {
+    let better = |coarse: Estimate, fine: Estimate| {
+        Estimate::exact(fine.value + (fine.value - coarse.value) / 3.0)
+    };
+    let point = |(coarse, fine): (&CurvePoint, &CurvePoint)| CurvePoint {
+        indentation_depth: better(coarse.indentation_depth, fine.indentation_depth),
+        contact_radius: better(coarse.contact_radius, fine.contact_radius),
+        ..*fine
+    };
+    coarse.iter().zip(fine).map(point).collect()
 }
 
 /// Largest change of a quantity.

@@ -262,7 +262,7 @@ impl Bars {
             },
             contact_radius: Estimate {
                 value: contact.radius,
-                error: ROUNDING * contact.radius
+                error: radius::TAIL * contact.radius
                     + (ROUNDING + 2.0 * self.modulus_error) * contact.edge,
             },
         }

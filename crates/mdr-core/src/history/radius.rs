@@ -15,7 +15,7 @@ use crate::MdrError;
 pub(super) const ORDER: usize = 16;
 /// Last two coefficients, relative to the radius, below which a piece is not divided. Those that are missing are a
 /// hundredth of that.
-const TAIL: f64 = 2e-13;
+pub(super) const TAIL: f64 = 2e-13;
 /// A contact that is as near as this to a vertical edge, such as the equator of a sphere, relative to its radius, has reached
 /// the edge.
 const EDGE: f64 = 1e-10;

@@ -1,7 +1,8 @@
 //! Force and contact radius along a path of the depth match quadrature with 40 digits, and both casebooks.
 
 use indenters::{
-    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, PowerTerm, Sphere, Superposition,
+    Axisymmetric, Control, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm, Sphere,
+    Superposition,
 };
 use mdr_core::{CurvePoint, Follow, HistoryPoint, MdrError, indent_along};
 use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
@@ -331,6 +332,93 @@ fn depth_and_force_are_inverse() {
         depths[2] < 0.8 * depths[1] && depths[3] > depths[2],
         "{depths:?}"
     );
+}
+
+/// Bars of depths under a force that falls, to no force, at once, and before it rises again, hold a finer result; the parts
+/// that are needed grow slowly, because they are extrapolated.
+#[test]
+fn depths_under_a_falling_force_are_within_their_bars() {
+    let cases: [&[[f64; 2]]; 3] = [
+        &[[0.0, 0.0], [1.0, 0.02], [2.0, 0.0]],
+        &[[0.0, 0.0], [1.0, 0.02], [1.0, 0.005], [2.0, 0.005]],
+        &[[0.0, 0.0], [1.0, 0.02], [1.5, 0.005], [2.5, 0.03]],
+    ];
+    for forces in cases {
+        let exact = under(forces, 1e-4).expect("a depth");
+        for (point, exact) in under(forces, 2e-3).expect("a depth").iter().zip(&exact) {
+            let (depth, exact) = (point.indentation_depth, exact.indentation_depth);
+            let deviation = (depth.value - exact.value).abs();
+            assert!(
+                deviation <= depth.error + exact.error && depth.error <= 2e-3 * 0.016,
+                "{forces:?}: {depth:?}, expected {exact:?}"
+            );
+        }
+    }
+}
+
+/// Where every branch has forgotten when it was touched, no load says where the edge is.
+#[test]
+fn a_contact_that_has_relaxed_carries_nothing() {
+    let knots = [
+        [0.0, -0.001],
+        [1.0, 0.01],
+        [1000.0, 0.01],
+        [2000.0, 0.005],
+        [3000.0, -0.001],
+    ];
+    for fluid in ["maxwell", "fluid"] {
+        let curve = follow(
+            &*body("paraboloid"),
+            &material(fluid),
+            &path(&knots, &[2500.0]),
+        );
+        for point in &curve[2..] {
+            let force = point.normal_force;
+            assert!(force.value.abs() <= force.error, "{fluid}: {point:?}");
+        }
+    }
+}
+
+/// F = 8 a ∫ G dd and d = ∫ J dF/(8 a): a punch has its radius at every load.
+#[test]
+fn a_flat_punch_follows_force_and_depth() {
+    let (punch, material) = (FlatPunch::new(0.01).expect("a punch"), material("solid"));
+    let point = |time: f64, control: Control| HistoryPoint { time, control };
+    let depths = [(0.0, 0.0), (1.0, 0.02), (2.0, 0.015)];
+    let depths = depths.map(|(time, depth)| point(time, Control::IndentationDepth(depth)));
+    let curve = follow(&punch, &material, &depths);
+    let held = 1.0 - f64::exp(-1.0);
+    let expected = [
+        0.0,
+        0.08 * 0.02 * (1.0 + 4.0 * held),
+        0.08 * (0.015 + 4.0 * (0.02 * held * f64::exp(-1.0) - 0.005 * held)),
+    ];
+    for (point, expected) in curve.iter().zip(expected) {
+        let force = point.normal_force;
+        assert!(
+            (force.value - expected).abs() <= force.error,
+            "{point:?}, expected {expected}"
+        );
+    }
+    let forces = [(0.0, 0.0), (1.0, expected[1]), (2.0, 0.5 * expected[1])];
+    let forces = forces.map(|(time, force)| point(time, Control::NormalForce(force)));
+    let curve = indent_along(&punch, &material, &forces, &Follow::default()).expect("depths");
+    // J(t) = 1 − 4/5 e^(−t/5).
+    let creep = |step: f64| step - 4.0 * (1.0 - f64::exp(-step / 5.0));
+    let rate = expected[1] / 0.08;
+    let expected = [
+        0.0,
+        rate * creep(1.0),
+        rate * (creep(2.0) - 1.5 * creep(1.0)),
+    ];
+    for (point, expected) in curve.iter().zip(expected) {
+        let depth = point.indentation_depth;
+        let deviation = (depth.value - expected).abs();
+        assert!(
+            deviation <= depth.error,
+            "{point:?}, expected depth {expected}"
+        );
+    }
 }
 
 #[test]
