@@ -100,8 +100,8 @@ pub(crate) enum Target {
 }
 
 /// How a contact is resolved.
-pub(crate) struct Resolution {
-    pub(crate) goal: Goal,
+pub(crate) struct Resolution<'w> {
+    pub(crate) goal: Goal<'w>,
     pub(crate) control: Control,
     pub(crate) target: Target,
     /// Whether the largest pressure is known to have a limit.
@@ -137,7 +137,7 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, material: &(impl Material + 
 /// for.
 pub(crate) fn resolve<S, O>(
     resolution: &Resolution,
-    solve: impl Fn(usize) -> Result<OnGrid<S, O>, BemError>,
+    solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
 ) -> Result<ContactEstimate<S, O>, BemError> {
     let control = resolution.control;
     let target = match (resolution.target, control) {
@@ -152,7 +152,7 @@ pub(crate) fn resolve<S, O>(
             ..Quantity::from(values[index])
         })
     };
-    let others = |_, contact: &OnGrid<S, O>| {
+    let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
         let mut others = [ErrorParts::NONE; 5];
         others[target] = contact.other_error;
         Ok(others)

@@ -5,6 +5,7 @@ use rheology::{Elastic, Material};
 
 use crate::BemError;
 use crate::footprint::{Footprint, HIGHEST};
+use crate::grid::whole;
 use crate::steady::depth_scale_of_surface;
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids.
@@ -93,6 +94,11 @@ impl GridPlan {
     /// Δx after so many refinements by √2, \[m].
     pub(crate) fn spacing(&self, refinement: i32) -> f64 {
         self.coarsest_spacing * 2.0_f64.powf(-0.5 * f64::from(refinement))
+    }
+
+    /// Elements along the contact, about, after so many refinements.
+    pub(crate) fn elements(&self, refinement: i32) -> usize {
+        whole((self.length() / self.spacing(refinement)).ceil()).unwrap_or(usize::MAX)
     }
 
     /// Contact length, about, \[m].

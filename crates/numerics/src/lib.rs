@@ -2,7 +2,7 @@
 //! checks of numbers.
 //!
 //! ```
-//! use numerics::{Accuracy, Goal, NotReached, Quantity, no_other_error, refine};
+//! use numerics::{Goal, NotReached, Quantity, no_other_error, refine};
 //!
 //! // The circumference of a circle from polygons, to six digits.
 //! let half_perimeter = |corners: usize| -> Result<f64, NotReached> {
@@ -10,11 +10,13 @@
 //!     Ok(n * (std::f64::consts::PI / n).sin())
 //! };
 //! let goal = Goal {
-//!     accuracy: Accuracy::RelativeError(1e-6),
+//!     request: 1e-6.into(),
 //!     largest: 100_000,
 //!     order: 2.0,
+//!     work: 1.0,
+//!     others: 0.0,
 //! };
-//! let pi = refine(&goal, half_perimeter, |value| [Quantity::from(*value)], no_other_error)?;
+//! let pi = refine(&goal, |corners, _| half_perimeter(corners), |value| [Quantity::from(*value)], no_other_error)?;
 //! assert!((pi.value - std::f64::consts::PI).abs() < pi.error[0]);
 //! assert!(pi.error[0] < 1e-6 * pi.value);
 //! # Ok::<(), NotReached>(())
@@ -25,6 +27,7 @@ mod error_parts;
 mod estimate;
 mod invalid_parameter;
 mod legendre;
+mod progress;
 mod quadrature;
 mod refinement;
 mod root;
@@ -35,6 +38,9 @@ pub use invalid_parameter::{
     InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
+pub use progress::{Progress, Unwatched, Watch};
 pub use quadrature::{integrate, integrate_from_ends};
-pub use refinement::{Accuracy, Goal, NotReached, Quantity, Refined, no_other_error, refine};
+pub use refinement::{
+    Accuracy, Goal, NotReached, Quantity, Refined, Request, no_other_error, refine,
+};
 pub use root::{bracketed_root, try_bracketed_root};

@@ -8,6 +8,7 @@
 use thiserror::Error;
 
 use crate::ErrorParts;
+use crate::progress::{Progress, Unwatched, Watch};
 
 /// How well a result is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,15 +27,45 @@ impl From<f64> for Accuracy {
     }
 }
 
-/// What is asked, and how errors fall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Goal {
+/// How well a result is asked for, and who follows the computation.
+#[derive(Debug, Clone, Copy)]
+pub struct Request<'a> {
     /// A relative error, or a number of elements.
     pub accuracy: Accuracy,
+    /// Is told how far it is, and may end it.
+    pub watch: &'a dyn Watch,
+}
+
+/// Nobody follows.
+impl From<Accuracy> for Request<'_> {
+    fn from(accuracy: Accuracy) -> Self {
+        Self {
+            accuracy,
+            watch: &Unwatched,
+        }
+    }
+}
+
+/// A relative error, and nobody follows.
+impl From<f64> for Request<'_> {
+    fn from(relative_error: f64) -> Self {
+        Accuracy::from(relative_error).into()
+    }
+}
+
+/// What is asked, and how errors fall.
+#[derive(Debug, Clone, Copy)]
+pub struct Goal<'a> {
+    /// A relative error, or a number of elements.
+    pub request: Request<'a>,
     /// Elements that are not exceeded to reach an error.
     pub largest: usize,
     /// Power q of the elements with which the error falls, at least.
     pub order: f64,
+    /// Power of the elements with which the work grows, about.
+    pub work: f64,
+    /// Work of the other errors, as a part of that on the finest resolution.
+    pub others: f64,
 }
 
 /// A number that is refined.
@@ -98,7 +129,7 @@ pub struct NotReached {
 ///
 /// # Errors
 /// None.
-pub fn no_other_error<T, E, const N: usize>(_: usize, _: &T) -> Result<[ErrorParts; N], E> {
+pub fn no_other_error<T, E, const N: usize>(_: &T, _: &dyn Fn(f64)) -> Result<[ErrorParts; N], E> {
     Ok([ErrorParts::NONE; N])
 }
 
@@ -113,63 +144,116 @@ const ROUNDING: f64 = 1e-12;
 /// Solves with the elements asked for, or with more and more until all quantities have the relative error.
 ///
 /// `others` gives the parts of the error that resolutions do not show because they are alike on all of them; it is called
-/// where the rest is small enough.
+/// where the rest is small enough. Both are given what is to be told of their progress, from 0 to 1.
 ///
 /// # Errors
 /// [`NotReached`] on the finest resolution allowed, and those of `solve` and `others`.
 pub fn refine<T, E: From<NotReached>, const N: usize>(
     goal: &Goal,
-    solve: impl Fn(usize) -> Result<T, E>,
+    solve: impl Fn(usize, &dyn Fn(f64)) -> Result<T, E>,
     quantities: impl Fn(&T) -> [Quantity; N],
-    others: impl Fn(usize, &T) -> Result<[ErrorParts; N], E>,
+    others: impl Fn(&T, &dyn Fn(f64)) -> Result<[ErrorParts; N], E>,
 ) -> Result<Refined<T, N>, E> {
-    let (mut elements, asked) = match goal.accuracy {
+    let Request { accuracy, watch } = goal.request;
+    let (mut elements, asked) = match accuracy {
         Accuracy::Elements(elements) => (elements, None),
         Accuracy::RelativeError(error) => (FIRST, Some(error)),
     };
-    let part = |numerator: usize, denominator: usize, elements: usize| {
-        solve((numerator * elements).div_ceil(denominator)).map(|value| quantities(&value))
+    let mut progress = Progress::new(watch, goal.work_before(elements));
+    let on = |eighths: usize, elements: usize, progress: &mut Progress| {
+        let elements = (eighths * elements).div_ceil(8);
+        progress.during(goal.work_on(elements as f64), |tell| solve(elements, tell))
     };
-    let mut half = part(1, 2, elements)?;
-    let mut three_eighths = (elements >= FEWEST_FOR_EIGHTHS)
-        .then(|| part(3, 8, elements))
-        .transpose()?;
+    let mut half = quantities(&on(4, elements, &mut progress)?);
+    let mut three_eighths = None;
+    if elements >= FEWEST_FOR_EIGHTHS {
+        three_eighths = Some(quantities(&on(3, elements, &mut progress)?));
+    }
     loop {
-        let three_quarters = part(3, 4, elements)?;
-        let value = solve(elements)?;
+        let three_quarters = quantities(&on(6, elements, &mut progress)?);
+        let value = on(8, elements, &mut progress)?;
         let fine = quantities(&value);
-        let mut parts = std::array::from_fn(|index| {
-            let value = |values: &[Quantity; N]| values[index].value;
-            let changes = Changes {
-                fine: value(&fine),
-                three_quarters: value(&three_quarters),
-                half: value(&half),
-                three_eighths: three_eighths.as_ref().map(value),
-            };
-            ErrorParts::of_elements(changes.error(goal.order).max(fine[index].least))
-        });
-        let is_last = elements >= goal.largest;
-        if is_last || not_reached(asked, &fine, &parts, elements).is_none() {
-            for (part, other) in parts.iter_mut().zip(others(elements, &value)?) {
-                *part = part.and(other);
-            }
+        let is_last = || elements >= goal.largest || !watch.allows(2 * elements);
+        let mut parts =
+            parts_of_elements(goal.order, [&fine, &three_quarters, &half], three_eighths);
+        if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
+            let work = goal.others * goal.work_on(elements as f64);
+            let others = progress.during(work, |tell| others(&value, tell))?;
+            parts = std::array::from_fn(|index| parts[index].and(others[index]));
         }
         match not_reached(asked, &fine, &parts, elements) {
             None => {
                 return Ok(Refined {
-                    value,
                     error: errors(&fine, &parts),
+                    value,
                     parts,
                     elements,
                 });
             }
-            Some(missed) if is_last => return Err(missed.into()),
-            Some(_) => {}
+            Some(missed) if is_last() => return Err(missed.into()),
+            Some(missed) => progress.expect(goal.work_after(&missed)),
         }
         elements *= 2;
         half = fine;
         three_eighths = Some(three_quarters);
     }
+}
+
+impl Goal<'_> {
+    fn work_on(&self, elements: f64) -> f64 {
+        elements.powf(self.work)
+    }
+
+    /// Of the first resolutions, up to these elements.
+    fn work_before(&self, elements: usize) -> f64 {
+        let work = |part: f64| self.work_on(part * elements as f64);
+        work(0.375) + work(0.5) + work(0.75) + (1.0 + self.others) * work(1.0)
+    }
+
+    /// Of the resolutions that are still needed, if the error falls with the order.
+    fn work_after(&self, missed: &NotReached) -> f64 {
+        let ratio = missed.error / (missed.asked * missed.value.abs());
+        let mut elements = missed.elements as f64;
+        let needed = (elements * ratio.powf(self.order.recip())).min(self.largest as f64);
+        let mut work = 0.0;
+        loop {
+            elements *= 2.0;
+            work += self.work_on(elements) + self.work_on(0.75 * elements);
+            if elements >= needed {
+                return work + self.others * self.work_on(elements);
+            }
+        }
+    }
+}
+
+/// What the elements do to each quantity, of all elements, three quarters and a half of them, and three eighths.
+fn parts_of_elements<const N: usize>(
+    order: f64,
+    resolutions: [&[Quantity; N]; 3],
+    three_eighths: Option<[Quantity; N]>,
+) -> [ErrorParts; N] {
+    std::array::from_fn(|index| {
+        let values = resolutions.map(|quantities| quantities[index].value);
+        let three_eighths = three_eighths.map(|quantities| quantities[index].value);
+        let error = error_of_elements(order, values, three_eighths);
+        ErrorParts::of_elements(error.max(resolutions[0][index].least))
+    })
+}
+
+/// Error on all elements where it falls with this power of them.
+fn error_of_elements(
+    order: f64,
+    [fine, three_quarters, half]: [f64; 3],
+    three_eighths: Option<f64>,
+) -> f64 {
+    // ratio^q − 1, which is small for the sharpest cusps.
+    let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
+    let of_half = (fine - half).abs() / gain(2.0);
+    let of_three_quarters = (fine - three_quarters).abs() / gain(4.0 / 3.0);
+    let of_three_eighths = three_eighths.map_or(0.0, |value| {
+        (half - value).abs() / gain(4.0 / 3.0) * (-order).exp2()
+    });
+    SAFETY * of_half.max(of_three_quarters).max(of_three_eighths)
 }
 
 fn errors<const N: usize>(fine: &[Quantity; N], parts: &[ErrorParts; N]) -> [f64; N] {
@@ -202,42 +286,30 @@ fn not_reached<const N: usize>(
     })
 }
 
-/// The values on all elements and on parts of them.
-#[derive(Debug, Clone, Copy)]
-struct Changes {
-    fine: f64,
-    three_quarters: f64,
-    half: f64,
-    three_eighths: Option<f64>,
-}
-
-impl Changes {
-    /// Error on all elements where it falls with this power of them.
-    fn error(&self, order: f64) -> f64 {
-        // ratio^q − 1, which is small for the sharpest cusps.
-        let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
-        let of_half = (self.fine - self.half).abs() / gain(2.0);
-        let of_three_quarters = (self.fine - self.three_quarters).abs() / gain(4.0 / 3.0);
-        let of_three_eighths = self.three_eighths.map_or(0.0, |value| {
-            (self.half - value).abs() / gain(4.0 / 3.0) * (-order).exp2()
-        });
-        SAFETY * of_half.max(of_three_quarters).max(of_three_eighths)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use std::sync::Mutex;
+
     use super::*;
     use approx::assert_relative_eq;
 
+    const ROUNDED: f64 = 0.5;
+
     fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Refined<f64, 1> {
         let goal = Goal {
-            accuracy: Accuracy::Elements(64),
+            request: Accuracy::Elements(64).into(),
             largest: 128,
             order,
+            work: 0.0,
+            others: 0.0,
         };
-        let quantities = |value: &f64| [Quantity::from(*value)];
-        let solve = |elements: usize| Ok::<f64, NotReached>(values(elements as f64));
+        let quantities = |value: &f64| {
+            [Quantity {
+                rounding: ROUNDED,
+                ..Quantity::from(*value)
+            }]
+        };
+        let solve = |elements, _: &dyn Fn(f64)| Ok::<f64, NotReached>(values(elements as f64));
         refine(&goal, solve, quantities, no_other_error).expect("a value")
     }
 
@@ -245,7 +317,7 @@ mod tests {
     fn the_bar_of_a_known_order_is_the_error_times_the_safety() {
         for order in [0.1, 0.2, 0.5, 1.0] {
             let got = resolved(order, |n| 3.0 + n.powf(-order));
-            let bar_over_error = got.error[0] / (got.value - 3.0);
+            let bar_over_error = (got.error[0] - ROUNDED) / (got.value - 3.0);
             assert_relative_eq!(bar_over_error, SAFETY, epsilon = 1e-9);
         }
     }
@@ -256,8 +328,72 @@ mod tests {
         // a cone was once marched; or half of them from three quarters.
         for (jump_at, expected) in [(30.0, 0.15), (40.0, 0.1)] {
             let got = resolved(1.0, |n| if n > jump_at { 3.1 } else { 3.2 });
-            assert_relative_eq!(got.error[0], SAFETY * expected, epsilon = 1e-9);
+            assert_relative_eq!(got.error[0], SAFETY * expected + ROUNDED, epsilon = 1e-9);
         }
+    }
+
+    /// Remembers what it is told, and allows so many elements.
+    #[derive(Debug)]
+    struct Recorder(Mutex<Vec<f64>>, usize);
+
+    impl Watch for Recorder {
+        fn allows(&self, elements: usize) -> bool {
+            elements <= self.1
+        }
+
+        fn done(&self, part: f64) {
+            self.0.lock().expect("one thread").push(part);
+        }
+    }
+
+    /// Refines 4 + 4/n and its other error, each with half of its work told on the way.
+    fn watched(accuracy: Accuracy, watch: &Recorder) -> Result<Refined<f64, 1>, NotReached> {
+        let goal = Goal {
+            request: Request { accuracy, watch },
+            largest: 1 << 20,
+            order: 1.0,
+            work: 1.0,
+            others: 0.5,
+        };
+        let solve = |elements: usize, tell: &dyn Fn(f64)| {
+            tell(0.5);
+            Ok(4.0 + 4.0 / elements as f64)
+        };
+        let others = |_: &f64, tell: &dyn Fn(f64)| {
+            tell(0.5);
+            Ok([ErrorParts::NONE])
+        };
+        refine(&goal, solve, |value| [Quantity::from(*value)], others)
+    }
+
+    #[test]
+    fn the_work_of_all_resolutions_is_told() {
+        let watch = Recorder(Mutex::default(), usize::MAX);
+        watched(Accuracy::Elements(16), &watch).expect("a value");
+        // Of 8, 6, 12 and 16 elements and half as much again.
+        let done = [4, 8, 11, 14, 20, 26, 34, 42, 46, 50].map(|work| f64::from(work) / 50.0);
+        assert_eq!(watch.0.into_inner().expect("one thread"), done);
+    }
+
+    #[test]
+    fn expected_work_is_that_of_the_resolutions_that_the_order_needs() {
+        // The bar is 3/n of the value, so that 512 elements have the error; from the first 16 on, all of them are expected.
+        let watch = Recorder(Mutex::default(), 512);
+        let got = watched(Accuracy::RelativeError(3.0 / 500.0), &watch).expect("a value");
+        assert_eq!(got.elements, 512, "{got:?}");
+        let told = watch.0.into_inner().expect("one thread");
+        let before = f64::from(8 + 6 + 12 + 16);
+        let whole = before + 1.75 * f64::from(32 + 64 + 128 + 256 + 512) + 256.0;
+        assert_relative_eq!(told[8], (before + 12.0) / whole, max_relative = 1e-9);
+        assert_relative_eq!(told[told.len() - 1], 1.0, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn a_resolution_that_is_not_allowed_is_not_begun() {
+        let watch = Recorder(Mutex::default(), 100);
+        let missed = watched(Accuracy::RelativeError(1e-3), &watch).expect_err("too coarse");
+        assert_eq!(missed.elements, 64, "{missed}");
+        assert_relative_eq!(missed.error, 12.0 / 64.0, max_relative = 1e-6);
     }
 
     #[test]
@@ -265,6 +401,6 @@ mod tests {
         let got = resolved(1.0, |n| if n > 60.0 { 0.0 } else { 0.1 });
         let expected = SAFETY * 0.1 / (4.0_f64 / 3.0 - 1.0);
         assert_eq!(got.elements, 64, "elements asked for and used: {got:?}");
-        assert_relative_eq!(got.error[0], expected, max_relative = 1e-9);
+        assert_relative_eq!(got.error[0], expected + ROUNDED, max_relative = 1e-9);
     }
 }

@@ -1,28 +1,81 @@
 //! Progress on a terminal; silent elsewhere.
 
+use std::fmt;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
+use viscofriction::Watch;
 
 /// A bar over `steps` steps of a task, with the time that is left.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
-    styled(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}, {eta} left")
+    shown(bar, "{msg} {bar:32} {pos}/{len}  {elapsed}{left}")
 }
 
-/// Does one task without steps, with a sign of life.
-pub(crate) fn during<T>(task: String, work: impl FnOnce() -> T) -> T {
-    let spinner = ProgressBar::new_spinner().with_message(task);
-    let spinner = styled(spinner, "{spinner} {msg}  {elapsed}");
-    let value = work();
-    spinner.finish_and_clear();
+/// Does one task with a sign of life, and with the time that is left where it tells how far it is.
+pub(crate) fn during<T>(task: String, work: impl FnOnce(&dyn Watch) -> T) -> T {
+    let bar = ProgressBar::new(WHOLE).with_message(task);
+    let bar = Told(shown(bar, "{spinner} {msg}  {elapsed}{left}"));
+    let value = work(&bar);
+    bar.0.finish_and_clear();
     value
 }
 
-fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
+fn shown(bar: ProgressBar, template: &str) -> ProgressBar {
+    let left = |state: &ProgressState, text: &mut dyn fmt::Write| {
+        let left = left(state.elapsed(), state.fraction().into());
+        // Nothing helps where a terminal cannot be written on.
+        let _ = text.write_str(&left.unwrap_or_default());
+    };
     if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+        bar.set_style(style.with_key("left", left));
     }
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
+}
+
+/// Which part is done, and the time for the rest at the same pace; nothing before a part is known.
+fn left(elapsed: Duration, part: f64) -> Option<String> {
+    let rest = elapsed.as_secs_f64() * (part.recip() - 1.0);
+    let rest = HumanDuration(Duration::try_from_secs_f64(rest).ok()?);
+    Some(format!(", {:.0} %, about {rest} left", 100.0 * part))
+}
+
+/// Steps of a task that has none of its own.
+const WHOLE: u64 = 10_000;
+
+#[derive(Debug)]
+struct Told(ProgressBar);
+
+impl Watch for Told {
+    fn allows(&self, _: usize) -> bool {
+        true
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a part is between 0 and 1"
+    )]
+    fn done(&self, part: f64) {
+        self.0.set_position((part * WHOLE as f64) as u64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_that_is_left_is_that_of_the_rest_at_the_same_pace() {
+        for (seconds, part, expected) in [
+            (10, 0.0, None),
+            (10, 0.25, Some(", 25 %, about 30 seconds left")),
+            (90, 0.01, Some(", 1 %, about 2 hours left")),
+            (10, 1.0, Some(", 100 %, about 0 seconds left")),
+        ] {
+            let text = left(Duration::from_secs(seconds), part);
+            assert_eq!(text.as_deref(), expected, "{part} done in {seconds} s");
+        }
+    }
 }

@@ -5,7 +5,7 @@
 //! 2 (1 − ν) times as compliant. So one elastic contact is all that has to be solved.
 
 use indenters::{Control, PressingLoad, Surface, contact_radius};
-use numerics::{Accuracy, ErrorParts, Goal, positive};
+use numerics::{ErrorParts, Goal, Request, positive};
 use rheology::{Elastic, Material};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
@@ -19,6 +19,8 @@ use crate::{BemError, GridOptions};
 const LARGEST_GRID: usize = 512;
 /// Depth and force converge faster than that, cusps or not.
 const ORDER: f64 = 1.0;
+/// Of a transform of the elements along x and y.
+const WORK: f64 = 2.0;
 
 /// Memory for an element in front of the mirrors, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 600.0;
@@ -56,14 +58,14 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// # Errors
 /// [`BemError::NoEquilibrium`] for a material that flows; [`BemError::Indenter`] for a contact beyond the end of the body; [`BemError::NotReached`]
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
-pub fn press(
+pub fn press<'w>(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     control: Control,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::at_rest(material)?;
-    estimate(&surface, &spring, control, accuracy.into())
+    estimate(&surface, &spring, control, request.into())
 }
 
 /// Presses `surface` into a half space for a time, with a control that is constant from first touch on, to a relative error
@@ -71,14 +73,14 @@ pub fn press(
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] where a depth was held for so long that no force is left; otherwise like [`press`].
-pub fn indent(
+pub fn indent<'w>(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     load: &PressingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
     let spring = Spring::after(material, load)?;
-    estimate(&surface, &spring, load.control(), accuracy.into())
+    estimate(&surface, &spring, load.control(), request.into())
 }
 
 /// Memory that [`indent`] takes at most for a number of elements along the contact, \[bytes].
@@ -224,20 +226,22 @@ fn estimate(
     surface: &dyn Surface,
     spring: &Spring,
     control: Control,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<PressEstimate, BemError> {
     let plan = GridPlan::pressed(surface, spring.scaled(control)?)?;
     let resolution = Resolution {
         goal: Goal {
-            accuracy,
+            request,
             largest: LARGEST_GRID,
             order: ORDER,
+            work: WORK,
+            others: 0.0,
         },
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &Elastic::new(1.0)?),
     };
-    let estimate = bars::resolve(&resolution, |elements| {
+    let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);
         let state = spring.solve(surface, control, &options)?;
         Ok(state.on_grid(control, options, elements))

@@ -1,18 +1,19 @@
 //! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Goal};
+use numerics::{Accuracy, ErrorParts, Goal, Request};
 use rheology::{CreepSpectrum, Material};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
-use crate::slide::{
-    PressureField, StationaryOptions, Transient, slide_on_grid, slide_to_stationary,
-};
+use crate::slide::stationary::settle;
+use crate::slide::{PressureField, StationaryOptions, Transient, slide_over};
 use crate::{BemError, ContactOptions, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const LARGEST_GRID: usize = 32;
+/// Of the elements of a contact in as many steps as it has along it.
+const WORK: f64 = 3.0;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
 const LENGTHS: f64 = 24.0;
 const DRIFT: f64 = 0.05;
@@ -37,13 +38,13 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed; [`BemError::SlidingDistanceMissing`] at a
 /// depth; [`BemError::MemoryTooLong`]; [`BemError::NotStationary`]; and the errors of
 /// [`slide_on_grid`](super::slide_on_grid).
-pub fn slide(
+pub fn slide<'w>(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<SlideEstimate, BemError> {
-    Problem::new(&surface, material, load, accuracy.into())?.solve()
+    Problem::new(&surface, material, load, request.into())?.solve()
 }
 
 /// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
@@ -57,7 +58,7 @@ pub fn slide_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let surface: &dyn Surface = &surface;
-    let problem = Problem::new(surface, material, load, Accuracy::Elements(elements))?;
+    let problem = Problem::new(surface, material, load, Accuracy::Elements(elements).into())?;
     let GridOptions {
         spacing, footprint, ..
     } = problem.options(problem.plan.length() / elements as f64);
@@ -86,7 +87,7 @@ struct Problem<'a, M: ?Sized> {
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
-    accuracy: Accuracy,
+    request: Request<'a>,
 }
 
 impl<'a, M: Material + ?Sized> Problem<'a, M> {
@@ -94,7 +95,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         surface: &'a dyn Surface,
         material: &'a M,
         load: &'a SlidingLoad,
-        accuracy: Accuracy,
+        request: Request<'a>,
     ) -> Result<Self, BemError> {
         Ok(Self {
             plan: GridPlan::sliding(surface, material, load)?,
@@ -102,16 +103,18 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             surface,
             material,
             load,
-            accuracy,
+            request,
         })
     }
 
     fn solve(&self) -> Result<SlideEstimate, BemError> {
         let resolution = Resolution {
             goal: Goal {
-                accuracy: self.accuracy,
+                request: self.request,
                 largest: LARGEST_GRID,
                 order: bars::order_of_friction(self.plan.apex_exponent),
+                work: WORK,
+                others: 0.0,
             },
             control: self.load.control(),
             // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
@@ -122,7 +125,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             },
             has_peak: peak_has_limit(self.surface, self.material),
         };
-        let mut estimate = bars::resolve(&resolution, |elements| self.march(elements))?;
+        let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
         if self.is_elastic() {
             // There is none but what the elements make of it.
             let friction = &mut estimate.friction_coefficient;
@@ -148,15 +151,19 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         GridOptions::new([spacing; 2], footprint)
     }
 
-    fn march(&self, elements: usize) -> Result<OnGrid<Transient, GridOptions>, BemError> {
+    fn march(
+        &self,
+        elements: usize,
+        tell: &dyn Fn(f64),
+    ) -> Result<OnGrid<Transient, GridOptions>, BemError> {
         let options = self.options(self.plan.length() / elements as f64);
         let End {
             friction,
             truncation,
             transient,
         } = match (self.load.control(), self.load.sliding_distance()) {
-            (Control::NormalForce(_), None) => self.to_stationary(&options)?,
-            _ => self.over_distance(self.load, &options)?,
+            (Control::NormalForce(_), None) => self.to_stationary(&options, tell)?,
+            _ => self.over_distance(self.load, &options, tell)?,
         };
         let last = transient.last();
         let quantities = Quantities {
@@ -180,8 +187,13 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         })
     }
 
-    fn over_distance(&self, load: &SlidingLoad, options: &GridOptions) -> Result<End, BemError> {
-        let transient = slide_on_grid(self.surface, self.material, load, options)?;
+    fn over_distance(
+        &self,
+        load: &SlidingLoad,
+        options: &GridOptions,
+        tell: &dyn Fn(f64),
+    ) -> Result<End, BemError> {
+        let transient = slide_over(self.surface, self.material, load, options, tell)?;
         Ok(End {
             friction: transient.last().friction_coefficient,
             truncation: None,
@@ -189,13 +201,13 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         })
     }
 
-    fn to_stationary(&self, options: &GridOptions) -> Result<End, BemError> {
+    fn to_stationary(&self, options: &GridOptions, tell: &dyn Fn(f64)) -> Result<End, BemError> {
         let memory = self.memory();
         if memory > 0.0 {
-            return self.until_forgotten(memory, options);
+            return self.until_forgotten(memory, options, tell);
         }
         let load = self.load.after(self.distance())?;
-        let mut end = self.over_distance(&load, options)?;
+        let mut end = self.over_distance(&load, options, tell)?;
         if !self.is_elastic() {
             let state = end.transient.stationary(DRIFT)?;
             (end.friction, end.truncation) =
@@ -205,7 +217,12 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
-    fn until_forgotten(&self, memory: f64, options: &GridOptions) -> Result<End, BemError> {
+    fn until_forgotten(
+        &self,
+        memory: f64,
+        options: &GridOptions,
+        tell: &dyn Fn(f64),
+    ) -> Result<End, BemError> {
         let length = self.plan.length();
         let distance = self.distance();
         if distance > LONGEST * length {
@@ -216,14 +233,15 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             });
         }
         let stationary = StationaryOptions {
-            tolerance: match self.accuracy {
+            tolerance: match self.request.accuracy {
                 Accuracy::RelativeError(error) => SETTLED * error,
                 Accuracy::Elements(_) => SETTLED * DRIFT,
             },
             over_distance: 2.0 * length + memory,
         };
         let load = self.load.after(distance)?;
-        let end = slide_to_stationary(self.surface, self.material, &load, options, &stationary)?;
+        let (surface, material) = (self.surface, self.material);
+        let end = settle(surface, material, &load, options, &stationary, tell)?;
         Ok(End {
             friction: end.friction_coefficient,
             truncation: Some(end.change * end.friction_coefficient.abs()),

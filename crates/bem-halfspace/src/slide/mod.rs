@@ -44,11 +44,23 @@ pub fn slide_on_grid(
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Result<Transient, BemError> {
-    let mut march = March::sliding(&surface, material, load, options)?;
+    slide_over(&surface, material, load, options, &|_| ())
+}
+
+/// Tells which part of the march is done.
+fn slide_over(
+    surface: &dyn Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &GridOptions,
+    tell: &dyn Fn(f64),
+) -> Result<Transient, BemError> {
+    let mut march = March::sliding(surface, material, load, options)?;
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
         // At a depth there may be no contact for a while, under a force there always is.
         rows.extend(SlideRow::of(&row));
+        tell(march.part_done());
     }
     Transient::of(&march, load, rows)
 }

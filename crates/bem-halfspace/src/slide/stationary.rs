@@ -153,15 +153,28 @@ pub fn slide_to_stationary(
     options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
+    settle(&surface, material, load, options, stationary, &|_| ())
+}
+
+/// Tells which part of the longest distance allowed is done.
+pub(super) fn settle(
+    surface: &dyn Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &GridOptions,
+    stationary: &StationaryOptions,
+    tell: &dyn Fn(f64),
+) -> Result<StationarySlide, BemError> {
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
-    let mut march = March::sliding(&surface, material, load, options)?;
+    let mut march = March::sliding(surface, material, load, options)?;
     let flows = march.creep.fluidity() > 0.0;
     let mut rows = Vec::new();
     let mut limits = Limits::default();
     let mut change = 1.0;
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::of(&row));
+        tell(march.part_done());
         let noise = NOISE * options.contact.tolerance * march.steepness();
         limits.push(&rows, flows);
         change = limits.change(stationary.over_distance, noise);

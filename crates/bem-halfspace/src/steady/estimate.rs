@@ -1,7 +1,7 @@
 //! The stationary state with an error bar of every quantity.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, Goal};
+use numerics::{Accuracy, Goal, Request, Unwatched, Watch};
 use rheology::Material;
 
 use crate::BemError;
@@ -14,6 +14,8 @@ use crate::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 
 /// Δy/Δx of a grid of a given number of elements.
 const ASPECT: f64 = 0.5;
+/// Of a transform of the elements along x and y, of which finer grids take hardly more.
+const WORK: f64 = 2.0;
 /// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
 const BYTES_PER_ELEMENT: f64 = 900.0;
 
@@ -51,22 +53,22 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// [`BemError::GridTooLarge`] where a body is so steep that no error bar can come of the grids allowed;
 /// [`BemError::InvalidParameter`] for a relative error that is not between 0 and 1, an apex as sharp as √r, whose
 /// friction is infinite, or a surface that is low everywhere; and the errors of [`steady_on_grid`](super::steady_on_grid).
-pub fn steady(
+pub fn steady<'w>(
     surface: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
-    let accuracy = accuracy.into();
-    match accuracy {
+    let request = request.into();
+    match request.accuracy {
         Accuracy::RelativeError(relative_error) => {
             let options = RefinementOptions {
                 relative_error,
                 ..RefinementOptions::default()
             };
-            steady_refined(surface, material, load, &options)
+            refined(&surface, material, load, &options, request.watch)
         }
-        Accuracy::Elements(_) => with_elements(&surface, material, load, accuracy),
+        Accuracy::Elements(_) => with_elements(&surface, material, load, request),
     }
 }
 
@@ -80,13 +82,23 @@ pub fn steady_refined(
     load: &SlidingLoad,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    let surface: &dyn Surface = &surface;
+    refined(&surface, material, load, options, &Unwatched)
+}
+
+fn refined(
+    surface: &dyn Surface,
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &RefinementOptions,
+    watch: &dyn Watch,
+) -> Result<SteadyEstimate, BemError> {
     let plan = GridPlan::sliding(surface, material, load)?;
     let problem = Problem {
         surface,
         loading: Loading::new(surface, material, load, &plan.footprint)?,
         plan,
         has_peak: peak_has_limit(surface, material),
+        watch,
     };
     with_depth(load, refine(&problem, options)?)
 }
@@ -96,12 +108,12 @@ fn with_elements(
     surface: &dyn Surface,
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<SteadyEstimate, BemError> {
     let plan = GridPlan::sliding(surface, material, load)?;
     let has_peak = peak_has_limit(surface, material);
-    let resolution = resolution(accuracy, load.control(), plan.apex_exponent, has_peak);
-    let estimate = bars::resolve(&resolution, |elements| {
+    let resolution = resolution(request, load.control(), plan.apex_exponent, has_peak);
+    let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);
         let state = steady_on_grid(surface, material, load, &options)?;
         Ok(state.on_grid(options, load.sliding_distance()))
@@ -111,16 +123,18 @@ fn with_elements(
 
 /// On a given number of elements.
 pub(super) fn resolution(
-    accuracy: Accuracy,
+    request: Request<'_>,
     control: Control,
     apex_exponent: f64,
     has_peak: bool,
-) -> Resolution {
+) -> Resolution<'_> {
     Resolution {
         goal: Goal {
-            accuracy,
+            request,
             largest: usize::MAX,
             order: bars::order_of_friction(apex_exponent),
+            work: WORK,
+            others: 0.0,
         },
         control,
         target: Target::Friction,

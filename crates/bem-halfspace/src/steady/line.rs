@@ -10,7 +10,7 @@
 //! along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Accuracy, Estimate};
+use numerics::{Accuracy, Estimate, Request};
 use rheology::Material;
 
 use crate::bars::{self, ContactEstimate};
@@ -89,13 +89,13 @@ const MOST_UNKNOWNS: usize = 2000;
 /// # Errors
 /// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a material that flows, and
 /// [`BemError::Indenter`] for a depth, which does not exist in plane strain.
-pub fn steady_line(
+pub fn steady_line<'w>(
     profile: &(impl Surface + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<LineEstimate, BemError> {
-    let profile: &dyn Surface = &profile;
+    let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
     let creep = SlidingCreep::new(material, load.velocity())?;
     let force = load.require_normal_force()?;
     let [_, length] = scale_of_profile(profile, &creep, force)?;
@@ -112,8 +112,9 @@ pub fn steady_line(
             apex_exponent: 2.0,
         },
         has_peak: bars::reacts_at_once(material),
+        watch: request.watch,
     };
-    let known = match accuracy.into() {
+    let known = match request.accuracy {
         Accuracy::RelativeError(relative_error) => {
             let options = RefinementOptions {
                 relative_error,
@@ -122,7 +123,7 @@ pub fn steady_line(
             };
             refine(&problem, &options)?
         }
-        accuracy @ Accuracy::Elements(_) => with_elements(&problem, strip.length, accuracy)?,
+        Accuracy::Elements(_) => with_elements(&problem, strip.length, request)?,
     };
     Ok(LineEstimate {
         friction_coefficient: known.friction_coefficient,
@@ -168,17 +169,18 @@ pub fn steady_line_on_grid(
 fn with_elements(
     problem: &Problem,
     strip: f64,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<SteadyEstimate, BemError> {
     let Problem {
         surface,
         loading,
         plan,
         has_peak,
+        ..
     } = problem;
     let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
-    let resolution = resolution(accuracy, loading.control, plan.apex_exponent, *has_peak);
-    let mut known = bars::resolve(&resolution, |elements| {
+    let resolution = resolution(request, loading.control, plan.apex_exponent, *has_peak);
+    let mut known = bars::resolve(&resolution, |elements, _| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(*surface, loading, &options, &mut Reuse::default())?;
         Ok(state.on_grid(options, None))

@@ -6,8 +6,10 @@
 //! is slower, and are extrapolated. On materials that recover the outline is closed behind, and what is left of the
 //! scatter decides: it widens the error bar.
 
+use std::ops::Range;
+
 use indenters::Surface;
-use numerics::{ErrorParts, Estimate, between_zero_and_one, in_range, positive};
+use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_range, positive};
 
 use crate::BemError;
 use crate::averages::{Average, Refinement};
@@ -81,6 +83,7 @@ pub(super) struct Problem<'a> {
     pub(super) plan: GridPlan,
     /// Whether the largest pressure is known to have a limit.
     pub(super) has_peak: bool,
+    pub(super) watch: &'a dyn Watch,
 }
 
 /// Refines until friction and force have the error asked for.
@@ -95,6 +98,7 @@ pub(super) fn refine(
         options,
         order: order_of_friction(problem.plan.apex_exponent)?,
         reuse: Reuse::default(),
+        progress: Progress::new(problem.watch, work_of(0..FEWEST)),
     };
     let (mut index, mut finest) = grids.coarsest()?;
     let mut refinements = vec![finest.averages];
@@ -106,10 +110,13 @@ pub(super) fn refine(
         if is_known && force.is_within(relative_error) {
             return Ok(grids.estimate(friction, force, refinements, finest));
         }
-        index += 1;
-        if !grids.allows(index, &finest.averages) {
+        if !grids.allows(index + 1, &finest.averages) {
             return Err(not_reached(friction, force, relative_error));
         }
+        let excess = [friction, force].map(|known| known.error / known.value.abs());
+        let excess = excess[0].max(excess[1]) / relative_error;
+        grids.expect(index, excess, &finest.averages);
+        index += 1;
         finest = grids.refine(index)?;
         refinements.push(finest.averages);
     }
@@ -165,9 +172,24 @@ struct Grids<'a> {
     /// Order of the error of the averages.
     order: f64,
     reuse: Reuse,
+    progress: Progress<'a>,
+}
+
+/// Each refinement has twice as many elements as the one before.
+fn work_of(refinements: Range<i32>) -> f64 {
+    refinements.map(|index| f64::from(index).exp2()).sum()
 }
 
 impl Grids<'_> {
+    /// Expects the refinements that are left until the error is smaller by the excess, if it falls with the order.
+    fn expect(&mut self, index: i32, excess: f64, last: &Refinement) {
+        let most = (self.options.max_unknowns / last.unknowns.max(1)).ilog2();
+        let needed = 2.0 * excess.log2() / self.order;
+        let ahead = (1..).find(|ahead| f64::from(*ahead) >= needed.min(f64::from(most)));
+        let ahead = ahead.unwrap_or(1).max(FEWEST - 1 - index);
+        self.progress.expect(work_of(index + 1..index + 1 + ahead));
+    }
+
     /// On a dashpot the scatter falls as fast as the rest of the error.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let Loading { creep, strip, .. } = &self.problem.loading;
@@ -251,6 +273,10 @@ impl Grids<'_> {
         refinement < MAX_REFINEMENTS
             && self.n_elements(refinement) <= self.most_elements()
             && 2 * before.unknowns <= self.options.max_unknowns
+            && self
+                .problem
+                .watch
+                .allows(self.problem.plan.elements(refinement))
     }
 
     /// Elements of the footprint.
@@ -279,7 +305,7 @@ impl Grids<'_> {
 
     /// The averages over the shifts, each started from the contact of the one before.
     fn refine(&mut self, index: i32) -> Result<Solved, BemError> {
-        let spacing = self.edges(index);
+        let (spacing, work) = (self.edges(index), work_of(index..index + 1));
         let mut options = SteadyOptions {
             max_iterations: MAX_ITERATIONS,
             ..SteadyOptions::new(spacing, self.problem.plan.footprint.widened(spacing[0]))
@@ -289,6 +315,7 @@ impl Grids<'_> {
             options.phase = phase;
             options.tolerance = self.tolerance();
             let state = self.solve_near(&options)?;
+            self.progress.add(work / self.phases().len() as f64);
             states.push(state.clone());
             self.reuse.solution = Some(state);
         }

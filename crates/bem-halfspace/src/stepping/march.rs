@@ -33,6 +33,11 @@ impl<'a> March<'a> {
         Self::on(route, surface, material, options)
     }
 
+    /// Part of the steps that are done.
+    pub(crate) fn part_done(&self) -> f64 {
+        self.steps_done as f64 / self.route.legs.len() as f64
+    }
+
     /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load: under a force in
     /// whole elements; at a depth the last step, of a half to one and a half elements, ends at the distance.
     ///

@@ -3,7 +3,7 @@
 mod on_grid;
 
 use indenters::{Control, PressingLoad, RigidLine};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, no_other_error, refine};
+use numerics::{ErrorParts, Estimate, Goal, Quantity, Request, no_other_error, refine};
 use rheology::{Elastic, Material};
 
 use crate::MdrError;
@@ -15,6 +15,8 @@ pub use on_grid::{IndentOptions, IndentRow, IndentStep, indent_history, indent_o
 const MOST_ELEMENTS: usize = 16_384;
 /// Depth and force converge faster than that, cusps or not.
 const ORDER: f64 = 1.0;
+/// There are as many steps as elements.
+const WORK: f64 = 2.0;
 
 /// A contact after some time under a constant control; an error of 0 says that a quantity is given.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,25 +45,27 @@ pub struct Indentation {
 /// # Errors
 /// [`MdrError::NotReached`] with what the finest chain gives; otherwise like [`indent_on_grid`] and
 /// [`press`](crate::press()).
-pub fn indent(
+pub fn indent<'w>(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
     load: &PressingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<Indentation, MdrError> {
     let length = contact_length(line, material, load)?;
     let options = |elements: usize| IndentOptions {
         spacing: length / elements as f64,
         n_steps: elements,
     };
-    let solve = |elements: usize| {
+    let solve = |elements, _: &dyn Fn(f64)| {
         let rows = indent_on_grid(line, material, load, &options(elements))?;
         State::new(line, rows)
     };
     let goal = Goal {
-        accuracy: accuracy.into(),
+        request: request.into(),
         largest: MOST_ELEMENTS,
         order: ORDER,
+        work: WORK,
+        others: 0.0,
     };
     let refined = refine(&goal, solve, |state| state.quantities, no_other_error)?;
     let State { rows, quantities } = refined.value;

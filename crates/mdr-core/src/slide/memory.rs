@@ -16,6 +16,11 @@ use rheology::{Compressible, CreepSpectrum, ExponentialStep, Material, Prony, Re
 use crate::MdrError;
 use crate::chain::is_elastic;
 
+/// Whether a step changes the memory of a material: not without memory, nor without a spring that acts at once.
+pub(super) fn has_memory(creep: &CreepSpectrum) -> bool {
+    !is_elastic(creep) && creep.instantaneous_compliance() > 0.0
+}
+
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.
 pub(super) fn ahead(
     material: &(impl Material + ?Sized),
@@ -23,7 +28,7 @@ pub(super) fn ahead(
 ) -> Result<Option<Compressible>, MdrError> {
     let creep = material.creep();
     let at_once = creep.instantaneous_compliance();
-    if is_elastic(&creep) || at_once == 0.0 {
+    if !has_memory(&creep) {
         return Ok(None);
     }
     let share = at_once / ExponentialStep::creep(&creep, time_step)?.response();

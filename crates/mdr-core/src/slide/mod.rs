@@ -6,19 +6,22 @@ mod on_grid;
 mod row;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Refined, refine};
+use numerics::{ErrorParts, Estimate, Goal, Quantity, Refined, Request, refine};
 use rheology::Material;
 
 use crate::MdrError;
 use crate::chain::is_elastic;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
-use memory::ahead;
+use memory::{ahead, has_memory};
+use on_grid::march;
 pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
 pub use row::SlideRow;
 
 /// Elements along the contact after which a march is given up.
 const MOST_ELEMENTS: usize = 4096;
+/// There are as many steps as elements.
+const WORK: f64 = 2.0;
 /// Rounding of forces times slopes, relative to the mean slope.
 const ROUNDING: f64 = 1e-12;
 /// Changes that fall more slowly from contact length to contact length are rounding.
@@ -60,21 +63,23 @@ pub struct Sliding {
 /// # Errors
 /// [`MdrError::NotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
 /// dashpot; otherwise like [`slide_on_grid`].
-pub fn slide(
+pub fn slide<'w>(
     line: &(impl RigidLine + ?Sized),
     material: &(impl Material + ?Sized),
     load: &SlidingLoad,
-    accuracy: impl Into<Accuracy>,
+    request: impl Into<Request<'w>>,
 ) -> Result<Sliding, MdrError> {
     Problem::new(line, material, load.velocity())?.check_kinks(load.control())?;
     let motion = Motion::new(line, material, load)?;
     let goal = Goal {
-        accuracy: accuracy.into(),
+        request: request.into(),
         largest: MOST_ELEMENTS,
         order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
+        work: WORK,
+        others: f64::from(has_memory(&material.creep())),
     };
-    let solve = |elements: usize| motion.march(elements);
-    let others = |_: usize, march: &March| motion.other_errors(march);
+    let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
+    let others = |march: &March, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
     let Refined {
         value: march,
@@ -128,10 +133,10 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         })
     }
 
-    fn march(&self, elements: usize) -> Result<March, MdrError> {
+    fn march(&self, elements: usize, tell: &dyn Fn(f64)) -> Result<March, MdrError> {
         let options = SlideOptions::with_elements(elements, self.line, self.material, self.load)?;
         Ok(March {
-            transient: slide_on_grid(self.line, self.material, self.load, &options)?,
+            transient: march(self.line, self.material, self.load, &options, tell)?,
             options,
         })
     }
@@ -189,8 +194,8 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
 
     /// What all resolutions have in common: the step in time, the distance that is left, and a front that no element
     /// resolves.
-    fn other_errors(&self, march: &March) -> Result<[ErrorParts; 4], MdrError> {
-        let steps = self.errors_of_step(march)?;
+    fn other_errors(&self, march: &March, tell: &dyn Fn(f64)) -> Result<[ErrorParts; 4], MdrError> {
+        let steps = self.errors_of_step(march, tell)?;
         let rest = self.remainders(&march.transient.rows);
         let mut parts: [ErrorParts; 4] = std::array::from_fn(|quantity| ErrorParts {
             time_stepping: steps.map(|errors| errors[quantity]),
@@ -206,13 +211,17 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
     }
 
     /// What the step does to the memory of the material, if it has one.
-    fn errors_of_step(&self, march: &March) -> Result<Option<[f64; 4]>, MdrError> {
-        let time_step = march.options.spacing / self.load.velocity();
+    fn errors_of_step(
+        &self,
+        marched: &March,
+        tell: &dyn Fn(f64),
+    ) -> Result<Option<[f64; 4]>, MdrError> {
+        let time_step = marched.options.spacing / self.load.velocity();
         let Some(ahead) = ahead(self.material, time_step)? else {
             return Ok(None);
         };
-        let transient = slide_on_grid(self.line, &ahead, self.load, &march.options)?;
-        let [values, ahead] = [&march.transient, &transient].map(|march| self.values(march));
+        let transient = march(self.line, &ahead, self.load, &marched.options, tell)?;
+        let [values, ahead] = [&marched.transient, &transient].map(|march| self.values(march));
         Ok(Some(std::array::from_fn(|k| (ahead[k] - values[k]).abs())))
     }
 

@@ -133,12 +133,23 @@ pub fn slide_on_grid(
     load: &SlidingLoad,
     options: &SlideOptions,
 ) -> Result<Transient, MdrError> {
+    march(line, material, load, options, &|_| ())
+}
+
+/// Tells which part of the march is done, about.
+pub(super) fn march(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &SlidingLoad,
+    options: &SlideOptions,
+    tell: &dyn Fn(f64),
+) -> Result<Transient, MdrError> {
     options.check()?;
     let mut elements = first_elements(line, material, load, options.spacing)?;
     loop {
         let ceiling = elements.ceiling;
         let march = March::from_first_touch(line, elements, material, load)?;
-        match march_on(march, load, options)? {
+        match march_on(march, load, options, tell)? {
             Some(transient) => return Ok(transient),
             None => elements = ElementHeights::below(line, options.spacing, 2.0 * ceiling)?,
         }
@@ -150,6 +161,7 @@ fn march_on(
     mut march: March,
     load: &SlidingLoad,
     options: &SlideOptions,
+    tell: &dyn Fn(f64),
 ) -> Result<Option<Transient>, MdrError> {
     let mut steps: Vec<Stepped> = Vec::new();
     let mut drift = 1.0;
@@ -164,6 +176,10 @@ fn march_on(
         };
         steps.push(step);
         drift = relative_change(&steps);
+        // Towards the stationary state the changes fall exponentially.
+        let settled = drift.ln() / options.drift_tolerance.ln();
+        let travelled = march.next_sliding_distance() / farthest;
+        tell(travelled.max(settled).clamp(0.0, 1.0));
         if drift <= options.drift_tolerance {
             enough_elements(step.row.n_contact, options.spacing)?;
             break;

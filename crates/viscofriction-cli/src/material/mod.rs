@@ -90,7 +90,7 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let curve = points.curve().map_err(wrong)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
-    let found = progress::during(format!("fitting {}", options.data.display()), || {
+    let found = progress::during(format!("fitting {}", options.data.display()), |_| {
         identify(&curve, &options.identification()).map_err(wrong_option)
     })?;
     let fitted = Fitted {

@@ -11,8 +11,9 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use viscofriction::Watch;
 use viscofriction::scene::Method;
-use viscofriction::solve::{Answer, Omission, Problem, check_memory, problem_of, solve};
+use viscofriction::solve::{Answer, Omission, Problem, check_memory, problem_of, solve_watched};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{OutputFolder, print_line, say};
@@ -71,7 +72,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let path = source.path().display();
     let task = format!("{path} by {}", method.name());
     let started = Instant::now();
-    let answer = progress::during(task, || in_pool(&problem));
+    let answer = progress::during(task, |watch| in_pool(&problem, watch));
     let seconds = started.elapsed().as_secs_f64();
     let mut answer = answer.with_context(|| path.to_string())?;
     if out.is_none() {
@@ -97,12 +98,12 @@ pub(crate) fn run(options: &Run) -> Result<()> {
 const CHEAPEST: &str = ", the cheapest that answers the scene";
 
 /// Solves on as many threads as the scene says, or on all.
-fn in_pool(problem: &Problem) -> Result<Answer> {
+fn in_pool(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
     let threads = problem.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
-    Ok(pool.install(|| solve(problem))?)
+    Ok(pool.install(|| solve_watched(problem, watch))?)
 }
 
 fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
@@ -126,7 +127,7 @@ fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
 /// Measures what the scene did not need; a result as JSON stays alone on the standard output.
 fn explain(problem: &Problem, answer: &Timed<'_>, format: Format) -> Result<()> {
     let task = "measuring what was left out".to_owned();
-    let omissions = progress::during(task, || explain::table(problem, answer))?;
+    let omissions = progress::during(task, |_| explain::table(problem, answer))?;
     match format {
         Format::Json => say(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,

@@ -3,11 +3,12 @@
 use bem_halfspace::slide::{SlideRow, slide};
 use bem_halfspace::{ContactEstimate, indent, steady, steady_line};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
+use numerics::Request;
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow};
 use super::error::Result;
-use crate::scene::{Accuracy, Method, Model};
+use crate::scene::{Method, Model};
 
 /// The quantities of an estimate, with the ends of its contact along x and y.
 fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64; 2]; 2]) -> Answer {
@@ -27,9 +28,9 @@ pub(crate) fn stationary(
     surface: &dyn Surface,
     material: &dyn Material,
     load: &SlidingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let estimate = steady(surface, material, load, accuracy)?;
+    let estimate = steady(surface, material, load, request)?;
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -50,9 +51,9 @@ pub(crate) fn line_contact(
     cylinder: &Cylinder,
     material: &dyn Material,
     load: &SlidingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let estimate = steady_line(cylinder, material, load, accuracy)?;
+    let estimate = steady_line(cylinder, material, load, request)?;
     let finest = &estimate.finest;
     let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
     let mut answer = Answer {
@@ -71,9 +72,9 @@ pub(crate) fn transient(
     surface: &dyn Surface,
     material: &dyn Material,
     load: &SlidingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let estimate = slide(surface, material, load, accuracy)?;
+    let estimate = slide(surface, material, load, request)?;
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
@@ -92,9 +93,9 @@ pub(crate) fn pressed(
     surface: &dyn Surface,
     material: &dyn Material,
     load: &PressingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let estimate = indent(surface, material, load, accuracy)?;
+    let estimate = indent(surface, material, load, request)?;
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {

@@ -32,6 +32,14 @@ pub enum SolveError {
     /// The method needs more memory than the scene or the caller allows.
     #[error(transparent)]
     TooMuchMemory(#[from] SceneError),
+    /// A refinement ended before a grid that needs more memory than allowed.
+    #[error("{reached}; {refused}")]
+    MemoryReached {
+        /// What was reached.
+        reached: Box<SolveError>,
+        /// What is needed, and what is allowed.
+        refused: SceneError,
+    },
     /// No method was asked.
     #[error(transparent)]
     NotOffered(#[from] NotOffered),

@@ -2,13 +2,13 @@
 
 use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
 use mdr_core::{Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
-use numerics::{ErrorParts, Estimate};
+use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
 use super::answer::{Answer, ContactBox, HistoryRow};
 use super::error::Result;
 use super::problem::Problem;
-use crate::scene::{Accuracy, Method, Model};
+use crate::scene::{Method, Model};
 
 /// The stationary state.
 pub(crate) fn stationary(
@@ -33,9 +33,9 @@ pub(crate) fn transient(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &SlidingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let state = slide(&EquivalentLine(body), material, load, accuracy)?;
+    let state = slide(&EquivalentLine(body), material, load, request)?;
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
@@ -54,9 +54,9 @@ pub(crate) fn pressed(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &PressingLoad,
-    accuracy: Accuracy,
+    request: Request,
 ) -> Result<Answer> {
-    let state = indent(&EquivalentLine(body), material, load, accuracy)?;
+    let state = indent(&EquivalentLine(body), material, load, request)?;
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
         error_parts: state.error_parts,

@@ -1,8 +1,12 @@
-//! The memory that a method needs, known before it begins.
+//! The memory that a method needs, known before each of its grids.
+
+use std::sync::OnceLock;
 
 use bem_halfspace::{indent::indent_memory, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
+use numerics::Watch;
 
+use super::error::SolveError;
 use super::problem::{Motion, Problem};
 use crate::scene::{Accuracy, Method, SceneError};
 
@@ -18,10 +22,26 @@ pub fn check_memory(
     method: Method,
     accuracy: Accuracy,
 ) -> Result<(), SceneError> {
-    let (elements, key, finer) = match accuracy {
-        Accuracy::Elements(elements) => (elements, "solve.elements", "fewer elements"),
-        Accuracy::RelativeError(_) => (FIRST, "solve.max_memory", "another method"),
-    };
+    match accuracy {
+        Accuracy::Elements(elements) => check(
+            problem,
+            method,
+            elements,
+            ["solve.elements", "fewer elements"],
+        ),
+        Accuracy::RelativeError(_) => check(problem, method, FIRST, OTHERWISE),
+    }
+}
+
+/// The key, and what to give, where the number of elements is not given.
+const OTHERWISE: [&str; 2] = ["solve.max_memory", "another method"];
+
+fn check(
+    problem: &Problem,
+    method: Method,
+    elements: usize,
+    [key, finer]: [&'static str; 2],
+) -> Result<(), SceneError> {
     let Some((needed, allowed)) = needed(problem, method, elements).zip(problem.max_memory) else {
         return Ok(());
     };
@@ -39,6 +59,50 @@ pub fn check_memory(
         method.name()
     );
     Err(SceneError::at(key, problem))
+}
+
+/// Ends a refinement before a grid that needs more memory than [`Problem::max_memory`].
+#[derive(Debug)]
+pub(super) struct Limited<'a> {
+    problem: &'a Problem,
+    method: Method,
+    watch: &'a dyn Watch,
+    refused: OnceLock<SceneError>,
+}
+
+impl<'a> Limited<'a> {
+    pub(super) const fn new(problem: &'a Problem, method: Method, watch: &'a dyn Watch) -> Self {
+        let refused = OnceLock::new();
+        Self {
+            problem,
+            method,
+            watch,
+            refused,
+        }
+    }
+
+    /// What was reached, and why no more.
+    pub(super) fn or_memory(self, reached: SolveError) -> SolveError {
+        match self.refused.into_inner() {
+            Some(refused) => SolveError::MemoryReached {
+                reached: Box::new(reached),
+                refused,
+            },
+            None => reached,
+        }
+    }
+}
+
+impl Watch for Limited<'_> {
+    fn allows(&self, elements: usize) -> bool {
+        let fits = check(self.problem, self.method, elements, OTHERWISE);
+        let fits = fits.map_err(|refused| drop(self.refused.set(refused)));
+        fits.is_ok() && self.watch.allows(elements)
+    }
+
+    fn done(&self, part: f64) {
+        self.watch.done(part);
+    }
 }
 
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.

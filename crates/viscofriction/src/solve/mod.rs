@@ -21,6 +21,7 @@ pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
 pub use body::{Body, Revolution};
 pub use error::{NotOffered, Result, SolveError};
 pub use half_space::material;
+use memory::Limited;
 pub use memory::check_memory;
 pub(crate) use offer::not_offered;
 pub use offer::{choose, problem_of};
@@ -32,13 +33,22 @@ use self::left_out::plan;
 use self::validity::warnings;
 use self::work::work;
 use crate::scene::{Accuracy, Method};
+use numerics::{Unwatched, Watch};
 
 /// Asks the method of the scene, or the cheapest that answers it.
 ///
 /// # Errors
 /// [`SolveError`] where no method answers the scene, or what was asked for was not reached; it says what was.
 pub fn solve(problem: &Problem) -> Result<Answer> {
-    solve_by(problem, choose(problem)?, problem.accuracy)
+    solve_watched(problem, &Unwatched)
+}
+
+/// Like [`solve`], and tells how far it is; `watch` may end a refinement before a grid.
+///
+/// # Errors
+/// As for [`solve`].
+pub fn solve_watched(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
+    watched(problem, choose(problem)?, problem.accuracy, watch)
 }
 
 /// Asks a method that answers the scene.
@@ -46,9 +56,20 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 /// # Errors
 /// [`SolveError`] where what was asked for was not reached.
 pub fn solve_by(problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
+    watched(problem, method, accuracy, &Unwatched)
+}
+
+fn watched(
+    problem: &Problem,
+    method: Method,
+    accuracy: Accuracy,
+    watch: &dyn Watch,
+) -> Result<Answer> {
     check_memory(problem, method, accuracy)?;
     let refused = |why| SolveError::Refused { method, why };
-    let answer = work(problem, method, accuracy).map_err(refused)?()?;
+    let work = work(problem, method, accuracy).map_err(refused)?;
+    let limited = Limited::new(problem, method, watch);
+    let answer = work(&limited).map_err(|reached| limited.or_memory(reached))?;
     let left_out = plan(problem, &answer);
     // Closed forms of pressing are those of both models.
     let model = method.model().unwrap_or(problem.model);

@@ -2,6 +2,7 @@
 
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
 use indenters::{Axisymmetric, Cylinder, SlidingLoad, Surface};
+use numerics::{Request, Watch};
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
@@ -12,7 +13,7 @@ use super::{analytic, elements, mdr};
 use crate::scene::{Accuracy, Control, Method, Model};
 
 /// What one method computes, with all that it needs, or why it does not.
-pub(crate) type Work<'a> = Result<Box<dyn FnOnce() -> Result<Answer> + 'a>, Refusal>;
+pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + 'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
@@ -43,7 +44,7 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "the other results are refusals")]
-fn ready<'a>(answer: impl FnOnce() -> Result<Answer> + 'a) -> Work<'a> {
+fn ready<'a>(answer: impl FnOnce(&dyn Watch) -> Result<Answer> + 'a) -> Work<'a> {
     Ok(Box::new(answer))
 }
 
@@ -69,7 +70,7 @@ fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
             let Accuracy::RelativeError(asked) = accuracy else {
                 return Err(NO_ELEMENTS);
             };
-            ready(move || mdr::followed(problem, &**body, method, asked))
+            ready(move |_| mdr::followed(problem, &**body, method, asked))
         }
         Method::MdrSteady | Method::BemSteady => Err(NOTHING_SLIDES),
         Method::BemTransient => Err("it follows no history in a scene; analytic does, exactly"),
@@ -103,9 +104,9 @@ fn line_contact<'a>(
             let pressed =
                 move |duration| analytic::cylinder_pressed(cylinder, material, force, duration);
             match (motion, &problem.simple) {
-                (Motion::Pressing(load), _) => ready(move || pressed(load.duration())),
+                (Motion::Pressing(load), _) => ready(move |_| pressed(load.duration())),
                 (_, Some(Simple::Elastic)) => {
-                    ready(move || pressed(1.0).map(analytic::without_friction))
+                    ready(move |_| pressed(1.0).map(analytic::without_friction))
                 }
                 _ => Err("there is no closed form for a cylinder that slides on this material"),
             }
@@ -116,7 +117,9 @@ fn line_contact<'a>(
                 "under a line contact a half space that flows sinks the faster the longer it is, without limit",
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
-            ready(move || elements::line_contact(cylinder, material, &load, accuracy))
+            ready(move |watch| {
+                elements::line_contact(cylinder, material, &load, Request { accuracy, watch })
+            })
         }
         (Method::BemSteady, _) => Err(NOTHING_SLIDES),
         _ => Err(
@@ -137,7 +140,9 @@ fn boundary_elements<'a>(
         Motion::History(_) => return Err(NOTHING_SLIDES),
         Motion::Pressing(_) if is_stationary => return Err(NOTHING_SLIDES),
         Motion::Pressing(load) => {
-            return ready(move || elements::pressed(surface, material, &load, accuracy));
+            return ready(move |watch| {
+                elements::pressed(surface, material, &load, Request { accuracy, watch })
+            });
         }
         Motion::Sliding(load) => load,
     };
@@ -152,9 +157,11 @@ fn boundary_elements<'a>(
         )?;
     }
     if is_stationary {
-        return ready(move || elements::stationary(surface, material, &load, accuracy));
+        return ready(move |watch| {
+            elements::stationary(surface, material, &load, Request { accuracy, watch })
+        });
     }
-    ready(move || elements::transient(surface, material, &load, accuracy))
+    ready(move |watch| elements::transient(surface, material, &load, Request { accuracy, watch }))
 }
 
 fn one_dimensional<'a>(
@@ -172,17 +179,17 @@ fn one_dimensional<'a>(
                     "it chooses its polynomials itself; give relative_error instead of elements",
                 );
             };
-            ready(move || mdr::stationary(body, material, &load, error))
+            ready(move |_| mdr::stationary(body, material, &load, error))
         }
         (Method::MdrSteady, Motion::Pressing(_)) | (_, Motion::History(_)) => Err(NOTHING_SLIDES),
         (_, Motion::Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
-            ready(move || mdr::transient(body, material, &load, accuracy))
+            ready(move |watch| mdr::transient(body, material, &load, Request { accuracy, watch }))
         }
         (_, Motion::Pressing(load)) => {
             let under_force = "it presses with a force; analytic holds a depth";
             require(has_force(problem), under_force)?;
-            ready(move || mdr::pressed(body, material, &load, accuracy))
+            ready(move |watch| mdr::pressed(body, material, &load, Request { accuracy, watch }))
         }
     }
 }
@@ -195,10 +202,10 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion, &problem.simple, problem.model) {
         (Motion::History(_), _, _) => Err(NOTHING_SLIDES),
-        (Motion::Pressing(load), _, _) => ready(move || pressed(load.duration())),
+        (Motion::Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
         (Motion::Sliding(_), Some(Simple::Elastic), _) => {
-            ready(move || pressed(1.0).map(analytic::without_friction))
+            ready(move |_| pressed(1.0).map(analytic::without_friction))
         }
         (Motion::Sliding(load), _, Model::HalfSpace) => {
             closed_half_space(problem, body, load, asked)
@@ -214,7 +221,7 @@ fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad
     };
     match (&problem.simple, load.sliding_distance(), cone_or_paraboloid) {
         (Some(Simple::Viscous(material)), None, _) => {
-            ready(move || analytic::viscous_line(body, material, &load))
+            ready(move |_| analytic::viscous_line(body, material, &load))
         }
         (Some(Simple::Viscous(material)), Some(distance), profile) => {
             let profile = profile.ok_or(
@@ -224,16 +231,16 @@ fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad
                 has_force(problem),
                 "the state before the stationary one has a closed form under a force only",
             )?;
-            ready(move || analytic::viscous_transient(profile, material, &load, distance))
+            ready(move |_| analytic::viscous_transient(profile, material, &load, distance))
         }
         (_, Some(_), _) => {
             Err("the state before the stationary one has a closed form on a viscous material only")
         }
-        (Some(Simple::KelvinVoigt(material)), None, Some(profile)) => ready(move || {
+        (Some(Simple::KelvinVoigt(material)), None, Some(profile)) => ready(move |_| {
             let sliding = |contact| kelvin_voigt_sliding(profile, material, contact);
             analytic::viscoelastic_line(profile, &load, sliding)
         }),
-        (Some(Simple::Maxwell(material)), None, Some(profile)) => ready(move || {
+        (Some(Simple::Maxwell(material)), None, Some(profile)) => ready(move |_| {
             let sliding = |contact| maxwell_sliding(profile, material, contact);
             analytic::viscoelastic_line(profile, &load, sliding)
         }),
@@ -258,5 +265,5 @@ fn closed_half_space<'a>(
     )?;
     require(load.sliding_distance().is_none(), STATIONARY)?;
     require(has_force(problem), UNDER_FORCE)?;
-    ready(move || analytic::viscous_half_space(profile, material, &load))
+    ready(move |_| analytic::viscous_half_space(profile, material, &load))
 }

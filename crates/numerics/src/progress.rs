@@ -1,0 +1,69 @@
+//! How far a computation on finer and finer resolutions is, for whoever waits for it.
+
+use std::fmt;
+
+/// Who follows a computation, and may end it.
+pub trait Watch: fmt::Debug + Sync {
+    /// Whether a resolution with so many elements may be begun because those before it do not have the error asked for.
+    fn allows(&self, elements: usize) -> bool;
+
+    /// So much of the work that is expected is done, from 0 to 1; less than before where more turns out to be needed.
+    fn done(&self, part: f64);
+}
+
+/// Nobody follows.
+#[derive(Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn allows(&self, _: usize) -> bool {
+        true
+    }
+
+    fn done(&self, _: f64) {}
+}
+
+/// Work that is done and expected, in a unit of one's own.
+#[derive(Debug)]
+pub struct Progress<'a> {
+    watch: &'a dyn Watch,
+    done: f64,
+    expected: f64,
+}
+
+impl<'a> Progress<'a> {
+    /// Nothing is done of what is expected.
+    #[must_use]
+    pub const fn new(watch: &'a dyn Watch, expected: f64) -> Self {
+        let done = 0.0;
+        Self {
+            watch,
+            done,
+            expected,
+        }
+    }
+
+    /// So much is left.
+    pub const fn expect(&mut self, work: f64) {
+        self.expected = self.done + work;
+    }
+
+    /// Does a piece of work that tells which part of it is done.
+    pub fn during<T>(&mut self, work: f64, task: impl FnOnce(&dyn Fn(f64)) -> T) -> T {
+        let Self {
+            watch,
+            done,
+            expected,
+        } = *self;
+        let tell = |part: f64| watch.done(((done + part * work) / expected).min(1.0));
+        let value = task(&tell);
+        self.add(work);
+        value
+    }
+
+    /// A piece of work is done.
+    pub fn add(&mut self, work: f64) {
+        self.done += work;
+        self.watch.done((self.done / self.expected).min(1.0));
+    }
+}
