@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// The input was wrong; one line that names the place.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
+#[error("{}", _0.replace(char::is_control, " "))]
 pub struct WrongInput(pub String);
 
 /// Reads a file that a scene names; the sentence of a failure names it.

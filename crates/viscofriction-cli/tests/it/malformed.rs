@@ -116,6 +116,7 @@ radius_m,height_m\n0,0\n1,1,1\n | 3 | 2 values are needed, but there are 3
 radius_m,height_m\n0,0\n1,one\n | 3 | height_m: invalid float literal
 radius_m,height_m\n0,0\n,1\n | 3 | radius_m: cannot parse float from empty string
 radius_m;height_m\n0;0\n1;1\n | 2 | unknown field `radius_m;height_m`
+"radius\nm",height_m\n0,0\n1,1\n | 3 | unknown field `radius m`
 radius_m,height_m\n0,0\n1,nan\n | 3 | heights must be finite, but is NaN
 radius_m,height_m\n0,0\n1,1\ninf,2\n | 4 | radii must be finite, but is inf
 radius_m,height_m\n0,0\n2,1\n1,2\n | 4 | entry 2 is 1 after 2
