@@ -106,5 +106,9 @@ mod tests {
             ..truncated
         };
         assert_eq!(got, expected, "1, and {truncated:?}");
+        let halves = got.times(0.5).named().map(|(_, part)| part);
+        assert_eq!(halves, [Some(1.5), None, None, Some(2.0)], "of {got:?}");
+        let known = [got, ErrorParts::NONE].map(|parts| parts.is_none());
+        assert_eq!(known, [false, true], "no part");
     }
 }

@@ -55,3 +55,20 @@ impl Mul<f64> for Estimate {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_add_up_and_are_compared_with_the_modulus() {
+        let estimates = [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate { value, error });
+        let sum = estimates.into_iter().sum::<Estimate>();
+        let (value, error) = (6.0, 2.25);
+        assert_eq!(sum * -3.0, Estimate { value, error }, "of {estimates:?}");
+        let within = |relative_error: f64| estimates[1].is_within(relative_error);
+        assert_eq!([0.099, 0.1].map(within), [false, true], "of 0.5 in -5");
+        let overflown = Estimate::exact(f64::INFINITY);
+        assert!(!overflown.is_within(1.0), "of no number");
+    }
+}

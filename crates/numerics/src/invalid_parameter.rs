@@ -71,3 +71,35 @@ pub const fn between_zero_and_one(
     let holds = value > 0.0 && value < 1.0;
     in_range(parameter, value, holds, "between 0 and 1")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Check = fn(&'static str, f64) -> Result<f64, InvalidParameter>;
+
+    #[test]
+    fn each_check_accepts_its_range_and_no_more() {
+        let cases: [(Check, &[f64], &[f64]); 4] = [
+            (positive, &[5e-324, 1e308], &[0.0, -1.0]),
+            (not_negative, &[0.0, 1e308], &[-5e-324]),
+            (finite, &[-1e308, 0.0, 1e308], &[]),
+            (between_zero_and_one, &[5e-324, 0.999], &[0.0, 1.0]),
+        ];
+        for (check, accepted, refused) in cases {
+            for &value in accepted {
+                assert_eq!(check("length", value), Ok(value), "accepted");
+            }
+            for value in [refused, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]].concat() {
+                let error = check("length", value)
+                    .expect_err("out of range")
+                    .to_string();
+                let said = error.starts_with("length must be ");
+                assert!(
+                    said && error.ends_with(&format!(", but is {value}")),
+                    "{error}"
+                );
+            }
+        }
+    }
+}

@@ -107,6 +107,8 @@ fn node_sums(
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
     use approx::assert_relative_eq;
 
@@ -122,6 +124,30 @@ mod tests {
         let integral = integrate(f64::exp, [-1.0, 3.0], 1e-14);
         let exact = 3.0_f64.exp() - (-1.0_f64).exp();
         assert_relative_eq!(integral.value, exact, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_feature_that_the_first_sums_miss_is_found() {
+        let narrow = |x: f64| (-((x - 0.19) / 0.005).powi(2)).exp();
+        let integral = integrate(narrow, [-1.0, 1.0], 1e-10);
+        let exact = 0.005 * std::f64::consts::PI.sqrt();
+        assert_relative_eq!(integral.value, exact, max_relative = 1e-10);
+    }
+
+    /// Nodes lie at t = ±k/32 up to 6.1, or ±k/64 for more digits, whatever the scale.
+    #[test]
+    fn no_more_nodes_are_taken_than_the_tolerance_needs() {
+        for (tolerance, expected) in [(1e-3, 391), (1e-9, 781)] {
+            for scale in [1e-9, 1.0, 1e9] {
+                let count = Cell::new(0);
+                let counted = |x: f64| {
+                    count.set(count.get() + 1);
+                    scale / (0.1 + x * x)
+                };
+                let integral = integrate(counted, [-1.0, 3.0], tolerance);
+                assert_eq!(count.get(), expected, "{tolerance:e}: {integral:?}");
+            }
+        }
     }
 
     #[test]

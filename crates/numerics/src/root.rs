@@ -72,15 +72,43 @@ const MAX_ITERATIONS: usize = 2200;
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use super::*;
     use approx::assert_relative_eq;
 
     #[test]
     fn a_tiny_root_is_as_accurate_as_a_large_one() {
         for scale in [1e-250, 1e-9, 1.0, 1e200] {
-            let root = bracketed_root(|x| (x / scale).powi(3) - 2.0, [0.0, 5.0 * scale]);
-            let over_scale = root.expect("a root") / scale;
+            let count = Cell::new(0);
+            let cubic = |x: f64| {
+                count.set(count.get() + 1);
+                (x / scale).powi(3) - 2.0
+            };
+            let over_scale = bracketed_root(cubic, [0.0, 5.0 * scale]).expect("a root") / scale;
             assert_relative_eq!(over_scale, 2.0_f64.cbrt(), max_relative = 4e-16);
+            assert!(count.get() <= 10, "bisection takes 54: {}", count.get());
+        }
+    }
+
+    #[test]
+    fn interpolation_takes_few_steps_from_wide_brackets() {
+        type Case = (fn(f64) -> f64, [f64; 2], f64, usize);
+        let cases: [Case; 3] = [
+            (|x| x.exp() - 2.0, [-20.0, 30.0], 2.0_f64.ln(), 13),
+            (|x| x.cos() - x, [0.0, 2.0], 0.739_085_133_215_160_6, 8),
+            (|x| (x - 1.0).atan(), [-50.0, 100.0], 1.0, 15),
+        ];
+        for (function, bracket, expected, most) in cases {
+            let count = Cell::new(0);
+            let counted = |x: f64| {
+                count.set(count.get() + 1);
+                function(x)
+            };
+            let root = bracketed_root(counted, bracket).expect("a root");
+            assert_relative_eq!(root, expected, max_relative = 4e-16);
+            let count = count.get();
+            assert!(count <= most, "{count} steps from {bracket:?}");
         }
     }
 

@@ -275,7 +275,7 @@ fn the_contact_conditions_hold_for_displacements_integrated_directly() {
     }
 }
 
-/// 20 branches over 12 decades, from 1e5 Pa to 2e9 Pa, at speeds over 24: finite everywhere, and in proportion to the
+/// 20 branches over 12 decades, from 1e5 Pa to 2e9 Pa, at speeds over 24: known everywhere, and in proportion to the
 /// speed and to its inverse at the two ends, as an expansion in the loss angle has it.
 #[test]
 fn a_broad_spectrum_has_friction_at_all_speeds_and_none_at_the_ends() {
@@ -287,9 +287,10 @@ fn a_broad_spectrum_has_friction_at_all_speeds_and_none_at_the_ends() {
     let at = |decade: i32| {
         let load = under_force(1e4, 10.0_f64.powi(decade));
         let mu = Scene::new(paraboloid(1.0), &material, load).steady(3e-2);
-        let mu = mu.friction_coefficient.value;
-        assert!(mu > 0.0 && mu < 1.0, "v = 1e{decade}: {mu}");
-        mu
+        let mu = mu.friction_coefficient;
+        let is_known = mu.value > 0.0 && mu.is_within(3e-2);
+        assert!(is_known, "v = 1e{decade}: {mu:?}");
+        mu.value
     };
     let values: Vec<f64> = (-12..=12).step_by(3).map(at).collect();
     let [slow, fast] = [values[1] / values[0], values[8] / values[7]];

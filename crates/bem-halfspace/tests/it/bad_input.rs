@@ -165,7 +165,7 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
     }
     let endless = IndentStep::constant(FORCE, &[1e300]);
     let overflow = indent_history_on_grid(&scene.body, &scene.material, &endless, &options);
-    assert!(overflow.is_err(), "{overflow:?}");
+    assert_refused("an endless time", overflow, "InvalidParameter");
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
     let moved = slide_on_grid(&punch, &scene.material, &load, &options);
     assert_refused("punch", moved, "VerticalWall");
@@ -245,10 +245,8 @@ fn speeds_beyond_all_numbers_are_refused_or_answered() {
         match Scene::new(paraboloid(1.0), solid, load).try_steady(1e-2) {
             Ok(estimate) => {
                 let friction = estimate.friction_coefficient;
-                assert!(
-                    friction.value.abs() < 1e-8 && friction.error.is_finite(),
-                    "v = {velocity:e}: {friction:?}"
-                );
+                let is_none = friction.value.abs().max(friction.error) < 1e-8;
+                assert!(is_none, "v = {velocity:e}: {friction:?}");
             }
             Err(error) => assert!(
                 matches!(error, BemError::InvalidParameter(_)),

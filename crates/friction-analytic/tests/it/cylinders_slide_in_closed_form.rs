@@ -52,7 +52,18 @@ const EXTREME: [[f64; 4]; 11] = [
 fn cylinders_match_the_casebook_and_twelve_decades_of_speed() {
     for case in casebook::group("VIS-04") {
         let gamma = case.input("gamma");
-        let state = slide(&three_elements(gamma), case.input("z").recip()).unwrap();
+        let (solid, velocity) = (three_elements(gamma), case.input("z").recip());
+        let state = slide(&solid, velocity).unwrap();
+        let larger = LineContact {
+            half_length: 2.0,
+            velocity: 2.0 * velocity,
+        };
+        let larger = cylinder_sliding(&Cylinder::new(4.0).unwrap(), &solid, larger).unwrap();
+        for (end, expected) in larger.contact.into_iter().zip(state.contact) {
+            assert_close!(end => 2.0 * expected, within 1e-14; "twice as long");
+        }
+        let slope = 2.0 * larger.friction_coefficient;
+        assert_close!(slope => state.friction_coefficient, within 1e-14; "half as steep");
         for (name, value) in ["P", "x0_over_l", "muR_over_l"]
             .into_iter()
             .zip(numbers(&state, gamma))

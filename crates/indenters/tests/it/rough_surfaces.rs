@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use casebook::assert_matches;
+use indenters::IndenterError;
 use indenters::rough::{PeriodicSurface, SelfAffine, Wave};
 
 const RANDOM: SelfAffine = SelfAffine {
@@ -198,5 +200,5 @@ fn impossible_spectra_are_refused() {
 #[test]
 fn a_surface_needs_waves() {
     let nothing = PeriodicSurface::new([1.0; 2], Vec::new());
-    assert!(nothing.is_err(), "no waves: {nothing:?}");
+    assert_matches!(nothing, Err(IndenterError::TooFew { .. }));
 }

@@ -1,6 +1,6 @@
 //! Bad input is refused with its name and value, before anything is computed (casebook EXT-01).
 
-use casebook::{NEGATIVE, NOT_POSITIVE, assert_matches, refuses};
+use casebook::{NEGATIVE, NOT_POSITIVE, assert_close, assert_matches, refuses};
 use indenters::{Control, EquivalentLine, RigidLine, SlidingLoad};
 use mdr_core::{
     IndentRow, MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady,
@@ -53,8 +53,8 @@ fn numbers_are_checked() {
         };
         slide(&line, &options)
     };
-    let good = with(0.01, 1e-6, 10.0);
-    assert!(good.is_ok(), "nothing is wrong with these options");
+    let good = with(0.01, 1e-6, 10.0).expect("nothing is wrong");
+    assert_close!(good.last.indentation_depth => DEPTH, within 1e-6; "on a dashpot (12) holds");
     let bad = NOT_POSITIVE;
     refuses("spacing", bad, |x| with(x, 1e-6, 10.0));
     refuses("drift_tolerance", bad, |x| with(0.01, x, 10.0));

@@ -48,10 +48,8 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
         }
         if kink < 1.0 {
             let friction = slid(&line, &branch, &load(4.0, 1.0)).friction_coefficient;
-            assert!(
-                friction.value > 0.0,
-                "{branch:?}, kink at {kink}: {friction:?}"
-            );
+            let is_known = friction.value > 0.0 && friction.is_within(ASKED);
+            assert!(is_known, "{branch:?}, kink at {kink}: {friction:?}");
         }
     }
 }

@@ -124,7 +124,8 @@ fn fields_that_would_mislead() {
 #[test]
 fn figures_without_panels_or_columns() {
     for (panels, columns) in [(vec![], 1), (vec![chart()], 0)] {
-        let got = draw(&Figure::new(panels, columns));
-        assert!(got.is_err(), "expected a refusal, got {got:?}");
+        let error = draw(&Figure::new(panels, columns)).expect_err("a refusal");
+        let needed = "the list of charts or of columns";
+        assert!(error.to_string().contains(needed), "{error}");
     }
 }
