@@ -47,7 +47,10 @@ impl PlaneKernel for Logarithm {
     }
 
     fn corner(x: f64, y: f64) -> f64 {
-        x * (product_logarithm(x, y) - y + 0.5 * product_asinh(x, y)) - 0.5 * y * x.hypot(y)
+        let r = x.hypot(y);
+        // ½ y (|y| − r): with y |y|, which drops out of differences along x, nothing cancels between near corners.
+        let bend = if x == 0.0 { 0.0 } else { x / (y.abs() + r) };
+        x * (product_logarithm(x, y) - y + 0.5 * (product_asinh(x, y) - y * bend))
     }
 }
 

@@ -23,7 +23,7 @@ impl RelaxationSpectrum {
         let decays = branches.map(|b| (b.relaxation_time, b.viscosity()));
         let roots = roots(&poles(self.viscosity(), decays), self.equilibrium_modulus());
         let elements = roots.into_iter().map(|root| RetardationElement {
-            compliance: root.inverse_slope / root.position,
+            compliance: root.relative_inverse_slope,
             retardation_time: root.position,
         });
         let fluidity = if self.equilibrium_modulus() > 0.0 {
@@ -48,7 +48,7 @@ impl CreepSpectrum {
         let poles = poles(self.instantaneous_compliance(), decays);
         let roots = roots(&poles, self.fluidity());
         let branches = roots.into_iter().map(|root| RelaxationBranch {
-            modulus: root.inverse_slope / root.position / root.position,
+            modulus: root.relative_inverse_slope / root.position,
             relaxation_time: root.position,
         });
         let viscosity = if self.instantaneous_compliance() > 0.0 {

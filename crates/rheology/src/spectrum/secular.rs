@@ -14,11 +14,11 @@ pub(super) struct Pole {
     pub(super) weight: f64,
 }
 
-/// A root x, and −1/S'(x).
+/// A root x, and −1/(x S'(x)), which stays within the range of `f64` where −1/S' does not.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Root {
     pub(super) position: f64,
-    pub(super) inverse_slope: f64,
+    pub(super) relative_inverse_slope: f64,
 }
 
 /// All roots in increasing order.
@@ -31,7 +31,7 @@ pub(super) fn roots(poles: &[Pole], level: f64) -> Vec<Root> {
     }
     let root = |index: usize| Root {
         position: poles[places[index].near].position + places[index].offset,
-        inverse_slope: equation.inverse_slope(&places, index),
+        relative_inverse_slope: equation.relative_inverse_slope(&places, index),
     };
     (0..places.len()).map(root).collect()
 }
@@ -149,7 +149,7 @@ impl Secular<'_> {
         poles + (place.offset - other.offset)
     }
 
-    /// −1/S' at one of the roots, from the product over all roots and poles.
+    /// −1/(x S') at one of the roots, from the product over all roots and poles.
     ///
     /// ```text
     /// S(x) = −e Π(x − x_l)/Π(x − p_l)         −S'(x_k) = e Π_{l≠k} |x_k − x_l| / Π |x_k − p_l|
@@ -158,13 +158,14 @@ impl Secular<'_> {
     /// would be right for its own rounded root, but together they would describe no material: where two poles lie within
     /// δ, moduli off by ε/δ. The product belongs to the roots as they are, all of them (Gu & Eisenstat 1994, SIAM J.
     /// Matrix Anal. Appl. 15, 1266).
-    fn inverse_slope(&self, places: &[Place], index: usize) -> f64 {
+    fn relative_inverse_slope(&self, places: &[Place], index: usize) -> f64 {
         let place = places[index];
+        let position = self.poles[place.near].position + place.offset;
         // Root and pole of the same gap in one factor: the product stays between 1 and the ratio of two differences.
         let factors = places.iter().enumerate().map(|(l, other)| {
             let from_pole = self.above_pole(place, l);
             if l == index {
-                return from_pole;
+                return from_pole / position;
             }
             from_pole / self.between(place, *other)
         });

@@ -3,7 +3,7 @@ use std::f64::consts::FRAC_2_PI;
 use casebook::{Case, assert_close};
 use rheology::{CreepSpectrum, Elastic, KelvinVoigt, Material, Maxwell, Viscous};
 
-use crate::support::{assert_same, solid};
+use crate::support::{assert_same, solid, spectrum};
 
 fn material(case: &Case) -> Box<dyn Material> {
     let input = |name| case.input(name);
@@ -90,6 +90,20 @@ fn every_material_answers_as_in_the_casebook() {
         }
         if case.expected_list("J").is_some() {
             check_elements(&case, &material.creep());
+        }
+    }
+}
+
+/// A series with a spring that vanishes creeps like the fluid without it.
+#[test]
+fn a_vanishing_spring_leaves_a_fluid() {
+    for (moduli, times) in [(vec![1.0], vec![1.0]), (vec![1.0, 3.0], vec![0.5, 2.0])] {
+        for time in [1e-3, 3.0, 1e6] {
+            let [solid, fluid] = [1e-300, 0.0].map(|spring| {
+                let creep = spectrum(spring, 0.0, &moduli, &times).to_creep();
+                creep.unwrap().creep_compliance(time).unwrap()
+            });
+            assert_close!(solid => fluid, within 1e-14; "{moduli:?} at t = {time:e}");
         }
     }
 }
