@@ -14,6 +14,8 @@
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
+//! - Rough surfaces in partial contact: Persson's theory, from a [spectrum](persson_of_spectrum) or from
+//!   [waves](persson_of_waves).
 //!
 //! All friction is that of the one-dimensional model unless a result says otherwise. Where it is infinite, the result is
 //! [`FrictionError::FrictionDiverges`] with its cause.
@@ -44,6 +46,7 @@ mod elastic_limit;
 mod error;
 mod indentation;
 mod line;
+mod persson;
 mod pieces;
 mod power;
 mod ramp;
@@ -67,6 +70,9 @@ pub use indentation::{
 };
 pub use line::line_sliding;
 pub use numerics::InvalidParameter;
+pub use persson::{
+    PerssonSliding, RoughLoad, SelfAffineSpectrum, persson_of_spectrum, persson_of_waves,
+};
 pub use power::power_sliding;
 pub use ramp::{DepthRamp, ramp_force};
 pub use scaling::{half_space_power_friction, scaling_factor};

@@ -7,6 +7,7 @@ mod elastic_limits_match;
 mod impulse_decides_indentation;
 mod leading_edge_carries_the_load;
 mod other_materials_have_closed_forms;
+mod persson_theory;
 mod power_profiles_slide_in_closed_form;
 mod pressing_has_closed_forms;
 mod quadrature_agrees_with_closed_forms;

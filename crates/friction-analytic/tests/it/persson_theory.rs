@@ -1,0 +1,216 @@
+//! Persson's theory against the casebook, in full contact, and as the sum over many waves.
+
+use std::f64::consts::TAU;
+
+use casebook::prony;
+use friction_analytic::{
+    FrictionError, PerssonSliding, RoughLoad, SelfAffineSpectrum, SurfaceWave, persson_of_spectrum,
+    persson_of_waves,
+};
+use rheology::{Elastic, Prony};
+
+/// v, area, μ with S = 1, μ with S = (1 + P²)/2 and μ with S = P = 1 under the mean pressure 0.05. The frictions
+/// are good to 1e-10: with the quadrature in three other variables that at v = 0.5 ends 1.0e-10 lower.
+const ROWS: [[f64; 5]; 8] = [
+    [
+        0.0001,
+        0.6779291151417846,
+        0.0058907286640415505,
+        0.004808210419460131,
+        0.007552329034888992,
+    ],
+    [
+        0.001,
+        0.44516850868710944,
+        0.04706651952523884,
+        0.03546126573944275,
+        0.07200585058861392,
+    ],
+    [
+        0.004,
+        0.18504509978785108,
+        0.07765812999175029,
+        0.05255043265769864,
+        0.1885558127932433,
+    ],
+    [
+        0.01,
+        0.12322620931923102,
+        0.07166329953123096,
+        0.04663125749823417,
+        0.21975499908440138,
+    ],
+    [
+        0.03,
+        0.09484398007623134,
+        0.046438642336635326,
+        0.028924182251975458,
+        0.168836518464334,
+    ],
+    [
+        0.1,
+        0.08406834228880058,
+        0.01940636430648678,
+        0.011718008482619847,
+        0.07850024595058967,
+    ],
+    [
+        0.5,
+        0.08050000905937799,
+        0.004336775883071685,
+        0.002588368758488003,
+        0.018358594890230007,
+    ],
+    [
+        5.0,
+        0.0797389887808119,
+        0.00044376071528739753,
+        0.0002642014179287542,
+        0.0018981388908148873,
+    ],
+];
+const PRESSURE: f64 = 0.05;
+
+/// Waves from 1/4 to 1/64 of a unit length, with H = 0.8 and the slope 0.1.
+const SPECTRUM: SelfAffineSpectrum = SelfAffineSpectrum {
+    hurst_exponent: 0.8,
+    rms_slope: 0.1,
+    longest_wavelength: 0.25,
+    roll_off_wavelength: 0.25,
+    shortest_wavelength: 1.0 / 64.0,
+};
+
+/// E* from 1 to 10 with ν = 1/2.
+fn material() -> Prony {
+    prony([0.25, 0.0], &[(2.25, 1.0)])
+}
+
+fn load(mean_pressure: f64, velocity: f64) -> RoughLoad {
+    RoughLoad {
+        mean_pressure,
+        velocity,
+    }
+}
+
+fn theory(mean_pressure: f64, velocity: f64, relative_error: f64) -> PerssonSliding {
+    let load = load(mean_pressure, velocity);
+    persson_of_spectrum(&SPECTRUM, &material(), load, relative_error).expect("a friction")
+}
+
+#[test]
+fn area_and_friction_are_those_of_the_casebook() {
+    for [v, area, friction, friction_2006, full] in ROWS {
+        for relative_error in [1e-3, 1e-9] {
+            let state = theory(PRESSURE, v, relative_error);
+            for (bar, exact) in [
+                (state.area_fraction, area),
+                (state.friction_coefficient, friction),
+                (state.friction_coefficient_2006, friction_2006),
+            ] {
+                let off = (bar.value - exact).abs();
+                assert!(
+                    off <= bar.error + 1.5e-10 * exact && bar.error <= relative_error * exact,
+                    "v = {v}: {bar:?} instead of {exact}"
+                );
+            }
+        }
+        // A million times the pressure closes all gaps.
+        let state = theory(1e6 * PRESSURE, v, 1e-10);
+        let expected = 1e-6 * full;
+        for bar in [state.friction_coefficient, state.friction_coefficient_2006] {
+            let off = bar.value / expected - 1.0;
+            assert!(off.abs() < 1e-10, "v = {v}: {bar:?} instead of {expected}");
+        }
+    }
+}
+
+/// The spectrum as waves in the middle of cells of ln q and of the angle.
+fn waves(rings: u32, angles: u32) -> Vec<SurfaceWave> {
+    let step = 16.0_f64.ln() / f64::from(rings);
+    // 2π ∫ q³ C dq = slope².
+    let total = TAU * (16.0_f64.powf(0.4) - 1.0) / 0.4;
+    let mut waves = Vec::new();
+    for ring in 0..rings {
+        let x = (step * (f64::from(ring) + 0.5)).exp();
+        for angle in 0..angles {
+            let turn = TAU * (f64::from(angle) + 0.5) / f64::from(angles);
+            let q = 4.0 * TAU * x;
+            // Half of the square of the slope of the wave is q⁴ C of its cell.
+            let square = 0.01 * x.powf(0.4) / total * step * TAU / f64::from(angles);
+            waves.push(SurfaceWave {
+                amplitude: (2.0 * square).sqrt() / q,
+                wave_vector: [q * turn.cos(), q * turn.sin()],
+            });
+        }
+    }
+    waves
+}
+
+#[test]
+fn many_waves_have_the_friction_of_the_spectrum() {
+    let exact = theory(PRESSURE, 0.004, 1e-10);
+    let off = |rings: u32| {
+        let state = persson_of_waves(&waves(rings, 64), &material(), load(PRESSURE, 0.004));
+        let state = state.expect("a friction");
+        [
+            state.area_fraction.value / exact.area_fraction.value - 1.0,
+            state.friction_coefficient.value / exact.friction_coefficient.value - 1.0,
+            state.friction_coefficient_2006.value / exact.friction_coefficient_2006.value - 1.0,
+        ]
+    };
+    // The midpoint rule is of second order.
+    for (coarse, fine) in off(16).into_iter().zip(off(32)) {
+        let order = (coarse / fine).log2();
+        assert!(
+            fine.abs() < 2e-3 && (1.8..2.2).contains(&order),
+            "{coarse:e}, then {fine:e}"
+        );
+    }
+}
+
+#[test]
+fn an_elastic_material_has_the_area_of_its_modulus_and_no_friction() {
+    let elastic = Elastic::new(0.25).expect("a material");
+    let state = persson_of_spectrum(&SPECTRUM, &elastic, load(PRESSURE, 1.0), 1e-10);
+    let state = state.expect("an area");
+    assert!(state.friction_coefficient.value.abs() < 1e-300, "{state:?}");
+    // G = (E* slope/σ₀)²/8 with 2π ∫ q³ C dq = slope² and E* = 1, and erf(1/(2 √G)) = erf(1/√2).
+    let expected = 0.682_689_492_137_085_9;
+    let off = state.area_fraction.value / expected - 1.0;
+    assert!(
+        off.abs() < 1e-10,
+        "{:?} instead of {expected}",
+        state.area_fraction
+    );
+}
+
+#[test]
+fn what_the_theory_cannot_take_is_refused() {
+    let good = load(PRESSURE, 1.0);
+    let flat = SelfAffineSpectrum {
+        rms_slope: 0.0,
+        ..SPECTRUM
+    };
+    let narrow = SelfAffineSpectrum {
+        shortest_wavelength: 0.25,
+        ..SPECTRUM
+    };
+    let rows = [
+        (flat, good, "rms_slope"),
+        (narrow, good, "longest_wavelength"),
+        (SPECTRUM, load(0.0, 1.0), "mean_pressure"),
+        (SPECTRUM, load(1.0, -1.0), "velocity"),
+    ];
+    for (spectrum, load, parameter) in rows {
+        let result = persson_of_spectrum(&spectrum, &material(), load, 1e-3);
+        assert!(
+            matches!(&result, Err(FrictionError::InvalidParameter(refused)) if refused.parameter == parameter),
+            "{parameter}: {result:?}"
+        );
+    }
+    let none = persson_of_waves(&[], &material(), good);
+    assert!(
+        matches!(none, Err(FrictionError::InvalidParameter(_))),
+        "{none:?}"
+    );
+}
