@@ -52,11 +52,11 @@ pub(super) struct Equations {
     pub(super) products: usize,
 }
 
-/// A solved contact.
+/// |gap| in the contact, \[m].
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Residual {
-    pub(super) largest: f64,
-    pub(super) root_mean_square: f64,
+struct Residual {
+    largest: f64,
+    root_mean_square: f64,
 }
 
 impl Equations {
@@ -152,16 +152,18 @@ impl Equations {
         self.total_lowered = self.total([&self.lowered; 2], |[lowered, _]| lowered);
     }
 
-    /// Solves to a root mean square of the residual, or to a part of what it is.
-    pub(super) fn iterate(&mut self, part: f64, target: f64) -> Residual {
-        let target = target.max(part * self.residual().root_mean_square);
+    /// Solves until the largest residual is small enough, or the root mean square a part of what it was; that is returned.
+    pub(super) fn iterate(&mut self, part: f64, largest: f64) -> f64 {
+        let mut residual = self.residual();
+        let target = part * residual.root_mean_square;
         for step in 0..MOST_STEPS {
-            if self.residual().root_mean_square <= target {
+            if residual.root_mean_square <= target || residual.largest <= largest {
                 break;
             }
             self.step(step);
+            residual = self.residual();
         }
-        self.residual()
+        residual.root_mean_square
     }
 
     fn residual(&self) -> Residual {

@@ -4,10 +4,8 @@
 //! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|²
 //! ```
 
-use crate::BemError;
-use crate::periodic::kernel::Kernel;
+use crate::periodic::equations::Equations;
 use crate::periodic::search::Problem;
-use crate::periodic::waves::Waves;
 
 pub(super) struct Friction {
     pub(super) from_slopes: f64,
@@ -15,9 +13,8 @@ pub(super) struct Friction {
 }
 
 impl Friction {
-    pub(super) fn of(problem: &Problem, pressure: &[f64]) -> Result<Self, BemError> {
-        let kernel = Kernel::new(problem.sliding, problem.grid)?;
-        let mut waves = Waves::new(problem.grid);
+    pub(super) fn of(problem: &Problem, equations: &mut Equations, pressure: &[f64]) -> Self {
+        let Equations { kernel, waves, .. } = equations;
         let mut field = vec![0.0; pressure.len()];
         let mean = |field: &[f64]| {
             let products = field
@@ -26,12 +23,12 @@ impl Friction {
                 .map(|(value, pressure)| value * pressure);
             products.sum::<f64>() / pressure.iter().sum::<f64>()
         };
-        kernel.slopes(&mut waves, problem.heights, &mut field);
+        kernel.slopes(waves, problem.heights, &mut field);
         let from_slopes = mean(&field);
-        kernel.dissipate(&mut waves, pressure, &mut field);
-        Ok(Self {
+        kernel.dissipate(waves, pressure, &mut field);
+        Self {
             from_slopes,
             from_dissipation: mean(&field),
-        })
+        }
     }
 }

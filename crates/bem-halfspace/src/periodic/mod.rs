@@ -27,6 +27,7 @@ use rheology::Material;
 use crate::chunks::in_pool;
 use crate::contact::check_length;
 use crate::{BemError, Grid, PressureField};
+use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{PeriodicEstimate, steady_periodic};
 use friction::Friction;
@@ -45,17 +46,11 @@ impl PeriodicLoad {
     ///
     /// # Errors
     /// [`InvalidParameter`] for other numbers.
-    pub const fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
-        match (
-            positive("mean_pressure", mean_pressure),
-            not_negative("velocity", velocity),
-        ) {
-            (Ok(mean_pressure), Ok(velocity)) => Ok(Self {
-                mean_pressure,
-                velocity,
-            }),
-            (Err(error), _) | (_, Err(error)) => Err(error),
-        }
+    pub fn new(mean_pressure: f64, velocity: f64) -> Result<Self, InvalidParameter> {
+        Ok(Self {
+            mean_pressure: positive("mean_pressure", mean_pressure)?,
+            velocity: not_negative("velocity", velocity)?,
+        })
     }
 
     /// Mean pressure over the period, \[Pa].
@@ -149,8 +144,9 @@ pub fn steady_periodic_on_grid(
 
 fn solve_here(problem: search::Problem) -> Result<PeriodicSliding, BemError> {
     let mut pressure = Vec::new();
-    let solved = nested::solve(problem, &mut pressure)?;
-    let friction = Friction::of(&problem, &pressure)?;
+    let mut equations = Equations::new(problem.sliding, problem.grid)?;
+    let solved = nested::solve(problem, &mut equations, &mut pressure)?;
+    let friction = Friction::of(&problem, &mut equations, &pressure);
     let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let [counted, corrected] = area_fractions(problem.grid.shape()[1], &pressure);
     Ok(PeriodicSliding {

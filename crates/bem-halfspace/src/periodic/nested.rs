@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
-use crate::periodic::kernel::Kernel;
+use crate::periodic::equations::Equations;
 use crate::periodic::search::{self, Problem, Solved};
 use crate::periodic::waves::{WaveNumbers, Waves};
 use crate::plane_transform::ZERO;
@@ -13,16 +13,24 @@ use crate::{BemError, Grid};
 /// Grids with fewer elements along an edge are not made coarser.
 const SMALLEST_EDGE: usize = 32;
 /// Tolerance of a solution that is only a start.
-const COARSE_TOLERANCE: f64 = 1e-3;
+const COARSE_TOLERANCE: f64 = 1e-4;
 const COARSE_PRODUCTS: usize = 300;
 
-/// Solves the problem; the pressure is filled in.
-pub(super) fn solve(problem: Problem, pressure: &mut Vec<f64>) -> Result<Solved, BemError> {
-    if let Some(solved) = full_contact(&problem, pressure)? {
+/// Solves the problem with the equations of its grid; the pressure is filled in.
+pub(super) fn solve(
+    problem: Problem,
+    equations: &mut Equations,
+    pressure: &mut Vec<f64>,
+) -> Result<Solved, BemError> {
+    if let Some(solved) = full_contact(&problem, equations, pressure) {
         return Ok(solved);
     }
     start(&problem, pressure)?;
-    search::solve(problem, pressure)
+    let solved = search::solve(problem, equations, pressure);
+    pressure
+        .iter_mut()
+        .for_each(|pressure| *pressure = pressure.max(0.0));
+    solved
 }
 
 /// Starts from the solution on elements of twice the edges, if they can be so long.
@@ -48,7 +56,8 @@ fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
     };
     let mut guess = Vec::new();
     start(&coarse, &mut guess)?;
-    match search::solve(coarse, &mut guess) {
+    let mut equations = Equations::new(problem.sliding, &grid)?;
+    match search::solve(coarse, &mut equations, &mut guess) {
         // Whatever was reached is a guess.
         Ok(_) | Err(BemError::ContactNotConverged { .. }) => {}
         Err(error) => return Err(error),
@@ -83,7 +92,7 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Bilinear between the centres of elements of twice the edges, in those of them that are in contact.
+/// Bilinear between the centres of elements of twice the edges.
 fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
     let value = |element: usize| {
         let place = [element / (2 * columns), element % (2 * columns)];
@@ -93,10 +102,7 @@ fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
             _ => (index / 2 + 1) % length,
         };
         let [next_row, next_column] = [beside(place[0], rows), beside(place[1], columns)];
-        let at = |row: usize, column: usize| field[row * columns + column].max(0.0);
-        if at(row, column) <= 0.0 {
-            return 0.0;
-        }
+        let at = |row: usize, column: usize| field[row * columns + column];
         (9.0 * at(row, column)
             + 3.0 * (at(next_row, column) + at(row, next_column))
             + at(next_row, next_column))
@@ -106,22 +112,26 @@ fn doubled(field: &[f64], [rows, columns]: [usize; 2]) -> Vec<f64> {
 }
 
 /// The pressure that makes the half space follow the surface everywhere, where it is nowhere a tension.
-fn full_contact(problem: &Problem, pressure: &mut Vec<f64>) -> Result<Option<Solved>, BemError> {
+fn full_contact(
+    problem: &Problem,
+    equations: &mut Equations,
+    pressure: &mut Vec<f64>,
+) -> Option<Solved> {
     let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
-    let kernel = Kernel::new(problem.sliding, problem.grid)?;
     pressure.resize(displacement.len(), 0.0);
-    kernel.invert_at_centre(&mut Waves::new(problem.grid), &displacement, pressure);
+    let Equations { kernel, waves, .. } = equations;
+    kernel.invert_at_centre(waves, &displacement, pressure);
     let total: f64 = pressure.iter().sum();
     let rest = problem.mean_pressure - total / pressure.len() as f64;
     pressure.iter_mut().for_each(|pressure| *pressure += rest);
     if pressure.iter().all(|pressure| *pressure > 0.0) {
-        return Ok(Some(Solved {
+        return Some(Solved {
             depth: mean,
             products: 1,
             residual: 0.0,
-        }));
+        });
     }
     pressure.clear();
-    Ok(None)
+    None
 }

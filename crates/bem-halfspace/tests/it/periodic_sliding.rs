@@ -211,43 +211,38 @@ fn what_has_no_stationary_state_is_refused() {
     let wave = heights(&[[1.0, 0.0, 0.1, 0.0]], [16, 16], 1, 0.0);
     let solid = Elastic::new(1.0).expect("a material");
     let fluid = Viscous::new(1.0).expect("a material");
+    let mut hole = wave.clone();
+    hole[17] = f64::NAN;
+    let row = Grid::new([1, 256], [1.0; 2]).expect("a grid");
+    let load = [1.0, 1.0];
     assert_is!(
-        slide(&grid, &wave, &fluid, [1.0, 1.0]),
+        slide(&grid, &wave, &fluid, load),
         Err(BemError::FlowsUnderWaves)
     );
     assert_is!(
-        slide(&grid, &[0.5; 256], &solid, [1.0, 1.0]),
-        Err(BemError::InvalidParameter(refused)) if refused.parameter == "height"
-    );
-    assert_is!(
-        slide(&grid, &wave[1..], &solid, [1.0, 1.0]),
+        slide(&grid, &wave[1..], &solid, load),
         Err(BemError::LengthMismatch { .. })
     );
-    let mut hole = wave.clone();
-    hole[17] = f64::NAN;
     assert_is!(
-        slide(&grid, &hole, &solid, [1.0, 1.0]),
+        slide(&grid, &hole, &solid, load),
         Err(BemError::InvalidHeight {
             row: 1,
             column: 1,
             ..
         })
     );
-    let row = Grid::new([1, 256], [1.0; 2]).expect("a grid");
-    assert_is!(
-        slide(&row, &wave, &solid, [1.0, 1.0]),
-        Err(BemError::InvalidParameter(refused)) if refused.parameter == "rows of heights"
-    );
-    for load in [
-        [0.0, 1.0],
-        [f64::NAN, 1.0],
-        [1.0, -1.0],
-        [1.0, f64::INFINITY],
-    ] {
-        assert_is!(
-            slide(&grid, &wave, &solid, load),
-            Err(BemError::InvalidParameter(_))
-        );
+    let refused =
+        |grid: &Grid, heights: &[f64], load: [f64; 2]| match slide(grid, heights, &solid, load) {
+            Err(BemError::InvalidParameter(refused)) => refused.parameter,
+            other => panic!("{other:?}"),
+        };
+    assert_eq!(refused(&grid, &[0.5; 256], load), "height");
+    assert_eq!(refused(&row, &wave, load), "rows of heights");
+    for load in [[0.0, 1.0], [f64::NAN, 1.0]] {
+        assert_eq!(refused(&grid, &wave, load), "mean_pressure");
+    }
+    for load in [[1.0, -1.0], [1.0, f64::INFINITY]] {
+        assert_eq!(refused(&grid, &wave, load), "velocity");
     }
 }
 
