@@ -19,6 +19,7 @@ use crate::tables::{table, wrong};
 enum Column {
     NormalForce,
     IndentationDepth,
+    MeanPressure,
     Velocity,
     Duration,
     SlidingDistance,
@@ -40,6 +41,7 @@ impl Scenes {
             match column {
                 Column::NormalForce => scene.load.normal_force = value,
                 Column::IndentationDepth => scene.load.indentation_depth = value,
+                Column::MeanPressure => scene.load.mean_pressure = value,
                 Column::Velocity => scene.load.velocity = value,
                 Column::Duration => scene.solve.duration = value,
                 Column::SlidingDistance => scene.solve.sliding_distance = value,
@@ -62,6 +64,7 @@ fn column(name: &str) -> PyResult<Column> {
     Ok(match name {
         "normal_force" => Column::NormalForce,
         "indentation_depth" => Column::IndentationDepth,
+        "mean_pressure" => Column::MeanPressure,
         "velocity" => Column::Velocity,
         "duration" => Column::Duration,
         "sliding_distance" => Column::SlidingDistance,

@@ -22,6 +22,7 @@ __all__ = [
     "Paraboloid",
     "Power",
     "RoundTippedCone",
+    "SelfAffine",
     "Sphere",
     "Superposition",
     "TruncatedParaboloid",
@@ -114,6 +115,28 @@ class TruncatedParaboloid(Body):
     radius: float
     curvature: float
     _kind = "truncated-paraboloid"
+
+
+@dataclass(frozen=True)
+class SelfAffine(Body):
+    """A random self-affine surface that repeats itself for ever, all lengths in metres; it takes a mean pressure.
+
+    Waves from the longest to the shortest wavelength, with a constant spectrum above the roll-off wavelength if there is one;
+    0 < hurst_exponent < 1; rms_slope > 0 is that of this surface; another seed draws another one.
+    """
+
+    period: tuple[float, float]
+    hurst_exponent: float
+    rms_slope: float
+    longest_wavelength: float
+    shortest_wavelength: float
+    seed: int
+    roll_off_wavelength: float | None = None
+    _kind = "self-affine"
+
+    def _table(self) -> dict[str, Any]:
+        [(kind, keys)] = super()._table().items()
+        return {kind: {key: value for key, value in keys.items() if value is not None}}
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,9 @@ QUANTITIES = {
     "indentation_depth": "m",
     "contact_area": "m²",
     "peak_pressure": "Pa",
+    "mean_pressure": "Pa",
+    "area_fraction": "",
+    "friction_from_dissipation": "",
 }
 EDGES = ("x_min", "x_max", "y_min", "y_max")
 
@@ -117,6 +120,22 @@ class Answer:
     def peak_pressure_error(self) -> Values | None:
         """Its absolute error [Pa]."""
         return self._values("peak_pressure_error")
+
+    @property
+    def area_fraction(self) -> Values | None:
+        """Part of a periodic surface in contact."""
+        return self._values("area_fraction")
+
+    @property
+    def area_fraction_error(self) -> Values | None:
+        """Its absolute error."""
+        return self._values("area_fraction_error")
+
+    @property
+    def persson(self) -> dict[str, Values]:
+        """``area_fraction`` and ``friction_coefficient`` of Persson's theory (2001), of periodic surfaces."""
+        theory = {name: self._values(f"persson_{name}") for name in ("area_fraction", "friction_coefficient")}
+        return {name: values for name, values in theory.items() if values is not None}
 
     @property
     def contact_box(self) -> dict[str, Values]:

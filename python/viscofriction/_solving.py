@@ -31,6 +31,7 @@ def slide(
     velocity: ArrayLike,
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
+    mean_pressure: ArrayLike | None = None,
     sliding_distance: ArrayLike | None = None,
     model: str | None = None,
     method: str | None = None,
@@ -41,7 +42,7 @@ def slide(
 ) -> Answer:
     """Friction of a body that slides over a half space of the material.
 
-    Speed > 0 [m/s], and either normal force [N] or depth [m], are numbers or arrays that fit together; so is a sliding
+    Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so is a sliding
     distance [m] from first touch, without which the state is stationary. ``model="line"`` asks for the one-dimensional
     model, ``method`` for one of the program's methods. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place.
@@ -52,6 +53,7 @@ def slide(
         velocity=velocity,
         normal_force=normal_force,
         indentation_depth=indentation_depth,
+        mean_pressure=mean_pressure,
         sliding_distance=sliding_distance,
     )
     if not (numbers("velocity", velocity) > 0).all():

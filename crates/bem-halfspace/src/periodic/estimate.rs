@@ -22,6 +22,8 @@ const SAFETY: f64 = 3.0;
 pub struct PeriodicEstimate {
     /// Friction coefficient, from slopes or from the dissipated power, whichever the last refinement changed less.
     pub friction_coefficient: Estimate,
+    /// The same from the dissipated power alone.
+    pub friction_from_dissipation: Estimate,
     /// Part of the period in contact.
     pub area_fraction: Estimate,
     /// Depth of the mean plane, \[m].
@@ -121,6 +123,7 @@ fn estimate(states: &[PeriodicSliding]) -> Option<PeriodicEstimate> {
         } else {
             dissipation
         },
+        friction_from_dissipation: dissipation,
         area_fraction: of(|state| state.area_fraction),
         mean_depth: of(|state| state.mean_depth),
         finest: fine.clone(),

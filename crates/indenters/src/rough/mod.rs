@@ -96,7 +96,9 @@ impl PeriodicSurface {
         self.waves.iter().map(square).sum::<f64>().sqrt()
     }
 
-    fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
+    /// Wave vector of a wave along x and y, \[1/m].
+    #[must_use]
+    pub fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
         [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])
     }
 

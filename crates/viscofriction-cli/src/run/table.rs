@@ -23,6 +23,30 @@ pub(super) fn table(answer: &Answer) -> Table {
         ("contact area", answer.contact_area, area),
         ("peak pressure", answer.peak_pressure, "Pa"),
     ];
+    let of_rough = answer.rough.map(|rough| {
+        let (theory, exact) = (rough.persson, Estimate::exact);
+        [
+            (
+                "friction by dissipation",
+                rough.friction_from_dissipation,
+                "",
+            ),
+            ("mean pressure", rough.mean_pressure, "Pa"),
+            ("area fraction", rough.area_fraction, ""),
+            (
+                "friction, Persson's theory",
+                exact(theory.friction_coefficient),
+                "",
+            ),
+            (
+                "area fraction, Persson's theory",
+                exact(theory.area_fraction),
+                "",
+            ),
+        ]
+        .map(|(name, quantity, unit)| (name, Some(quantity), unit))
+    });
+    let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
     for (name, known, unit) in rows {
         if let Some(Estimate { value, error }) = known {
             let error = if error == 0.0 {

@@ -11,6 +11,7 @@ mod fuzzed_inputs;
 mod height_maps_of_numpy;
 mod histories;
 mod malformed;
+mod rough_scenes;
 mod scenes;
 mod support;
 mod sweeps;

@@ -40,6 +40,7 @@ const SCENES: &str = r#"
 9 | normal_force = 0.0 | 9 | load.normal_force must be finite and greater than 0, but is 0
 9 | indentation_depth = -1.0 | 9 | load.indentation_depth must be finite and greater than 0, but is -1
 9 | normal_force = 1.0\nindentation_depth = 1.0 | 10 | load.indentation_depth: either normal_force or indentation_depth
+9 | mean_pressure = 1.0 | 9 | load.mean_pressure: only a periodic surface has a mean pressure
 9 |  | 8 | load.normal_force: normal_force or indentation_depth is missing
 10 | velocity = -0.01 | 10 | load.velocity must be finite and at least 0, but is -0.01
 10 | velocity = nan | 10 | load.velocity must be finite and at least 0, but is NaN

@@ -89,6 +89,24 @@ pub enum Indenter {
         /// Distances of neighbouring heights along x and y, > 0, \[m].
         spacing: [f64; 2],
     },
+    /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
+    SelfAffine {
+        /// Periods along x and y, > 0, \[m].
+        period: [f64; 2],
+        /// Hurst exponent, between 0 and 1.
+        hurst_exponent: f64,
+        /// Root mean square of the slope, > 0.
+        rms_slope: f64,
+        /// Longest wave length, \[m].
+        longest_wavelength: f64,
+        /// Shortest wave length, \[m].
+        shortest_wavelength: f64,
+        /// Wave length above which the spectrum is constant, \[m]; without it there is none.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        roll_off_wavelength: Option<f64>,
+        /// Another seed draws another surface.
+        seed: u64,
+    },
 }
 
 /// One term of a sum.

@@ -22,6 +22,9 @@ pub struct Load {
     /// Depth of the lowest point > 0, \[m]; or `normal_force`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub indentation_depth: Option<f64>,
+    /// Mean pressure > 0 over the period of a periodic surface, \[Pa], which takes nothing else.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_pressure: Option<f64>,
     /// Sliding speed ≥ 0 towards positive x, \[m/s]; 0 with `solve.duration` is pure indentation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub velocity: Option<f64>,
@@ -49,11 +52,31 @@ pub struct LoadPoint {
 }
 
 impl Load {
-    /// What is held constant.
+    /// What is held constant on a body of which one `period` has that area \[m²], or that has none: the mean pressure of a
+    /// period is a force on it.
     ///
     /// # Errors
-    /// [`SceneError`] unless there is exactly one of force and depth, and it is positive.
-    pub fn control(&self) -> Result<Control, SceneError> {
+    /// [`SceneError`] unless there is exactly one of force and depth, or of a period the mean pressure, and it is positive.
+    pub fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
+        let others = [self.normal_force, self.indentation_depth];
+        match (period, self.mean_pressure, others) {
+            (None, None, _) => {}
+            (Some(area), Some(pressure), [None, None]) => {
+                let pressure = positive("load.mean_pressure", pressure)?;
+                return Ok(Control::NormalForce(positive(
+                    "load.mean_pressure times the period",
+                    pressure * area,
+                )?));
+            }
+            (Some(_), _, _) => {
+                let problem = "a periodic surface takes a mean_pressure, and neither normal_force nor indentation_depth";
+                return Err(SceneError::at("load.mean_pressure", problem));
+            }
+            (None, Some(_), _) => {
+                let problem = "only a periodic surface has a mean pressure; give normal_force or indentation_depth";
+                return Err(SceneError::at("load.mean_pressure", problem));
+            }
+        }
         Ok(match (self.normal_force, self.indentation_depth) {
             (Some(force), None) => Control::NormalForce(positive("load.normal_force", force)?),
             (None, Some(depth)) => {
@@ -109,6 +132,7 @@ impl Load {
         let others = [
             ("load.normal_force", self.normal_force),
             ("load.indentation_depth", self.indentation_depth),
+            ("load.mean_pressure", self.mean_pressure),
             ("load.velocity", self.velocity),
         ];
         if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {

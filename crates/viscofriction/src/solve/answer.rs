@@ -33,6 +33,8 @@ pub struct Answer {
     pub contact_area: Option<Estimate>,
     /// \[Pa]; none where it grows without limit on finer elements.
     pub peak_pressure: Option<Estimate>,
+    /// What is said of rough surfaces only.
+    pub rough: Option<RoughAnswer>,
     /// The rectangle around the contact.
     pub contact_box: Option<ContactBox>,
     /// Unknown pressures, elements or polynomials at the same time; none in a closed form.
@@ -49,6 +51,28 @@ pub struct Answer {
     pub grid: Option<Grid>,
     /// Fields and histories.
     pub fields: Fields,
+}
+
+/// What is said of a periodic surface beside other bodies; `normal_force` and `contact_area` are those of one period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoughAnswer {
+    /// \[Pa].
+    pub mean_pressure: Estimate,
+    /// Part of the period in contact.
+    pub area_fraction: Estimate,
+    /// The friction coefficient from the power that the material dissipates.
+    pub friction_from_dissipation: Estimate,
+    /// Persson's theory of the same waves.
+    pub persson: Persson,
+}
+
+/// Persson's theory (2001) of the waves of a surface, exact as a sum.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Persson {
+    /// Part of the period in contact.
+    pub area_fraction: f64,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
 }
 
 /// The rectangle around the contact, relative to the lowest point, \[m].
@@ -168,6 +192,7 @@ impl Answer {
             error_parts: ErrorParts::NONE,
             contact_area: None,
             peak_pressure: None,
+            rough: None,
             contact_box: None,
             unknowns: 0,
             iterations: 0,
@@ -202,7 +227,7 @@ impl Answer {
     }
 
     /// Quantities by their names in JSON and CSV, in this order, each with its error.
-    fn quantities(&self) -> [(&str, Option<Estimate>); 6] {
+    fn quantities(&self) -> [(&str, Option<Estimate>); 9] {
         [
             ("friction_coefficient", self.friction_coefficient),
             ("normal_force", Some(self.normal_force)),
@@ -210,6 +235,12 @@ impl Answer {
             ("indentation_depth", self.indentation_depth),
             ("contact_area", self.contact_area),
             ("peak_pressure", self.peak_pressure),
+            ("mean_pressure", self.rough.map(|rough| rough.mean_pressure)),
+            ("area_fraction", self.rough.map(|rough| rough.area_fraction)),
+            (
+                "friction_from_dissipation",
+                self.rough.map(|rough| rough.friction_from_dissipation),
+            ),
         ]
     }
 
@@ -228,6 +259,12 @@ impl Answer {
         numbers.extend(EDGES.map(str::to_owned).into_iter().zip(edges));
         let error = contact.map(|contact| contact.error);
         numbers.push(("contact_box_error".to_owned(), error));
+        let theory = self.rough.map(|rough| rough.persson);
+        let [area, friction] = theory.map_or([None; 2], |theory| {
+            [theory.area_fraction, theory.friction_coefficient].map(Some)
+        });
+        numbers.push(("persson_area_fraction".to_owned(), area));
+        numbers.push(("persson_friction_coefficient".to_owned(), friction));
         numbers
     }
 
@@ -291,6 +328,9 @@ impl Serialize for Answer {
                 map.serialize_entry(name, &value)?;
                 map.serialize_entry(&format!("{name}_error"), &error)?;
             }
+        }
+        if let Some(rough) = self.rough {
+            map.serialize_entry("persson", &rough.persson)?;
         }
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;

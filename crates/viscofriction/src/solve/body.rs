@@ -3,6 +3,7 @@
 use std::ops::Deref;
 use std::path::Path;
 
+use indenters::rough::{PeriodicSurface, SelfAffine};
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
@@ -21,15 +22,25 @@ pub enum Body {
     Cylinder(Cylinder),
     /// A grid of heights.
     HeightMap(HeightMap),
+    /// Repeats itself along x and y.
+    Periodic(PeriodicSurface),
 }
 
 impl Body {
-    /// Its surface; none of a cylinder, which has no end.
+    /// Its surface; none of a cylinder and of a periodic surface, which have no end.
     pub(crate) fn surface(&self) -> Option<&dyn Surface> {
         match self {
             Self::Revolution(body) => Some(body.surface()),
             Self::HeightMap(map) => Some(map),
-            Self::Cylinder(_) => None,
+            Self::Cylinder(_) | Self::Periodic(_) => None,
+        }
+    }
+
+    /// Area of one period, \[m²]; none of a body that does not repeat itself.
+    pub(crate) fn period_area(&self) -> Option<f64> {
+        match self {
+            Self::Periodic(surface) => Some(surface.period().iter().product()),
+            _ => None,
         }
     }
 }
@@ -109,6 +120,27 @@ pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result
         }
         Indenter::HeightMap { file, spacing } => {
             return map(&folder.join(file), *spacing, read).map(Body::HeightMap);
+        }
+        &Indenter::SelfAffine {
+            period,
+            hurst_exponent,
+            rms_slope,
+            longest_wavelength,
+            shortest_wavelength,
+            roll_off_wavelength,
+            seed,
+        } => {
+            let surface = SelfAffine {
+                period,
+                hurst_exponent,
+                rms_slope,
+                longest_wavelength,
+                shortest_wavelength,
+                roll_off_wavelength: roll_off_wavelength.unwrap_or(longest_wavelength),
+                seed,
+            };
+            let surface = surface.surface().map(Body::Periodic);
+            return surface.map_err(|error| refused(&indenter.key(), error));
         }
     };
     let shape = shape.map_err(|error| refused(&indenter.key(), error))?;

@@ -1,13 +1,16 @@
 //! What boundary elements say, as answers.
 
 use bem_halfspace::slide::{SlideRow, slide};
-use bem_halfspace::{ContactEstimate, indent, steady, steady_line};
+use bem_halfspace::{ContactEstimate, PeriodicLoad, indent, steady, steady_line, steady_periodic};
+use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
+use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
-use numerics::Request;
+use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
 use super::error::Result;
+use super::problem::Problem;
 use crate::scene::{Method, Model};
 
 /// The quantities of an estimate, with the ends of its contact along x and y.
@@ -64,6 +67,59 @@ pub(crate) fn line_contact(
         ..answer(&estimate, Method::BemSteady, [finest.contact; 2])
     };
     answer.fields.line_pressure = estimate.finest.pressure;
+    Ok(answer)
+}
+
+/// Largest grid of a period, and memory that one of its elements takes at most, \[bytes].
+const LARGEST_GRID: u64 = 1 << 22;
+const BYTES_PER_ELEMENT: u64 = 400;
+
+/// The stationary state of a periodic surface; forces and areas are those of one period.
+pub(crate) fn periodic(
+    problem: &Problem,
+    surface: &PeriodicSurface,
+    load: &PeriodicLoad,
+    relative_error: f64,
+) -> Result<Answer> {
+    let area: f64 = surface.period().iter().product();
+    let mean_pressure = load.mean_pressure();
+    let material = &*problem.material;
+    let fitting = problem.max_memory.map(|bytes| bytes / BYTES_PER_ELEMENT);
+    let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
+    #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
+    let most = most as usize;
+    let estimate = steady_periodic(surface, material, load, relative_error, most)?;
+    let wave = |wave: &Wave| SurfaceWave {
+        amplitude: wave.amplitude,
+        wave_vector: surface.wave_vector(wave),
+    };
+    let waves: Vec<SurfaceWave> = surface.waves().iter().map(wave).collect();
+    let force = Estimate::exact(mean_pressure * area);
+    let load = RoughLoad {
+        mean_pressure,
+        velocity: load.velocity(),
+    };
+    let theory = persson_of_waves(&waves, material, load)?;
+    let finest = estimate.finest;
+    let elements = finest.pressure.pressure.iter();
+    let mut answer = Answer {
+        friction_coefficient: Some(estimate.friction_coefficient),
+        error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
+        contact_area: Some(estimate.area_fraction * area),
+        unknowns: elements.filter(|pressure| **pressure > 0.0).count(),
+        iterations: finest.products,
+        rough: Some(RoughAnswer {
+            mean_pressure: Estimate::exact(mean_pressure),
+            area_fraction: estimate.area_fraction,
+            friction_from_dissipation: estimate.friction_from_dissipation,
+            persson: Persson {
+                area_fraction: theory.area_fraction.value,
+                friction_coefficient: theory.friction_coefficient.value,
+            },
+        }),
+        ..Answer::new(Method::BemSteady, Model::HalfSpace, force)
+    };
+    answer.fields.pressure = Some(finest.pressure);
     Ok(answer)
 }
 

@@ -23,8 +23,8 @@ pub(crate) fn plan(problem: &Problem, answer: &Answer) -> Vec<Omission> {
 
 fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let [even_along, even_across] = match &problem.body {
-        // No other method answers for it, and one element along y leaves nothing to leave out.
-        Body::Cylinder(_) => return Vec::new(),
+        // No other method answers for them, and one element along y leaves nothing to leave out.
+        Body::Cylinder(_) | Body::Periodic(_) => return Vec::new(),
         Body::Revolution(body) => body.mirrors(),
         Body::HeightMap(map) => map.mirrors(),
     };

@@ -17,7 +17,7 @@ mod same_problem;
 mod validity;
 mod work;
 
-pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow};
+pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution};
 pub use error::{NotOffered, Result, SolveError};
 pub use half_space::material;

@@ -65,15 +65,15 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
+        let body = body(&scene.indenter, folder, read)?;
         let history = scene
             .load
             .checked_history(folder, read)?
             .unwrap_or_default();
         let motion = match history.last() {
             Some(last) => followed(scene, last)?,
-            None => motion(scene)?,
+            None => motion(scene, &body)?,
         };
-        let body = body(&scene.indenter, folder, read)?;
         let material = material(&scene.material, folder, read)?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         Ok(Self {
@@ -116,9 +116,10 @@ fn followed(scene: &Scene, last: &HistoryPoint) -> Result<Motion, SceneError> {
     Ok(Motion::History(last.control))
 }
 
-fn motion(scene: &Scene) -> Result<Motion, SceneError> {
+fn motion(scene: &Scene, body: &Body) -> Result<Motion, SceneError> {
     let wrong = |error: IndenterError| SceneError::at("load", error.to_string());
-    let (control, velocity) = (scene.load.control()?, scene.load.checked_velocity()?);
+    let control = scene.load.control(body.period_area())?;
+    let velocity = scene.load.checked_velocity()?;
     if velocity > 0.0 {
         let load = SlidingLoad::with(control, velocity).map_err(wrong)?;
         return Ok(Motion::Sliding(match scene.solve.distance(velocity)? {

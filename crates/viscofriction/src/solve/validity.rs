@@ -35,9 +35,12 @@ pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
     warnings
 }
 
-/// From the lowest point to the farthest edge of the contact; where no edge is known the friction, which is a mean of the
-/// slope.
+/// From the lowest point to the farthest edge of the contact, and of a periodic surface the root mean square; where no edge
+/// is known the friction, which is a mean of the slope.
 fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
+    if let Body::Periodic(surface) = body {
+        return Some(surface.rms_slope());
+    }
     let curve = answer.fields.curve.iter();
     let widest = curve.map(|point| point.contact_radius.value);
     let widest = widest.fold(0.0, f64::max);
@@ -46,6 +49,7 @@ fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     };
     let radius = contact.x[0].abs().max(contact.x[1].abs()).max(widest);
     let height = match body {
+        Body::Periodic(_) => return None,
         Body::Revolution(body) => body.profile_height(radius),
         Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),
         Body::HeightMap(map) => {

@@ -1,6 +1,8 @@
 //! What a method does for a problem, or why it does not answer it.
 
+use bem_halfspace::PeriodicLoad;
 use friction_analytic::{kelvin_voigt_sliding, maxwell_sliding, scaling_factor};
+use indenters::rough::PeriodicSurface;
 use indenters::{Axisymmetric, Cylinder, SlidingLoad, Surface};
 use numerics::{Request, Watch};
 
@@ -37,6 +39,8 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
         (Body::HeightMap(map), Method::BemSteady | Method::BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
+        (Body::Periodic(surface), Method::BemSteady) => periodic(problem, surface, accuracy),
+        (Body::Periodic(_), _) => Err("it has no periodic surfaces; bem-steady slides them"),
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
         ),
@@ -126,6 +130,31 @@ fn line_contact<'a>(
             "its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it",
         ),
     }
+}
+
+fn periodic<'a>(
+    problem: &'a Problem,
+    surface: &'a PeriodicSurface,
+    accuracy: Accuracy,
+) -> Work<'a> {
+    let Motion::Sliding(load) = problem.motion else {
+        return Err(NOTHING_SLIDES);
+    };
+    let Control::NormalForce(force) = load.control() else {
+        return Err("a periodic surface slides under a mean pressure");
+    };
+    require(load.sliding_distance().is_none(), STATIONARY)?;
+    require(
+        !flows(problem),
+        "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
+    )?;
+    let Accuracy::RelativeError(asked) = accuracy else {
+        return Err("it refines the period itself; give relative_error instead of elements");
+    };
+    let area: f64 = surface.period().iter().product();
+    let load = PeriodicLoad::new(force / area, load.velocity())
+        .map_err(|_| "the mean pressure is no number above 0")?;
+    ready(move |_| elements::periodic(problem, surface, &load, asked))
 }
 
 fn boundary_elements<'a>(

@@ -1,0 +1,103 @@
+//! Scenes of rough surfaces that slide.
+
+use serde_json::Value;
+
+use crate::support::{Folder, assert_close, number};
+
+const SURFACE: &str = "[indenter.self-affine]
+period = [2.0, 1.0]
+hurst_exponent = 0.8
+rms_slope = 0.1
+longest_wavelength = 1.0
+shortest_wavelength = 0.25
+seed = 3
+[material.standard-solid]
+equilibrium_modulus = 0.25
+maxwell_modulus = 2.25
+viscosity = 2.25
+[solve]
+relative_error = 0.2
+[load]
+velocity = 0.03
+";
+
+fn answer(folder: &Folder, mean_pressure: f64) -> Value {
+    let scene = format!("{SURFACE}mean_pressure = {mean_pressure}\n");
+    folder.write("rough.toml", scene);
+    folder.json("rough.toml")
+}
+
+/// The half space and the sum of the theory share no code.
+#[test]
+fn in_full_contact_persson_and_the_half_space_agree() {
+    let folder = Folder::new("rough-full");
+    let full = answer(&folder, 100.0);
+    assert_close("area", number(&full, "area_fraction"), 1.0, 1e-15);
+    assert_close("contact area", number(&full, "contact_area"), 2.0, 1e-15);
+    assert_close("force", number(&full, "normal_force"), 200.0, 1e-15);
+    let theory = number(&full["persson"], "friction_coefficient");
+    for name in ["friction_coefficient", "friction_from_dissipation"] {
+        assert_close(name, number(&full, name), theory, 1e-10);
+    }
+}
+
+#[test]
+fn partial_contact_has_two_frictions_within_their_bars() {
+    let folder = Folder::new("rough-partial");
+    let partial = answer(&folder, 0.02);
+    let bar = |name: &str| [name, &format!("{name}_error")].map(|name| number(&partial, name));
+    let [friction, bar_of_friction] = bar("friction_coefficient");
+    let [dissipation, bar_of_dissipation] = bar("friction_from_dissipation");
+    let [area, bar_of_area] = bar("area_fraction");
+    assert!(
+        (friction - dissipation).abs() <= bar_of_friction + bar_of_dissipation,
+        "{friction} and {dissipation}"
+    );
+    assert!(
+        bar_of_friction <= 0.2 * friction && bar_of_area <= 0.2 * area && area < 0.6,
+        "{partial}"
+    );
+    folder.write("sweep.toml", format!("{SURFACE}mean_pressure = 0.02\n"));
+    let said = folder.done("sweep sweep.toml --vary load.mean_pressure=0.02,100");
+    let columns: Vec<&str> = said
+        .stdout
+        .lines()
+        .next()
+        .unwrap_or_default()
+        .split(',')
+        .collect();
+    for name in ["area_fraction", "persson_friction_coefficient"] {
+        assert!(columns.contains(&name), "no {name} in {columns:?}");
+    }
+}
+
+#[test]
+fn what_a_rough_surface_cannot_do_is_refused() {
+    let folder = Folder::new("rough-refused");
+    let fluid = SURFACE.replace(
+        "standard-solid]\nequilibrium_modulus = 0.25\nmaxwell_modulus = 2.25\n",
+        "viscous]\n",
+    );
+    for (scene, said) in [
+        (
+            format!("{SURFACE}normal_force = 1.0\n"),
+            "load.mean_pressure: a periodic surface takes a mean_pressure",
+        ),
+        (
+            format!("{SURFACE}mean_pressure = 0.0\n"),
+            "load.mean_pressure must be finite and greater than 0, but is 0",
+        ),
+        (
+            format!("{fluid}mean_pressure = 1.0\n"),
+            "creeps for ever, and never comes to rest",
+        ),
+        (
+            format!("{SURFACE}mean_pressure = 1.0\n")
+                .replace("shortest_wavelength = 0.25", "shortest_wavelength = 3.0"),
+            "indenter.self-affine.",
+        ),
+    ] {
+        folder.write("wrong.toml", scene);
+        folder.ends("run wrong.toml", 2, said);
+    }
+}
