@@ -6,6 +6,7 @@
 
 mod background;
 mod materials;
+mod moduli;
 mod solving;
 mod tables;
 
@@ -14,6 +15,8 @@ mod tables;
 mod native {
     #[pymodule_export]
     use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
+    #[pymodule_export]
+    use super::moduli::{master_curve, read_moduli};
     #[pymodule_export]
     use super::solving::{solve_loads, sweep_plan, sweep_points};
 }

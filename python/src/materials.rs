@@ -11,17 +11,16 @@ use rheology::fit::{
     identify,
 };
 use viscofriction::friction_analytic;
-use viscofriction::rheology::Material;
 use viscofriction::scene::MaterialTable;
-use viscofriction::solve::material;
+use viscofriction::solve::{Expansion, HalfSpace, half_space};
 
 use crate::solving::{mapped, read};
 use crate::tables::{table, wrong};
 
-/// The material of a table `[material.…]`.
-fn of_table(table: toml::Table, folder: &Path) -> PyResult<Box<dyn Material>> {
+/// The half space of a table `[material.…]`.
+fn of_table(table: toml::Table, folder: &Path) -> PyResult<HalfSpace> {
     let table = MaterialTable::try_from(table).map_err(wrong)?;
-    material(&table, folder, read).map_err(wrong)
+    half_space(&table, folder, read).map_err(wrong)
 }
 
 /// One of the functions of a material, for each angular frequency or time.
@@ -32,10 +31,25 @@ pub(crate) fn material_curve<'py>(
     quantity: &str,
     values: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let material = of_table(table(scene, "")?, &folder)?;
+    let HalfSpace {
+        material,
+        expansion,
+    } = of_table(table(scene, "")?, &folder)?;
     let (relaxation, creep) = (material.relaxation(), material.creep());
     let modulus = |omega: f64| relaxation.complex_modulus(omega);
+    let is_time = matches!(quantity, "relaxation_modulus" | "creep_compliance");
     mapped(&values, |value| {
+        let time = if is_time { value } else { value.recip() };
+        if let Some(Expansion {
+            time_range: [shortest, longest],
+            ..
+        }) = expansion
+            && !(shortest..=longest).contains(&time)
+        {
+            let name = if is_time { "time" } else { "angular_frequency" };
+            let allowed = "a time within time_range, or 1 over one";
+            return Err(wrong(format!("{name} must be {allowed}, but is {value}")));
+        }
         let result = match quantity {
             "storage_modulus" => modulus(value).map(|modulus| modulus.storage),
             "loss_modulus" => modulus(value).map(|modulus| modulus.loss),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +12,6 @@ import pytest
 from conftest import SCENES
 
 import viscofriction as vf
-
 
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in SCENES.glob("*.toml")))
@@ -49,3 +49,35 @@ def test_a_history_is_named_arrays() -> None:
     history = answer.history
     assert set(history) == {"time", "normal_force", "indentation_depth", "contact_radius"}
     assert (np.diff(history["time"]) >= 0).all() and history["normal_force"].max() > 0
+
+
+def export(*temperatures: float) -> str:
+    """A table of Young's moduli, as an instrument writes it: one isotherm per temperature, a decade apart for 10 °C."""
+    rubber = vf.Prony(1e6, [(1e7, 1e-3), (3e6, 1e-1)])
+    lines = ["Gummi, gemessen", "f (Hz);T (°C);E' (MPa);E'' (MPa)"]
+    for temperature in temperatures:
+        hertz = np.logspace(-2, 2, 17)
+        omega = 2 * np.pi * hertz * 10 ** (0.1 * (20.0 - temperature))
+        moduli = zip(rubber.storage_modulus(omega), rubber.loss_modulus(omega), strict=True)
+        for frequency, (storage, loss) in zip(hertz, moduli, strict=True):
+            lines.append(f"{frequency:.6e};{temperature};{3e-6 * storage:.9e};{3e-6 * loss:.9e}".replace(".", ","))
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("temperatures", [(20.0,), (30.0, 20.0, 10.0)])
+def test_a_table_of_an_instrument_has_the_fit_of_the_program(
+    temperatures: tuple[float, ...], program: Callable[..., str], tmp_path: Path
+) -> None:
+    table = tmp_path / "export.csv"
+    table.write_text(export(*temperatures), encoding="latin-1")
+    program("fit-material", table, "--out", tmp_path / "fit")
+    theirs = tomllib.loads((tmp_path / "fit" / "material.toml").read_text())["material"]["prony"]
+    fit = vf.fit_material(table)
+    assert fit.material.equilibrium_modulus == theirs["equilibrium_modulus"]
+    assert fit.material.branches == [(one["modulus"], one["relaxation_time"]) for one in theirs["branches"]]
+    assert [temperature for temperature, _ in fit.log10_factors] == (list(temperatures) if len(temperatures) > 1 else [])
+    for temperature, factor in fit.log10_factors:
+        assert abs(factor - 0.1 * (20.0 - temperature)) < 1e-3
+    moduli = vf.read_moduli(table)
+    assert moduli.time is None and moduli.storage is not None and moduli.storage.size == 17 * len(temperatures)
+    assert (moduli.temperature is None) == (len(temperatures) == 1)

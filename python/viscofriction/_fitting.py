@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import os
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import numbers
 from ._materials import Prony
 
-__all__ = ["Fit", "fit_material", "fit_relaxation", "scaling_factor"]
+Numbers = NDArray[np.float64]
+File = str | os.PathLike[str]
+
+__all__ = ["Fit", "Moduli", "fit_material", "fit_relaxation", "read_moduli", "scaling_factor"]
 
 
 @dataclass(frozen=True)
@@ -24,20 +28,59 @@ class Fit:
     rms_relative_error: float
     #: The largest of these errors.
     max_relative_error: float
+    #: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of frequency.
+    log10_factors: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Moduli:
+    """What an instrument has measured: moduli in shear [Pa] as flat arrays; those that were not measured are None."""
+
+    #: Angular frequency [rad/s], with storage and loss modulus.
+    angular_frequency: Numbers | None = None
+    storage: Numbers | None = None
+    loss: Numbers | None = None
+    #: Of several isotherms the temperature of each point, in the unit of the table.
+    temperature: Numbers | None = None
+    #: Time [s], with the relaxation modulus.
+    time: Numbers | None = None
+    modulus: Numbers | None = None
+
+
+def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: str | None = None) -> Moduli:
+    """The moduli of a table as an instrument exports it; names and units, separator, decimal mark and encoding are found.
+
+    Columns are a frequency with two of E', E'' and tan delta, or of G', G'' and tan delta, perhaps a temperature; or a time with
+    a relaxation modulus. Young's moduli become G = E/(2 (1 + ν)); ``deformation``, "tension" or "shear", says which one a
+    "storage modulus" is that has no letter. Raises ValueError with line and column.
+    """
+    parts = _native.read_moduli(os.fspath(file), poisson_ratio, deformation)
+    if parts[0][0] is None:
+        time, modulus = parts[0][1]
+        return Moduli(time=time, modulus=modulus)
+    omega, storage, loss = (np.concatenate([columns[nth] for _, columns in parts]) for nth in range(3))
+    if len(parts) == 1:
+        return Moduli(omega, storage, loss)
+    return Moduli(omega, storage, loss, np.concatenate([np.full(columns[0].size, one) for one, columns in parts]))
 
 
 def fit_material(
-    frequency: ArrayLike,
-    storage: ArrayLike,
-    loss: ArrayLike,
+    frequency: ArrayLike | File,
+    storage: ArrayLike | None = None,
+    loss: ArrayLike | None = None,
     *,
     branches: int | None = None,
     tolerance: float | None = None,
     smoothing: float | None = None,
     liquid: bool = False,
     poisson_ratio: float = 0.5,
+    deformation: str | None = None,
+    reference_temperature: float | None = None,
 ) -> Fit:
     """The Prony series with the least relative error of shear moduli [Pa] that were measured over frequency [Hz], in any order.
+
+    Instead of the three arrays the name of a file will do, which ``read_moduli`` reads; isotherms are then shifted onto that of
+    ``reference_temperature``, or the one in the middle.
 
     Without ``branches`` the fewest are taken whose error is at most 1 + ``tolerance`` (0.02) times that of many;
     ``smoothing`` keeps ``branches`` equally spaced and smooths their moduli with this weight. A ``liquid`` has no equilibrium
@@ -45,11 +88,40 @@ def fit_material(
 
     Raises ValueError for wrong input and for moduli that no series fits.
     """
+    options = {"liquid": liquid, "branches": branches, "tolerance": tolerance, "smoothing": smoothing}
+    if isinstance(frequency, str | os.PathLike):
+        if storage is not None or loss is not None:
+            raise ValueError("storage and loss: a file has its own")
+        parts = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
+        return _fit_table(parts, reference_temperature, options, poisson_ratio)
+    if storage is None or loss is None:
+        raise ValueError("storage and loss are needed beside frequency")
+    if deformation is not None or reference_temperature is not None:
+        raise ValueError("deformation and reference_temperature are for files")
     hertz, shear, viscous = _columns(frequency=frequency, storage=storage, loss=loss)
     order = np.argsort(hertz, kind="stable")
-    options = {"liquid": liquid, "branches": branches, "tolerance": tolerance, "smoothing": smoothing}
     found = _native.fit_oscillation(2 * np.pi * hertz[order], shear[order], viscous[order], options)
     return _fit(found, poisson_ratio)
+
+
+def _fit_table(
+    parts: list[tuple[float | None, list[Numbers]]],
+    reference: float | None,
+    options: dict[str, Any],
+    poisson_ratio: float,
+) -> Fit:
+    isotherms = [(temperature, columns) for temperature, columns in parts if temperature is not None]
+    if not isotherms:
+        time, modulus = parts[0][1]
+        return _fit(_native.fit_relaxation(time, modulus, options), poisson_ratio)
+    columns = isotherms[0][1]
+    factors: list[list[float]] = []
+    if len(isotherms) > 1:
+        middle = sorted(temperature for temperature, _ in isotherms)[len(isotherms) // 2]
+        columns, factors = _native.master_curve(isotherms, middle if reference is None else reference)
+    omega, storage, loss = columns
+    fit = _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
+    return replace(fit, log10_factors=tuple((temperature, factor) for temperature, factor in factors))
 
 
 def fit_relaxation(

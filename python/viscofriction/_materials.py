@@ -16,11 +16,13 @@ from ._arrays import numbers
 
 __all__ = [
     "Elastic",
+    "FractionalMaxwell",
     "KelvinVoigt",
     "Material",
     "MaterialFile",
     "Maxwell",
     "Prony",
+    "Springpot",
     "StandardSolid",
     "Viscous",
 ]
@@ -129,6 +131,39 @@ class Prony(Material):
         branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in self.branches]
         table[self._kind]["branches"] = branches
         return table
+
+
+@dataclass(frozen=True)
+class Springpot(Material):
+    """Between spring and dashpot, G* = coefficient (iω)^exponent, coefficient > 0 [Pa s^exponent], exponent 0.01 to 0.99.
+
+    ``time_range`` is the shortest and the longest time for which it is needed [s]; a spring ≥ 0 [Pa] may be in parallel.
+    """
+
+    coefficient: float
+    exponent: float
+    _: KW_ONLY
+    time_range: tuple[float, float]
+    equilibrium_modulus: float = 0.0
+    poisson_ratio: float = 0.5
+    _kind = "springpot"
+
+
+@dataclass(frozen=True)
+class FractionalMaxwell(Material):
+    """A spring > 0 [Pa] in series with a springpot, G* = G z/(1 + z), z = (iωτ)^exponent, τ the relaxation time > 0 [s].
+
+    ``time_range`` is the shortest and the longest time for which it is needed [s]; a spring ≥ 0 [Pa] may be in parallel.
+    """
+
+    shear_modulus: float
+    relaxation_time: float
+    exponent: float
+    _: KW_ONLY
+    time_range: tuple[float, float]
+    equilibrium_modulus: float = 0.0
+    poisson_ratio: float = 0.5
+    _kind = "fractional-maxwell"
 
 
 @dataclass(frozen=True)

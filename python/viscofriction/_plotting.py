@@ -5,14 +5,23 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+Numbers = NDArray[np.float64]
 
 LABELS = {
     "velocity": "speed [m/s]",
     "normal_force": "normal force [N]",
+    "tangential_force": "friction force [N]",
     "indentation_depth": "depth [m]",
+    "contact_area": "contact area [m²]",
+    "peak_pressure": "peak pressure [Pa]",
+    "friction_coefficient": "friction coefficient",
     "duration": "duration [s]",
     "sliding_distance": "sliding distance [m]",
 }
+# With more lines than these a legend says nothing.
+LINES = 8
 
 
 def axes(ax: Any) -> Any:
@@ -21,54 +30,96 @@ def axes(ax: Any) -> Any:
         return ax
     import matplotlib.pyplot as pyplot
 
-    return pyplot.subplots()[1]
+    return pyplot.subplots(layout="constrained")[1]
+
+
+def label(name: str) -> str:
+    """What is written at an axis; a key of a scene ends with the name of its quantity."""
+    last = name.rsplit(".", 1)[-1]
+    return LABELS.get(last, name if last == name else f"{name} [SI]")
+
+
+def tidy(ax: Any, x: str, y: str, varied: tuple[Numbers | None, Numbers | None]) -> Any:
+    """Names the axes, makes those logarithmic that vary so, and keeps the digits of the others few."""
+    for axis, values, name in (("x", varied[0], x), ("y", varied[1], y)):
+        if values is not None and values.min() > 0 and values.max() > 30 * values.min():
+            getattr(ax, f"set_{axis}scale")("log")
+        else:
+            ax.ticklabel_format(axis=axis, style="sci", scilimits=(-3, 4), useMathText=True)
+            ax.locator_params(axis=axis, nbins=6)
+        getattr(ax, f"set_{axis}label")(name)
+    return ax
 
 
 def plot(answer: Any, ax: Any) -> Any:
-    """Friction, or where nothing slides the depth, over what varies; the pressure of a single scene."""
+    """Friction, or where nothing slides the depth, over what varies; the pressure or the history of a single scene."""
     if answer.shape == ():
-        return pressure(answer, axes(ax))
-    values, errors, label = answer.mu, answer.mu_error, "friction coefficient"
+        return single(answer, axes(ax))
+    values, errors, quantity = answer.mu, answer.mu_error, "friction_coefficient"
     if values is None:
-        values, errors, label = answer.indentation_depth, answer.indentation_depth_error, "depth [m]"
+        values, errors, quantity = answer.indentation_depth, answer.indentation_depth_error, "indentation_depth"
     if values is None or errors is None:
         raise ValueError("there is no friction and no depth to draw")
-    varied = [name for name, load in answer.loads.items() if np.unique(load).size > 1]
-    name = varied[0] if varied else next(iter(answer.loads))
-    where = np.ravel(answer.loads[name])
-    ax = axes(ax)
-    order = np.argsort(where, kind="stable")
-    bars = {"yerr": np.ravel(errors)[order], "capsize": 2, "marker": "o", "markersize": 3}
-    line = "-" if len(varied) < 2 else "none"
-    ax.errorbar(where[order], np.ravel(values)[order], linestyle=line, **bars)
-    if where.min() > 0 and where.max() > 30 * where.min():
-        ax.set_xscale("log")
-    ax.set_xlabel(LABELS[name])
-    ax.set_ylabel(label)
-    return ax
+    loads = {name: np.ravel(load) for name, load in answer.loads.items()}
+    counts = {name: np.unique(load).size for name, load in loads.items()}
+    # Over what has the most values; one line for each combination of the others.
+    over = max(counts, key=lambda name: counts[name])
+    others = {name: load for name, load in loads.items() if name != over and counts[name] > 1}
+    return lines(axes(ax), (over, loads[over]), others, (quantity, np.ravel(values), np.ravel(errors)))
 
 
-def pressure(answer: Any, ax: Any) -> Any:
-    """Pressure on the half space, with the direction of motion; load along a line; pressure across a cylinder."""
-    answers = answer._single()
-    for name, label in (("line_load", "load per length [N/m]"), ("line_pressure", "pressure [Pa]")):
-        if name in answers:
-            ax.plot(answers[name][:, 0], answers[name][:, 1])
-            ax.set_xlabel("x [m]")
-            ax.set_ylabel(label)
-            return ax
+def lines(
+    ax: Any, over: tuple[str, Numbers], others: dict[str, Numbers], drawn: tuple[str, Numbers, Numbers]
+) -> Any:
+    """A quantity with its bars over another, one line for each combination of the others."""
+    (name, where), (quantity, values, errors) = over, drawn
+    families = np.array(list(others.values())).T if others else np.zeros((where.size, 0))
+    distinct = np.unique(families, axis=0)
+    for family in distinct:
+        of_family = np.flatnonzero((families == family).all(axis=1))
+        order = of_family[np.argsort(where[of_family], kind="stable")]
+        named = ", ".join(f"{label(other)}: {value:.4g}" for other, value in zip(others, family, strict=True))
+        ax.errorbar(
+            where[order],
+            values[order],
+            yerr=errors[order],
+            capsize=2,
+            marker="o",
+            markersize=3,
+            label=named or None,
+        )
+    if 1 < len(distinct) <= LINES:
+        ax.legend()
+    return tidy(ax, label(name), label(quantity), (where, None))
+
+
+def grid(ax: Any, over: list[tuple[str, Numbers]], drawn: tuple[str, Numbers]) -> Any:
+    """A quantity over two others, the second fastest, as colours."""
+    (first, x), (second, y) = ((name, np.unique(values)) for name, values in over)
+    places = tuple(np.searchsorted(axis, values) for axis, (_, values) in zip((x, y), over, strict=True))
+    values = np.full((x.size, y.size), np.nan)
+    values[places] = drawn[1]
+    image = ax.pcolormesh(x, y, values.T, shading="nearest", cmap="viridis")
+    ax.figure.colorbar(image, ax=ax, label=label(drawn[0]))
+    return tidy(ax, label(first), label(second), (x, y))
+
+
+def single(answer: Any, ax: Any) -> Any:
+    """Pressure on the half space, with the direction of motion; load along a line; pressure across a cylinder; a history."""
+    known = answer._single()
+    for name, what in (("line_load", "load per length [N/m]"), ("line_pressure", "pressure [Pa]")):
+        if name in known:
+            ax.plot(known[name][:, 0], known[name][:, 1])
+            return tidy(ax, "x [m]", what, (None, None))
+    if "pressure" not in known and (history := answer.to_dict().get("history")):
+        ax.plot([row["indentation_depth"] for row in history], [row["normal_force"] for row in history], marker=".")
+        return tidy(ax, LABELS["indentation_depth"], LABELS["normal_force"], (None, None))
     image = ax.pcolormesh(answer.x, answer.y, answer.pressure.T, shading="nearest", cmap="magma")
-    ax.figure.colorbar(image, ax=ax, label="pressure [Pa]")
+    bar = ax.figure.colorbar(image, ax=ax, label="pressure [Pa]")
+    bar.formatter.set_useMathText(True)
     ax.set_aspect("equal")
     if answer.mu is not None:
-        ax.annotate(
-            "",
-            xy=(0.3, 0.06),
-            xytext=(0.06, 0.06),
-            xycoords="axes fraction",
-            arrowprops={"arrowstyle": "->", "color": "white"},
-        )
+        arrow = {"arrowstyle": "->", "color": "white"}
+        ax.annotate("", xy=(0.3, 0.06), xytext=(0.06, 0.06), xycoords="axes fraction", arrowprops=arrow)
         ax.text(0.06, 0.09, "motion", color="white", transform=ax.transAxes)
-    ax.set_xlabel("x [m]")
-    ax.set_ylabel("y [m]")
-    return ax
+    return tidy(ax, "x [m]", "y [m]", (None, None))

@@ -66,19 +66,16 @@ class Sweep:
         return f"<{len(self)} points over {', '.join(self.keys)}{failures}>"
 
     def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:
-        """Draws a quantity with its bars over the one key that varies; returns the axes of matplotlib."""
+        """Draws a quantity, with its bars over one key that varies, as colours over two; returns the axes of matplotlib."""
         from . import _plotting
 
-        if len(self.keys) != 1:
-            raise ValueError(f"one key must vary, but {len(self.keys)} do")
-        ax = _plotting.axes(ax)
-        where, values = self[self.keys[0]], self[quantity]
-        ax.errorbar(where, values, yerr=self[quantity + "_error"], marker="o", markersize=3, capsize=2)
-        if where.min() > 0 and where.max() > 30 * where.min():
-            ax.set_xscale("log")
-        ax.set_xlabel(self.keys[0])
-        ax.set_ylabel(quantity.replace("_", " "))
-        return ax
+        over = [(key, self[key]) for key in self.keys]
+        if len(over) == 2:
+            return _plotting.grid(_plotting.axes(ax), over, (quantity, self[quantity]))
+        if len(over) != 1:
+            raise ValueError(f"one key must vary, or two, but {len(over)} do")
+        bars = self[quantity + "_error"]
+        return _plotting.lines(_plotting.axes(ax), over[0], {}, (quantity, self[quantity], bars))
 
 
 def sweep(

@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::canvas::{Anchor, Area, Canvas, FRAME_PEN, Pen, Pixel};
 use crate::error::PlotError;
 use crate::font::{fitting_width, text_width};
-use crate::ticks::{Tick, ticks};
+use crate::ticks::{Tick, label, ticks};
 
 /// Sizes of the texts, \[px\].
 const TICK_SIZE: u32 = 13;
@@ -121,6 +121,7 @@ impl<'a> Frame<'a> {
 /// An axis along the edge of a rectangle.
 pub(crate) struct AxisEdge<'a> {
     axis: &'a Axis,
+    label: String,
     area: Area,
     edge: Edge,
     ticks: Vec<Tick>,
@@ -135,10 +136,12 @@ impl<'a> AxisEdge<'a> {
             Edge::Bottom => area.width,
             Edge::Left | Edge::Right => area.height,
         };
-        fitting_width(&axis.label, LABEL_SIZE, length + SPILL)?;
+        let label = label(axis);
+        fitting_width(&label, LABEL_SIZE, length + SPILL)?;
         let ticks = ticks(axis);
         let mut found = Self {
             axis,
+            label,
             area,
             edge,
             widest: widest_label(&ticks)?,
@@ -248,6 +251,6 @@ impl<'a> AxisEdge<'a> {
             Edge::Left => ([-self.widest - 2.5 * GAP, 0.0], Anchor::Upwards),
             Edge::Right => ([self.widest + 2.0 * GAP + size, 0.0], Anchor::Upwards),
         };
-        canvas.text([x + right, y + down], &self.axis.label, LABEL_SIZE, anchor);
+        canvas.text([x + right, y + down], &self.label, LABEL_SIZE, anchor);
     }
 }

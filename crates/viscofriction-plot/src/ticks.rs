@@ -30,11 +30,8 @@ pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
 
 fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
     let (step, parts) = linear_step(to - from);
-    let magnitude = from.abs().max(to.abs()).log10().floor();
-    let is_plain = magnitude < 5.0 && step >= 0.999e-4;
-    // All labels have the same power of ten and the same decimals.
-    let exponent = if is_plain { 0.0 } else { magnitude };
-    let unit = 10_f64.powf(exponent);
+    // All labels have the same power of ten, which stands at the axis, and the same decimals.
+    let unit = 10_f64.powf(linear_exponent([from, to]));
     let rests = successors(Some(step / unit), |rest| Some(10.0 * rest));
     let decimals = rests.take_while(|rest| *rest < 0.999).count();
     let label = |value: f64| {
@@ -42,12 +39,7 @@ fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
         if !digits.contains(|c: char| ('1'..='9').contains(&c)) {
             return "0".into();
         }
-        let digits = digits.replace('-', "\u{2212}");
-        if exponent.abs() < 0.5 {
-            digits
-        } else {
-            format!("{digits}·{}", power_of_ten(exponent))
-        }
+        digits.replace('-', "\u{2212}")
     };
     let (small, slack) = (step / parts, 1e-6);
     counts((from / small - slack).ceil(), to / small + slack)
@@ -61,6 +53,37 @@ fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
             }
         })
         .collect()
+}
+
+/// Power of ten that the labels of a linear axis are multiples of: that of their step, where plain numbers would be long.
+fn linear_exponent([from, to]: [f64; 2]) -> f64 {
+    let (step, _) = linear_step(to - from);
+    let is_plain = from.abs().max(to.abs()) < 1e5 && step >= 0.999e-4;
+    if is_plain {
+        0.0
+    } else {
+        (step.log10() + 1e-9).floor()
+    }
+}
+
+/// The label of an axis, with the power of ten of its ticks before the unit.
+pub(crate) fn label(axis: &Axis) -> String {
+    let exponent = match axis.scale {
+        Scale::Linear => linear_exponent(axis.range),
+        Scale::Log10 => 0.0,
+    };
+    if exponent.abs() < 0.5 {
+        return axis.label.clone();
+    }
+    let power = power_of_ten(exponent);
+    match axis
+        .label
+        .strip_suffix(']')
+        .and_then(|label| label.rsplit_once('['))
+    {
+        Some((name, unit)) => format!("{name}[{power} {unit}]"),
+        None => format!("{} [{power}]", axis.label),
+    }
 }
 
 /// Whole numbers.
@@ -147,16 +170,26 @@ mod tests {
             (linear([0.0, 0.2]), "0 0.05 0.10 0.15 0.20"),
             (linear([0.0, 16.0]), "0 5 10 15"),
             (linear([-1.0, 1.0]), "−1.0 −0.5 0 0.5 1.0"),
-            (
-                linear([0.0, 3e6]),
-                "0 0.5·10⁶ 1.0·10⁶ 1.5·10⁶ 2.0·10⁶ 2.5·10⁶ 3.0·10⁶",
-            ),
-            (linear([0.0, 2e-6]), "0 0.5·10⁻⁶ 1.0·10⁻⁶ 1.5·10⁻⁶ 2.0·10⁻⁶"),
+            (linear([0.0, 3e6]), "0 5 10 15 20 25 30"),
+            (linear([-1e-6, 1e-6]), "−10 −5 0 5 10"),
         ];
         for (axis, expected) in cases {
             let labels = ticks(&axis).into_iter().filter_map(|tick| tick.label);
             let got = labels.collect::<Vec<_>>().join(" ");
             assert_eq!(got, expected, "labels of {axis:?}");
+        }
+    }
+
+    #[test]
+    fn the_power_of_ten_stands_at_the_axis() {
+        let cases = [
+            (Axis::linear("x [m]", [-1e-6, 1e-6]), "x [10⁻⁷ m]"),
+            (Axis::linear("friction", [0.0, 2e-4]), "friction [10⁻⁵]"),
+            (Axis::linear("x [m]", [0.0, 3.0]), "x [m]"),
+            (Axis::log10("x [m]", [1e-9, 1e-6]), "x [m]"),
+        ];
+        for (axis, expected) in cases {
+            assert_eq!(label(&axis), expected, "label of {axis:?}");
         }
     }
 

@@ -43,7 +43,7 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
     out.write("pressure.npy", &to_npy(&field.pressure, &[rows, columns]))?;
     out.write("pressure_x.npy", &to_npy(&x, &[rows]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[columns]))?;
-    out.draw("pressure", &pictures::pressure(field)?)
+    out.draw("pressure", &pictures::pressure(answer, field)?)
 }
 
 /// What is known along a line: the name of its files, its column in tables, and its label on axes.

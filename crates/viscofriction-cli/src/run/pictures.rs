@@ -1,29 +1,56 @@
 //! Pictures of one answer.
 
 use anyhow::{Context, Result};
-use viscofriction::PressureField;
+use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
-/// The pressure over the contact.
-pub(super) fn pressure(field: &PressureField) -> Result<Figure> {
+/// The pressure over the contact: itself where its peak is known, else, where it grows without limit on finer elements, its
+/// logarithm; with an arrow along the motion, where the body slides.
+pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure> {
     let shape = field.grid.shape();
-    let axis = |axis: usize, label: &str| {
+    let range = |axis: usize| {
         let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
         let last = origin + (shape[axis] as f64 - 0.5) * spacing;
-        Axis::linear(label, [origin - 0.5 * spacing, last])
+        [origin - 0.5 * spacing, last]
     };
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
-    let logarithms = loaded.map(|pressure| pressure.log10());
-    let lowest = logarithms.clone().reduce(f64::min);
-    let highest = logarithms.reduce(f64::max);
+    let lowest = loaded.clone().copied().reduce(f64::min);
+    let highest = loaded.copied().reduce(f64::max);
     let (lowest, highest) = lowest.zip(highest).context("nothing is loaded")?;
-    let colours = Axis::linear("log₁₀ (P / Pa)", [lowest.min(highest - 1e-3), highest]);
-    let logarithms = Field::new(shape, colours, |x, y| {
+    let (colours, shown): (_, fn(f64) -> f64) = if answer.peak_pressure.is_some() {
+        (Axis::linear("pressure [Pa]", [0.0, highest]), |pressure| {
+            pressure
+        })
+    } else {
+        let [lowest, highest] = [lowest, highest].map(f64::log10);
+        let ends = [lowest.min(highest - 1e-3), highest];
+        (Axis::linear("log₁₀ (P / Pa)", ends), f64::log10)
+    };
+    let pressures = Field::new(shape, colours, |x, y| {
         let pressure = field.pressure[x * shape[1] + y];
-        (pressure > 0.0).then(|| pressure.log10())
+        (pressure > 0.0).then(|| shown(pressure))
     });
-    let [x, y] = [axis(0, "x [m]"), axis(1, "y [m]")];
-    Ok(Figure::single(Chart::map(x, y, logarithms)))
+    let [x, y] = [range(0), range(1)];
+    let motion = answer.friction_coefficient.map(|_| arrow(x, y));
+    let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
+    Ok(Figure::single(Chart {
+        series: motion.into_iter().collect(),
+        ..Chart::map(x, y, pressures)
+    }))
+}
+
+/// Along the motion, in the lower left corner.
+fn arrow(x: [f64; 2], y: [f64; 2]) -> Series {
+    let unit = 0.03 * (x[1] - x[0]).min(y[1] - y[0]);
+    let (end, y) = (x[0] + 9.0 * unit, y[0] + 2.0 * unit);
+    let head = [
+        [end, y],
+        [end - unit, y + 0.6 * unit],
+        [end, y],
+        [end - unit, y - 0.6 * unit],
+    ];
+    let points = std::iter::once([x[0] + unit, y]).chain(head).collect();
+    Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 
 /// One quantity over another, straight between the points.

@@ -138,15 +138,31 @@ fn chart((key, over): Column<'_>, (label, values): Column<'_>, errors: &[Option<
     let [first, last] = ends_of(&places);
     let is_wide = first > 0.0 && last / first >= WIDE;
     let x = if !is_arithmetic(&places) && (is_geometric(&places) || is_wide) {
-        Axis::decades(key, places.iter().copied())
+        Axis::decades(labelled(key), places.iter().copied())
     } else {
-        Axis::linear(key, [first, last])
+        Axis::linear(labelled(key), [first, last])
     };
     let series = Series {
         errors,
         ..Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue)
     };
     Figure::single(Chart::new(x, y, vec![series]))
+}
+
+/// A key with the unit of its quantity, where it has one.
+fn labelled(key: &str) -> String {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let unit = match name {
+        "velocity" => "m/s",
+        "normal_force" => "N",
+        "indentation_depth" | "radius" | "sliding_distance" => "m",
+        "viscosity" => "Pa s",
+        "relaxation_time" | "duration" => "s",
+        "curvature" => "1/m",
+        modulus if modulus.ends_with("modulus") => "Pa",
+        _ => return key.to_owned(),
+    };
+    format!("{key} [{unit}]")
 }
 
 fn map([one, other]: [Column<'_>; 2], (label, values): Column<'_>) -> Result<Figure> {
@@ -179,10 +195,10 @@ fn cells(key: &str, places: &[f64]) -> Result<Axis> {
     let steps = (places.len() - 1) as f64;
     if is_arithmetic(places) {
         let half = 0.5 * (last - first) / steps;
-        Ok(Axis::linear(key, [first - half, last + half]))
+        Ok(Axis::linear(labelled(key), [first - half, last + half]))
     } else if is_geometric(places) {
         let half = (last / first).powf(0.5 / steps);
-        Ok(Axis::log10(key, [first / half, last * half]))
+        Ok(Axis::log10(labelled(key), [first / half, last * half]))
     } else {
         bail!("the values of {key} are neither an equal step nor an equal factor apart")
     }

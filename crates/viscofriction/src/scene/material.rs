@@ -76,6 +76,39 @@ pub enum MaterialTable {
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
     },
+    /// Between spring and dashpot: G* = K (iω)^a.
+    Springpot {
+        /// K > 0, [Pa s^a].
+        coefficient: f64,
+        /// a, from 0.01 (almost a spring) to 0.99 (almost a dashpot).
+        exponent: f64,
+        /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
+        #[serde(default)]
+        equilibrium_modulus: f64,
+        /// Shortest and longest time for which the material is needed, \[s]: the time of a contact length and those of a
+        /// history are within it.
+        time_range: [f64; 2],
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
+    /// Spring and springpot in series: G* = G z/(1 + z), z = (iωτ)^a.
+    FractionalMaxwell {
+        /// Shear modulus G > 0 of the spring in series, \[Pa].
+        shear_modulus: f64,
+        /// Time τ > 0 at which both give way alike, \[s].
+        relaxation_time: f64,
+        /// a, from 0.01 to 0.99.
+        exponent: f64,
+        /// Shear modulus ≥ 0 of a spring in parallel, \[Pa].
+        #[serde(default)]
+        equilibrium_modulus: f64,
+        /// Shortest and longest time for which the material is needed, \[s], as of a springpot.
+        time_range: [f64; 2],
+        /// Poisson ratio, −1 < ν ≤ 1/2.
+        #[serde(default = "incompressible")]
+        poisson_ratio: f64,
+    },
     /// The material of another file.
     File {
         /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
@@ -124,7 +157,9 @@ impl MaterialTable {
             | Self::KelvinVoigt { poisson_ratio, .. }
             | Self::Maxwell { poisson_ratio, .. }
             | Self::StandardSolid { poisson_ratio, .. }
-            | Self::Prony { poisson_ratio, .. } => Some(*poisson_ratio),
+            | Self::Prony { poisson_ratio, .. }
+            | Self::Springpot { poisson_ratio, .. }
+            | Self::FractionalMaxwell { poisson_ratio, .. } => Some(*poisson_ratio),
             Self::File { poisson_ratio, .. } => *poisson_ratio,
         }
     }

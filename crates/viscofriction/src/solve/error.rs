@@ -36,7 +36,7 @@ pub enum SolveError {
     #[error("{reached}; {refused}")]
     MemoryReached {
         /// What was reached.
-        reached: Box<SolveError>,
+        reached: Box<Self>,
         /// What is needed, and what is allowed.
         refused: SceneError,
     },
@@ -71,6 +71,18 @@ pub enum SolveError {
         duration: f64,
         /// Relaxation modulus at that time, \[Pa].
         modulus: f64,
+    },
+    /// What happens is faster or slower than a fractional element was expanded for.
+    #[error(
+        "it takes {time:e} s, and time_range of the material is from {shortest:e} to {longest:e} s: widen it"
+    )]
+    OutsideTimeRange {
+        /// Time of a contact length, of the pressing, of the sliding, or between points of a history, \[s].
+        time: f64,
+        /// Shortest time of the range, \[s].
+        shortest: f64,
+        /// Longest time of the range, \[s].
+        longest: f64,
     },
     /// No front of the contact carries the force.
     #[error("no front of the contact was found that carries the normal force {normal_force}")]

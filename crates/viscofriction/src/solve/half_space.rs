@@ -3,37 +3,52 @@
 use std::path::Path;
 
 use rheology::{
-    Compressible, Elastic, KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch,
-    RelaxationSpectrum, RheologyError, StandardSolid, StandardSolidParameters, Viscous,
+    Compressible, Elastic, FractionalMaxwell, FractionalMaxwellParameters, KelvinVoigt, Material,
+    Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot, StandardSolid,
+    StandardSolidParameters, Viscous,
 };
 
+use super::expansion::{Expansion, Fractional};
 use crate::scene::{Branch, MaterialTable, SceneError, Source};
 use crate::text::{ReadFile, WrongInput};
 
-/// The material of a table of the scene file; a file that it names is in `folder` and read by `read`.
+/// The material of a scene.
+#[derive(Debug)]
+pub struct HalfSpace {
+    /// The material, or the series that stands for it.
+    pub material: Box<dyn Material>,
+    /// How well the series does.
+    pub expansion: Option<Expansion>,
+}
+
+/// The half space of a table of the scene file; a file that it names is in `folder` and read by `read`.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub fn material(
+pub fn half_space(
     table: &MaterialTable,
     folder: &Path,
     read: ReadFile,
-) -> Result<Box<dyn Material>, SceneError> {
-    let material = in_shear(table, folder, read)?;
+) -> Result<HalfSpace, SceneError> {
+    let HalfSpace {
+        material,
+        expansion,
+    } = in_shear(table, folder, read)?;
     let ratio = table.poisson_ratio();
     let ratio = ratio.unwrap_or_else(|| material.poisson_ratio());
-    let material = Compressible::new(&*material, ratio);
-    material
-        .map(boxed)
-        .map_err(|error| refused(&table.key(), error))
+    let material = Compressible::new(&*material, ratio).map(boxed);
+    Ok(HalfSpace {
+        material: material.map_err(|error| refused(&table.key(), error))?,
+        expansion,
+    })
 }
 
 /// The material that another file holds.
-fn of_file(file: &Path, read: ReadFile) -> Result<Box<dyn Material>, SceneError> {
+fn of_file(file: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
     let material = || {
         let source = Source::new(file, read(file)?)?;
         let table = MaterialTable::try_from(source.table()?);
-        let material = table.and_then(|table| material(&table, Path::new(""), no_file));
+        let material = table.and_then(|table| half_space(&table, Path::new(""), no_file));
         material.map_err(|error| source.locate(&error))
     };
     material().map_err(|WrongInput(problem)| SceneError::at("material.file.path", problem))
@@ -44,11 +59,7 @@ fn no_file(file: &Path) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
-fn in_shear(
-    table: &MaterialTable,
-    folder: &Path,
-    read: ReadFile,
-) -> Result<Box<dyn Material>, SceneError> {
+fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
     let material = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
         &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
@@ -87,9 +98,59 @@ fn in_shear(
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
             spectrum.and_then(Prony::new).map(boxed)
         }
+        MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
+            return fractional(table).map_err(|error| refused(&table.key(), error));
+        }
         MaterialTable::File { path, .. } => return of_file(&folder.join(path), read),
     };
-    material.map_err(|error| refused(&table.key(), error))
+    let material = material.map_err(|error| refused(&table.key(), error))?;
+    Ok(HalfSpace {
+        material,
+        expansion: None,
+    })
+}
+
+/// The series of a fractional element.
+fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
+    match *table {
+        MaterialTable::Springpot {
+            coefficient,
+            exponent,
+            equilibrium_modulus,
+            time_range,
+            ..
+        } => {
+            let element = Springpot::new(coefficient, exponent)?;
+            let beside = Fractional {
+                exponent,
+                time_range,
+                equilibrium_modulus,
+            };
+            beside.expanded(|band, error| element.expand(band, error))
+        }
+        MaterialTable::FractionalMaxwell {
+            shear_modulus,
+            relaxation_time,
+            exponent,
+            equilibrium_modulus,
+            time_range,
+            ..
+        } => {
+            let element = FractionalMaxwell::new(FractionalMaxwellParameters {
+                shear_modulus,
+                relaxation_time,
+                exponent,
+            })?;
+            let beside = Fractional {
+                exponent,
+                time_range,
+                equilibrium_modulus,
+            };
+            beside.expanded(|band, error| element.expand(band, error))
+        }
+        // All others have finitely many elements.
+        _ => Err(RheologyError::NoStiffness),
+    }
 }
 
 fn boxed(material: impl Material + 'static) -> Box<dyn Material> {
@@ -116,7 +177,7 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
 }
 
 /// Parameters of the library that are keys too.
-const KEYS: [&str; 7] = [
+const KEYS: [&str; 11] = [
     "viscosity",
     "shear_modulus",
     "equilibrium_modulus",
@@ -124,6 +185,10 @@ const KEYS: [&str; 7] = [
     "modulus",
     "relaxation_time",
     "poisson_ratio",
+    "coefficient",
+    "exponent",
+    "time_range[0]",
+    "time_range[1]",
 ];
 
 /// The four materials that have closed forms, reduced to the incompressible one with the same surface.

@@ -76,7 +76,7 @@ pub(crate) fn followed(
 ) -> Result<Answer> {
     let options = Follow {
         relative_error,
-        ..Follow::default()
+        modulus_error: problem.modulus_error(),
     };
     let curve = indent_along(body, &*problem.material, &problem.history, &options)?;
     let last = curve.last().copied();

@@ -6,6 +6,7 @@ mod answer;
 mod body;
 mod elements;
 mod error;
+mod expansion;
 mod half_space;
 mod left_out;
 mod mdr;
@@ -20,7 +21,8 @@ mod work;
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution};
 pub use error::{NotOffered, Result, SolveError};
-pub use half_space::material;
+pub use expansion::Expansion;
+pub use half_space::{HalfSpace, half_space};
 use memory::Limited;
 pub use memory::check_memory;
 pub(crate) use offer::not_offered;
@@ -67,9 +69,11 @@ fn watched(
 ) -> Result<Answer> {
     check_memory(problem, method, accuracy)?;
     let refused = |why| SolveError::Refused { method, why };
-    let work = work(problem, method, accuracy).map_err(refused)?;
+    let of_the_method = problem.of_the_method(accuracy);
+    let work = work(problem, method, of_the_method).map_err(refused)?;
     let limited = Limited::new(problem, method, watch);
     let answer = work(&limited).map_err(|reached| limited.or_memory(reached))?;
+    let answer = problem.with_modulus_error(answer, accuracy)?;
     let left_out = plan(problem, &answer);
     // Closed forms of pressing are those of both models.
     let model = method.model().unwrap_or(problem.model);

@@ -7,7 +7,8 @@ use mdr_core::HistoryPoint;
 use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
-use super::half_space::{Simple, material, simple};
+use super::expansion::Expansion;
+use super::half_space::{HalfSpace, Simple, half_space, simple};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::{ReadFile, WrongInput};
 
@@ -18,6 +19,8 @@ pub struct Problem {
     pub body: Body,
     /// The elastomer.
     pub material: Box<dyn Material>,
+    /// How well it stands for a fractional element; none of a material that stands for itself.
+    pub expansion: Option<Expansion>,
     /// How the body is pressed and moves.
     pub motion: Motion,
     /// Points of the history that the body follows; none of any other motion.
@@ -74,12 +77,16 @@ impl Problem {
             Some(last) => followed(scene, last)?,
             None => motion(scene, &body)?,
         };
-        let material = material(&scene.material, folder, read)?;
+        let HalfSpace {
+            material,
+            expansion,
+        } = half_space(&scene.material, folder, read)?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         Ok(Self {
             body,
             simple: simple(&*material).map_err(not_reduced)?,
             material,
+            expansion,
             motion,
             history,
             accuracy: scene.solve.accuracy()?,

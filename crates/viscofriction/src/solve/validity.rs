@@ -37,7 +37,7 @@ pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
 
 /// From the lowest point to the farthest edge of the contact, and of a periodic surface the root mean square; where no edge
 /// is known the friction, which is a mean of the slope.
-fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
+pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     if let Body::Periodic(surface) = body {
         return Some(surface.rms_slope());
     }

@@ -1,0 +1,266 @@
+//! Fractional elements as the Prony series that stand for them, whose error is part of the bars.
+//!
+//! At the frequencies of a range of times a series differs from its element by up to δ |G*|. At those times its relaxation
+//! modulus differs the most of all functions, by up to 2 δ Γ(1 − a) ≤ 2 δ/(1 − a) of itself: an element of the exponent a
+//! relaxes to |G*(1/t)|/Γ(1 − a).
+
+use numerics::{Estimate, NotReached, in_range, not_negative, positive};
+use rheology::{Prony, PronyExpansion, RelaxationSpectrum, RheologyError};
+
+use super::answer::Answer;
+use super::error::{Result, SolveError};
+use super::half_space::HalfSpace;
+use super::problem::{Motion, Problem};
+use super::validity::mean_slope;
+use crate::scene::Accuracy;
+
+/// Error of the modulus δ that a series is expanded to.
+const RELATIVE_ERROR: f64 = 1e-7;
+/// What is asked of a method, over what is asked of the answer; the rest is for the series.
+const OF_THE_METHOD: f64 = 0.95;
+/// Change of a quantity over the relative change of the moduli, at most. A force is proportional to them; under a force
+/// depth and radius change less, area and peak pressure at most twice as much.
+const PER_MODULUS: f64 = 4.0;
+
+/// How well a Prony series stands for a fractional element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expansion {
+    /// Relative error of relaxation modulus, creep compliance and complex modulus within the range.
+    pub relative_error: f64,
+    /// Shortest and longest time for which it holds, \[s].
+    pub time_range: [f64; 2],
+}
+
+/// A fractional element and a spring beside it.
+pub(crate) struct Fractional {
+    pub(crate) exponent: f64,
+    pub(crate) time_range: [f64; 2],
+    pub(crate) equilibrium_modulus: f64,
+}
+
+impl Fractional {
+    /// The series that stands for both, of an element that is expanded over a band of frequencies to an error.
+    pub(crate) fn expanded(
+        &self,
+        expand: impl FnOnce([f64; 2], f64) -> Result<PronyExpansion, RheologyError>,
+    ) -> Result<HalfSpace, RheologyError> {
+        let PronyExpansion {
+            spectrum,
+            relative_error,
+        } = expand(band(self.time_range)?, RELATIVE_ERROR)?;
+        let modulus = not_negative("equilibrium_modulus", self.equilibrium_modulus)?;
+        let sum = RelaxationSpectrum::new(
+            modulus + spectrum.equilibrium_modulus(),
+            spectrum.viscosity(),
+            spectrum.branches().to_vec(),
+        )?;
+        Ok(HalfSpace {
+            material: Box::new(Prony::new(sum)?),
+            expansion: Some(Expansion {
+                relative_error: 2.0 * relative_error / (1.0 - self.exponent),
+                time_range: self.time_range,
+            }),
+        })
+    }
+}
+
+fn band([shortest, longest]: [f64; 2]) -> Result<[f64; 2], RheologyError> {
+    positive("time_range[0]", shortest)?;
+    positive("time_range[1]", longest)?;
+    let allowed = "longer than the shortest time";
+    in_range("time_range[1]", longest, longest > shortest, allowed)?;
+    Ok([longest.recip(), shortest.recip()])
+}
+
+impl Problem {
+    /// Relative error of the moduli, 0 of a material that stands for itself.
+    pub(crate) fn modulus_error(&self) -> f64 {
+        self.expansion
+            .map_or(0.0, |expansion| expansion.relative_error)
+    }
+
+    /// What is asked of a method, so that the bars have room for the error of the moduli.
+    pub(crate) fn of_the_method(&self, accuracy: Accuracy) -> Accuracy {
+        match accuracy {
+            Accuracy::RelativeError(error) if self.expansion.is_some() => {
+                Accuracy::RelativeError(OF_THE_METHOD * error)
+            }
+            other => other,
+        }
+    }
+
+    /// The answer with the error of the moduli in its bars.
+    ///
+    /// # Errors
+    /// [`SolveError::OutsideTimeRange`] where it needs the material at other times; [`SolveError::TooCoarse`] where the bar
+    /// becomes larger than what was asked.
+    pub(crate) fn with_modulus_error(&self, answer: Answer, accuracy: Accuracy) -> Result<Answer> {
+        let Some(expansion) = self.expansion else {
+            return Ok(answer);
+        };
+        self.check_times(&answer, expansion.time_range)?;
+        if let Motion::History(_) = self.motion {
+            return Ok(answer);
+        }
+        let relative = PER_MODULUS * expansion.relative_error;
+        let slope = mean_slope(&self.body, &answer).unwrap_or(0.0);
+        let answer = answer.widened(relative, slope);
+        let Estimate { value, error } = answer.asked();
+        match accuracy {
+            Accuracy::RelativeError(asked) if error > asked * value.abs() => {
+                let (quantity, elements) = (0, answer.unknowns);
+                Err(SolveError::TooCoarse(NotReached {
+                    quantity,
+                    asked,
+                    value,
+                    error,
+                    elements,
+                }))
+            }
+            _ => Ok(answer),
+        }
+    }
+
+    fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
+        let contact = answer.contact_box.as_ref();
+        let length = contact.map(|contact| contact.x[1] - contact.x[0]);
+        let times: Vec<f64> = match self.motion {
+            Motion::Pressing(load) => vec![load.duration()],
+            Motion::Sliding(load) => {
+                let lengths = [length, load.sliding_distance()].into_iter().flatten();
+                lengths.map(|length| length / load.velocity()).collect()
+            }
+            Motion::History(_) => {
+                let between = self.history.windows(2);
+                let between = between.map(|pair| pair[1].time - pair[0].time);
+                let all = self.history.last().zip(self.history.first());
+                let all = all.map(|(last, first)| last.time - first.time);
+                between.filter(|time| *time > 0.0).chain(all).collect()
+            }
+        };
+        match times
+            .into_iter()
+            .find(|t| !(shortest..=longest).contains(t))
+        {
+            None => Ok(()),
+            Some(time) => Err(SolveError::OutsideTimeRange {
+                time,
+                shortest,
+                longest,
+            }),
+        }
+    }
+}
+
+impl Answer {
+    /// With the error that a relative error of the moduli makes; friction has that of the mean slope in contact, of which it
+    /// is a small part on an almost elastic material.
+    fn widened(mut self, relative: f64, slope: f64) -> Self {
+        let (force, depth) = (&mut self.normal_force, self.indentation_depth.as_mut());
+        // What is exact was given.
+        let found = std::iter::once(force)
+            .chain(depth)
+            .filter(|found| found.error > 0.0);
+        let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
+        for quantity in found.chain(others.into_iter().flatten()) {
+            quantity.error += relative * quantity.value.abs();
+        }
+        if let Some(friction) = &mut self.friction_coefficient {
+            friction.error += relative * slope.max(friction.value.abs());
+        }
+        if let Some(contact) = &mut self.contact_box {
+            contact.error += relative * (contact.x[1] - contact.x[0]);
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rheology::Springpot;
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::solve::solve;
+
+    const LOADS: [&str; 5] = [
+        "normal_force = 2.0\nvelocity = 0.01\n[solve]\nmodel = \"line\"\nrelative_error = 1e-5",
+        "indentation_depth = 1e-5\nvelocity = 1.0\n[solve]\nmodel = \"line\"\nrelative_error = 1e-5",
+        "normal_force = 2.0\nvelocity = 0.01\n[solve]\nelements = 24",
+        "normal_force = 2.0\nvelocity = 0.0\n[solve]\nduration = 100.0",
+        "indentation_depth = 1e-5\nvelocity = 0.0\n[solve]\nduration = 100.0",
+    ];
+
+    /// A series of a springpot as a material of its own, and the error that `PER_MODULUS` is multiplied with.
+    fn coarse(exponent: f64) -> (String, f64) {
+        let element = Springpot::new(1e6, exponent).expect("a springpot");
+        let series = element.expand([1e-3, 1e3], 1e-3).expect("a series");
+        let branches = series.spectrum.branches().iter().map(|branch| {
+            let (modulus, time) = (branch.modulus, branch.relaxation_time);
+            format!("{{ modulus = {modulus:e}, relaxation_time = {time:e} }}")
+        });
+        let branches = branches.collect::<Vec<_>>().join(", ");
+        let [modulus, viscosity] = [
+            series.spectrum.equilibrium_modulus(),
+            series.spectrum.viscosity(),
+        ];
+        let table = format!(
+            "prony]\nequilibrium_modulus = {modulus:e}\nviscosity = {viscosity:e}\nbranches = [{branches}]"
+        );
+        (table, 2.0 * series.relative_error / (1.0 - exponent))
+    }
+
+    /// A series with an error that is seen changes no answer by more than the bars would have.
+    #[test]
+    fn bars_hold_the_error_of_a_series() {
+        for (exponent, load) in [0.05, 0.4, 0.9]
+            .into_iter()
+            .flat_map(|a| LOADS.map(|load| (a, load)))
+        {
+            let answer = |material: &str| {
+                let text = format!(
+                    "[indenter.sphere]\nradius = 5e-3\n[material.{material}\n[load]\n{load}"
+                );
+                let scene: Scene = text.parse().expect("a scene");
+                solve(&Problem::try_from(&scene).expect("a problem")).expect("an answer")
+            };
+            let pot = format!(
+                "springpot]\ncoefficient = 1e6\nexponent = {exponent}\ntime_range = [1e-3, 1e3]"
+            );
+            let (table, error) = coarse(exponent);
+            let (exact, other) = (answer(&pot), answer(&table));
+            let quantities = |answer: &Answer| {
+                let found = [
+                    answer.indentation_depth,
+                    answer.contact_area,
+                    answer.peak_pressure,
+                ];
+                let friction = answer
+                    .friction_coefficient
+                    .map_or(0.0, |friction| friction.value);
+                (
+                    friction,
+                    [Some(answer.normal_force)]
+                        .into_iter()
+                        .chain(found)
+                        .flatten()
+                        .collect::<Vec<_>>(),
+                )
+            };
+            let ((friction, exact), (changed, other)) = (quantities(&exact), quantities(&other));
+            let slope = (exact[1].value / 5e-3).sqrt();
+            let mut changes = vec![(changed - friction).abs() / slope];
+            changes.extend(
+                exact
+                    .iter()
+                    .zip(&other)
+                    .map(|(a, b)| (b.value / a.value - 1.0).abs()),
+            );
+            let largest = changes.iter().copied().fold(0.0, f64::max) / error;
+            assert!(
+                largest < PER_MODULUS && largest > 1e-3,
+                "exponent {exponent}, {load}: changes by {largest} times {error:e}; friction first {changes:?}"
+            );
+        }
+    }
+}
