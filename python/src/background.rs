@@ -13,7 +13,7 @@ use rayon::prelude::*;
 /// Ctrl-C and the progress are looked after so often.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The results of `work` for 0 to `count` − 1, on `threads` threads or on all, in order.
+/// The results of `work` for 0 to `count` − 1, on `threads` threads of their own or on those of the process, in order.
 ///
 /// After an interruption no new work begins; what is under way ends unseen.
 ///
@@ -37,10 +37,14 @@ pub(crate) fn all<T: Send + 'static>(
             result
         }
     };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
-    let pool = pool.build().map_err(failed)?;
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = threads.map(pool).transpose().map_err(failed)?;
     let compute = move || {
-        let results = pool.install(|| (0..count).into_par_iter().map(counted).collect());
+        let every = || (0..count).into_par_iter().map(counted).collect();
+        let results = match pool {
+            Some(pool) => pool.install(every),
+            None => every(),
+        };
         // Nobody waits for it after an interruption.
         drop(sender.send(results));
     };

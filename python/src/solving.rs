@@ -14,16 +14,8 @@ use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose
 use crate::background;
 use crate::tables::{table, wrong};
 
-/// Numbers of the load that may differ from scene to scene.
-#[derive(Clone, Copy)]
-enum Column {
-    NormalForce,
-    IndentationDepth,
-    MeanPressure,
-    Velocity,
-    Duration,
-    SlidingDistance,
-}
+/// Sets a number of the load that may differ from scene to scene.
+type Column = fn(&mut Scene, f64);
 
 /// A scene, and what differs between the scenes that are solved.
 struct Scenes {
@@ -37,15 +29,7 @@ impl Scenes {
     fn problem(&self, index: usize) -> PyResult<Problem> {
         let mut scene = self.scene.clone();
         for (column, values) in &self.columns {
-            let value = Some(values[index]);
-            match column {
-                Column::NormalForce => scene.load.normal_force = value,
-                Column::IndentationDepth => scene.load.indentation_depth = value,
-                Column::MeanPressure => scene.load.mean_pressure = value,
-                Column::Velocity => scene.load.velocity = value,
-                Column::Duration => scene.solve.duration = value,
-                Column::SlidingDistance => scene.solve.sliding_distance = value,
-            }
+            column(&mut scene, values[index]);
         }
         let mut problem = Problem::new(&scene, &self.folder, read).map_err(wrong)?;
         if let Some(heights) = &self.heights {
@@ -61,15 +45,16 @@ pub(crate) fn read(file: &Path) -> Result<Vec<u8>, WrongInput> {
 }
 
 fn column(name: &str) -> PyResult<Column> {
-    Ok(match name {
-        "normal_force" => Column::NormalForce,
-        "indentation_depth" => Column::IndentationDepth,
-        "mean_pressure" => Column::MeanPressure,
-        "velocity" => Column::Velocity,
-        "duration" => Column::Duration,
-        "sliding_distance" => Column::SlidingDistance,
+    let set: Column = match name {
+        "normal_force" => |scene, force| scene.load.normal_force = Some(force),
+        "indentation_depth" => |scene, depth| scene.load.indentation_depth = Some(depth),
+        "mean_pressure" => |scene, pressure| scene.load.mean_pressure = Some(pressure),
+        "velocity" => |scene, velocity| scene.load.velocity = Some(velocity),
+        "duration" => |scene, duration| scene.solve.duration = Some(duration),
+        "sliding_distance" => |scene, distance| scene.solve.sliding_distance = Some(distance),
         other => return Err(wrong(format!("{other} does not vary from scene to scene"))),
-    })
+    };
+    Ok(set)
 }
 
 /// What [`solve_loads`] is asked.
@@ -114,16 +99,21 @@ pub(crate) fn solve_loads<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let scenes = loads.scenes()?;
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
-    for index in 0..count {
-        scenes.problem(index)?;
-    }
     let threads = scenes.scene.solve.threads;
+    let problems = (0..count).map(|index| {
+        let problem = scenes.problem(index)?;
+        // A body of many numbers is not kept for each.
+        Ok(matches!(problem.body, Body::Revolution(_)).then_some(problem))
+    });
+    let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
     let answers = background::all(py, count, threads, progress, move |index| {
-        // It was built before.
-        scenes.problem(index).ok().map(|problem| solve(&problem))
+        match &problems[index] {
+            Some(problem) => Some(solve(problem)),
+            // It was built before.
+            None => scenes.problem(index).ok().map(|problem| solve(&problem)),
+        }
     })?;
-    let answers: Vec<_> = answers.into_iter().flatten().collect();
-    to_python(py, answers)
+    to_python(py, answers.into_iter().flatten().collect())
 }
 
 fn map(heights: &PyReadonlyArray2<'_, f64>, spacing: [f64; 2]) -> PyResult<HeightMap> {

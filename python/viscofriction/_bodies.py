@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, ClassVar
@@ -18,6 +19,7 @@ __all__ = [
     "FlatCone",
     "FlatPunch",
     "HeightMap",
+    "HeightMapFile",
     "Hyperboloid",
     "Paraboloid",
     "Power",
@@ -159,6 +161,25 @@ class Superposition(Body):
         return {self._kind: {"terms": terms}}
 
 
+@dataclass(frozen=True)
+class HeightMapFile(Body):
+    """A measured surface from a file, whose highest points touch first; it has its own units and spacing.
+
+    The extension says the format: gsf (Gwyddion Simple Field), sur (Digital Surf), x3p (ISO 25178-72), xyz (points of a
+    grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
+    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out.
+    """
+
+    file: str | os.PathLike[str]
+    fill_missing: bool = False
+    level: bool = False
+    _kind = "height-map"
+
+    def _table(self) -> dict[str, Any]:
+        keys = super()._table()[self._kind]
+        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
+
+
 class HeightMap(Body):
     """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
 
@@ -180,10 +201,12 @@ class HeightMap(Body):
     def from_topography(cls, topography: Any) -> HeightMap:
         """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
         scaled = topography.to_unit("m") if topography.unit is not None else topography
-        heights = np.asarray(scaled.heights())
-        if np.ma.is_masked(scaled.heights()):
-            raise ValueError("heights: points are missing; interpolate them first")
-        return cls(heights.max() - heights, tuple(scaled.pixel_size))
+        measured = scaled.heights()
+        if np.ma.is_masked(measured):
+            raise ValueError("heights: points are missing; interpolate them first, topography.interpolate_undefined_data()")
+        heights = np.asarray(measured)
+        dx, dy = map(float, scaled.pixel_size)
+        return cls(heights.max() - heights, (dx, dy))
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape

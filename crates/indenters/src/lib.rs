@@ -27,6 +27,10 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+// Only its inflation is chosen here.
+#[cfg(feature = "topography")]
+use flate2 as _;
+
 mod analytic_line;
 mod axisymmetric;
 mod contact_radius;
@@ -54,6 +58,8 @@ mod stretch;
 mod superposition;
 mod surface;
 mod table;
+#[cfg(feature = "topography")]
+pub mod topography;
 
 pub use analytic_line::AnalyticLine;
 pub use axisymmetric::{Axisymmetric, Kink, LinePoint, ProfilePoint, abel_height, abel_slope};

@@ -84,10 +84,18 @@ pub enum Indenter {
     /// A surface from a grid of heights, bilinear between them; it ends at the edge of the grid.
     HeightMap {
         /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column
-        /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x.
+        /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x. With the
+        /// extensions gsf, sur, x3p and xyz a measured surface, whose highest points touch first.
         file: PathBuf,
-        /// Distances of neighbouring heights along x and y, > 0, \[m].
-        spacing: [f64; 2],
+        /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        spacing: Option<[f64; 2]>,
+        /// Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
+        #[serde(default)]
+        fill_missing: bool,
+        /// Take the plane of least squares out of a measured surface.
+        #[serde(default)]
+        level: bool,
     },
     /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
     SelfAffine {

@@ -4,6 +4,8 @@ use std::ops::Deref;
 use std::path::Path;
 
 use indenters::rough::{PeriodicSurface, SelfAffine};
+#[cfg(feature = "topography")]
+use indenters::topography::Topography;
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
@@ -118,8 +120,14 @@ pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result
             let cylinder = Cylinder::new(radius).map(Body::Cylinder);
             return cylinder.map_err(|error| refused(&indenter.key(), error));
         }
-        Indenter::HeightMap { file, spacing } => {
-            return map(&folder.join(file), *spacing, read).map(Body::HeightMap);
+        Indenter::HeightMap {
+            file,
+            spacing,
+            fill_missing,
+            level,
+        } => {
+            let change = [*fill_missing, *level];
+            return map(&folder.join(file), *spacing, change, read).map(Body::HeightMap);
         }
         &Indenter::SelfAffine {
             period,
@@ -180,18 +188,67 @@ fn table_profile(file: &Path, read: ReadFile) -> Result<Revolution, SceneError> 
     profile(file, &contents).map(other).map_err(wrong)
 }
 
-fn map(file: &Path, spacing: [f64; 2], read: ReadFile) -> Result<HeightMap, SceneError> {
-    positive("indenter.height-map.spacing[0]", spacing[0])?;
-    positive("indenter.height-map.spacing[1]", spacing[1])?;
+/// A grid of heights, which says how far apart they are, or the scene does.
+fn map(
+    file: &Path,
+    spacing: Option<[f64; 2]>,
+    change: [bool; 2],
+    read: ReadFile,
+) -> Result<HeightMap, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.height-map.file", problem);
-    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    let map = height_map(file, &contents, spacing).map_err(wrong)?;
+    let spaced = |problem: &str| SceneError::at("indenter.height-map.spacing", problem);
+    let contents = || read(file).map_err(|WrongInput(problem)| wrong(problem));
+    let in_file = |problem: String| wrong(format!("{}: {problem}", file.display()));
+    let map = match (measured(file), spacing) {
+        (Some(_), Some(_)) => return Err(spaced("a measured surface has its own; leave this out")),
+        (None, None) => return Err(spaced("missing field `spacing`")),
+        (Some(extension), None) => {
+            measured_body(extension, &contents()?, change).map_err(in_file)?
+        }
+        (None, Some(_)) if change != [false; 2] => {
+            let problem = "fill_missing and level are for measured surfaces; leave them out";
+            return Err(wrong(problem.to_owned()));
+        }
+        (None, Some(spacing)) => {
+            positive("indenter.height-map.spacing[0]", spacing[0])?;
+            positive("indenter.height-map.spacing[1]", spacing[1])?;
+            height_map(file, &contents()?, spacing).map_err(wrong)?
+        }
+    };
     if map.extent().into_iter().flatten().any(|end| end == 0.0) {
         let problem =
             "the lowest height lies on the edge of the map, where the contact would end with it";
-        return Err(wrong(format!("{}: {problem}", file.display())));
+        return Err(in_file(problem.to_owned()));
     }
     Ok(map)
+}
+
+/// The extension, where it is that of a measured surface.
+fn measured(file: &Path) -> Option<&str> {
+    let extension = file.extension()?.to_str()?;
+    let mut known = ["gsf", "sur", "x3p", "xyz"].into_iter();
+    known
+        .any(|known| known.eq_ignore_ascii_case(extension))
+        .then_some(extension)
+}
+
+/// The body of a measured surface, whose missing heights are filled, and then whose tilt is taken out, where it is asked.
+#[cfg(feature = "topography")]
+fn measured_body(
+    extension: &str,
+    contents: &[u8],
+    [fill, level]: [bool; 2],
+) -> Result<HeightMap, String> {
+    let surface = Topography::read(extension, contents).map_err(|error| error.to_string())?;
+    let surface = if fill { surface.filled() } else { surface };
+    let surface = if level { surface.levelled() } else { surface };
+    surface.body().map_err(|error| error.to_string())
+}
+
+#[cfg(not(feature = "topography"))]
+fn measured_body(extension: &str, _: &[u8], _: [bool; 2]) -> Result<HeightMap, String> {
+    let problem = "a reader of this format needs the feature topography of the crate viscofriction";
+    Err(format!("{extension}: {problem}"))
 }
 
 /// The number that the library refuses, with its key.

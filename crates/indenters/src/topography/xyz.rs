@@ -1,0 +1,70 @@
+//! Rows of x, y and z in metres, in any order; points of the grid that are left out are missing.
+
+use super::{Topography, text_of};
+
+/// Part of a spacing by which a point may miss its place in the grid.
+const MISS: f64 = 0.01;
+
+pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
+    let mut points = Vec::new();
+    for (index, line) in text_of(contents).lines().enumerate() {
+        let cells = line.split(|c: char| c.is_whitespace() || c == ';' || c == ',');
+        let cells = cells.filter(|cell| !cell.is_empty()).map(str::parse);
+        if !line.starts_with('#') && !line.trim().is_empty() {
+            let row: Option<[f64; 3]> = cells
+                .collect::<Result<Vec<f64>, _>>()
+                .ok()
+                .and_then(|row| row.try_into().ok());
+            points.push(row.ok_or_else(|| format!("line {}: '{line:.40}'", index + 1))?);
+        }
+    }
+    let axis = |which: usize| axis(points.iter().map(|point| point[which]).collect());
+    let [(x, dx, nx), (y, dy, ny)] = [axis(0)?, axis(1)?];
+    if nx * ny > 100 * points.len() {
+        return Err(format!("{} points of a grid of {nx} × {ny}", points.len()));
+    }
+    let mut heights = vec![f64::NAN; nx * ny];
+    for [at_x, at_y, height] in points {
+        let steps = [(at_x - x) / dx, (at_y - y) / dy];
+        if steps.iter().any(|step| (step - step.round()).abs() > MISS) {
+            return Err(format!(
+                "a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}"
+            ));
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "in the grid"
+        )]
+        let [row, column] = steps.map(|step| step.round() as usize);
+        heights[row * ny + column] = height;
+    }
+    let (shape, spacing) = ([nx, ny], [dx, dy]);
+    Ok(Topography {
+        shape,
+        spacing,
+        heights,
+    })
+}
+
+/// First of equally spaced coordinates, their distance and number.
+fn axis(mut values: Vec<f64>) -> Result<(f64, f64, usize), String> {
+    values.sort_by(f64::total_cmp);
+    let ends = values.first().copied().zip(values.last().copied());
+    let (first, last) = ends.ok_or("no points")?;
+    let range = last - first;
+    let steps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let smallest = steps
+        .filter(|step| *step > 1e-6 * range)
+        .fold(range, f64::min);
+    let count = (range / smallest).round();
+    if !(range > 0.0 && count.is_finite()) {
+        return Err(format!("coordinates from {first} to {last}"));
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "1 to 1e6"
+    )]
+    Ok((first, range / count, count as usize + 1))
+}

@@ -1,0 +1,170 @@
+"""Measured surfaces: the same one in each format, with its units, its orientation and its holes."""
+
+from __future__ import annotations
+
+import io
+import struct
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscofriction as vf
+
+# All numbers are exact in float32: a bump without symmetry on 25 × 21 points, highest off the middle.
+STEP, SPACING = 2.0**-24, (2.0**-13, 2.0**-14)
+X, Y = np.meshgrid(np.arange(25.0), np.arange(21.0), indexing="ij")
+DX, DY = X - 11.0, Y - 8.0
+COUNTS = np.round(4000.0 - 6.0 * DX**2 * (1.0 + 0.02 * DX) - 9.0 * DY**2 * (1.0 + 0.02 * DY) - 4.0 * DX * DY).astype(int)
+HEIGHTS = STEP * COUNTS
+X3P = """<?xml version="1.0"?><p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1><FeatureType>SUR</FeatureType>
+<Axes><CX><AxisType>I</AxisType><DataType>D</DataType><Increment>{dx!r}</Increment></CX><CY><AxisType>I</AxisType>
+<Increment>{dy!r}</Increment></CY><CZ><AxisType>A</AxisType><DataType>{kind}</DataType><Increment>{step!r}</Increment></CZ></Axes>
+</Record1><Record3><MatrixDimension><SizeX>25</SizeX><SizeY>21</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink>
+<PointDataLink>bindata/data.bin</PointDataLink>{valid}</DataLink></Record3></p:ISO5436_2>"""
+
+
+def gsf(heights: Any) -> bytes:
+    head = f"Gwyddion Simple Field 1.0\nXRes = 25\nYRes = 21\nXReal = {25 * SPACING[0]!r}\nYReal = {21 * SPACING[1]!r}\nZUnits = m\n"
+    return head.encode() + b"\0" * (4 - len(head) % 4) + heights.T[::-1].astype("<f4").tobytes()
+
+
+def sur(counts: Any, bits: int = 32) -> bytes:
+    head = bytearray(512)
+    head[:12] = b"DIGITAL SURF"
+    struct.pack_into("<H", head, 18, 2)
+    struct.pack_into("<H", head, 86, 1)
+    struct.pack_into("<H6i", head, 98, bits, 1, 4000, 25, 21, 525, 0)
+    struct.pack_into("<3f", head, 120, SPACING[0], SPACING[1], STEP)
+    for at in (180, 196, 212):
+        head[at : at + 16] = b"m".ljust(16)
+    struct.pack_into("<2H", head, 334, 3, 2)
+    return bytes(head) + b"12345" + counts.T.astype(f"<i{bits // 8}").tobytes()
+
+
+def x3p(values: Any, kind: str, valid: Any = None) -> bytes:
+    link = "" if valid is None else "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("main.xml", X3P.format(dx=SPACING[0], dy=SPACING[1], step=STEP, kind=kind, valid=link))
+        archive.writestr("bindata/data.bin", values.T.tobytes())
+        if valid is not None:
+            archive.writestr("bindata/valid.bin", np.packbits(valid.T.ravel(), bitorder="little").tobytes())
+    return file.getvalue()
+
+
+def xyz(heights: Any) -> bytes:
+    points = [(i * SPACING[0], j * SPACING[1], heights[i, j]) for i in range(25) for j in range(21)]
+    return "\n".join(f"{x!r};{y!r};{float(z)!r}" for x, y, z in reversed(points) if np.isfinite(z)).encode()
+
+
+FILES = {
+    "gsf": gsf(HEIGHTS),
+    "sur": sur(COUNTS),
+    "SUR": sur(COUNTS, 16),
+    "x3p": x3p(HEIGHTS, "D"),
+    "X3P": x3p(COUNTS.astype("<i2"), "I"),
+    "xyz": xyz(HEIGHTS),
+}
+
+
+def pressed(body: vf.Body) -> dict[str, Any]:
+    return vf.press(body, vf.Elastic(1e6), indentation_depth=2e-5, relative_error=0.02).to_dict()
+
+
+@pytest.fixture(scope="module")
+def expected() -> dict[str, Any]:
+    return pressed(vf.HeightMap(HEIGHTS.max() - HEIGHTS, SPACING))
+
+
+@pytest.mark.parametrize("extension", FILES)
+def test_every_format_is_the_same_surface(extension: str, expected: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / f"surface.{extension}"
+    file.write_bytes(FILES[extension])
+    found = pressed(vf.HeightMapFile(file))
+    # Positions and heights in decimals are rounded; sides of the contact tell left from right and front from rear.
+    assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-12)
+    assert found["contact_box"] == pytest.approx(expected["contact_box"], rel=1e-9)
+    assert len(set(map(abs, expected["contact_box"].values()))) == 4
+
+
+@pytest.mark.parametrize("extension", ["gsf", "sur", "x3p", "xyz"])
+def test_holes_are_refused_or_filled_with_the_mean_of_their_neighbours(extension: str, tmp_path: Path) -> None:
+    known = np.ones(HEIGHTS.shape, bool)
+    known[11, 7:9] = known[0, 0] = False
+    holes = np.where(known, HEIGHTS, np.nan)
+    contents = {
+        "gsf": gsf(holes),
+        "sur": sur(np.where(known, COUNTS, -1)),
+        "x3p": x3p(COUNTS.astype("<i2"), "I", known),
+        "xyz": xyz(holes),
+    }
+    file = tmp_path / f"surface.{extension}"
+    file.write_bytes(contents[extension])
+    with pytest.raises(ValueError, match="3 of 525 heights are missing"):
+        pressed(vf.HeightMapFile(file))
+    h = HEIGHTS
+    holes[11, 7] = (h[10, 7] + h[12, 7] + h[11, 6]) / 3
+    holes[11, 8] = (h[10, 8] + h[12, 8] + h[11, 9]) / 3
+    holes[0, 0] = (h[1, 0] + h[0, 1]) / 2
+    filled = pressed(vf.HeightMapFile(file, fill_missing=True))
+    by_hand = pressed(vf.HeightMap(holes.max() - holes, SPACING))
+    assert filled["normal_force"] == pytest.approx(by_hand["normal_force"], rel=1e-12)
+
+
+def test_a_tilt_is_taken_out_when_asked(tmp_path: Path) -> None:
+    file = tmp_path / "surface.x3p"
+    tilted = HEIGHTS + 3e-6 * X - 2e-6 * Y
+    file.write_bytes(x3p(tilted, "D"))
+    plane = np.column_stack([np.ones(525), X.ravel(), Y.ravel()])
+    level = HEIGHTS - (plane @ np.linalg.lstsq(plane, HEIGHTS.ravel())[0]).reshape(HEIGHTS.shape)
+    found = pressed(vf.HeightMapFile(file, level=True))
+    assert found["normal_force"] == pytest.approx(pressed(vf.HeightMap(level.max() - level, SPACING))["normal_force"], rel=1e-9)
+
+
+WRONG = [
+    ("gsf", b"Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 3\n\0" + b"\0" * 8, "heights for"),
+    ("gsf", b"nothing", "another beginning"),
+    ("sur", FILES["sur"][:900], "bytes for"),
+    ("sur", b"DIGITAL SURF", "another beginning"),
+    ("x3p", FILES["x3p"][:300], "ISO 25178-72"),
+    ("x3p", x3p(HEIGHTS[1:], "D"), "bytes of type 'D'"),
+    ("xyz", b"0 0 1\n0 1 2\n1 0 3\n1.3 1 4\n", "beside a grid"),
+    ("xyz", b"0 0 1\n0 1 x\n", "line 2"),
+]
+
+
+@pytest.mark.parametrize(("extension", "contents", "message"), WRONG)
+def test_what_is_no_surface_is_named(extension: str, contents: bytes, message: str, tmp_path: Path) -> None:
+    file = tmp_path / f"surface.{extension}"
+    file.write_bytes(contents)
+    with pytest.raises(ValueError, match=message) as raised:
+        pressed(vf.HeightMapFile(file))
+    assert str(file) in str(raised.value)
+
+
+class Topography:
+    """What HeightMap.from_topography asks of a topography of the package SurfaceTopography."""
+
+    unit, pixel_size = "µm", np.array(SPACING) * 1e6
+
+    def __init__(self, heights: Any) -> None:
+        self._heights = heights
+
+    def heights(self) -> Any:
+        return self._heights
+
+    def to_unit(self, unit: str) -> Topography:
+        assert unit == "m"
+        scaled = Topography(1e-6 * self._heights)
+        scaled.pixel_size = np.array(SPACING)
+        return scaled
+
+
+def test_a_topography_is_pressed_with_its_tops(expected: dict[str, Any]) -> None:
+    found = pressed(vf.HeightMap.from_topography(Topography(1e6 * HEIGHTS)))
+    assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
+    with pytest.raises(ValueError, match="missing"):
+        vf.HeightMap.from_topography(Topography(np.ma.masked_greater(HEIGHTS, 2e-4)))
