@@ -26,6 +26,8 @@
 mod error_parts;
 mod estimate;
 mod invalid_parameter;
+#[cfg(feature = "least-squares")]
+pub mod least_squares;
 mod legendre;
 mod progress;
 mod quadrature;

@@ -1,8 +1,7 @@
 //! Better relaxation times: least squares in the logarithms of moduli and times, which keeps both positive.
-//!
-//! Levenberg's and Marquardt's method (Marquardt 1963, DOI 10.1137/0111030) with the damping on the diagonal.
 
 use nalgebra::{DMatrix, DVector, DVectorViewMut};
+use numerics::least_squares::{Linearised, Range, minimise};
 
 use super::system::Row;
 use crate::RelaxationBranch;
@@ -14,56 +13,53 @@ pub(super) struct Series {
     pub(super) branches: Vec<RelaxationBranch>,
 }
 
-const MAX_STEPS: usize = 100;
 /// A step that improves the sum of squares by less than this is the last one.
 const SUFFICIENT: f64 = 1e-4;
+/// No quantity changes by more than a factor of e² at once.
+const LARGEST_STEP: f64 = 2.0;
 
 /// Moves moduli and times, all of them positive, to a local minimum of the squared residuals; the times stay within the
 /// `window`.
 pub(super) fn refine(rows: &[Row], start: Series, window: [f64; 2]) -> Series {
-    let mut series = start;
-    let mut squares = series.squares(rows);
-    let mut damping = 1e-3;
-    for _ in 0..MAX_STEPS {
-        let linear = series.linearised(rows);
-        let mut gained = None;
-        while gained.is_none() && damping < 1e9 {
-            let step = linear.step(damping);
-            let trial = step.map(|step| series.moved(step.as_slice(), window));
-            let trial = trial.map(|trial| (trial.squares(rows), trial));
-            match trial.filter(|(trial, _)| *trial < squares) {
-                Some((trial_squares, trial)) => {
-                    gained = Some(1.0 - trial_squares / squares);
-                    (series, squares) = (trial, trial_squares);
-                    damping *= 0.2;
-                }
-                None => damping *= 4.0,
-            }
-        }
-        if gained.is_none_or(|fraction| fraction < SUFFICIENT) {
-            break;
-        }
-    }
-    series
-}
-
-/// Normal matrix and gradient.
-struct Linearised {
-    normal: DMatrix<f64>,
-    gradient: DVector<f64>,
-}
-
-impl Linearised {
-    /// The damped step of all logarithms; none where the damping is too small for the matrix.
-    fn step(&self, damping: f64) -> Option<DVector<f64>> {
-        let mut damped = self.normal.clone();
-        let diagonal = self.normal.diagonal() * (1.0 + damping);
-        damped.set_diagonal(&diagonal);
-        Some(damped.cholesky()?.solve(&self.gradient))
-    }
+    let range = |bounds| Range {
+        bounds,
+        largest_step: LARGEST_STEP,
+    };
+    let anywhere = range([f64::NEG_INFINITY, f64::INFINITY]);
+    let within = range(window.map(f64::ln));
+    let spring = start.spring.map(|_| anywhere);
+    let branches = start.branches.iter().flat_map(|_| [anywhere, within]);
+    let ranges: Vec<Range> = spring.into_iter().chain(branches).collect();
+    let linearise = |logarithms: &[f64]| Some(start.at(logarithms).linearised(rows));
+    let found = minimise(linearise, start.logarithms(), &ranges, SUFFICIENT);
+    found.map_or_else(|| start.clone(), |found| start.at(&found.parameters))
 }
 
 impl Series {
+    /// Of the spring, and of modulus and time of every branch.
+    fn logarithms(&self) -> Vec<f64> {
+        let branches = self.branches.iter();
+        let branches = branches.flat_map(|branch| [branch.modulus, branch.relaxation_time]);
+        self.spring
+            .into_iter()
+            .chain(branches)
+            .map(f64::ln)
+            .collect()
+    }
+
+    /// A series of the same form.
+    fn at(&self, logarithms: &[f64]) -> Self {
+        let (spring, branches) = logarithms.split_at(usize::from(self.spring.is_some()));
+        let branches = branches.chunks_exact(2).map(|pair| RelaxationBranch {
+            modulus: pair[0].exp(),
+            relaxation_time: pair[1].exp(),
+        });
+        Self {
+            spring: spring.first().map(|modulus| modulus.exp()),
+            branches: branches.collect(),
+        }
+    }
+
     pub(super) fn value(&self, row: &Row) -> f64 {
         let branches = self.branches.iter();
         let relaxing =
@@ -85,8 +81,9 @@ impl Series {
             errors.map(|(row, slopes)| row.weight * (row.value - self.slopes(row, slopes)));
         let errors = DVector::from_vec(errors.collect());
         Linearised {
-            normal: &slopes * slopes.transpose(),
-            gradient: slopes * errors,
+            sum: errors.norm_squared(),
+            matrix: (&slopes * slopes.transpose()).data.into(),
+            descent: (slopes * errors).data.into(),
         }
     }
 
@@ -112,20 +109,5 @@ impl Series {
             put(modulus * by_log_time);
         }
         value
-    }
-
-    fn moved(&self, step: &[f64], [shortest, longest]: [f64; 2]) -> Self {
-        // No quantity changes by more than a factor of e² at once.
-        let factor = |step: f64| step.clamp(-2.0, 2.0).exp();
-        let (spring, branches) = step.split_at(usize::from(self.spring.is_some()));
-        let spring_factor = spring.first().copied().map_or(1.0, factor);
-        let mut moved = self.clone();
-        moved.spring = moved.spring.map(|modulus| modulus * spring_factor);
-        for (branch, pair) in moved.branches.iter_mut().zip(branches.chunks_exact(2)) {
-            branch.modulus *= factor(pair[0]);
-            let time = branch.relaxation_time * factor(pair[1]);
-            branch.relaxation_time = time.clamp(shortest, longest);
-        }
-        moved
     }
 }

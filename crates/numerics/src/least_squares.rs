@@ -1,0 +1,167 @@
+//! The least sum of squares, or of another loss, over parameters within bounds.
+//!
+//! Levenberg's and Marquardt's method (Marquardt 1963, DOI 10.1137/0111030) with the damping on the diagonal.
+
+use nalgebra::{DMatrix, DVector};
+
+/// A sum at one place, and its second-order model: sum(p + s) ≈ sum − 2 descent·s + s·matrix·s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Linearised {
+    /// The sum of squares.
+    pub sum: f64,
+    /// Normal matrix, row by row: the sum over all residuals of the products of two of their derivatives.
+    pub matrix: Vec<f64>,
+    /// The sum over all residuals of minus the residual times its derivatives.
+    pub descent: Vec<f64>,
+}
+
+/// How far a parameter may go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The least and the largest value; a parameter between two equal ones stays there.
+    pub bounds: [f64; 2],
+    /// Largest change in one step.
+    pub largest_step: f64,
+}
+
+/// Where a search has ended.
+#[derive(Debug, Clone, PartialEq)]
+#[must_use]
+pub struct Minimum {
+    /// The parameters.
+    pub parameters: Vec<f64>,
+    /// The sum there, and its model.
+    pub linearised: Linearised,
+}
+
+const MAX_STEPS: usize = 100;
+
+/// Goes down from a start within the ranges; the last step is the first that lowers the sum by less than `sufficient` of
+/// it.
+///
+/// None where `linearise` has no finite sum at the start; where it has none on the way, steps become shorter.
+pub fn minimise(
+    mut linearise: impl FnMut(&[f64]) -> Option<Linearised>,
+    start: Vec<f64>,
+    ranges: &[Range],
+    sufficient: f64,
+) -> Option<Minimum> {
+    let finite = |linearised: &Linearised| linearised.sum.is_finite();
+    let mut parameters = start;
+    let mut linearised = linearise(&parameters).filter(finite)?;
+    let mut damping = 1e-3;
+    for _ in 0..MAX_STEPS {
+        let mut gained = None;
+        while gained.is_none() && damping < 1e9 {
+            let moved = step(&linearised, &parameters, ranges, damping);
+            let trial = moved.and_then(|moved| Some((linearise(&moved).filter(finite)?, moved)));
+            match trial.filter(|(trial, _)| trial.sum < linearised.sum) {
+                Some((trial, moved)) => {
+                    gained = Some(1.0 - trial.sum / linearised.sum);
+                    (linearised, parameters) = (trial, moved);
+                    damping *= 0.2;
+                }
+                None => damping *= 4.0,
+            }
+        }
+        if gained.is_none_or(|fraction| fraction < sufficient) {
+            break;
+        }
+    }
+    Some(Minimum {
+        parameters,
+        linearised,
+    })
+}
+
+/// The damped step; none where the damping is too small for the matrix.
+fn step(
+    linearised: &Linearised,
+    parameters: &[f64],
+    ranges: &[Range],
+    damping: f64,
+) -> Option<Vec<f64>> {
+    // A parameter on a bound that would go beyond it stays, and the others do not count on it.
+    let is_free = |&k: &usize| {
+        let [lowest, highest] = ranges[k].bounds;
+        let down = linearised.descent[k];
+        !(parameters[k] <= lowest && down <= 0.0 || parameters[k] >= highest && down >= 0.0)
+    };
+    let n = parameters.len();
+    let free: Vec<usize> = (0..n).filter(is_free).collect();
+    let entry = |row: usize, column: usize| {
+        let damping = if row == column { 1.0 + damping } else { 1.0 };
+        damping * linearised.matrix[free[row] * n + free[column]]
+    };
+    let matrix = DMatrix::from_fn(free.len(), free.len(), entry);
+    let descent = DVector::from_iterator(
+        free.len(),
+        free.iter().map(|&place| linearised.descent[place]),
+    );
+    let step = matrix.cholesky()?.solve(&descent);
+    let mut moved = parameters.to_vec();
+    for (&place, step) in free.iter().zip(step.iter()) {
+        let Range {
+            bounds: [lowest, highest],
+            largest_step,
+        } = ranges[place];
+        let step = step.clamp(-largest_step, largest_step);
+        moved[place] = (moved[place] + step).clamp(lowest, highest);
+    }
+    Some(moved)
+}
+
+/// The inverse of a symmetric positive matrix of `n` rows, row by row; none where it is singular to rounding.
+#[must_use]
+pub fn inverse(matrix: &[f64], n: usize) -> Option<Vec<f64>> {
+    let scale: Vec<f64> = (0..n).map(|k| matrix[k * n + k].sqrt().recip()).collect();
+    // With a unit diagonal, so that units do not matter.
+    let scaled = |row: usize, column: usize| scale[row] * matrix[row * n + column] * scale[column];
+    let inverse = DMatrix::from_fn(n, n, scaled).cholesky()?.inverse();
+    let entry = |(at, value): (usize, &f64)| scale[at / n] * value * scale[at % n];
+    let entries: Vec<f64> = inverse.iter().enumerate().map(entry).collect();
+    entries
+        .iter()
+        .all(|entry| entry.is_finite())
+        .then_some(entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rosenbrock's valley as residuals 10 (y − x²) and 1 − x.
+    fn valley(p: &[f64]) -> Option<Linearised> {
+        let residuals = [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]];
+        let slopes = [[-20.0 * p[0], 10.0], [-1.0, 0.0]];
+        let product = |j: usize, k: usize| slopes.iter().map(|row| row[j] * row[k]).sum();
+        let descent = |k: usize| {
+            residuals
+                .iter()
+                .zip(slopes)
+                .map(|(r, row)| -r * row[k])
+                .sum()
+        };
+        Some(Linearised {
+            sum: residuals.iter().map(|r| r * r).sum(),
+            matrix: vec![product(0, 0), product(0, 1), product(1, 0), product(1, 1)],
+            descent: vec![descent(0), descent(1)],
+        })
+    }
+
+    #[test]
+    fn a_curved_valley_is_followed_to_its_end_or_to_a_bound() {
+        let range = |highest| Range {
+            bounds: [-2.0, highest],
+            largest_step: 0.5,
+        };
+        let start = || vec![-1.2, 1.0];
+        let found = minimise(valley, start(), &[range(2.0); 2], 1e-12).expect("a minimum");
+        let off = (found.parameters[0] - 1.0).hypot(found.parameters[1] - 1.0);
+        assert!(off < 1e-9, "{:?}", found.parameters);
+        // On x = 1/2 the least is y = x² with the sum 1/4.
+        let ranges = [range(0.5), range(2.0)];
+        let found = minimise(valley, start(), &ranges, 1e-12).expect("a minimum");
+        assert!((found.linearised.sum - 0.25).abs() < 1e-12, "{found:?}");
+    }
+}
