@@ -5,6 +5,8 @@
 //! h̃(x) = κ(p) c |x|^p         (8)
 //! ```
 
+use std::f64::consts::FRAC_2_PI;
+
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
 use numerics::positive;
 
@@ -38,6 +40,16 @@ impl PowerProfile {
     /// [`IndenterError::InvalidParameter`] when the slope is not finite and greater than zero.
     pub fn cone(slope: f64) -> Result<Self, IndenterError> {
         Self::new(positive("slope", slope)?, 1.0)
+    }
+
+    /// The cone with the elastic force of a four-sided pyramid whose faces have a slope > 0 along the shortest way down:
+    /// F = 0.7453 E* d²/slope of the pyramid (Bilodeau 1992, J. Appl. Mech. 59, 519, DOI 10.1115/1.2893754), and
+    /// (2/π) E* d²/slope of a cone. The contact of a pyramid is not a disc, so that its way back is an approximation.
+    ///
+    /// # Errors
+    /// [`IndenterError::InvalidParameter`] when the slope is not finite and greater than zero.
+    pub fn pyramid(slope: f64) -> Result<Self, IndenterError> {
+        Self::cone(FRAC_2_PI / 0.7453 * positive("slope", slope)?)
     }
 
     /// The paraboloid of revolution `curvature · r²`, curvature > 0 in \[1/m]; its radius of curvature is

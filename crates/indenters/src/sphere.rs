@@ -50,6 +50,21 @@ impl Axisymmetric for Sphere {
             slope: inverse_hyperbolic_tangent + (x / rest) * (self.radius / (self.radius + x)),
         })
     }
+
+    /// x = R tanh y with y tanh y = h̃/R, by Newton's method from both limits.
+    fn closed_radius(&self, height: f64) -> Option<f64> {
+        let ratio = height / self.radius;
+        let mut y = (ratio * (1.0 + ratio / 3.0).min(ratio + 0.5 / ratio.max(0.5))).sqrt();
+        for _ in 0..8 {
+            let tanh = y.tanh();
+            let step = (y * tanh - ratio) / (tanh + y * (1.0 - tanh * tanh));
+            y -= step;
+            if step.abs() <= 1e-9 * y {
+                return Some(self.radius * y.tanh());
+            }
+        }
+        None
+    }
 }
 
 surface_of_revolution!(Sphere);

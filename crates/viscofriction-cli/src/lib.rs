@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 mod check;
+mod indentation;
 mod input;
 mod material;
 mod output;
@@ -39,6 +40,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Fit a Prony series to measured moduli: material.toml for a scene, CSV, SVG and PNG of data and fit.
     FitMaterial(material::FitMaterial),
+    /// Find the material behind measured curves of force over depth: findings with intervals, CSV, SVG and PNG.
+    FitIndentation(indentation::FitIndentation),
     /// Print the JSON Schema of scene files.
     #[command(after_help = "Example: viscofriction scene-schema > scene.schema.json")]
     SceneSchema,
@@ -59,6 +62,7 @@ pub fn execute() -> ExitCode {
         Command::Run(options) => run::run(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::FitMaterial(options) => material::fit(&options),
+        Command::FitIndentation(options) => indentation::fit(&options),
         Command::SceneSchema => scene_schema(),
         Command::Completions { shell } => completions(shell),
     };

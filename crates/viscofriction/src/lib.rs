@@ -27,11 +27,15 @@
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
 #[cfg(feature = "fit")]
+pub mod indentation;
+#[cfg(feature = "fit")]
 pub mod moduli;
 pub mod npy;
 pub mod scene;
 pub mod solve;
 pub mod sweep;
+#[cfg(feature = "fit")]
+mod table;
 mod text;
 
 pub use bem_halfspace::slide::PressureField;
@@ -43,4 +47,4 @@ pub use solve::{
     solve_watched,
 };
 pub use text::{ReadFile, WrongInput, line_of, line_of_record};
-pub use {bem_halfspace, friction_analytic, indenters, mdr_core, rheology};
+pub use {bem_halfspace, friction_analytic, indenters, mdr_core, numerics, rheology};

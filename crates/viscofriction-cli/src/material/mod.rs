@@ -21,6 +21,7 @@ use viscofriction::moduli::{
 use crate::input::read_input;
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
+pub(crate) use output_files::prony;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]

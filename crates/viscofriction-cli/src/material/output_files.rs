@@ -1,8 +1,8 @@
 //! The files that the command leaves behind.
 
 use anyhow::Result;
-use rheology::WlfShift;
 use rheology::fit::{ModulusPoint, RelaxationPoint};
+use rheology::{RelaxationSpectrum, WlfShift};
 
 use super::picture::{Comparison, figure};
 use super::{Fitted, Points};
@@ -59,7 +59,7 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
     Ok(Comparison { names, rows: rows? })
 }
 
-/// The table `[material.prony]` of a scene file.
+/// The material with where it comes from, as a part of a scene file.
 pub(super) fn material(fitted: &Fitted<'_>) -> String {
     let spectrum = &fitted.found.spectrum;
     let data = fitted.options.data.display();
@@ -72,15 +72,21 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
             text += &format!("# WLF law closest to the shifts: C1 = {c1:.4}, C2 = {c2:.4} K\n");
         }
     }
+    text + &prony(spectrum, fitted.options.poisson_ratio)
+}
+
+/// The table `[material.prony]` of a scene file.
+pub(crate) fn prony(spectrum: &RelaxationSpectrum, poisson_ratio: f64) -> String {
     let branches = spectrum.branches().iter().map(|branch| {
         let (modulus, time) = (branch.modulus, branch.relaxation_time);
         format!("    {{ modulus = {modulus:?}, relaxation_time = {time:?} }},\n")
     });
-    text += &format!(
-        "[material.prony]\nequilibrium_modulus = {:?}\npoisson_ratio = {:?}\nbranches = [\n{}]\n",
+    let viscosity = Some(spectrum.viscosity()).filter(|viscosity| *viscosity > 0.0);
+    let viscosity = viscosity.map(|viscosity| format!("viscosity = {viscosity:?}\n"));
+    format!(
+        "[material.prony]\nequilibrium_modulus = {:?}\n{}poisson_ratio = {poisson_ratio:?}\nbranches = [\n{}]\n",
         spectrum.equilibrium_modulus(),
-        fitted.options.poisson_ratio,
+        viscosity.unwrap_or_default(),
         branches.collect::<String>()
-    );
-    text
+    )
 }

@@ -6,6 +6,7 @@ mod documented_commands;
 mod explained_omissions;
 mod exported_tables;
 mod files;
+mod fit_indentation;
 mod fit_material;
 mod fuzzed_inputs;
 mod height_maps_of_numpy;

@@ -1,14 +1,10 @@
 //! Tables of measured moduli, as instruments export them.
 //!
-//! [`measured_moduli`] goes from bytes to text (the encoding), from text to lines of cells (separator and decimal mark),
-//! from a line of names to columns with units, and from the rows below to isotherms in SI.
+//! [`measured_moduli`] puts the rows of all tables of a file into isotherms.
 
-mod columns;
 mod isotherms;
-mod layout;
-mod table;
+mod names;
 
-use std::fmt::Display;
 use std::path::Path;
 
 use numerics::in_range;
@@ -16,10 +12,10 @@ use rheology::InvalidParameter;
 use rheology::fit::{Isotherm, ModulusPoint, RelaxationPoint};
 
 use crate::WrongInput;
-use columns::NAMES;
+use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
+use crate::table::{Column, Line, Meaning, Source, Table, text_of};
 use isotherms::{Group, Row, insert};
-use layout::{Layout, text_of};
-use table::{Line, Table, is_head};
+use names::MODULI;
 
 /// What was measured, in SI and in shear.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,108 +76,96 @@ pub fn measured_moduli(
     options: &TableOptions,
 ) -> Result<MeasuredModuli, WrongInput> {
     let text = text_of(contents);
-    let layout = Layout::of(text.lines());
-    let lines = text.lines().enumerate().map(|(index, text)| Line {
-        number: index + 1,
-        text,
-        cells: layout.cells(text),
-    });
-    let lines: Vec<Line> = lines.filter(|line| !line.is_empty()).collect();
-    let source = Source {
-        file,
-        layout,
-        options,
+    let scale = |column: &Column| match column.deformation {
+        Some(Deformation::Tension) => options.shear_per_tension,
+        _ => 1.0,
     };
-    let is_head = |at: &usize| is_head(&source.columns(&lines[*at]));
-    let heads: Vec<usize> = (0..lines.len()).filter(is_head).collect();
+    let meaning = Meaning {
+        deformation: options.deformation,
+        scale: &scale,
+    };
+    let source = Source::new(file, &text, &MODULI, meaning);
+    let tables = source.tables()?;
+    let kind = Kind::of(&tables[0].0);
     let mut groups = Vec::new();
-    let mut kind = None;
-    for (nth, &head) in heads.iter().enumerate() {
-        let next = heads.get(nth + 1);
-        let block = &lines[head..next.copied().unwrap_or(lines.len())];
-        let table = Table::new(&source, block)?;
-        if *kind.get_or_insert(table.kind()) != table.kind() {
+    for (table, rows) in &tables {
+        if Kind::of(table) != kind {
             let problem =
                 "in all tables of a file the same must be measured, with temperatures in one unit";
-            return Err(source.wrong_line(lines[head].number, &problem));
+            return Err(source.wrong_line(table.line, &problem));
         }
-        for line in table.rows(block, next.is_none()) {
-            insert(&mut groups, table.row(line)?)
+        for line in rows {
+            insert(&mut groups, row(table, line)?)
                 .map_err(|problem| table.wrong_first(line, problem))?;
         }
     }
-    let kind = kind.ok_or_else(|| source.without_head(&lines))?;
-    source.enough(&groups, &lines)?;
+    let n_rows: usize = groups.iter().map(|group| group.rows.len()).sum();
+    if n_rows < 2 {
+        let needed = "at least 2 measurements are needed after the names and units";
+        return Err(source.wrong_end(&format!("{needed}, but there are {n_rows}")));
+    }
     Ok(MeasuredModuli {
-        measurements: source.measurements(groups, kind.is_relaxation)?,
+        measurements: measurements(&source, groups, kind.is_relaxation)?,
         celsius: kind.celsius.unwrap_or_default(),
     })
 }
 
-/// Where a table comes from, and how it is read.
-#[derive(Debug)]
-struct Source<'a> {
-    file: &'a Path,
-    layout: Layout,
-    options: &'a TableOptions,
+/// What all tables of a file have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Kind {
+    is_relaxation: bool,
+    /// Whether temperatures are in °C, where there are some.
+    celsius: Option<bool>,
 }
 
-impl Source<'_> {
-    /// What is wrong with a whole line.
-    fn wrong_line(&self, line: usize, problem: &dyn Display) -> WrongInput {
-        WrongInput(format!("{}, line {line}: {problem}", self.file.display()))
-    }
-
-    /// The columns that were found, for messages.
-    fn found(&self, line: &Line) -> String {
-        let names = self.layout.names(line.text);
-        let names = names.iter().map(|name| format!("'{}'", shown(name, 40)));
-        let names = shown(&names.collect::<Vec<_>>().join(", "), 400);
-        let separators = self.layout.separators();
-        format!("separated by {separators}, the columns are {names}")
-    }
-
-    fn without_head(&self, lines: &[Line]) -> WrongInput {
-        let needed = format!("a line of names is needed: {NAMES}");
-        let several = lines.iter().find(|line| line.cells.len() > 1);
-        let Some(line) = several.or(lines.first()) else {
-            return self.wrong_line(1, &needed);
-        };
-        self.wrong_line(line.number, &format!("{needed}; {}", self.found(line)))
-    }
-
-    fn enough(&self, groups: &[Group], lines: &[Line]) -> Result<(), WrongInput> {
-        let n_rows: usize = groups.iter().map(|group| group.rows.len()).sum();
-        if n_rows >= 2 {
-            return Ok(());
+impl Kind {
+    fn of(table: &Table) -> Self {
+        let temperature = table.find(Temperature);
+        Self {
+            is_relaxation: table.needed[0] == Time,
+            celsius: temperature.map(|column| column.unit != "K"),
         }
-        let last = lines.last().map_or(1, |line| line.number);
-        let needed = "at least 2 measurements are needed after the names and units";
-        Err(self.wrong_line(last, &format!("{needed}, but there are {n_rows}")))
     }
+}
 
-    fn measurements(
-        &self,
-        groups: Vec<Group>,
-        is_relaxation: bool,
-    ) -> Result<Measurements, WrongInput> {
-        if !is_relaxation {
-            let isotherms = groups.into_iter().map(isotherm).collect();
-            return Ok(Measurements::Oscillation(isotherms));
-        }
-        if let Some(second) = groups.get(1) {
-            let problem = "relaxation at several temperatures is not shifted: give a master curve";
-            return Err(self.wrong_line(second.line, &problem));
-        }
-        let rows = groups
-            .into_iter()
-            .flat_map(|group| group.rows.into_values());
-        let point = |Row { at, moduli, .. }: Row| RelaxationPoint {
-            time: at,
-            modulus: moduli[0],
-        };
-        Ok(Measurements::Relaxation(rows.map(point).collect()))
+fn row(table: &Table, line: &Line) -> Result<Row, WrongInput> {
+    let numbers = table.positives(line)?;
+    let [first, last] = [numbers[1], numbers[numbers.len() - 1]];
+    let moduli = match table.needed[1..] {
+        [Storage, LossFactor] => [first, first * last],
+        [Loss, LossFactor] => [first / last, first],
+        _ => [first, last],
+    };
+    Ok(Row {
+        line: line.number,
+        at: numbers[0],
+        moduli,
+        temperature: table.optional(line, Temperature)?,
+        set: table.optional(line, Set)?,
+    })
+}
+
+fn measurements(
+    source: &Source,
+    groups: Vec<Group>,
+    is_relaxation: bool,
+) -> Result<Measurements, WrongInput> {
+    if !is_relaxation {
+        let isotherms = groups.into_iter().map(isotherm).collect();
+        return Ok(Measurements::Oscillation(isotherms));
     }
+    if let Some(second) = groups.get(1) {
+        let problem = "relaxation at several temperatures is not shifted: give a master curve";
+        return Err(source.wrong_line(second.line, &problem));
+    }
+    let rows = groups
+        .into_iter()
+        .flat_map(|group| group.rows.into_values());
+    let point = |Row { at, moduli, .. }: Row| RelaxationPoint {
+        time: at,
+        modulus: moduli[0],
+    };
+    Ok(Measurements::Relaxation(rows.map(point).collect()))
 }
 
 fn isotherm(group: Group) -> Isotherm {
@@ -193,14 +177,5 @@ fn isotherm(group: Group) -> Isotherm {
     Isotherm {
         temperature: group.temperatures.iter().sum::<f64>() / group.rows.len() as f64,
         points: group.rows.into_values().map(point).collect(),
-    }
-}
-
-/// A cell as a part of one line; a quote that is never closed makes the rest of the line one cell.
-fn shown(cell: &str, most: usize) -> String {
-    let is_end = |(at, character): &(usize, char)| *at >= most || character.is_control();
-    match cell.char_indices().find(is_end) {
-        Some((end, _)) => format!("{}…", &cell[..end]),
-        None => cell.to_owned(),
     }
 }

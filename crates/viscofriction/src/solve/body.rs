@@ -95,7 +95,7 @@ impl Revolution {
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub(crate) fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, SceneError> {
+pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, SceneError> {
     let of = Revolution::Power;
     let shape = match indenter {
         &Indenter::Power {

@@ -19,7 +19,7 @@ mod validity;
 mod work;
 
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow, Persson, RoughAnswer};
-pub use body::{Body, Revolution};
+pub use body::{Body, Revolution, body};
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};

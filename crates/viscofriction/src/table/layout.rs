@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// The text of a file in UTF-8, in UTF-16 with a byte-order mark, or else in Latin-1.
-pub(super) fn text_of(contents: &[u8]) -> Cow<'_, str> {
+pub(crate) fn text_of(contents: &[u8]) -> Cow<'_, str> {
     let utf16 = |pairs: &[u8], unit: fn([u8; 2]) -> u16| {
         let units = pairs.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
         Cow::from(String::from_utf16_lossy(&units.collect::<Vec<_>>()))
@@ -22,7 +22,7 @@ pub(super) fn text_of(contents: &[u8]) -> Cow<'_, str> {
 
 /// How the cells of a table are separated, and their numbers written.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Layout {
+pub(crate) struct Layout {
     separator: char,
     decimal_mark: char,
 }
@@ -38,7 +38,7 @@ const SEPARATORS: [(char, &str); 4] = [
 impl Layout {
     /// The layout in which the most lines have the same number of cells and of numbers, at least two; of several the one
     /// with the fewest cells that are no numbers, and of those the first.
-    pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Self {
+    pub(crate) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Self {
         let layouts = SEPARATORS.iter().flat_map(|&(separator, _)| {
             ['.', ','].map(|decimal_mark| Self {
                 separator,
@@ -70,19 +70,19 @@ impl Layout {
     }
 
     /// Whether blanks separate, one or more.
-    pub(super) const fn is_blank(self) -> bool {
+    pub(crate) const fn is_blank(self) -> bool {
         self.separator == ' '
     }
 
     /// What is between the cells, for messages.
-    pub(super) fn separators(self) -> &'static str {
+    pub(crate) fn separators(self) -> &'static str {
         let mut known = SEPARATORS.iter();
         known
             .find(|(separator, _)| *separator == self.separator)
             .map_or("", |(_, name)| name)
     }
 
-    pub(super) fn cells(self, line: &str) -> Vec<&str> {
+    pub(crate) fn cells(self, line: &str) -> Vec<&str> {
         if self.is_blank() {
             return line.split_whitespace().collect();
         }
@@ -97,7 +97,7 @@ impl Layout {
     }
 
     /// Names and units may stand in a comment. Where blanks separate, names with blanks in them are two blanks apart.
-    pub(super) fn names(self, line: &str) -> Vec<&str> {
+    pub(crate) fn names(self, line: &str) -> Vec<&str> {
         let line = line.trim_start_matches(MARKS);
         if self.is_blank() && line.trim().contains("  ") {
             let names = line.split("  ").map(str::trim);
@@ -106,7 +106,7 @@ impl Layout {
         self.cells(line)
     }
 
-    pub(super) fn number(self, cell: &str) -> Option<f64> {
+    pub(crate) fn number(self, cell: &str) -> Option<f64> {
         let number = match self.decimal_mark {
             '.' => cell.parse().ok(),
             _ if cell.contains('.') || cell.ends_with(',') => None,
@@ -124,6 +124,6 @@ fn unquoted(cell: &str) -> &str {
 const MARKS: [char; 2] = ['#', '%'];
 
 /// Whether a line is a comment.
-pub(super) fn is_comment(line: &str) -> bool {
+pub(crate) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(MARKS) || line.trim_start().starts_with("//")
 }

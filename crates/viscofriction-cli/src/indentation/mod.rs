@@ -1,0 +1,279 @@
+//! `fit-indentation`: the material behind measured curves of force over depth.
+
+mod picture;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, anyhow};
+use clap::Args;
+use rayon::prelude::*;
+use rheology::Material as _;
+use viscofriction::WrongInput;
+use viscofriction::indentation::{
+    CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
+};
+use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
+use viscofriction::numerics::in_range;
+
+use crate::input::read_input;
+use crate::material::prony;
+use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
+use crate::progress;
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: viscofriction fit-indentation curve.csv --sphere 5e-6 --out gel\n\
+    Example: viscofriction fit-indentation map/*.csv --pyramid 35 --before-retraction --out map"
+)]
+pub(crate) struct FitIndentation {
+    /// Tables with a line of names: t, force and depth, in any order; or piezo (towards the sample) or height (away from
+    /// it), and deflection, with --spring-constant. Units are in the names or in the line below. Several are a map: one
+    /// row each, in curves.csv.
+    #[arg(required = true)]
+    curves: Vec<PathBuf>,
+    #[command(flatten)]
+    body: Body,
+    /// The material.
+    #[arg(long, value_enum, default_value = "standard-solid")]
+    material: Rheology,
+    /// Branches of a Prony series [default: as many as the curve tells apart].
+    #[arg(long, value_name = "N")]
+    branches: Option<usize>,
+    /// Poisson ratio.
+    #[arg(
+        long,
+        default_value_t = 0.5,
+        value_name = "NU",
+        allow_negative_numbers = true
+    )]
+    poisson_ratio: f64,
+    /// Stiffness of the cantilever in N/m.
+    #[arg(long, value_name = "N/m", allow_negative_numbers = true)]
+    spring_constant: Option<f64>,
+    /// Deflection per volt in m/V.
+    #[arg(long, value_name = "m/V", allow_negative_numbers = true)]
+    sensitivity: Option<f64>,
+    /// Fit up to the deepest point only: most bodies stick on the way back.
+    #[arg(long)]
+    before_retraction: bool,
+    /// Keep the force without contact the same at all depths.
+    #[arg(long)]
+    no_tilt: bool,
+    /// Where findings.csv, correlation.csv, fit.csv, fit.svg, fit.png and material.toml are written, of several curves
+    /// curves.csv [default: a table on the standard output].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+}
+
+/// The body, in metres and degrees.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+struct Body {
+    /// Sphere of this radius in m.
+    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
+    sphere: Option<f64>,
+    /// Cone of this angle between axis and flank in degrees.
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    cone: Option<f64>,
+    /// Four-sided pyramid of this angle between axis and face in degrees, as the cone of the same elastic force.
+    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    pyramid: Option<f64>,
+    /// Flat end of this radius in m.
+    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
+    flat_punch: Option<f64>,
+}
+
+impl Body {
+    fn shape(&self) -> Result<Box<dyn Axisymmetric>, WrongInput> {
+        let slope = |parameter, value: f64| {
+            let allowed = "greater than 0 and less than 90 degrees";
+            let holds = value > 0.0 && value < 90.0;
+            in_range(parameter, value, holds, allowed)?;
+            Ok::<f64, IndenterError>(value.to_radians().tan().recip())
+        };
+        let cone = |angle| PowerProfile::cone(slope("--cone", angle)?);
+        let pyramid = |angle| PowerProfile::pyramid(slope("--pyramid", angle)?);
+        let shape = match (self.sphere, self.cone, self.pyramid, self.flat_punch) {
+            (Some(radius), ..) => Sphere::new(radius).map(boxed),
+            (_, Some(angle), ..) => cone(angle).map(boxed),
+            (_, _, Some(angle), _) => pyramid(angle).map(boxed),
+            // One of them is given.
+            (.., radius) => FlatPunch::new(radius.unwrap_or_default()).map(boxed),
+        };
+        shape.map_err(|error| WrongInput(error.to_string()))
+    }
+}
+
+fn boxed(shape: impl Axisymmetric + 'static) -> Box<dyn Axisymmetric> {
+    Box::new(shape)
+}
+
+const NAMES: &str = "findings.csv correlation.csv fit.csv fit.svg fit.png material.toml curves.csv";
+
+/// Reads the curves, fits them, and writes what they say.
+pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
+    let body = options.body.shape()?;
+    let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
+    let out = options.out.as_ref().map(open).transpose()?;
+    let [file] = &options.curves[..] else {
+        return map(options, &*body, out.as_ref());
+    };
+    let fit = progress::during(format!("fitting {}", file.display()), || {
+        options.fitted(file, &*body, true)
+    })?;
+    print_text(&table(&fit))?;
+    let Some(out) = &out else {
+        return Ok(());
+    };
+    let names = fit.findings.iter().map(|one| &one.name[..]);
+    let names: Vec<&str> = names.collect();
+    let findings = fit.findings.iter();
+    let findings = findings.map(|one| (&one.name, one.unit, numbers(one)));
+    let header = "quantity unit value standard_error lower upper";
+    out.write("findings.csv", &to_csv(&words(header), findings)?)?;
+    out.write("correlation.csv", &to_csv(&names, &fit.correlation)?)?;
+    let header = "time_s depth_m force_n force_fit_n";
+    out.write("fit.csv", &to_csv(&words(header), &fit.points)?)?;
+    out.draw("fit", &picture::figure(&fit))?;
+    // Last: with it the others are there. What is not determined is said in front of the numbers.
+    let findings = table(&fit).replace('\n', "\n# ");
+    let material = prony(&fit.material.relaxation(), options.poisson_ratio);
+    let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
+    out.write("material.toml", material.as_bytes())?;
+    print_line(&format!("written into {}", out.path().display()))
+}
+
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+impl FitIndentation {
+    fn fitted(
+        &self,
+        file: &Path,
+        body: &dyn Axisymmetric,
+        profile: bool,
+    ) -> Result<IndentationFit, WrongInput> {
+        let read = CurveOptions {
+            spring_constant: self.spring_constant,
+            sensitivity: self.sensitivity,
+        };
+        let curve = indentation_curve(file, &read_input(file)?, &read)?;
+        let options = FitOptions {
+            rheology: self.material,
+            branches: self.branches,
+            poisson_ratio: self.poisson_ratio,
+            tilt: !self.no_tilt,
+            before_retraction: self.before_retraction,
+            profile,
+        };
+        fit_indentation(body, &curve, &options)
+            .map_err(|error| WrongInput(format!("{}: {error}", file.display())))
+    }
+}
+
+/// One row for each curve, also where it says nothing.
+fn map(
+    options: &FitIndentation,
+    body: &dyn Axisymmetric,
+    out: Option<&OutputFolder>,
+) -> Result<()> {
+    let bar = progress::bar("curves", options.curves.len());
+    let fits = options.curves.par_iter().map(|file| {
+        let fit = options.fitted(file, body, false);
+        bar.inc(1);
+        fit
+    });
+    let fits: Vec<Result<IndentationFit, WrongInput>> = fits.collect();
+    bar.finish_and_clear();
+    let longest = fits.iter().flatten().max_by_key(|fit| fit.findings.len());
+    let Some(longest) = longest else {
+        // One reason for all, as a wrong option is.
+        return Err(fits
+            .into_iter()
+            .find_map(Result::err)
+            .map_or(anyhow!("no curves"), Into::into));
+    };
+    let names = longest.findings.iter().map(|one| &one.name[..]);
+    let names: Vec<&str> = names.collect();
+    let ends = ["", "_error", "_lower", "_upper"];
+    let columns = names
+        .iter()
+        .flat_map(|name| ends.map(|end| format!("{name}{end}")));
+    let header: Vec<String> = ["file", "flags"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain(columns)
+        .collect();
+    let rows = options.curves.iter().zip(&fits);
+    let rows = rows.map(|(file, fit)| (file.display().to_string(), flags(fit), cells(fit, &names)));
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let csv = to_csv(&header, rows)?;
+    let Some(out) = out else {
+        return print_text(&String::from_utf8(csv)?);
+    };
+    out.write("curves.csv", &csv)?;
+    let n_fitted = fits.iter().flatten().count();
+    print_line(&format!("{n_fitted} of {} curves fitted", fits.len()))?;
+    print_line(&format!("written into {}", out.path().display()))
+}
+
+/// What is doubtful, or why there is nothing.
+fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
+    match fit {
+        Ok(fit) => {
+            let flags = fit.flags.iter().map(ToString::to_string);
+            flags.collect::<Vec<_>>().join("; ")
+        }
+        Err(error) => error.to_string(),
+    }
+}
+
+fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option<f64>> {
+    let findings = fit.as_ref().map_or(&[][..], |fit| &fit.findings);
+    let find = |name: &&str| findings.iter().find(|one| one.name == **name);
+    let cells = names
+        .iter()
+        .map(|name| find(name).map_or([None; 4], numbers));
+    cells.flatten().collect()
+}
+
+/// Value, standard error and ends of the interval.
+fn numbers(finding: &Finding) -> [Option<f64>; 4] {
+    let [lower, upper] = finding.interval;
+    let estimate = finding.estimate.map(|one| [one.value, one.error]);
+    let [value, error] = estimate.map_or([None; 2], |pair| pair.map(Some));
+    [value, error, lower, upper]
+}
+
+/// What was found, and what is doubtful.
+fn table(fit: &IndentationFit) -> String {
+    let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
+    for finding in &fit.findings {
+        let digits = |number: f64| format!("{number:.4e}");
+        let [value, error] = match finding.estimate {
+            Some(estimate) => [estimate.value, estimate.error].map(digits),
+            None => ["not determined", ""].map(str::to_owned),
+        };
+        let interval = match finding.interval.map(|end| end.map(digits)) {
+            [Some(lower), Some(upper)] => format!("{lower} to {upper}"),
+            [Some(lower), None] => format!("more than {lower}"),
+            [None, Some(upper)] => format!("less than {upper}"),
+            [None, None] => "any".to_owned(),
+        };
+        table.add_row([&finding.name, &value, &error, &interval, finding.unit]);
+    }
+    let noise = fit.noise.map_or_else(String::new, |noise| {
+        format!(", noise before the contact {noise:.3e} N")
+    });
+    let [residual, correlated] = [fit.residual, fit.correlated_points];
+    let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
+    format!(
+        "{table}\nresidual {residual:.3e} N{noise}; one independent point in {correlated:.1}\n{}",
+        flags.collect::<String>()
+    )
+}

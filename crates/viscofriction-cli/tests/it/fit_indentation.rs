@@ -1,0 +1,374 @@
+//! From measured curves of force over depth to the material behind them.
+
+use std::fmt::Write as _;
+
+use rayon::prelude::*;
+use viscofriction::indentation::{
+    Finding, FitOptions, Flag, IndentationCurve, IndentationFit, Rheology, fit_indentation,
+};
+use viscofriction::indenters::{Axisymmetric, Control, FlatPunch, PowerProfile, Sphere};
+use viscofriction::mdr_core::{Follow, HistoryPoint, indent_along};
+use viscofriction::rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
+
+use crate::support::{Folder, assert_close};
+
+/// A body on a known material; contact point, baseline and tilt of its curves are always the same.
+struct Case {
+    name: &'static str,
+    body: Box<dyn Axisymmetric>,
+    material: Prony,
+    rheology: Rheology,
+    /// In the order of the findings.
+    truth: Vec<f64>,
+}
+
+const CONTACT_POINT: f64 = 0.437e-6;
+const BASELINE: f64 = 2e-10;
+const TILT: f64 = -1e-5;
+
+impl Case {
+    /// The moduli and times of a series, or G(1 s) and the exponent of a power law.
+    fn new(name: &'static str, body: impl Axisymmetric + 'static, of_material: &[f64]) -> Self {
+        let (spectrum, rheology) = if of_material[1] < 1.0 {
+            let unit = Springpot::new(1.0, of_material[1]).expect("a springpot");
+            let coefficient = of_material[0] / unit.relaxation_modulus(1.0).expect("a modulus");
+            let pot = Springpot::new(coefficient, of_material[1]).expect("a springpot");
+            let expansion = pot.expand([1e-3, 1e5], 1e-6).expect("an expansion");
+            (expansion.spectrum, Rheology::PowerLaw)
+        } else {
+            let branches = of_material[1..].chunks(2).map(|pair| RelaxationBranch {
+                modulus: pair[0],
+                relaxation_time: pair[1],
+            });
+            let spectrum = RelaxationSpectrum::new(of_material[0], 0.0, branches.collect());
+            (spectrum.expect("a spectrum"), Rheology::StandardSolid)
+        };
+        Self {
+            name,
+            body: Box::new(body),
+            material: Prony::new(spectrum).expect("a material"),
+            rheology,
+            truth: [of_material, &[CONTACT_POINT, BASELINE, TILT]].concat(),
+        }
+    }
+
+    /// The exact force of an approach for a second to 1.5 µm, a dwell, and the way back, and Gaussian noise of a part of its
+    /// peak.
+    fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
+        let time: Vec<f64> = (0..points)
+            .map(|i| 3.0 * i as f64 / (points - 1) as f64)
+            .collect();
+        let depth = time.iter().map(|t| 1.5e-6 * t.min(1.0).min(3.0 - t));
+        let depth: Vec<f64> = depth.collect();
+        let history = time.iter().zip(&depth).map(|(&time, depth)| HistoryPoint {
+            time,
+            control: Control::IndentationDepth(depth - CONTACT_POINT),
+        });
+        let history: Vec<HistoryPoint> = history.collect();
+        let exact = indent_along(&*self.body, &self.material, &history, &Follow::default());
+        let exact = exact.expect("a curve").into_iter().zip(&depth);
+        let force =
+            exact.map(|(point, d)| point.normal_force.value + BASELINE + TILT * (d - 0.75e-6));
+        let mut force: Vec<f64> = force.collect();
+        let noise = level * peak(&force);
+        let mut normal = Normal(seed);
+        force
+            .iter_mut()
+            .for_each(|force| *force += noise * normal.draw());
+        IndentationCurve { time, depth, force }
+    }
+
+    fn fit(&self, curve: &IndentationCurve) -> Result<IndentationFit, String> {
+        let rheology = self.rheology;
+        let options = FitOptions {
+            rheology,
+            ..FitOptions::default()
+        };
+        fit_indentation(&*self.body, curve, &options).map_err(|error| error.to_string())
+    }
+}
+
+fn peak(force: &[f64]) -> f64 {
+    force.iter().copied().fold(0.0, f64::max)
+}
+
+fn sphere(of_material: &[f64]) -> Case {
+    Case::new("sphere", Sphere::new(5e-6).expect("a sphere"), of_material)
+}
+
+fn cases() -> [Case; 5] {
+    let cone = PowerProfile::cone(0.7).expect("a cone");
+    let pyramid = PowerProfile::pyramid(1.4).expect("a pyramid");
+    let punch = FlatPunch::new(1e-6).expect("a punch");
+    [
+        sphere(&[1e3, 2e3, 0.3]),
+        Case::new("cone, relaxes nearly to nothing", cone, &[200.0, 5e3, 0.15]),
+        Case::new("punch, relaxes slowly", punch, &[4e3, 3e3, 1.0]),
+        sphere(&[1.5e3, 0.2]),
+        Case::new("pyramid, power law", pyramid, &[2e3, 0.45]),
+    ]
+}
+
+/// Standard normal numbers by Box and Muller from the generator splitmix64.
+struct Normal(u64);
+
+impl Normal {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0.wrapping_mul(0x2545_f491_4f6c_dd1d);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn draw(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+/// Noise in parts of the peak force.
+const LEVELS: [f64; 3] = [0.003, 0.01, 0.03];
+
+/// `VISCOFRICTION_CURVES` is the number of curves, 300 unless it is set; docs/fit-indentation.md has the table of more.
+#[test]
+fn intervals_hold_the_truth_in_95_of_100_noisy_curves() {
+    let given = std::env::var("VISCOFRICTION_CURVES");
+    let n_curves = given.map_or(300, |n| n.parse().expect("a number"));
+    let cases = cases();
+    let each = n_curves / cases.len();
+    let mut table = String::new();
+    let mut parts = Vec::new();
+    for case in &cases {
+        let holds = |(finding, truth): (&Finding, &f64)| {
+            let [lower, upper] = finding.interval;
+            lower.is_none_or(|end| end <= *truth) && upper.is_none_or(|end| end >= *truth)
+        };
+        let hits = (0..each).into_par_iter().map(|seed| {
+            let level = LEVELS[seed % LEVELS.len()];
+            let curve = case.curve(400, level, 1 + 1_000_003 * seed as u64);
+            let fit = case.fit(&curve).expect("a fit");
+            fit.findings.iter().zip(&case.truth).map(holds).collect()
+        });
+        let hits: Vec<Vec<bool>> = hits.collect();
+        write!(table, "{}:", case.name).expect("text");
+        for parameter in 0..case.truth.len() {
+            let inside = hits.iter().filter(|hit| hit[parameter]).count();
+            parts.push(inside as f64 / each as f64);
+            write!(table, " {:.2} %", 100.0 * parts[parts.len() - 1]).expect("text");
+        }
+        table.push('\n');
+    }
+    Folder::new("intervals").write("table.txt", &table);
+    let mean = parts.iter().sum::<f64>() / parts.len() as f64;
+    // As if the parameters of a curve were one trial; each of them may be off by four standard deviations.
+    let spread = |n: usize| (0.95 * 0.05 / n as f64).sqrt();
+    assert!(
+        (mean - 0.95).abs() < 0.01 + 2.0 * spread(n_curves),
+        "{mean}\n{table}"
+    );
+    let worst = parts
+        .into_iter()
+        .map(|part| (part - 0.95).abs())
+        .fold(0.0, f64::max);
+    assert!(worst < 0.01 + 4.0 * spread(each), "{worst}\n{table}");
+}
+
+#[test]
+fn noiseless_curves_give_the_material_itself() {
+    for case in cases() {
+        let fit = case.fit(&case.curve(1000, 0.0, 1)).expect("a fit");
+        for (finding, truth) in fit.findings.iter().zip(&case.truth) {
+            let value = finding.estimate.expect("it is determined").value;
+            // Of a power law the series in the fit is good to 1e-4 of its modulus.
+            assert_close(
+                format!("{}, {}", case.name, finding.name),
+                value,
+                *truth,
+                1e-3,
+            );
+        }
+        assert_eq!(fit.flags, [], "{}", case.name);
+    }
+}
+
+/// How the reasons begin.
+const REASONS: [&str; 8] = [
+    "point 71 has no number",
+    "at point 301 the time",
+    "points are missing after",
+    "the force is cut off at",
+    "the force falls while",
+    "there is no contact",
+    "the body jumps into contact",
+    "on the way back the body sticks",
+];
+
+/// Does to a curve of 600 points what has the reason of that place.
+fn damage(curve: &mut IndentationCurve, place: usize) {
+    let most = peak(&curve.force);
+    let mut normal = Normal(5);
+    let forces = curve.force.iter_mut();
+    match place {
+        0 => curve.force[70] = f64::NAN,
+        1 => curve.time[300..].iter_mut().for_each(|t| *t -= 1.5),
+        2 => curve.time[250..].iter_mut().for_each(|t| *t += 0.5),
+        3 => forces.for_each(|force| *force = force.min(0.6 * most)),
+        4 => forces.for_each(|force| *force *= -1.0),
+        5 => forces.for_each(|force| *force = 1e-10 * normal.draw()),
+        6 => forces
+            .skip(45)
+            .take(11)
+            .for_each(|force| *force -= 0.15 * most),
+        _ => forces
+            .skip(500)
+            .take(40)
+            .for_each(|force| *force -= 0.3 * most),
+    }
+}
+
+#[test]
+fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
+    for case in cases() {
+        for seed in 0..20 {
+            let flags = case.fit(&case.curve(600, 0.01, seed)).expect("a fit").flags;
+            assert_eq!(flags, [], "{}, seed {seed}", case.name);
+        }
+        for (place, reason) in REASONS.into_iter().enumerate() {
+            let mut curve = case.curve(600, 0.005, 7);
+            damage(&mut curve, place);
+            let error = case.fit(&curve).expect_err(reason);
+            assert!(
+                error.starts_with(reason),
+                "{}, {reason}: {error}",
+                case.name
+            );
+        }
+        let mut curve = case.curve(600, 0.005, 7);
+        let rate = 0.05 * peak(&curve.force);
+        let drift = curve.force.iter_mut().zip(&curve.time);
+        drift.for_each(|(force, time)| *force += rate * time);
+        let flags = case.fit(&curve).expect("a fit").flags;
+        let is_drift = flags.iter().any(|flag| matches!(flag, Flag::Drift(_)));
+        assert!(is_drift, "{}, drift: {flags:?}", case.name);
+    }
+}
+
+#[test]
+fn two_branches_are_told_apart_and_a_third_is_not_invented() {
+    let case = sphere(&[1e3, 2e3, 0.02, 1.5e3, 0.5]);
+    let curve = case.curve(1000, 0.002, 4);
+    let options = FitOptions {
+        rheology: Rheology::Prony,
+        ..FitOptions::default()
+    };
+    let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
+    assert_eq!(fit.findings.len(), case.truth.len(), "{:?}", fit.findings);
+    for (finding, truth) in fit.findings.iter().zip(&case.truth) {
+        let estimate = finding.estimate.expect("it is determined");
+        let off = (estimate.value - truth).abs();
+        assert!(off < 4.0 * estimate.error, "{finding:?} and not {truth}");
+    }
+}
+
+#[test]
+fn a_time_far_beyond_the_curve_is_a_bound_and_not_a_number() {
+    for (of_material, is_bound) in [(&[1e3, 2e3, 120.0][..], true), (&[3e3, 1.0, 1e-9], false)] {
+        let case = sphere(of_material);
+        let fit = case.fit(&case.curve(600, 0.001, 3)).expect("a fit");
+        let time = &fit.findings[2];
+        assert_eq!(time.estimate, None, "{time:?}");
+        assert_eq!(time.interval[1], None, "{time:?}");
+        let lower = time.interval[0].unwrap_or_default();
+        assert_eq!(lower > 3.0, is_bound, "{time:?}");
+    }
+}
+
+#[test]
+fn a_tenth_of_wild_points_does_not_move_the_result() {
+    let case = &cases()[0];
+    let mut curve = case.curve(600, 0.01, 9);
+    let jump = 0.4 * peak(&curve.force);
+    curve
+        .force
+        .iter_mut()
+        .step_by(11)
+        .for_each(|force| *force += jump);
+    let fit = case.fit(&curve).expect("a fit");
+    for (finding, truth) in fit.findings.iter().zip(&case.truth).take(3) {
+        let estimate = finding.estimate.expect("it is determined");
+        let off = (estimate.value - truth).abs();
+        assert!(off < 4.0 * estimate.error, "{finding:?} and not {truth}");
+    }
+}
+
+/// The names of three instruments, and the order of time, depth and force with their factors.
+const TABLES: [(&str, [(usize, f64); 3]); 3] = [
+    ("t (ms);d [µm];F / nN", [(0, 1e3), (1, 1e6), (2, 1e9)]),
+    (
+        "height (measured) [nm];vDeflection [mV];time [s]",
+        [(3, -1e9), (2, MILLIVOLT), (0, 1.0)],
+    ),
+    (
+        "force [pN];piezo [nm];t [min]",
+        [(2, 1e12), (3, 1e9), (0, 1.0 / 60.0)],
+    ),
+];
+
+/// [mV/N] of a cantilever of 0.06 N/m and a detector of 50 nm/V.
+const MILLIVOLT: f64 = 1e3 / (0.06 * 5e-8);
+
+#[test]
+fn a_map_of_tables_in_any_order_and_unit_has_a_row_for_each() {
+    let folder = Folder::new("map");
+    let case = &cases()[0];
+    let curve = case.curve(400, 0.003, 1);
+    let expected = case.fit(&curve).expect("a fit");
+    let damaged = ("time;depth;force\ns;m;N", [(0, 1.0), (1, 1.0), (2, -1.0)]);
+    for (file, (names, columns)) in TABLES.into_iter().chain([damaged]).enumerate() {
+        let cells = |i: usize| {
+            let [time, depth, force] = [curve.time[i], curve.depth[i], curve.force[i]];
+            let numbers = [time, depth, force, depth + force / 0.06];
+            columns
+                .map(|(column, factor)| format!("{:?}", factor * numbers[column]))
+                .join(";")
+        };
+        let rows: Vec<String> = (0..curve.time.len()).map(cells).collect();
+        let text = format!("# an instrument\n{names}\n{}\n", rows.join("\n"));
+        folder.write(&format!("{file}.csv"), text);
+    }
+    let options = "--sphere 5e-6 --spring-constant 0.06 --sensitivity 5e-8";
+    folder.done(format!(
+        "fit-indentation 0.csv 1.csv 2.csv 3.csv 4.csv {options} --out out"
+    ));
+    let csv = folder.text("out/curves.csv");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|row| row.split(',').collect()).collect();
+    for row in &rows[1..4] {
+        for (k, finding) in expected.findings.iter().take(3).enumerate() {
+            let value = row[2 + 4 * k].parse().expect("a number");
+            let expected = finding.estimate.expect("it is determined").value;
+            assert_close(
+                format!("{}: {}", row[0], finding.name),
+                value,
+                expected,
+                1e-6,
+            );
+        }
+    }
+    for (row, reason) in [(4, "3.csv: the force falls"), (5, "4.csv: No such file")] {
+        let is_kept = rows[row][1].starts_with(reason) && rows[row].ends_with(&["", "", ""]);
+        assert!(is_kept, "{:?}", rows[row]);
+    }
+    folder.ends(
+        "fit-indentation 3.csv --sphere 5e-6",
+        2,
+        "3.csv: the force falls",
+    );
+    folder.ends("fit-indentation 0.csv --sphere 5e-9", 2, "equator");
+    folder.ends(
+        "fit-indentation 0.csv --cone 90",
+        2,
+        "--cone must be greater than 0",
+    );
+    folder.ends("fit-indentation 2.csv --sphere 5e-6", 2, "spring_constant");
+}

@@ -1,0 +1,199 @@
+//! The material behind a measured force–indentation curve, with intervals that hold.
+//!
+//! ```text
+//! F_i = F(t_i; d − z₀, G) + b + c (d_i − d̄) + noise
+//! ```
+//! with the force of the one-dimensional model, which is exact for bodies of revolution: contact point z₀, baseline b and
+//! tilt c are fitted with the material. A curve that is damaged is refused with a reason, or flagged.
+
+mod checks;
+mod depth;
+mod intervals;
+mod model;
+mod read;
+mod search;
+mod start;
+
+use indenters::Axisymmetric;
+use rheology::Prony;
+use serde::Serialize;
+
+use crate::mdr_core::MdrError;
+pub use checks::Flag;
+use numerics::InvalidParameter;
+pub use read::{CurveOptions, indentation_curve};
+
+/// What was measured, one value per point, in SI.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IndentationCurve {
+    /// Time t, increasing, \[s].
+    pub time: Vec<f64>,
+    /// Position of the lowest point of the body, larger towards the sample, from any zero, \[m].
+    pub depth: Vec<f64>,
+    /// Force on the sample, from any zero, \[N].
+    pub force: Vec<f64>,
+}
+
+impl IndentationCurve {
+    /// The first points.
+    fn first(&self, n: usize) -> Self {
+        self.map(|values| values[..n].to_vec())
+    }
+
+    /// At most about so many points, and the last one.
+    fn decimated(&self, most: usize) -> Self {
+        let last = self.time.len() - 1;
+        let inner = || (0..last).step_by((last / most).max(1));
+        self.map(|values| inner().chain([last]).map(|i| values[i]).collect())
+    }
+
+    fn map(&self, column: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+        Self {
+            time: column(&self.time),
+            depth: column(&self.depth),
+            force: column(&self.force),
+        }
+    }
+}
+
+/// The material that is sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Rheology {
+    /// G(t) = G_∞ + G₁ e^(−t/τ).
+    StandardSolid,
+    /// G(t) = G_∞ + Σ G_k e^(−t/τ_k).
+    Prony,
+    /// G(t) = G₁ (t/1 s)^−β.
+    PowerLaw,
+}
+
+/// How a curve is fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FitOptions {
+    /// The material.
+    pub rheology: Rheology,
+    /// Branches of [`Rheology::Prony`], 1 to 6; none: as many as Schwarz's information criterion takes.
+    pub branches: Option<usize>,
+    /// Poisson ratio ν, −1 < ν ≤ 1/2.
+    pub poisson_ratio: f64,
+    /// Whether the force without contact may depend on the depth.
+    pub tilt: bool,
+    /// Whether the points after the deepest one are left out, where a body may stick.
+    pub before_retraction: bool,
+    /// Whether all intervals are those of the profile likelihood, and not only those that a covariance cannot give.
+    pub profile: bool,
+}
+
+impl Default for FitOptions {
+    /// A standard solid that is incompressible, with a tilted baseline, from the whole curve.
+    fn default() -> Self {
+        Self {
+            rheology: Rheology::StandardSolid,
+            branches: None,
+            poisson_ratio: 0.5,
+            tilt: true,
+            before_retraction: false,
+            profile: false,
+        }
+    }
+}
+
+/// What a curve says about one quantity.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Finding {
+    /// Name, as G_inf.
+    pub name: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// The value with its standard error, where the curve determines it.
+    pub estimate: Option<numerics::Estimate>,
+    /// Ends of the 95 % interval; none where the curve sets no bound on that side.
+    pub interval: [Option<f64>; 2],
+}
+
+/// A material found in a curve.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[must_use]
+pub struct IndentationFit {
+    /// Material, contact point, baseline and tilt.
+    pub findings: Vec<Finding>,
+    /// Correlation of the errors of the findings (of the logarithms of moduli and times).
+    pub correlation: Vec<Vec<f64>>,
+    /// The material, of a power law its expansion over the times of the curve.
+    pub material: Prony,
+    /// Standard deviation of the force about the fit, by the median, \[N]: of the points before the contact, where there are
+    /// at least 10, and of all.
+    pub noise: Option<f64>,
+    /// Of all points, \[N].
+    pub residual: f64,
+    /// How many points one independent point stands for, at least 1.
+    pub correlated_points: f64,
+    /// The points that were fitted: time, depth (smoothed where it is noisy), force and force of the fit.
+    pub points: Vec<[f64; 4]>,
+    /// What is doubtful about it.
+    pub flags: Vec<Flag>,
+}
+
+/// Why a curve is not fitted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum IndentationError {
+    /// An option is out of range.
+    #[error(transparent)]
+    InvalidParameter(#[from] InvalidParameter),
+    /// The curve is damaged.
+    #[error("{0}")]
+    Damaged(Flag),
+    /// The forward model refuses the curve.
+    #[error(transparent)]
+    Model(#[from] MdrError),
+    /// No start leads to a minimum.
+    #[error("no material of this kind has a force like that of the curve")]
+    NotConverged,
+}
+
+/// Finds the material behind a curve.
+///
+/// # Errors
+/// [`IndentationError`] with the reason.
+pub fn fit_indentation(
+    body: &dyn Axisymmetric,
+    curve: &IndentationCurve,
+    options: &FitOptions,
+) -> Result<IndentationFit, IndentationError> {
+    crate::moduli::shear_per_tension(options.poisson_ratio)?;
+    let n = curve.time.len();
+    for (name, other) in [("depths", &curve.depth), ("forces", &curve.force)] {
+        let holds = other.len() == n;
+        numerics::in_range(name, other.len() as f64, holds, "as many as times")?;
+    }
+    if let Some(branches) = options.branches {
+        let holds = (1..=search::MAX_BRANCHES).contains(&branches);
+        numerics::in_range("branches", branches as f64, holds, "from 1 to 6")?;
+    }
+    let curve =
+        checks::usable(curve, options.before_retraction).map_err(IndentationError::Damaged)?;
+    let begin = start::start(body, &curve, options)?;
+    checks::before(&curve, &begin).map_err(IndentationError::Damaged)?;
+    let found = search::search(body, &curve, options, &begin)?;
+    let statistics = intervals::Statistics::of(&found)?;
+    let spectrum = found
+        .model
+        .spectrum(&found.parameters)
+        .map_err(MdrError::from)?;
+    let residuals = statistics.residuals.iter().enumerate();
+    let points = residuals.map(|(i, residual)| {
+        let force = curve.force[i];
+        [curve.time[i], curve.depth[i], force, force - residual]
+    });
+    Ok(IndentationFit {
+        findings: statistics.findings(&found, options.profile),
+        correlation: statistics.correlation(),
+        material: Prony::new(spectrum).map_err(MdrError::from)?,
+        noise: checks::noise(&statistics),
+        residual: found.scale,
+        correlated_points: statistics.correlated_points,
+        points: points.collect(),
+        flags: checks::after(&found, &begin, &statistics),
+    })
+}

@@ -1,0 +1,195 @@
+//! Forces of a material at the points of a curve, and their derivatives by the parameters of a fit.
+//!
+//! The parameters are the logarithms of moduli and times (of a power law ln G₁ and β), contact point, baseline and tilt.
+
+use indenters::{Axisymmetric, Control};
+use rheology::{
+    Compressible, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot,
+};
+
+use super::depth::ends;
+use super::{FitOptions, IndentationCurve};
+use crate::mdr_core::{ForceDerivatives, HistoryPoint, MdrError, force_derivatives};
+
+/// A material with free parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// This number of branches.
+    Branches(usize),
+    PowerLaw,
+}
+
+impl Kind {
+    /// Parameters of the material.
+    pub(super) const fn n_parameters(self) -> usize {
+        match self {
+            Self::Branches(n) => 2 * n + 1,
+            Self::PowerLaw => 2,
+        }
+    }
+
+    /// Whether a parameter of the material is a logarithm.
+    pub(super) fn is_logarithm(self, parameter: usize) -> bool {
+        parameter < self.n_parameters() && (self, parameter) != (Self::PowerLaw, 1)
+    }
+}
+
+/// Relative error of a power law as a Prony series, far below the noise of a curve.
+const EXPANSION: f64 = 1e-4;
+
+/// Times that differ by less are the same.
+const SAME: f64 = 1e-7;
+/// Step of β, over which the nodes of that series stay what they are but for chance.
+const DELTA: f64 = 1e-6;
+
+/// A body that follows the depth of a curve.
+#[derive(Clone)]
+pub(super) struct Model<'a> {
+    pub(super) body: &'a dyn Axisymmetric,
+    pub(super) curve: &'a IndentationCurve,
+    pub(super) kind: Kind,
+    pub(super) poisson_ratio: f64,
+    pub(super) tilt: bool,
+    /// The middle of the depths.
+    pub(super) middle: f64,
+    /// The shortest and the longest time of the curve.
+    pub(super) times: [f64; 2],
+}
+
+/// Forces, and a row of derivatives for each parameter.
+pub(super) struct Forces {
+    pub(super) values: Vec<f64>,
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Without baseline and tilt.
+    pub(super) contact: Vec<f64>,
+}
+
+impl<'a> Model<'a> {
+    pub(super) fn new(
+        body: &'a dyn Axisymmetric,
+        curve: &'a IndentationCurve,
+        kind: Kind,
+        options: &FitOptions,
+    ) -> Self {
+        let time = &curve.time;
+        let steps = time.windows(2).map(|pair| pair[1] - pair[0]);
+        let [low, high] = ends(&curve.depth);
+        Self {
+            body,
+            curve,
+            kind,
+            poisson_ratio: options.poisson_ratio,
+            tilt: options.tilt,
+            middle: 0.5 * (low + high),
+            times: [
+                steps.fold(f64::INFINITY, f64::min),
+                time[time.len() - 1] - time[0],
+            ],
+        }
+    }
+
+    pub(super) const fn n_parameters(&self) -> usize {
+        self.kind.n_parameters() + 2 + self.tilt as usize
+    }
+
+    pub(super) const fn contact_point(&self) -> usize {
+        self.kind.n_parameters()
+    }
+
+    pub(super) fn spectrum(&self, parameters: &[f64]) -> Result<RelaxationSpectrum, RheologyError> {
+        let Kind::Branches(n) = self.kind else {
+            return self.power_law(parameters[0].exp(), parameters[1]);
+        };
+        let branch = |k: usize| RelaxationBranch {
+            modulus: parameters[1 + 2 * k].exp(),
+            relaxation_time: parameters[2 + 2 * k].exp(),
+        };
+        RelaxationSpectrum::new(parameters[0].exp(), 0.0, (0..n).map(branch).collect())
+    }
+
+    /// K = G₁ Γ(1 − β), because G(1 s) of a springpot is K/Γ(1 − β).
+    fn power_law(&self, modulus: f64, beta: f64) -> Result<RelaxationSpectrum, RheologyError> {
+        let unit = Springpot::new(1.0, beta)?.relaxation_modulus(1.0)?;
+        let band = [0.1 / self.times[1], 10.0 / self.times[0]];
+        let expansion = Springpot::new(modulus / unit, beta)?.expand(band, EXPANSION)?;
+        Ok(expansion.spectrum)
+    }
+
+    /// # Errors
+    /// Where the parameters have no force.
+    pub(super) fn forces(&self, parameters: &[f64]) -> Result<Forces, MdrError> {
+        let spectrum = self.spectrum(parameters)?;
+        let place = self.contact_point();
+        let [contact_point, baseline] = [parameters[place], parameters[place + 1]];
+        let tilt = parameters[place + 2..].first().copied().unwrap_or_default();
+        let history = self.history(contact_point);
+        let material = Compressible::new(&Prony::new(spectrum.clone())?, self.poisson_ratio)?;
+        let found = force_derivatives(self.body, &material, &history)?;
+        let sides = self.curve.depth.iter().map(|depth| depth - self.middle);
+        let sides: Vec<f64> = sides.collect();
+        let pairs = found.normal_force.iter().zip(&sides);
+        let values = pairs.map(|(force, side)| force + baseline + tilt * side);
+        let values = values.collect();
+        let mut rows = self.material_rows(parameters, &spectrum, &found)?;
+        rows.push(found.depth.iter().map(|slope| -slope).collect());
+        rows.push(vec![1.0; sides.len()]);
+        if self.tilt {
+            rows.push(sides);
+        }
+        Ok(Forces {
+            values,
+            rows,
+            contact: found.normal_force,
+        })
+    }
+
+    pub(super) fn history(&self, contact_point: f64) -> Vec<HistoryPoint> {
+        let points = self.curve.time.iter().zip(&self.curve.depth);
+        let point = |(&time, depth): (&f64, &f64)| HistoryPoint {
+            time,
+            control: Control::IndentationDepth(depth - contact_point),
+        };
+        points.map(point).collect()
+    }
+
+    fn material_rows(
+        &self,
+        parameters: &[f64],
+        spectrum: &RelaxationSpectrum,
+        found: &ForceDerivatives,
+    ) -> Result<Vec<Vec<f64>>, RheologyError> {
+        let branches = spectrum.branches();
+        let spring = (spectrum.equilibrium_modulus(), &found.equilibrium_modulus);
+        let scaled = |(factor, row): (f64, &Vec<f64>)| row.iter().map(|s| factor * s).collect();
+        if let Kind::Branches(n) = self.kind {
+            // In a spectrum branches are in order, and those of the same time are one.
+            let rows = (0..n).flat_map(|k| {
+                let [modulus, time] = [1, 2].map(|place| parameters[place + 2 * k].exp());
+                let place =
+                    branches.partition_point(|one| one.relaxation_time < time * (1.0 - SAME));
+                let place = place.min(branches.len() - 1);
+                let part = modulus / branches[place].modulus * branches[place].relaxation_time;
+                [
+                    (modulus, &found.moduli[place]),
+                    (part, &found.relaxation_times[place]),
+                ]
+            });
+            return Ok([spring].into_iter().chain(rows).map(scaled).collect());
+        }
+        let moduli = branches
+            .iter()
+            .map(|branch| branch.modulus)
+            .zip(&found.moduli);
+        let other = self.power_law(parameters[0].exp(), parameters[1] + DELTA)?;
+        let others = other.branches().iter().map(|branch| branch.modulus);
+        let ends = [spring, (spectrum.viscosity(), &found.viscosity)];
+        let others = others.chain([other.equilibrium_modulus(), other.viscosity()]);
+        let mut by_beta = vec![0.0; found.normal_force.len()];
+        for ((modulus, row), other) in moduli.chain(ends).zip(others) {
+            let slope = (other - modulus) / DELTA;
+            let sums = by_beta.iter_mut().zip(row);
+            sums.for_each(|(sum, by_modulus)| *sum += slope * by_modulus);
+        }
+        Ok(vec![found.normal_force.clone(), by_beta])
+    }
+}

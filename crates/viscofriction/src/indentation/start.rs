@@ -1,0 +1,101 @@
+//! Where a fit begins: the elastic material that is closest to the approach, with its contact point and baseline.
+
+use indenters::Axisymmetric;
+
+use super::depth::ends;
+use super::model::{Kind, Model};
+use super::{FitOptions, Flag, IndentationCurve, IndentationError, checks};
+use crate::mdr_core::MdrError;
+
+/// An elastic fit of the approach.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start {
+    pub(super) contact_point: f64,
+    pub(super) baseline: f64,
+    /// Shear modulus, \[Pa].
+    pub(super) modulus: f64,
+    /// Force of the material at the end of the approach, of the sign of the modulus.
+    pub(super) peak: f64,
+    /// Root of the mean squared residual.
+    pub(super) residual: f64,
+    /// The point at the end of the approach, and the time that it takes in contact.
+    pub(super) turn: usize,
+    pub(super) approach_time: f64,
+}
+
+/// Points of the approach, and contact points that are tried before the best of them is refined.
+const POINTS: usize = 100;
+const CANDIDATES: usize = 24;
+const REFINEMENTS: i32 = 6;
+/// Part of the depth range at which the approach ends.
+const APPROACH: f64 = 0.98;
+
+pub(super) fn start(
+    body: &dyn Axisymmetric,
+    curve: &IndentationCurve,
+    options: &FitOptions,
+) -> Result<Start, IndentationError> {
+    let IndentationCurve { time, depth, .. } = curve;
+    let range = ends(depth)[1] - depth[0];
+    let is_deep = |one: &f64| *one >= depth[0] + APPROACH * range;
+    let turn = depth.iter().position(is_deep).unwrap_or(depth.len() - 1);
+    let few = curve
+        .first((turn + 1).max(checks::FEWEST))
+        .decimated(POINTS);
+    let model = Model::new(body, &few, Kind::Branches(0), options);
+    if turn == 0 {
+        return Err(IndentationError::Damaged(Flag::WrongSign));
+    }
+    let fit = |contact_point: f64| {
+        let start = elastic(&model, contact_point).ok()?;
+        let touch = depth.iter().position(|depth| *depth > contact_point);
+        let approach_time = time[turn] - time[touch.unwrap_or(0).min(turn - 1)];
+        Some(Start {
+            turn,
+            approach_time,
+            ..start
+        })
+    };
+    let best_of = |places: &mut dyn Iterator<Item = f64>| {
+        let fits = places.filter_map(fit);
+        fits.min_by(|one, other| one.residual.total_cmp(&other.residual))
+    };
+    let step = 1.2 * range / CANDIDATES as f64;
+    let mut places = (0..CANDIDATES).map(|k| depth[0] - 0.2 * range + step * k as f64);
+    let mut best = match best_of(&mut places) {
+        Some(best) => best,
+        // All are refused for one reason.
+        None => elastic(&model, depth[0])?,
+    };
+    for halvings in 1..=REFINEMENTS {
+        let shift = step * 0.5_f64.powi(halvings);
+        let places = [0.0, -shift, shift].map(|shift| best.contact_point + shift);
+        best = best_of(&mut places.into_iter()).unwrap_or(best);
+    }
+    Ok(best)
+}
+
+/// Baseline and modulus by linear least squares.
+fn elastic(model: &Model, contact_point: f64) -> Result<Start, MdrError> {
+    let unit = model.forces(&[0.0, contact_point, 0.0, 0.0])?.contact;
+    let n = unit.len() as f64;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
+    let [unit_mean, force_mean] = [mean(&unit), mean(&model.curve.force)];
+    let pairs = || unit.iter().zip(&model.curve.force);
+    let product: f64 = pairs()
+        .map(|(u, f)| (u - unit_mean) * (f - force_mean))
+        .sum();
+    let square: f64 = unit.iter().map(|u| (u - unit_mean).powi(2)).sum();
+    let modulus = if square > 0.0 { product / square } else { 0.0 };
+    let baseline = force_mean - modulus * unit_mean;
+    let squares = pairs().map(|(u, f)| (f - baseline - modulus * u).powi(2));
+    Ok(Start {
+        contact_point,
+        baseline,
+        modulus,
+        peak: modulus * unit.iter().copied().fold(0.0, f64::max),
+        residual: (squares.sum::<f64>() / n).sqrt(),
+        turn: 0,
+        approach_time: 0.0,
+    })
+}

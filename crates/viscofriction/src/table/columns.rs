@@ -1,0 +1,180 @@
+//! Names and units at the head of a table.
+
+use std::f64::consts::TAU;
+
+use crate::moduli::Deformation;
+use Quantity::{
+    Deflection, Depth, Force, Frequency, Height, Loss, LossFactor, Other, Piezo, Relaxation, Set,
+    Storage, Temperature, Time,
+};
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Frequency,
+    Time,
+    Storage,
+    Loss,
+    LossFactor,
+    Relaxation,
+    Temperature,
+    /// Number of the isotherm.
+    Set,
+    Force,
+    /// Into the sample.
+    Depth,
+    /// Extension of the piezo, towards the sample.
+    Piezo,
+    /// Position of the piezo, away from the sample.
+    Height,
+    Deflection,
+    /// A name of which only a part is known.
+    Other,
+}
+
+/// What tables of one kind hold.
+#[derive(Debug)]
+pub(crate) struct Vocabulary {
+    /// All names, for messages.
+    pub(crate) names: &'static str,
+    /// Names without blanks, points, dashes and underlines.
+    pub(crate) known: &'static [(Quantity, Option<Deformation>, &'static str)],
+    /// Whether these are the columns of a line of names.
+    pub(crate) is_head: fn(&[Quantity]) -> bool,
+    /// What is needed of these columns.
+    pub(crate) needed: fn(&[Quantity]) -> Vec<Quantity>,
+    /// What is read beside that.
+    pub(crate) optional: &'static [Quantity],
+}
+
+impl Vocabulary {
+    /// What a name stands for. Capitals count in letters that stand alone: T is a temperature and t a time, and F is a
+    /// force.
+    pub(super) fn meaning(&self, name: &str) -> Option<(Quantity, Option<Deformation>)> {
+        let name = name
+            .replace(['′', '’', '´', '`', '\u{92}'], "'")
+            .replace(['″', '”', '"', '\u{94}'], "''")
+            .replace([' ', '_', '-', '.'], "");
+        let is_same = |word: &str| {
+            word == name || (name.chars().count() > 1 && word.to_lowercase() == name.to_lowercase())
+        };
+        let mut known = self.known.iter();
+        let found = known.find(|(.., words)| words.split(' ').any(is_same));
+        found.map(|&(quantity, deformation, _)| (quantity, deformation))
+    }
+}
+
+/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]` or `E' / MPa` may be divided; without a unit that is empty.
+pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
+    let bracket = cell.strip_suffix([')', ']']);
+    let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[']));
+    let parts = [Some((cell, "")), bracket, cell.split_once('/')];
+    parts.into_iter().flatten()
+}
+
+impl Quantity {
+    /// The usual names, for messages.
+    pub(crate) const fn usual(self) -> &'static str {
+        match self {
+            Frequency => "f or ω",
+            Time => "t",
+            Storage => "E' or G'",
+            Loss => "E'' or G''",
+            LossFactor => "tan delta",
+            Relaxation => "E_relax or G_relax",
+            Temperature => "T",
+            Set => "Set",
+            Force => "force",
+            Depth => "depth",
+            Piezo => "piezo",
+            Height => "height",
+            Deflection => "deflection",
+            Other => "",
+        }
+    }
+
+    pub(crate) const fn is_modulus(self) -> bool {
+        matches!(self, Storage | Loss | Relaxation)
+    }
+
+    /// The unit, and the factor that turns a number into SI; temperatures stay as they are.
+    pub(crate) fn unit(self, unit: &str) -> Option<(&'static str, f64)> {
+        let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
+        let same = SAME_UNITS.iter().find(|(other, _)| *other == unit);
+        let unit = same.map_or(unit, |(_, usual)| usual);
+        let mut known = self.units().iter();
+        known.find(|(known, _)| *known == unit).copied()
+    }
+
+    /// Units and the factors that turn a number into SI.
+    pub(crate) const fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Frequency => &FREQUENCIES,
+            Time => &TIMES,
+            Storage | Loss | Relaxation => &MODULI,
+            Temperature => &[("C", 1.0), ("°C", 1.0), ("K", 1.0)],
+            LossFactor | Set | Other => &[("-", 1.0), ("", 1.0), ("1", 1.0)],
+            Force => &FORCES,
+            Depth | Piezo | Height => &LENGTHS,
+            Deflection => &DEFLECTIONS,
+        }
+    }
+}
+
+const FREQUENCIES: [(&str, f64); 5] = [
+    ("Hz", TAU),
+    ("mHz", 1e-3 * TAU),
+    ("kHz", 1e3 * TAU),
+    ("rad/s", 1.0),
+    ("1/s", 1.0),
+];
+const TIMES: [(&str, f64); 5] = [
+    ("s", 1.0),
+    ("ms", 1e-3),
+    ("us", 1e-6),
+    ("min", 60.0),
+    ("h", 3600.0),
+];
+const FORCES: [(&str, f64); 6] = [
+    ("N", 1.0),
+    ("mN", 1e-3),
+    ("uN", 1e-6),
+    ("nN", 1e-9),
+    ("pN", 1e-12),
+    ("kN", 1e3),
+];
+const LENGTHS: [(&str, f64); 6] = [
+    ("m", 1.0),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("nm", 1e-9),
+    ("pm", 1e-12),
+    ("A", 1e-10),
+];
+/// Lengths, and what a detector says.
+const DEFLECTIONS: [(&str, f64); 6] = [
+    ("m", 1.0),
+    ("um", 1e-6),
+    ("nm", 1e-9),
+    ("pm", 1e-12),
+    ("V", 1.0),
+    ("mV", 1e-3),
+];
+const MODULI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+/// Other ways to write them.
+const SAME_UNITS: [(&str, &str); 14] = [
+    ("N/mm²", "MPa"),
+    ("N/mm^2", "MPa"),
+    ("rad/sec", "rad/s"),
+    ("s-1", "1/s"),
+    ("sec", "s"),
+    ("ºC", "°C"),
+    ("deg C", "°C"),
+    ("µs", "us"),
+    ("μs", "us"),
+    ("µm", "um"),
+    ("μm", "um"),
+    ("µN", "uN"),
+    ("μN", "uN"),
+    ("Å", "A"),
+];

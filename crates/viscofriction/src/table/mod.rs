@@ -1,0 +1,354 @@
+//! Tables of measurements as instruments export them: from bytes to text (the encoding), from text to lines of cells
+//! (separator and decimal mark), from a line of names to columns with units, and from the rows below to numbers in SI.
+
+mod columns;
+mod layout;
+
+use std::fmt::Display;
+use std::path::Path;
+
+use crate::WrongInput;
+use crate::moduli::Deformation;
+use Quantity::{Frequency, Loss, Storage};
+use columns::divided;
+pub(crate) use columns::{Quantity, Vocabulary};
+use layout::{Layout, is_comment};
+
+type Result<T, E = WrongInput> = std::result::Result<T, E>;
+
+/// The text of a file.
+pub(crate) use layout::text_of;
+
+/// Where a table comes from, and how it is read.
+pub(crate) struct Source<'a> {
+    file: &'a Path,
+    layout: Layout,
+    vocabulary: &'static Vocabulary,
+    meaning: Meaning<'a>,
+    lines: Vec<Line<'a>>,
+}
+
+/// What a table does not say.
+#[derive(Clone, Copy)]
+pub(crate) struct Meaning<'a> {
+    /// What a modulus is that has neither E nor G in its name.
+    pub(crate) deformation: Option<Deformation>,
+    /// What a number in SI is multiplied by.
+    pub(crate) scale: &'a dyn Fn(&Column) -> f64,
+}
+
+/// A line that is not empty.
+#[derive(Debug)]
+pub(crate) struct Line<'a> {
+    /// Counted from 1.
+    pub(crate) number: usize,
+    pub(crate) text: &'a str,
+    pub(crate) cells: Vec<&'a str>,
+}
+
+/// A column with a known name.
+#[derive(Debug)]
+pub(crate) struct Column<'a> {
+    pub(crate) quantity: Quantity,
+    pub(crate) deformation: Option<Deformation>,
+    name: &'a str,
+    place: usize,
+    pub(crate) unit: &'a str,
+    /// To SI, and what that is multiplied by.
+    factor: f64,
+}
+
+/// The columns of a table.
+pub(crate) struct Table<'a> {
+    source: &'a Source<'a>,
+    /// Line of the names.
+    pub(crate) line: usize,
+    /// ω or t first.
+    pub(crate) needed: Vec<Quantity>,
+    /// Those of needed and optional quantities.
+    columns: Vec<Column<'a>>,
+    /// Lines of names and units.
+    n_heads: usize,
+}
+
+impl<'a> Source<'a> {
+    /// The lines of a text that are not empty.
+    pub(crate) fn new(
+        file: &'a Path,
+        text: &'a str,
+        vocabulary: &'static Vocabulary,
+        meaning: Meaning<'a>,
+    ) -> Self {
+        let layout = Layout::of(text.lines());
+        let lines = text.lines().enumerate().map(|(index, text)| Line {
+            number: index + 1,
+            text,
+            cells: layout.cells(text),
+        });
+        let is_empty = |line: &Line| line.cells.iter().all(|cell| cell.is_empty());
+        Self {
+            file,
+            layout,
+            vocabulary,
+            meaning,
+            lines: lines.filter(|line| !is_empty(line)).collect(),
+        }
+    }
+
+    /// All tables, each with its lines of measurements; they begin with names and may stand among other text.
+    pub(crate) fn tables(&self) -> Result<Vec<(Table<'_>, Vec<&Line<'_>>)>> {
+        let lines = &self.lines;
+        let is_head = |at: &usize| {
+            let columns = self.columns(&lines[*at]);
+            let quantities: Vec<Quantity> = columns.iter().map(|column| column.quantity).collect();
+            (self.vocabulary.is_head)(&quantities)
+        };
+        let heads: Vec<usize> = (0..lines.len()).filter(is_head).collect();
+        let ends = heads.iter().skip(1).copied().chain([lines.len()]);
+        let tables = heads.iter().zip(ends).map(|(&head, end)| {
+            let block = &lines[head..end];
+            let table = Table::new(self, block)?;
+            let rows = table.rows(block, end == lines.len());
+            Ok((table, rows))
+        });
+        let tables: Vec<_> = tables.collect::<Result<_>>()?;
+        if tables.is_empty() {
+            return Err(self.without_head());
+        }
+        Ok(tables)
+    }
+
+    fn columns<'b>(&self, line: &Line<'b>) -> Vec<Column<'b>> {
+        let names = self.layout.names(line.text).into_iter().enumerate();
+        let columns = names.filter_map(|(place, name)| {
+            if self.layout.number(name).is_some() {
+                return None;
+            }
+            let meaning = |name| self.vocabulary.meaning(name);
+            let mut parts = divided(name);
+            let (found, unit) = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)))?;
+            let (quantity, deformation) = found;
+            let deformation = deformation.or(self.meaning.deformation);
+            Some(Column {
+                quantity,
+                deformation: deformation.filter(|_| quantity.is_modulus()),
+                name,
+                place,
+                unit,
+                factor: 1.0,
+            })
+        });
+        columns.collect()
+    }
+
+    /// What is wrong with a whole line.
+    pub(crate) fn wrong_line(&self, line: usize, problem: &dyn Display) -> WrongInput {
+        WrongInput(format!("{}, line {line}: {problem}", self.file.display()))
+    }
+
+    /// What is wrong with the whole text.
+    pub(crate) fn wrong_end(&self, problem: &dyn Display) -> WrongInput {
+        self.wrong_line(self.lines.last().map_or(1, |line| line.number), problem)
+    }
+
+    /// The columns that were found, for messages.
+    fn found(&self, line: &Line) -> String {
+        let names = self.layout.names(line.text);
+        let names = names.iter().map(|name| format!("'{}'", shown(name, 40)));
+        let names = shown(&names.collect::<Vec<_>>().join(", "), 400);
+        let separators = self.layout.separators();
+        format!("separated by {separators}, the columns are {names}")
+    }
+
+    fn without_head(&self) -> WrongInput {
+        let needed = format!("a line of names is needed: {}", self.vocabulary.names);
+        let several = self.lines.iter().find(|line| line.cells.len() > 1);
+        let Some(line) = several.or(self.lines.first()) else {
+            return self.wrong_line(1, &needed);
+        };
+        self.wrong_line(line.number, &format!("{needed}; {}", self.found(line)))
+    }
+
+    fn wrong(&self, line: usize, column: &Column, expected: &str, cell: &str) -> WrongInput {
+        let [name, cell] = [column.name, cell].map(|text| shown(text, 40));
+        let place = column.place + 1;
+        let problem = format!("column {place} ({name}): expected {expected}, but found '{cell}'");
+        WrongInput(format!("{}, line {line}, {problem}", self.file.display()))
+    }
+}
+
+/// A cell as a part of one line; a quote that is never closed makes the rest of the line one cell.
+fn shown(cell: &str, most: usize) -> String {
+    let is_end = |(at, character): &(usize, char)| *at >= most || character.is_control();
+    match cell.char_indices().find(is_end) {
+        Some((end, _)) => format!("{}…", &cell[..end]),
+        None => cell.to_owned(),
+    }
+}
+
+impl<'a> Table<'a> {
+    /// The table of a block of lines that begins with the names.
+    fn new(source: &'a Source<'a>, block: &[Line<'a>]) -> Result<Self> {
+        let head = &block[0];
+        let vocabulary = source.vocabulary;
+        let mut columns = source.columns(head);
+        let quantities: Vec<Quantity> = columns.iter().map(|column| column.quantity).collect();
+        let needed = (vocabulary.needed)(&quantities);
+        if let Some(missing) = needed.iter().find(|one| !quantities.contains(one)) {
+            let [what, names, found] = [missing.usual(), vocabulary.names, &source.found(head)];
+            let problem = format!("there must be a column {what}; the names are {names}; {found}");
+            return Err(source.wrong_line(head.number, &problem));
+        }
+        columns.retain(|column| {
+            let quantity = &column.quantity;
+            vocabulary.optional.contains(quantity) || needed.contains(quantity)
+        });
+        let mut table = Self {
+            source,
+            line: head.number,
+            needed,
+            columns,
+            n_heads: 1,
+        };
+        table.check_names(head.number)?;
+        table.read_units(block)?;
+        Ok(table)
+    }
+
+    /// A frequency may be there in Hz and in rad/s, and the first one counts; everything else is there once.
+    fn check_names(&self, line: usize) -> Result<()> {
+        for column in &self.columns {
+            let first = self.find(column.quantity);
+            let is_again = first.is_some_and(|first| {
+                first.place < column.place
+                    && (first.quantity != Frequency || first.name == column.name)
+            });
+            let storage = self.find(Storage).filter(|_| column.quantity == Loss);
+            let other = storage.filter(|storage| storage.deformation != column.deformation);
+            let expected = match other {
+                _ if is_again => "a quantity once, in tension (E) or in shear (G)",
+                _ if column.quantity.is_modulus() && column.deformation.is_none() => {
+                    "E (tension) or G (shear) in the name, or else the option deformation"
+                }
+                Some(storage) => &format!("a loss modulus to go with {}", shown(storage.name, 40)),
+                None => continue,
+            };
+            return Err(self.source.wrong(line, column, expected, column.name));
+        }
+        Ok(())
+    }
+
+    /// Reads the units, which are in the names or in the line below.
+    fn read_units(&mut self, block: &[Line<'a>]) -> Result<()> {
+        let layout = self.source.layout;
+        let is_open = |one: &Column| one.unit.is_empty() && one.quantity.unit("").is_none();
+        let below = block.get(1).filter(|_| self.columns.iter().any(is_open));
+        self.n_heads += usize::from(below.is_some());
+        let mut units = below.map_or(Vec::new(), |line| layout.names(line.text));
+        if layout.is_blank() {
+            // The first columns may be without.
+            let missing = layout
+                .names(block[0].text)
+                .len()
+                .saturating_sub(units.len());
+            units.splice(0..0, vec![""; missing]);
+        }
+        for column in &mut self.columns {
+            let mut line = &block[0];
+            if let Some(below) = below.filter(|_| column.unit.is_empty()) {
+                line = below;
+                column.unit = units.get(column.place).copied().unwrap_or_default();
+            }
+            let Some((unit, factor)) = column.quantity.unit(column.unit) else {
+                let known = column.quantity.units().iter().map(|(unit, _)| *unit);
+                let known = known.collect::<Vec<_>>().join(", ");
+                let expected = format!("the unit of {}: {known}", shown(column.name, 40));
+                let source = self.source;
+                return Err(source.wrong(line.number, column, &expected, column.unit));
+            };
+            column.unit = unit;
+            column.factor = factor * (self.source.meaning.scale)(column);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn find(&self, quantity: Quantity) -> Option<&Column<'a>> {
+        let mut columns = self.columns.iter();
+        columns.find(|column| column.quantity == quantity)
+    }
+
+    /// The lines of measurements in its block; what introduces a next table stands at the end.
+    fn rows<'b>(&self, block: &'b [Line<'a>], is_last: bool) -> Vec<&'b Line<'a>> {
+        let lines = block[self.n_heads..].iter();
+        let mut lines: Vec<&Line> = lines.filter(|line| !is_comment(line.text)).collect();
+        let is_number = |line, one| {
+            self.find(one)
+                .is_some_and(|one| self.number(line, one).is_ok())
+        };
+        let n_numbers = |line| {
+            let columns = self.needed.iter();
+            columns.filter(|one| is_number(line, **one)).count()
+        };
+        while !is_last && lines.last().is_some_and(|line| n_numbers(*line) < 2) {
+            lines.pop();
+        }
+        lines
+    }
+
+    /// The needed numbers of a line, greater than 0, in SI.
+    pub(crate) fn positives(&self, line: &Line) -> Result<Vec<f64>> {
+        let columns = self.needed.iter().filter_map(|one| self.find(*one));
+        columns.map(|column| self.positive(line, column)).collect()
+    }
+
+    /// The needed numbers of a line in SI; NaN for a cell that is empty, infinite or NaN.
+    pub(crate) fn numbers(&self, line: &Line) -> Result<Vec<f64>> {
+        let columns = self.needed.iter().filter_map(|one| self.find(*one));
+        let number = |column: &Column| {
+            let cell = line.cells.get(column.place).copied().unwrap_or_default();
+            let is_nothing = |number: f64| !number.is_finite();
+            if cell.is_empty() || cell.parse().is_ok_and(is_nothing) {
+                return Ok(f64::NAN);
+            }
+            Ok(self.number(line, column)? * column.factor)
+        };
+        columns.map(number).collect()
+    }
+
+    /// A number that need not be there, in its own unit.
+    pub(crate) fn optional(&self, line: &Line, quantity: Quantity) -> Result<Option<f64>> {
+        let column = self.find(quantity);
+        column.map(|column| self.number(line, column)).transpose()
+    }
+
+    /// What is wrong with a frequency or time.
+    pub(crate) fn wrong_first(&self, line: &Line, expected: &str) -> WrongInput {
+        let first = self.find(self.needed[0]).unwrap_or(&self.columns[0]);
+        self.wrong(line, first, expected)
+    }
+
+    fn positive(&self, line: &Line, column: &Column) -> Result<f64> {
+        let number = self.number(line, column)?;
+        let in_si = number * column.factor;
+        if in_si > 0.0 && in_si.is_finite() {
+            return Ok(in_si);
+        }
+        let expected = if number > 0.0 {
+            "a number that is finite and greater than 0 in SI too"
+        } else {
+            "a number greater than 0"
+        };
+        Err(self.wrong(line, column, expected))
+    }
+
+    fn number(&self, line: &Line, column: &Column) -> Result<f64> {
+        let cell = line.cells.get(column.place);
+        let number = cell.and_then(|cell| self.source.layout.number(cell));
+        number.ok_or_else(|| self.wrong(line, column, "a finite number"))
+    }
+
+    fn wrong(&self, line: &Line, column: &Column, expected: &str) -> WrongInput {
+        let cell = line.cells.get(column.place).copied().unwrap_or_default();
+        self.source.wrong(line.number, column, expected, cell)
+    }
+}
