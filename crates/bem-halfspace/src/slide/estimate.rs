@@ -7,7 +7,7 @@ use rheology::{CreepSpectrum, Material};
 use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::slide::stationary::settle;
-use crate::slide::{PressureField, StationaryOptions, Transient, slide_over};
+use crate::slide::{March, PressureField, StationaryOptions, Transient, slide_over};
 use crate::{BemError, ContactOptions, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
@@ -240,8 +240,8 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             over_distance: 2.0 * length + memory,
         };
         let load = self.load.after(distance)?;
-        let (surface, material) = (self.surface, self.material);
-        let end = settle(surface, material, &load, options, &stationary, tell)?;
+        let march = March::sliding(self.surface, self.material, &load, options)?;
+        let end = settle(march, &load, options, &stationary, tell)?;
         Ok(End {
             friction: end.friction_coefficient,
             truncation: Some(end.change * end.friction_coefficient.abs()),

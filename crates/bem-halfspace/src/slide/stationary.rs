@@ -153,13 +153,13 @@ pub fn slide_to_stationary(
     options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
-    settle(&surface, material, load, options, stationary, &|_| ())
+    let march = March::sliding(&surface, material, load, options)?;
+    settle(march, load, options, stationary, &|_| ())
 }
 
 /// Tells which part of the longest distance allowed is done.
 pub(super) fn settle(
-    surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
+    mut march: March,
     load: &SlidingLoad,
     options: &GridOptions,
     stationary: &StationaryOptions,
@@ -167,7 +167,6 @@ pub(super) fn settle(
 ) -> Result<StationarySlide, BemError> {
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
-    let mut march = March::sliding(surface, material, load, options)?;
     let flows = march.creep.fluidity() > 0.0;
     let mut rows = Vec::new();
     let mut limits = Limits::default();

@@ -165,7 +165,7 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
     }
     let endless = IndentStep::constant(FORCE, &[1e300]);
     let overflow = indent_history_on_grid(&scene.body, &scene.material, &endless, &options);
-    assert_refused("an endless time", overflow, "InvalidParameter");
+    assert_refused("an endless time", overflow, "ContactReachesBoundary");
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");
     let moved = slide_on_grid(&punch, &scene.material, &load, &options);
     assert_refused("punch", moved, "VerticalWall");

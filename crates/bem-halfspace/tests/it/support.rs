@@ -12,7 +12,7 @@ use bem_halfspace::{
 };
 pub(crate) use casebook::prony;
 use indenters::{PowerProfile, SlidingLoad, Surface};
-use numerics::{Accuracy, Estimate};
+use numerics::{Estimate, Request};
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
 /// Tight enough that the active set and ten digits are those of the exact discrete solution.
@@ -346,12 +346,12 @@ impl<M: Material> Scene<M> {
 
     pub(crate) fn try_steady(
         &self,
-        accuracy: impl Into<Accuracy>,
+        accuracy: impl Into<Request<'static>>,
     ) -> Result<SteadyEstimate, BemError> {
         steady(&self.body, &self.material, &self.load, accuracy)
     }
 
-    pub(crate) fn steady(&self, accuracy: impl Into<Accuracy>) -> SteadyEstimate {
+    pub(crate) fn steady(&self, accuracy: impl Into<Request<'static>>) -> SteadyEstimate {
         self.try_steady(accuracy).expect("a stationary state")
     }
 }

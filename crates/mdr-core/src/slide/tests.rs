@@ -23,8 +23,8 @@ fn the_error_of_the_step_is_that_of_a_chain_with_memory() {
         let body = PowerProfile::new(1.0, exponent).expect("a body");
         let line = EquivalentLine(&body);
         let motion = Motion::new(&line, material, &load).expect("a motion");
-        let march = motion.march(256).expect("a march");
-        let parts = motion.errors_of_step(&march).expect("a march");
+        let march = motion.march(256, &|_| ()).expect("a march");
+        let parts = motion.errors_of_step(&march, &|_| ()).expect("a march");
         let part = parts.expect("a memory")[0];
         let exact = steady(&line, material, &load, 1e-8).expect("a stationary state");
         let deviation =

@@ -122,7 +122,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let [file] = &options.curves[..] else {
         return map(options, &*body, out.as_ref());
     };
-    let fit = progress::during(format!("fitting {}", file.display()), || {
+    let fit = progress::during(format!("fitting {}", file.display()), |_| {
         options.fitted(file, &*body, true)
     })?;
     print_text(&table(&fit))?;

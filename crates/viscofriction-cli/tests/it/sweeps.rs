@@ -195,7 +195,7 @@ const DRAWN: &str = "\
 held.toml --vary load.indentation_depth=1e-5,2e-5 | normal force [N] | load.indentation_depth | N
 IN/cone-half-space.toml --vary load.velocity=1e-3:1:4:log | friction coefficient | load.velocity | 10
 IN/hertz.toml --vary load.normal_force=1,2,5 | indentation depth [m] | load.normal_force | 5
-IN/hertz.toml --vary load.normal_force=1e-3:1:4:log --vary indenter.paraboloid.curvature=10:50:5 | indentation depth [m] | load.normal_force | indenter.paraboloid.curvature";
+IN/hertz.toml --vary load.normal_force=1e-3:1:4:log --vary indenter.paraboloid.curvature=10:50:5 | indentation depth [10⁻⁵ m] | load.normal_force | indenter.paraboloid.curvature";
 
 #[test]
 fn a_sweep_is_drawn_over_what_varies() {

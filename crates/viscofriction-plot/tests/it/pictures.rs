@@ -95,12 +95,18 @@ fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
 
 #[test]
 fn labels_of_the_x_axis_stand_clear_of_each_other() {
-    let time = Axis::linear("time t [s]", [0.0, 3e-12]);
-    let rise = vec![[0.0, 0.0], [1e-12, 0.1]];
+    let time = Axis::linear("time t [s]", [1e10, 1e10 + 3e4]);
+    let rise = vec![[1e10, 0.0], [1e10 + 1e4, 0.1]];
     let rise = Series::line(rise, Line::thin(Dash::Solid), Colour::Black);
     let text = svg(Chart::new(time, chart().y, vec![rise]));
-    let mut labels = vec!["0.5", "1.0", "1.5", "2.0", "2.5", "3.0"];
-    labels.retain(|label| text.contains(&format!(">{label}·10⁻¹²<")));
-    // A step of half a unit is 65 px, less than a label of some 62 px and the gap of 6 px.
-    assert_eq!(labels, ["1.0", "2.0", "3.0"], "labels in {text}");
+    let mut labels = vec![
+        "10000000", "10000005", "10000010", "10000015", "10000020", "10000025", "10000030",
+    ];
+    labels.retain(|label| text.contains(&format!(">{label}<")));
+    // A step of five units is 65 px, less than a label of eight digits, some 66 px, and the gap of 6 px would leave.
+    assert_eq!(
+        labels,
+        ["10000000", "10000010", "10000020", "10000030"],
+        "labels in {text}"
+    );
 }

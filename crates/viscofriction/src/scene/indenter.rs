@@ -98,23 +98,28 @@ pub enum Indenter {
         level: bool,
     },
     /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
-    SelfAffine {
-        /// Periods along x and y, > 0, \[m].
-        period: [f64; 2],
-        /// Hurst exponent, between 0 and 1.
-        hurst_exponent: f64,
-        /// Root mean square of the slope, > 0.
-        rms_slope: f64,
-        /// Longest wave length, \[m].
-        longest_wavelength: f64,
-        /// Shortest wave length, \[m].
-        shortest_wavelength: f64,
-        /// Wave length above which the spectrum is constant, \[m]; without it there is none.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        roll_off_wavelength: Option<f64>,
-        /// Another seed draws another surface.
-        seed: u64,
-    },
+    SelfAffine(SelfAffineSurface),
+}
+
+/// A random self-affine surface, whose waves are drawn by the seed.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SelfAffineSurface {
+    /// Periods along x and y, > 0, \[m].
+    pub period: [f64; 2],
+    /// Hurst exponent, between 0 and 1.
+    pub hurst_exponent: f64,
+    /// Root mean square of the slope, > 0.
+    pub rms_slope: f64,
+    /// Longest wave length, \[m].
+    pub longest_wavelength: f64,
+    /// Shortest wave length, \[m].
+    pub shortest_wavelength: f64,
+    /// Wave length above which the spectrum is constant, \[m]; without it there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roll_off_wavelength: Option<f64>,
+    /// Another seed draws another surface.
+    pub seed: u64,
 }
 
 /// One term of a sum.

@@ -12,7 +12,7 @@ use indenters::{
 };
 use numerics::{in_range, positive};
 
-use crate::scene::{Indenter, SceneError, Term, height_map, profile};
+use crate::scene::{Indenter, SceneError, SelfAffineSurface, Term, height_map, profile};
 use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
@@ -129,30 +129,26 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, 
             let change = [*fill_missing, *level];
             return map(&folder.join(file), *spacing, change, read).map(Body::HeightMap);
         }
-        &Indenter::SelfAffine {
-            period,
-            hurst_exponent,
-            rms_slope,
-            longest_wavelength,
-            shortest_wavelength,
-            roll_off_wavelength,
-            seed,
-        } => {
-            let surface = SelfAffine {
-                period,
-                hurst_exponent,
-                rms_slope,
-                longest_wavelength,
-                shortest_wavelength,
-                roll_off_wavelength: roll_off_wavelength.unwrap_or(longest_wavelength),
-                seed,
-            };
-            let surface = surface.surface().map(Body::Periodic);
+        Indenter::SelfAffine(surface) => {
+            let surface = self_affine(surface).surface().map(Body::Periodic);
             return surface.map_err(|error| refused(&indenter.key(), error));
         }
     };
     let shape = shape.map_err(|error| refused(&indenter.key(), error))?;
     Ok(Body::Revolution(shape))
+}
+
+fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
+    let longest_wavelength = surface.longest_wavelength;
+    SelfAffine {
+        period: surface.period,
+        hurst_exponent: surface.hurst_exponent,
+        rms_slope: surface.rms_slope,
+        longest_wavelength,
+        shortest_wavelength: surface.shortest_wavelength,
+        roll_off_wavelength: surface.roll_off_wavelength.unwrap_or(longest_wavelength),
+        seed: surface.seed,
+    }
 }
 
 fn other(shape: impl Axisymmetric + 'static) -> Revolution {

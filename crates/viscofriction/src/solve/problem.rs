@@ -82,7 +82,7 @@ impl Problem {
             expansion,
         } = half_space(&scene.material, folder, read)?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
-        Ok(Self {
+        let problem = Self {
             body,
             simple: simple(&*material).map_err(not_reduced)?,
             material,
@@ -94,7 +94,9 @@ impl Problem {
             model: scene.solve.checked_model(),
             threads: scene.solve.checked_threads()?,
             max_memory: scene.solve.checked_memory()?,
-        })
+        };
+        problem.check_control()?;
+        Ok(problem)
     }
 }
 
