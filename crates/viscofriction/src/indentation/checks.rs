@@ -22,25 +22,25 @@ pub enum Flag {
     #[error("points are missing after the time {0} s")]
     Gap(f64),
     /// The largest force stays exactly the same while the body goes on.
-    #[error("the force is cut off at {0:e} N")]
+    #[error("the force is cut off at {0:.1e} N")]
     Saturated(f64),
     /// The force does not rise above its noise.
-    #[error("there is no contact: the force does not rise above its noise of {0:e} N")]
+    #[error("there is no contact: the force does not rise above its noise of {0:.1e} N")]
     NoContact(f64),
     /// The force falls while the body goes down.
     #[error("the force falls while the body goes down: is the sign of one of them wrong?")]
     WrongSign,
     /// On the way in the body is drawn to the surface before it touches.
-    #[error("the body jumps into contact: the force falls {0:e} N below the baseline")]
+    #[error("the body jumps into contact: the force falls {0:.1e} N below the baseline")]
     JumpToContact(f64),
     /// On the way back the body sticks.
-    #[error("on the way back the body sticks, up to {0:e} N: leave out the retraction")]
+    #[error("on the way back the body sticks, up to {0:.1e} N: leave out the retraction")]
     Sticks(f64),
     /// Before the first point the body touched already.
     #[error("fewer than 10 points are before the contact, which is therefore hardly known")]
     NoBaseline,
     /// After the contact the force is not what it was before.
-    #[error("the force drifts: without contact it is {0:e} N off")]
+    #[error("the force drifts: without contact it is {0:.1e} N off")]
     Drift(f64),
     /// The residuals are larger than the noise.
     #[error("the residuals are {0:.1} times the noise: is it another material or body?")]

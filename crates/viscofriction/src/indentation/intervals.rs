@@ -146,7 +146,7 @@ impl Statistics {
         for _ in 0..STEPS {
             let at = rise(best[parameter] + side * step);
             if (at - 1.0).abs() < CLOSE {
-                break;
+                return Some(best[parameter] + side * step);
             }
             if at < 1.0 && step >= room {
                 return None;
@@ -161,7 +161,8 @@ impl Statistics {
                 inner[0] + part.clamp(0.02, 0.98) * (outer[0] - inner[0])
             };
         }
-        Some(best[parameter] + side * step).filter(|end| end.is_finite())
+        // The nearest place where the sum has certainly risen enough.
+        Some(best[parameter] + side * outer[0]).filter(|end| end.is_finite())
     }
 }
 
