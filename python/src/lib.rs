@@ -5,6 +5,7 @@
 //! not be reached comes back as data, from which Python makes its own exception.
 
 mod background;
+mod indentation;
 mod materials;
 mod moduli;
 mod solving;
@@ -13,6 +14,8 @@ mod tables;
 /// The native module.
 #[pyo3::pymodule(name = "_native")]
 mod native {
+    #[pymodule_export]
+    use super::indentation::fit_curve;
     #[pymodule_export]
     use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
     #[pymodule_export]

@@ -33,3 +33,12 @@ def together(named: dict[str, ArrayLike]) -> tuple[dict[str, NDArray[np.float64]
         shapes = ", ".join(f"{name}: {array.shape}" for name, array in arrays.items())
         raise ValueError(f"the shapes do not fit together: {shapes}") from None
     return {name: np.broadcast_to(array, shape).ravel() for name, array in arrays.items()}, shape
+
+
+def columns(**named: ArrayLike) -> list[NDArray[np.float64]]:
+    """The values as flat arrays of one length."""
+    arrays = {name: numbers(name, values, dimensions=1) for name, values in named.items()}
+    if len({array.size for array in arrays.values()}) > 1:
+        sizes = ", ".join(f"{name}: {array.size}" for name, array in arrays.items())
+        raise ValueError(f"as many values of each are needed, but there are {sizes}")
+    return list(arrays.values())

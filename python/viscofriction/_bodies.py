@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
@@ -57,6 +58,14 @@ class Cone(Body):
 
     slope: float
     _kind = "cone"
+
+    @classmethod
+    def of_pyramid(cls, slope: float) -> Cone:
+        """The cone with the elastic force of a four-sided pyramid whose faces have a slope > 0 (Bilodeau 1992).
+
+        The contact of a pyramid is no disc, so that the way back is an approximation.
+        """
+        return cls(2 / math.pi / 0.7453 * slope)
 
 
 @dataclass(frozen=True)

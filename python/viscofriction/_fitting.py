@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import numbers
+from ._arrays import columns
 from ._materials import Prony
 
 Numbers = NDArray[np.float64]
@@ -98,7 +98,7 @@ def fit_material(
         raise ValueError("storage and loss are needed beside frequency")
     if deformation is not None or reference_temperature is not None:
         raise ValueError("deformation and reference_temperature are for files")
-    hertz, shear, viscous = _columns(frequency=frequency, storage=storage, loss=loss)
+    hertz, shear, viscous = columns(frequency=frequency, storage=storage, loss=loss)
     order = np.argsort(hertz, kind="stable")
     found = _native.fit_oscillation(2 * np.pi * hertz[order], shear[order], viscous[order], options)
     return _fit(found, poisson_ratio)
@@ -135,7 +135,7 @@ def fit_relaxation(
     poisson_ratio: float = 0.5,
 ) -> Fit:
     """The Prony series of relaxation moduli [Pa] that were measured over time [s], in any order; otherwise as fit_material."""
-    times, moduli = _columns(time=time, modulus=modulus)
+    times, moduli = columns(time=time, modulus=modulus)
     order = np.argsort(times, kind="stable")
     options = {"liquid": liquid, "branches": branches, "tolerance": tolerance, "smoothing": smoothing}
     return _fit(_native.fit_relaxation(times[order], moduli[order], options), poisson_ratio)
@@ -144,14 +144,6 @@ def fit_relaxation(
 def scaling_factor(exponent: float) -> tuple[float, float]:
     """The factor s(p) between half space and line on a viscous material, for h = c r^p, and its error."""
     return _native.scaling_factor(exponent)
-
-
-def _columns(**named: ArrayLike) -> list[np.ndarray[Any, np.dtype[np.float64]]]:
-    arrays = {name: numbers(name, values, dimensions=1) for name, values in named.items()}
-    if len({array.size for array in arrays.values()}) > 1:
-        sizes = ", ".join(f"{name}: {array.size}" for name, array in arrays.items())
-        raise ValueError(f"as many values of each are needed, but there are {sizes}")
-    return list(arrays.values())
 
 
 def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:

@@ -49,7 +49,7 @@ def slide(
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
-    loads = _given(
+    loads = given(
         velocity=velocity,
         normal_force=normal_force,
         indentation_depth=indentation_depth,
@@ -58,7 +58,7 @@ def slide(
     )
     if not (numbers("velocity", velocity) > 0).all():
         raise ValueError(f"velocity must be greater than 0, but is {velocity!r}")
-    options = _given(
+    options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     return _solved(body, material, loads, options, progress)
@@ -86,8 +86,8 @@ def press(
     """
     if duration is None and isinstance(material, Elastic):
         duration = 1.0
-    loads = _given(normal_force=normal_force, indentation_depth=indentation_depth, duration=duration)
-    options = _given(
+    loads = given(normal_force=normal_force, indentation_depth=indentation_depth, duration=duration)
+    options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
     return _solved(body, material, loads, options, progress)
@@ -107,7 +107,7 @@ def solve(scene: Scene, *, progress: Progress = None) -> Answer:
     return answer
 
 
-def _given(**values: Any) -> dict[str, Any]:
+def given(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 

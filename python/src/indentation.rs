@@ -1,0 +1,114 @@
+//! The material behind a measured curve of force over depth.
+
+use std::path::PathBuf;
+
+use numpy::{IntoPyArray as _, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::Deserialize as _;
+use viscofriction::indentation::{
+    CurveOptions, Finding, FitOptions, IndentationCurve, IndentationFit, Rheology, fit_indentation,
+    indentation_curve,
+};
+use viscofriction::scene::Indenter;
+use viscofriction::solve::body;
+use viscofriction::{Body, rheology};
+
+use crate::solving::read;
+use crate::tables::{table, wrong};
+
+/// What [`fit_curve`] is asked.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Curve<'py> {
+    body: Bound<'py, PyDict>,
+    /// Where the curve is read, which else is `columns`: time, depth and force.
+    file: Option<PathBuf>,
+    columns: Option<[PyReadonlyArray1<'py, f64>; 3]>,
+    spring_constant: Option<f64>,
+    sensitivity: Option<f64>,
+    material: String,
+    branches: Option<usize>,
+    poisson_ratio: f64,
+    tilt: bool,
+    before_retraction: bool,
+    profile: bool,
+}
+
+impl Curve<'_> {
+    fn measured(&self) -> PyResult<IndentationCurve> {
+        if let Some([time, depth, force]) = &self.columns {
+            let [time, depth, force] = [time, depth, force].map(|one| one.as_array().to_vec());
+            return Ok(IndentationCurve { time, depth, force });
+        }
+        let options = CurveOptions {
+            spring_constant: self.spring_constant,
+            sensitivity: self.sensitivity,
+        };
+        let file = self.file.clone().unwrap_or_default();
+        let contents = read(&file).map_err(wrong)?;
+        indentation_curve(&file, &contents, &options).map_err(wrong)
+    }
+
+    fn options(&self) -> PyResult<FitOptions> {
+        let rheology = match &self.material[..] {
+            "standard-solid" => Rheology::StandardSolid,
+            "prony" => Rheology::Prony,
+            "power-law" => Rheology::PowerLaw,
+            other => {
+                let allowed = "\"standard-solid\", \"prony\" or \"power-law\"";
+                return Err(wrong(format!(
+                    "material must be {allowed}, but is {other:?}"
+                )));
+            }
+        };
+        Ok(FitOptions {
+            rheology,
+            branches: self.branches,
+            poisson_ratio: self.poisson_ratio,
+            tilt: self.tilt,
+            before_retraction: self.before_retraction,
+            profile: self.profile,
+        })
+    }
+}
+
+/// What a curve says, as a dictionary.
+#[pyfunction]
+pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let indenter = Indenter::deserialize(table(&curve.body, "")?).map_err(wrong)?;
+    let Body::Revolution(body) = body(&indenter, "".as_ref(), read).map_err(wrong)? else {
+        return Err(wrong("body must be a body of revolution"));
+    };
+    let (measured, options) = (curve.measured()?, curve.options()?);
+    let fit = py.detach(|| fit_indentation(&*body, &measured, &options));
+    to_python(py, fit.map_err(wrong)?)
+}
+
+fn to_python(py: Python<'_>, fit: IndentationFit) -> PyResult<Bound<'_, PyDict>> {
+    let finding = |one: &Finding| {
+        let estimate = one.estimate.map(|one| (one.value, one.error));
+        (one.name.clone(), one.unit, estimate, one.interval)
+    };
+    let findings: Vec<_> = fit.findings.iter().map(finding).collect();
+    let spectrum = rheology::Material::relaxation(&fit.material);
+    let branches = spectrum.branches().iter();
+    let branches = branches.map(|branch| (branch.modulus, branch.relaxation_time));
+    let branches: Vec<_> = branches.collect();
+    let points = [0, 1, 2, 3].map(|k| {
+        let column: Vec<f64> = fit.points.iter().map(|point| point[k]).collect();
+        column.into_pyarray(py)
+    });
+    let flags: Vec<String> = fit.flags.iter().map(ToString::to_string).collect();
+    let dictionary = PyDict::new(py);
+    dictionary.set_item("findings", findings)?;
+    dictionary.set_item("correlation", fit.correlation)?;
+    dictionary.set_item("equilibrium_modulus", spectrum.equilibrium_modulus())?;
+    dictionary.set_item("branches", branches)?;
+    dictionary.set_item("noise", fit.noise)?;
+    dictionary.set_item("residual", fit.residual)?;
+    dictionary.set_item("correlated_points", fit.correlated_points)?;
+    dictionary.set_item("points", points)?;
+    dictionary.set_item("flags", flags)?;
+    Ok(dictionary)
+}

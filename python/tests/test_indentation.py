@@ -1,0 +1,94 @@
+"""Histories, and the material behind a measured one."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscofriction as vf
+
+GEL = vf.StandardSolid(2e3, 3e3, 900.0)
+TIME = np.linspace(0.0, 2.0, 201)
+DEPTH = 1e-6 * (1.0 - np.abs(TIME - 1.0))
+
+
+def curve(noise: float = 0.0) -> np.ndarray:
+    depth = 1e-6 * np.interp(TIME, [0.0, 0.3, 1.0, 2.0], [-0.3, 0.0, 1.0, 0.5])
+    force = vf.indent(vf.Sphere(5e-6), GEL, time=TIME, indentation_depth=depth).normal_force
+    scatter = np.random.default_rng(1).standard_normal(TIME.size)
+    return np.stack([TIME, depth, force + noise * force.max() * scatter])
+
+
+def test_a_history_is_that_of_the_program(program: Callable[..., str], tmp_path: Path) -> None:
+    got = vf.indent(vf.Sphere(5e-6), GEL, time=TIME, indentation_depth=DEPTH)
+    with (tmp_path / "path.csv").open("w", newline="") as file:
+        rows = csv.writer(file)
+        rows.writerow(["time_s", "indentation_depth_m"])
+        rows.writerows(zip(TIME.tolist(), DEPTH.tolist(), strict=True))
+    scene = tmp_path / "scene.toml"
+    solid = "equilibrium_modulus = 2e3\nmaxwell_modulus = 3e3\nviscosity = 900.0"
+    scene.write_text(
+        f"[indenter.sphere]\nradius = 5e-6\n[material.standard-solid]\n{solid}\n[load]\nhistory_file = 'path.csv'\n"
+    )
+    expected = vf.solve(scene).history
+    assert (got.normal_force == expected["normal_force"]).all()
+    assert (got.contact_radius == expected["contact_radius"]).all()
+    assert '"history"' in program("run", scene, "--format", "json")
+    # Lost on the way back, and exact up to rounding.
+    assert got.normal_force[-1] == 0.0 and got.normal_force_error < 1e-11 * got.normal_force.max()
+    axes = got.plot()
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [m]", "normal force [N]")
+
+
+def test_a_depth_follows_from_a_force() -> None:
+    time, depth = TIME[:101], DEPTH[:101]
+    force = vf.indent(vf.Cone(0.5), GEL, time=time, indentation_depth=depth).normal_force
+    back = vf.indent(vf.Cone(0.5), GEL, time=time, normal_force=force)
+    # The force is not quite straight from point to point.
+    assert np.abs(back.indentation_depth - depth).max() < 1e-3 * depth.max()
+    assert back.normal_force_error == 0.0 < back.indentation_depth_error
+
+
+def test_a_fit_finds_the_material_within_its_intervals() -> None:
+    fit = vf.fit_indentation(*curve(noise=0.01), body=vf.Sphere(5e-6))
+    for name, truth in {"G_inf": 2e3, "G_1": 3e3, "tau_1": 0.3, "contact_point": 0.0}.items():
+        low, high = fit.findings[name].interval
+        assert low is not None and high is not None and low < truth < high, (name, fit)
+    assert isinstance(fit.material, vf.Prony)
+    assert np.abs(fit.fitted_force - fit.force).max() < 0.05 * fit.force.max()
+    assert fit.correlation.shape == (len(fit.findings),) * 2
+    assert "G_inf: 2.0" in repr(fit).replace("1.9", "2.0")
+    assert fit.plot().get_xlabel() == "time [s]"
+
+
+def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:
+    time, depth, force = curve(noise=0.01)
+    table = tmp_path / "curve.csv"
+    np.savetxt(table, np.stack([time, depth, force], axis=1), delimiter=",", header="t (s),d (m),F (N)", comments="")
+    of_columns = vf.fit_indentation(time, depth, force, body=vf.Sphere(5e-6), profile=False)
+    of_table = vf.fit_indentation(table, body=vf.Sphere(5e-6), profile=False)
+    value = of_columns.findings["G_inf"].value
+    assert value is not None and of_table.findings["G_inf"].value == pytest.approx(value, rel=1e-9)
+
+
+def test_wrong_input_is_named() -> None:
+    time, depth, force = curve(noise=0.01)
+    ball = vf.Sphere(5e-6)
+    for message, call in {
+        "one of them": lambda: vf.indent(ball, GEL, time=[0.0, 1.0]),
+        "as many values": lambda: vf.indent(ball, GEL, time=[0.0, 1.0], indentation_depth=[0.0]),
+        "history": lambda: vf.indent(ball, GEL, time=[1.0, 0.0], indentation_depth=[0.0, 1e-6]),
+        "material must be": lambda: vf.fit_indentation(time, depth, force, body=ball, material="wood"),
+        "body of revolution": lambda: vf.fit_indentation(time, depth, force, body=vf.Cylinder(1.0)),
+        "too few": lambda: vf.fit_indentation(time[:9], depth[:9], force[:9], body=ball),
+        "no contact|sign": lambda: vf.fit_indentation(time, depth, -force, body=ball),
+        "poisson_ratio": lambda: vf.fit_indentation(time, depth, force, body=ball, poisson_ratio=2.0),
+        "depth and force": lambda: vf.fit_indentation(time, body=ball),
+        "radius": lambda: vf.fit_indentation(time, depth, force, body=vf.Sphere(-1.0)),
+    }.items():
+        with pytest.raises(ValueError, match=message):
+            call()
