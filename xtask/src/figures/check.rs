@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::figures::factors::{self, FILE, Row};
 use crate::figures::friction_over_speed::{self, CONE, Indenter, PARABOLOID, SPEEDS};
-use crate::figures::{loss_tangent, scaling_function, stationary};
+use crate::figures::{loss_tangent, resolution, scaling_function, stationary};
 use crate::output::{read_csv, to_csv};
 
 /// Closed forms differ by rounding only.
@@ -36,6 +36,7 @@ pub(crate) fn check() -> Result<()> {
         + check_friction(&CONE)?
         + check_friction(&PARABOLOID)?
         + check_factors()?
+        + check_resolutions()?
         + compare(scaling_function::FILE, None, &function, |_, _| CLOSED_FORM)?
         + scaling_function::check_against_the_half_space()?
         + check_outlines()?;
@@ -144,6 +145,15 @@ fn check_factors() -> Result<usize> {
         "error" => ERROR_BAR,
         _ => Tolerance::Any,
     })
+}
+
+/// The coarser resolutions of both profiles.
+fn check_resolutions() -> Result<usize> {
+    const RESOLUTIONS: usize = 3;
+    let rows = resolution::compute(RESOLUTIONS)?;
+    let of_paraboloid = resolution::COUNT..resolution::COUNT + RESOLUTIONS;
+    let chosen: Vec<usize> = (0..RESOLUTIONS).chain(of_paraboloid).collect();
+    compare(resolution::FILE, Some(&chosen), &rows, |_, _| SIMULATION)
 }
 
 /// All outlines. Rounding may decide about single elements, so each point may move by one.

@@ -1,6 +1,7 @@
 //! The scaling factors beside the paper's: the plain simulation, the biases of its sources, and the converged value.
 
 use anyhow::Result;
+use bem_halfspace::slide::Transient;
 use numerics::Estimate;
 use serde::{Deserialize, Serialize};
 
@@ -49,22 +50,40 @@ pub(super) fn compute() -> Result<Vec<Row>> {
     })
 }
 
+/// The plain simulation of a power profile.
+pub(super) struct Plain {
+    transient: Transient,
+    theory: f64,
+    /// Friction at its end, with the slope at the end of each step, over that of the one-dimensional model.
+    pub(super) ratio: f64,
+}
+
+impl Plain {
+    /// With so many elements along the contact length.
+    pub(super) fn new(exponent: f64, elements: f64) -> Result<Self> {
+        let scene = Scene::unit(exponent)?;
+        let theory = scene.theory()?;
+        let transient = scene.half_space(theory.contact_length() / elements, PLAIN_LENGTHS)?;
+        let theory = theory.friction_coefficient;
+        Ok(Self {
+            ratio: transient.last().friction_coefficient_end_of_step / theory,
+            transient,
+            theory,
+        })
+    }
+}
+
 /// The plain simulation beside a converged factor.
 fn row(exponent: f64, paper: f64, converged: Estimate) -> Result<Row> {
-    let scene = Scene::unit(exponent)?;
-    let theory = scene.theory()?;
-    let spacing = theory.contact_length() / PLAIN_ELEMENTS;
-    let transient = scene.half_space(spacing, PLAIN_LENGTHS)?;
-    let stationary = transient.stationary(DRIFT_TOLERANCE)?;
-    let ratio = |friction: f64| friction / theory.friction_coefficient;
-    let plain = ratio(transient.last().friction_coefficient_end_of_step);
-    let mean_slope = ratio(transient.last().friction_coefficient);
-    let far = ratio(stationary.friction_coefficient);
+    let plain = Plain::new(exponent, PLAIN_ELEMENTS)?;
+    let stationary = plain.transient.stationary(DRIFT_TOLERANCE)?;
+    let mean_slope = plain.transient.last().friction_coefficient / plain.theory;
+    let far = stationary.friction_coefficient / plain.theory;
     Ok(Row {
         exponent,
         paper,
-        plain,
-        time_level_bias: mean_slope - plain,
+        plain: plain.ratio,
+        time_level_bias: mean_slope - plain.ratio,
         distance_bias: far - mean_slope,
         grid_bias: converged.value - far,
         converged: converged.value,

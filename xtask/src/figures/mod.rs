@@ -8,6 +8,7 @@ mod friction_over_speed;
 mod loss_tangent;
 mod pictures;
 mod report;
+mod resolution;
 mod scaling_function;
 mod stationary;
 
@@ -28,6 +29,7 @@ struct Data {
     cone: Vec<friction_over_speed::Row>,
     paraboloid: Vec<friction_over_speed::Row>,
     factors: Vec<factors::Row>,
+    resolution: Vec<resolution::Row>,
     approach: [approach::Approach; 2],
     scaling_function: Vec<Node>,
     contacts: Vec<stationary::Contact>,
@@ -48,6 +50,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
         ],
         scaling_function: scaling_function::compute()?,
         contacts: stationary::compute()?,
+        resolution: resolution::compute(resolution::COUNT)?,
         factors,
     };
     let tables = tables(&data)?;
@@ -66,7 +69,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
 }
 
 /// File names and contents.
-fn tables(data: &Data) -> Result<[(&'static str, String); 7]> {
+fn tables(data: &Data) -> Result<[(&'static str, String); 8]> {
     let outlines = data.contacts.iter().flat_map(|contact| &contact.outline);
     let approach = data.approach.iter().flat_map(|approach| &approach.rows);
     Ok([
@@ -74,6 +77,7 @@ fn tables(data: &Data) -> Result<[(&'static str, String); 7]> {
         (CONE.file, to_csv(&data.cone)?),
         (PARABOLOID.file, to_csv(&data.paraboloid)?),
         (factors::FILE, to_csv(&data.factors)?),
+        (resolution::FILE, to_csv(&data.resolution)?),
         (scaling_function::FILE, to_csv(&data.scaling_function)?),
         ("approach.csv", to_csv(&approach.collect::<Vec<_>>())?),
         (stationary::FILE, to_csv(&outlines.collect::<Vec<_>>())?),

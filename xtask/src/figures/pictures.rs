@@ -4,7 +4,7 @@ use anyhow::Result;
 
 use crate::figures::approach::{self, Approach, LENGTHS};
 use crate::figures::friction_over_speed::Row;
-use crate::figures::{Data, contact_maps, loss_tangent, scaling_function};
+use crate::figures::{Data, contact_maps, loss_tangent, resolution, scaling_function};
 use crate::output::points;
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Drawing, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
@@ -12,8 +12,11 @@ use viscofriction_plot::{
 };
 
 /// Names and pictures.
-pub(super) fn all(data: &Data) -> Result<[(&'static str, Drawing); 7]> {
+pub(super) fn all(data: &Data) -> Result<[(&'static str, Drawing); 9]> {
     let single = |chart: Chart| draw(&Figure::single(chart));
+    let friction =
+        |rows: &[Row], body: usize, y| single(friction_chart(rows, data.factors[body].paper, y));
+    let linear = |highest| Axis::linear(FRICTION, [0.0, highest]);
     let function = scaling_function::figure(&data.scaling_function);
     let contacts = contact_maps::figure(&data.contacts);
     Ok([
@@ -21,10 +24,18 @@ pub(super) fn all(data: &Data) -> Result<[(&'static str, Drawing); 7]> {
             "fig1_loss_tangent",
             single(loss_tangent_chart(&data.loss_tangent))?,
         ),
-        ("fig7_cone", single(friction_chart(&data.cone, 0.2))?),
+        ("fig7_cone", friction(&data.cone, 0, linear(0.2))?),
         (
             "fig8_paraboloid",
-            single(friction_chart(&data.paraboloid, 0.35))?,
+            friction(&data.paraboloid, 1, linear(0.35))?,
+        ),
+        (
+            "fig8_paraboloid_log",
+            friction(&data.paraboloid, 1, Axis::log10(FRICTION, [0.01, 1.0]))?,
+        ),
+        (
+            "plain_resolution",
+            single(resolution::chart(&data.resolution, &data.factors))?,
         ),
         ("approach", single(approach_chart(&data.approach))?),
         ("scaling_function", draw(&function)?),
@@ -66,7 +77,10 @@ fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
     )
 }
 
-fn friction_chart(rows: &[Row], highest: f64) -> Chart {
+const FRICTION: &str = "coefficient of friction μ";
+
+/// Friction over the speed, with the paper's factor of the body.
+fn friction_chart(rows: &[Row], paper: f64, y: Axis) -> Chart {
     let points = |value: fn(&Row) -> f64| points(rows, |row| row.velocity_m_per_s, value);
     let [squares, circles] = [Shape::Square, Shape::Circle].map(Marker::open);
     let crosses = Marker::filled(Shape::Plus);
@@ -74,6 +88,10 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
     let theory = Series::line(points(|row| row.theory), line, Colour::Blue);
     let chain = Series::markers(points(|row| row.chain), squares, Colour::Blue);
     let scaled = Series::markers(points(|row| row.scaled_theory), circles, Colour::Black);
+    let of_paper = points(|row| row.theory).into_iter();
+    let of_paper = of_paper.map(|[speed, theory]| [speed, paper * theory]);
+    let dashed = Line::thin(Dash::Dashed);
+    let of_paper = Series::line(of_paper.collect(), dashed, Colour::Black);
     let errors = rows.iter().map(|row| row.half_space_distance_error);
     let half_space = Series {
         errors: errors.collect(),
@@ -82,12 +100,12 @@ fn friction_chart(rows: &[Row], highest: f64) -> Chart {
     let series = vec![
         theory.labelled("theory (MDR)"),
         chain.labelled("chain of dashpots (MDR)"),
-        scaled.labelled("theory, scaled"),
+        scaled.labelled("theory × converged factor"),
+        of_paper.labelled(format!("theory × {paper} (paper)")),
         // Last, because it would vanish behind the open circles.
         half_space.labelled("half space (BEM)"),
     ];
     let x = Axis::log10("sliding speed v [m/s]", [8e-4, 1.25e-1]);
-    let y = Axis::linear("coefficient of friction μ", [0.0, highest]);
     Chart::new(x, y, series)
 }
 

@@ -48,8 +48,8 @@ pub(super) fn html(
         ("brightest", contact_maps::BRIGHTEST.to_string()),
         ("lengths of the contacts", lengths),
         ("breadths of the contacts", breadths),
-        ("stability", STABILITY.to_owned()),
-        ("work_precision", WORK_PRECISION.to_owned()),
+        ("stability", closely(STABILITY)),
+        ("work_precision", closely(WORK_PRECISION)),
     ] {
         fill(name, &value);
     }
@@ -57,13 +57,18 @@ pub(super) fn html(
         fill(&format!("data of {file}"), &folded(table));
     }
     for (name, drawing) in pictures {
-        fill(name, &drawing.svg);
+        fill(name, &closely(&drawing.svg));
     }
     ensure!(
         !page.contains("{{"),
         "a part of report.html is not filled in"
     );
     Ok(page)
+}
+
+/// A picture that grows when it is clicked, without a script.
+fn closely(svg: &str) -> String {
+    format!("<label><input type=\"checkbox\">{svg}</label>")
 }
 
 /// A row of the table of factors.

@@ -1,0 +1,67 @@
+//! The factors of the plain simulation over its resolution, which the paper does not state.
+
+use anyhow::Result;
+use serde::Serialize;
+
+use crate::figures::factors::{self, PAPER};
+use crate::output::points;
+use crate::tasks::in_parallel;
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Line, Marker, Series, Shape};
+
+pub(super) const FILE: &str = "plain_resolution.csv";
+/// How many resolutions there are.
+pub(super) const COUNT: usize = 7;
+/// Elements along the contact length of the one-dimensional model.
+const ELEMENTS: [u32; COUNT] = [5, 7, 10, 14, 20, 28, 40];
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Row {
+    pub(super) exponent: f64,
+    elements: u32,
+    /// Friction ratio at the end, with the slope at the end of each step.
+    plain: f64,
+}
+
+/// Both profiles with the first so many resolutions.
+pub(super) fn compute(resolutions: usize) -> Result<Vec<Row>> {
+    let pairs = PAPER.iter().flat_map(|(exponent, _)| {
+        let elements = ELEMENTS[..resolutions].iter();
+        elements.map(move |elements| (*exponent, *elements))
+    });
+    let pairs: Vec<(f64, u32)> = pairs.collect();
+    in_parallel("resolutions", &pairs, |&(exponent, elements)| {
+        Ok(Row {
+            exponent,
+            elements,
+            plain: factors::Plain::new(exponent, f64::from(elements))?.ratio,
+        })
+    })
+}
+
+/// The factors over the resolution, between those of the paper and the converged ones.
+pub(super) fn chart(rows: &[Row], converged: &[factors::Row]) -> Chart {
+    let range = [4.0, 50.0];
+    let mut series = Vec::new();
+    let styles = [
+        ("cone", Shape::Square, Colour::Blue),
+        ("paraboloid", Shape::Circle, Colour::Red),
+    ];
+    for (factor, (name, shape, colour)) in converged.iter().zip(styles) {
+        let of_body = rows.iter().filter(|row| row.exponent == factor.exponent);
+        let of_body: Vec<Row> = of_body.cloned().collect();
+        let plain = points(&of_body, |row| f64::from(row.elements), |row| row.plain);
+        let level = |value: f64, dash| {
+            let ends = range.map(|elements| [elements, value]).to_vec();
+            Series::line(ends, Line::thin(dash), colour)
+        };
+        series.extend([
+            Series::markers(plain, Marker::open(shape), colour)
+                .labelled(format!("{name}, plain simulation")),
+            level(factor.paper, Dash::Dotted).labelled(format!("{name}, paper")),
+            level(factor.converged, Dash::Solid).labelled(format!("{name}, converged")),
+        ]);
+    }
+    let x = Axis::log10("elements along the contact length of the line model", range);
+    let y = Axis::linear("scaling factor", [0.4, 0.8]);
+    Chart::new(x, y, series)
+}
