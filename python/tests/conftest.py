@@ -20,7 +20,8 @@ SCENES = ROOT / "examples" / "scenes"
 def program() -> Callable[..., str]:
     """Runs the program of this repository and returns what it prints."""
     environment = os.environ | {"CARGO_TARGET_DIR": str(ROOT / "target")}
-    build = ["cargo", "build", "--quiet", "--release", "--package", "viscofriction-cli"]
+    # With xtask, which has the features of the whole workspace, so that its tests take what is compiled here.
+    build = ["cargo", "build", "--quiet", "--release", "--package", "viscofriction-cli", "--package", "xtask"]
     subprocess.run(build, check=True, cwd=ROOT, env=environment)
 
     def run(*arguments: object) -> str:

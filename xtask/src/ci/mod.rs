@@ -48,12 +48,7 @@ fn steps(cargo: &mut Cargo) -> Result<()> {
             cargo.run(&format!(
                 "check --release --no-default-features --all-targets --package {library}"
             ))
-        })?;
-        // Threads are the one feature that changes how something is computed.
-        let serial = "memory:: allocations:: contacts::";
-        cargo.run(&format!(
-            "test --release --no-default-features --package bem-halfspace --test it -- {serial}"
-        ))
+        })
     })?;
     step("documentation", || {
         let deny = "--config=build.rustdocflags=[\"--deny=warnings\"]";
