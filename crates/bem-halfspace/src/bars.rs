@@ -50,34 +50,14 @@ pub struct ContactEstimate<S, O> {
 
 /// A contact on one grid.
 pub(crate) struct OnGrid<S, O> {
-    pub(crate) quantities: Quantities,
+    /// Friction coefficient, normal force, depth, contact area and largest pressure.
+    pub(crate) quantities: [f64; 5],
     /// Parts of the error of the target that all grids have in common, and hence do not show.
     pub(crate) other_error: ErrorParts,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
     pub(crate) state: S,
     pub(crate) options: O,
-}
-
-/// The quantities of a contact that have error bars.
-pub(crate) struct Quantities {
-    pub(crate) friction_coefficient: f64,
-    pub(crate) normal_force: f64,
-    pub(crate) indentation_depth: f64,
-    pub(crate) contact_area: f64,
-    pub(crate) peak_pressure: f64,
-}
-
-impl Quantities {
-    const fn to_array(&self) -> [f64; 5] {
-        [
-            self.friction_coefficient,
-            self.normal_force,
-            self.indentation_depth,
-            self.contact_area,
-            self.peak_pressure,
-        ]
-    }
 }
 
 /// Places of some quantities in an array of them.
@@ -146,10 +126,9 @@ pub(crate) fn resolve<S, O>(
         (Target::Depth, Control::IndentationDepth(_)) => FORCE,
     };
     let quantities = |contact: &OnGrid<S, O>| {
-        let values = contact.quantities.to_array();
         std::array::from_fn(|index| Quantity {
             drives: index == target || index == FORCE,
-            ..Quantity::from(values[index])
+            ..Quantity::from(contact.quantities[index])
         })
     };
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
@@ -158,9 +137,8 @@ pub(crate) fn resolve<S, O>(
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
-    let values = refined.value.quantities.to_array();
     let [friction, force, depth, area, peak] = std::array::from_fn(|index| Estimate {
-        value: values[index],
+        value: refined.value.quantities[index],
         error: refined.error[index],
     });
     Ok(ContactEstimate {

@@ -141,33 +141,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_are_combined_in_the_same_order_on_any_number_of_threads() {
-        for n_chunks in [0, 1, 2, 3, 5, 63, 64, 65, 200] {
-            let starts: Vec<usize> = (0..=n_chunks).map(|chunk| chunk * chunk).collect();
-            let work = |chunk: usize, [values]: [&mut [usize]; 1]| {
-                values.fill(chunk);
-                format!("{chunk}")
-            };
-            let combine = |left: String, right: String| format!("({left} {right})");
-            let fold = || {
-                let mut values = vec![usize::MAX; n_chunks * n_chunks];
-                let fields = [(&mut values[..], Starts::Listed(&starts))];
-                let order = fold_chunks(0..n_chunks, fields, &work, &combine);
-                (values, order)
-            };
-            let on_threads = |threads| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-                pool.map(|pool| pool.install(fold)).expect("a pool")
-            };
-            let alone = on_threads(1);
-            assert!(!alone.0.contains(&usize::MAX), "a value of no chunk");
-            for threads in [2, 3] {
-                assert_eq!(on_threads(threads), alone, "on {threads} threads");
-            }
-        }
-    }
-
-    #[test]
     fn a_larger_pool_than_the_buffers_are_for_uses_each_by_one_thread_at_a_time() {
         let counters = PerThread::new(0, || 0_usize);
         let count = |_, []: [&mut [()]; 0]| {

@@ -32,6 +32,7 @@ mod bands;
 mod bars;
 mod bounds;
 mod chunks;
+mod conjugate_residuals;
 pub mod contact;
 mod convolution;
 mod error;

@@ -59,27 +59,3 @@ pub(crate) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
         *sum += factor * value;
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    #[expect(clippy::float_cmp, reason = "sums of small whole numbers are exact")]
-    fn no_number_is_left_out() {
-        for length in 0..=2 * ACCUMULATORS + 1 {
-            let numbers: Vec<f64> = (1..=length).map(|number| number as f64).collect();
-            let twice: Vec<f64> = numbers.iter().map(|number| 2.0 * number).collect();
-            let n = length as f64;
-            let squares = sum([&numbers, &twice], |[one, two]| one * two);
-            assert_eq!(squares, n * (n + 1.0) * (2.0 * n + 1.0) / 3.0, "{length}");
-            assert_eq!(
-                largest([&numbers], 0.5, |[one]| one),
-                n.max(0.5),
-                "{length}"
-            );
-            let lowest = reduce([&numbers], 0.0, |[one]| -one, lower);
-            assert_eq!(lowest, -n, "{length}");
-        }
-    }
-}

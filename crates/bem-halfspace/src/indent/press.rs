@@ -8,7 +8,7 @@ use indenters::{Control, PressingLoad, Surface, contact_radius};
 use numerics::{ErrorParts, Goal, Request, positive};
 use rheology::{Elastic, Material};
 
-use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target};
+use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::error::check_contact_elements;
 use crate::plan::GridPlan;
 use crate::pressure_field::PressureField;
@@ -267,13 +267,13 @@ impl PressSolution {
             Control::IndentationDepth(_) => elements as f64 * self.normal_force,
         };
         OnGrid {
-            quantities: Quantities {
-                friction_coefficient: 0.0,
-                normal_force: self.normal_force,
-                indentation_depth: self.indentation_depth,
-                contact_area: self.contact_area,
-                peak_pressure: self.pressure.as_ref().map_or(0.0, PressureField::largest),
-            },
+            quantities: [
+                0.0,
+                self.normal_force,
+                self.indentation_depth,
+                self.contact_area,
+                self.pressure.as_ref().map_or(0.0, PressureField::largest),
+            ],
             other_error: ErrorParts {
                 iteration: Some(options.contact.tolerance * error),
                 ..ErrorParts::NONE

@@ -14,7 +14,7 @@ use numerics::positive;
 use rheology::{CreepSpectrum, Material};
 use rustfft::num_complex::Complex;
 
-use crate::periodic::waves::{WaveNumbers, Waves};
+use crate::periodic::waves::Waves;
 use crate::{BemError, Grid};
 
 /// A material under a surface that slides.
@@ -55,23 +55,24 @@ impl Sliding {
     }
 }
 
-/// Symbols of one grid, by row of the transform.
+/// Products with the waves of one grid and symbols by row of the transform.
 #[derive(Debug)]
 pub(super) struct Kernel {
+    waves: Waves,
     /// |q| û/p̂ at the centre of an element.
-    pub(super) at_centre: Vec<Complex<f64>>,
+    at_centre: Vec<Complex<f64>>,
     /// The shift to the point at which the gap is evaluated.
     shift: Vec<Complex<f64>>,
     /// Their product.
     factors: Vec<Complex<f64>>,
-    along_x: Vec<f64>,
 }
 
 impl Kernel {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         let dx = grid.spacing()[0];
-        let WaveNumbers { along_x, .. } = WaveNumbers::new(grid);
-        let mut at_centre = sliding.compliances(&along_x)?;
+        let waves = Waves::new(grid);
+        let along_x = &waves.along_x;
+        let mut at_centre = sliding.compliances(along_x)?;
         let shortest = sliding.compliances(&[PI / dx])?[0];
         let theta = -shortest.arg() / PI;
         let turn = |q_x: &f64| Complex::from_polar(1.0, q_x * theta * dx);
@@ -87,51 +88,58 @@ impl Kernel {
             }
         }
         Ok(Self {
+            waves,
             at_centre,
             shift,
             factors,
-            along_x,
         })
     }
 
     /// Displacements where the gaps are evaluated.
-    pub(super) fn displace(&self, waves: &mut Waves, pressure: &[f64], result: &mut [f64]) {
-        waves.apply(pressure, result, |row, q| self.factors[row] / q);
+    pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row] / q;
+        self.waves.apply(pressure, result, symbol);
     }
 
     /// The inverse of [`displace`](Self::displace) on the whole grid.
-    pub(super) fn invert(&self, waves: &mut Waves, displacement: &[f64], result: &mut [f64]) {
-        waves.apply(displacement, result, |row, q| self.factors[row].inv() * q);
+    pub(super) fn invert(&mut self, displacement: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row].inv() * q;
+        self.waves.apply(displacement, result, symbol);
     }
 
     /// The pressure that displaces the centres of all elements.
-    pub(super) fn invert_at_centre(&self, waves: &mut Waves, field: &[f64], result: &mut [f64]) {
-        waves.apply(field, result, |row, q| self.at_centre[row].inv() * q);
+    pub(super) fn invert_at_centre(&mut self, field: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| self.at_centre[row].inv() * q;
+        self.waves.apply(field, result, symbol);
+    }
+
+    /// The displacements K z of the centres for (1 + w K) z = r with one weight w for all elements.
+    pub(super) fn relax(&mut self, weight: f64, residual: &[f64], result: &mut [f64]) {
+        let symbol = |row: usize, [_, q]: [f64; 2]| {
+            let kernel = self.at_centre[row];
+            kernel / (kernel * weight + q)
+        };
+        self.waves.apply(residual, result, symbol);
     }
 
     /// Heights at the points where the gaps are evaluated, by trigonometric interpolation.
-    pub(super) fn shifted(&self, waves: &mut Waves, heights: &[f64], result: &mut [f64]) {
-        waves.apply(heights, result, |row, _| self.shift[row]);
+    pub(super) fn shifted(&mut self, heights: &[f64], result: &mut [f64]) {
+        self.waves.apply(heights, result, |row, _| self.shift[row]);
     }
 
     /// Slopes ∂h/∂x at the centres.
-    pub(super) fn slopes(&self, waves: &mut Waves, heights: &[f64], result: &mut [f64]) {
-        let middle = self.along_x.len();
-        waves.apply(heights, result, |row, _| {
+    pub(super) fn slopes(&mut self, heights: &[f64], result: &mut [f64]) {
+        let rows = self.shift.len();
+        self.waves.apply(heights, result, |row, [q_x, _]| {
             // The slope of the shortest wave vanishes at the centres.
-            let q_x = if 2 * row == middle {
-                0.0
-            } else {
-                self.along_x[row]
-            };
-            Complex::new(0.0, q_x)
+            Complex::new(0.0, if 2 * row == rows { 0.0 } else { q_x })
         });
     }
 
     /// The field whose mean product with the pressure is the power dissipated per area and velocity.
-    pub(super) fn dissipate(&self, waves: &mut Waves, pressure: &[f64], result: &mut [f64]) {
-        waves.apply(pressure, result, |row, q| {
-            Complex::from(self.along_x[row] * self.at_centre[row].im / q)
-        });
+    pub(super) fn dissipate(&mut self, pressure: &[f64], result: &mut [f64]) {
+        let symbol =
+            |row: usize, [q_x, q]: [f64; 2]| Complex::from(q_x * self.at_centre[row].im / q);
+        self.waves.apply(pressure, result, symbol);
     }
 }

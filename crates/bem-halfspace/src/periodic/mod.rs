@@ -8,14 +8,19 @@
 //! ```
 //!
 //! with a kernel that is translation-invariant and not symmetric. It is solved on grids of half the elements along both
-//! axes, of a quarter and so on, from the coarsest to that asked for. The search of the active set is in `search.rs`, the
+//! axes, of a quarter and so on, from the coarsest to that asked for. The friction is found in two ways,
+//!
+//! ```text
+//! μ ⟨p⟩ = ⟨p ∂h/∂x⟩ = Σ_q 2 |p̂|² (|q_x|/|q|) Im E*(|q_x| v)/|E*|².
+//! ```
+//!
+//! The search of the active set is in `search.rs`, the
 //! equations of a given contact in `equations.rs`.
 
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;
 mod far_loads;
-mod friction;
 mod kernel;
 mod nested;
 mod search;
@@ -26,11 +31,11 @@ use rheology::Material;
 
 use crate::chunks::in_pool;
 use crate::contact::check_length;
+use crate::reductions::dot;
 use crate::{BemError, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{PeriodicEstimate, steady_periodic};
-use friction::Friction;
 use kernel::Sliding;
 
 /// How a periodic surface is pressed and moved.
@@ -146,12 +151,17 @@ fn solve_here(problem: search::Problem) -> Result<PeriodicSliding, BemError> {
     let mut pressure = Vec::new();
     let mut equations = Equations::new(problem.sliding, problem.grid)?;
     let solved = nested::solve(problem, &mut equations, &mut pressure)?;
-    let friction = Friction::of(&problem, &mut equations, &pressure);
+    let mut field = vec![0.0; pressure.len()];
+    let mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
+    equations.kernel.slopes(problem.heights, &mut field);
+    let from_slopes = mean(&field);
+    equations.kernel.dissipate(&pressure, &mut field);
+    let from_dissipation = mean(&field);
     let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let [counted, corrected] = area_fractions(problem.grid.shape()[1], &pressure);
     Ok(PeriodicSliding {
-        friction_coefficient: friction.from_slopes,
-        friction_from_dissipation: friction.from_dissipation,
+        friction_coefficient: from_slopes,
+        friction_from_dissipation: from_dissipation,
         area_fraction: corrected,
         counted_area_fraction: counted,
         mean_depth: solved.depth - mean_height,

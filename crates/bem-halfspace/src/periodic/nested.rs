@@ -6,7 +6,7 @@ use rustfft::num_complex::Complex;
 
 use crate::periodic::equations::Equations;
 use crate::periodic::search::{self, Problem, Solved};
-use crate::periodic::waves::{WaveNumbers, Waves};
+use crate::periodic::waves::Waves;
 use crate::plane_transform::ZERO;
 use crate::{BemError, Grid};
 
@@ -69,11 +69,9 @@ fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
 /// The waves that fit on a grid of twice the edges, at the centres of its elements.
 fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
-    let along_x = WaveNumbers::new(grid).along_x;
     let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
-    Waves::new(grid).apply(heights, &mut field, |row, q| {
-        let q_x = along_x[row];
+    Waves::new(grid).apply(heights, &mut field, |row, [q_x, q]| {
         // For the mean this is another mean, which changes nothing but the depth of a guess.
         let q_y = if row == 0 {
             q
@@ -120,8 +118,7 @@ fn full_contact(
     let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
     pressure.resize(displacement.len(), 0.0);
-    let Equations { kernel, waves, .. } = equations;
-    kernel.invert_at_centre(waves, &displacement, pressure);
+    equations.kernel.invert_at_centre(&displacement, pressure);
     let total: f64 = pressure.iter().sum();
     let rest = problem.mean_pressure - total / pressure.len() as f64;
     pressure.iter_mut().for_each(|pressure| *pressure += rest);

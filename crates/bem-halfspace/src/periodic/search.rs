@@ -70,13 +70,8 @@ struct Search<'a> {
     residual: f64,
 }
 
-/// Which of the elements on the wrong side change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Choice {
-    All,
-    Larger,
-    Last,
-}
+/// Part of the largest violation from which elements on the wrong side change; where there is none, the last one changes.
+type Least = Option<f64>;
 
 /// Solves the problem from a first guess of the pressure, which is the solution afterwards: outside the contact it is the
 /// gap, as a negative multiple of the displacement of an element under its own pressure. Without a positive pressure half
@@ -104,8 +99,7 @@ impl<'a> Search<'a> {
     fn new(problem: Problem<'a>, equations: &'a mut Equations, mut pressure: Vec<f64>) -> Self {
         let n = problem.grid.n_elements();
         let mut heights = vec![0.0; n];
-        let Equations { kernel, waves, .. } = &mut *equations;
-        kernel.shifted(waves, problem.heights, &mut heights);
+        equations.kernel.shifted(problem.heights, &mut heights);
         if pressure.iter().all(|pressure| *pressure <= 0.0) {
             let mean = heights.iter().sum::<f64>() / n as f64;
             pressure = heights
@@ -141,21 +135,25 @@ impl<'a> Search<'a> {
         for number in 0.. {
             self.equations
                 .take(&self.contact, &self.pressure, &self.gap);
-            let choice = match vain {
-                0..=ALL => Choice::All,
-                ..=LARGER => Choice::Larger,
-                _ => Choice::Last,
+            let least = match vain {
+                0..=ALL => Some(0.0),
+                ..=LARGER => Some(LARGE),
+                _ => None,
             };
             let part = match number {
                 // What cycles with rough solutions may end with better ones.
-                _ if choice == Choice::Last => 0.0,
+                _ if least.is_none() => 0.0,
                 0..FIRST_CONTACTS => FIRST_PART,
                 _ => LATER_PART * 0.3_f64.powi((vain - 2).clamp(0, 3)),
             };
             let noise = self.equations.iterate(part, LAST * tolerance * self.scale);
-            let (violations, is_solved) = self.change(noise, choice);
+            let (violations, is_solved) = self.change(noise, least);
             if is_solved {
-                return Ok(self.solved());
+                return Ok(Solved {
+                    depth: self.depth,
+                    products: self.equations.products,
+                    residual: self.residual,
+                });
             }
             if self.equations.products >= max_products {
                 break;
@@ -173,17 +171,9 @@ impl<'a> Search<'a> {
         })
     }
 
-    fn solved(&self) -> Solved {
-        Solved {
-            depth: self.depth,
-            products: self.equations.products,
-            residual: self.residual,
-        }
-    }
-
     /// Moves the elements that violate the conditions, or the last of them, to the other side; how many there were, and
     /// whether the problem is solved; `noise` is the root mean square of the residual.
-    fn change(&mut self, noise: f64, choice: Choice) -> (usize, bool) {
+    fn change(&mut self, noise: f64, least: Least) -> (usize, bool) {
         let tolerance = self.problem.tolerance;
         self.equations.give(&mut self.pressure, &mut self.gap);
         let tension = -self
@@ -199,7 +189,7 @@ impl<'a> Search<'a> {
             1.0
         };
         let allowed = (NOISE * noise).max(tolerance * self.scale);
-        let mut changed = self.exchange(allowed, choice, true);
+        let mut changed = self.exchange(allowed, least, true);
         for (pressure, inside) in self.pressure.iter_mut().zip(&self.contact) {
             *pressure = if *inside { *pressure } else { 0.0 };
         }
@@ -208,15 +198,15 @@ impl<'a> Search<'a> {
         let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
         let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
         let is_solved = is_slight && is_open && self.residual <= tolerance;
-        if changed == 0 || choice != Choice::Last {
+        if changed == 0 || least.is_some() {
             let allowed = (hidden * self.residual).max(tolerance) * self.scale;
-            changed += self.exchange(allowed, choice, false);
+            changed += self.exchange(allowed, least, false);
         }
         (changed, is_solved)
     }
 
     /// Exchanges elements that are listed by the equations, or others, and counts those that should be.
-    fn exchange(&mut self, allowed: f64, choice: Choice, is_near: bool) -> usize {
+    fn exchange(&mut self, allowed: f64, least: Least, is_near: bool) -> usize {
         let own = self.equations.own_displacement;
         let size = |element: usize| {
             if self.equations.near.contains(element) != is_near {
@@ -237,13 +227,9 @@ impl<'a> Search<'a> {
         let largest = violations
             .iter()
             .fold(0.0, |top, (_, size)| larger(top, *size));
-        let (from, skipped) = match choice {
-            Choice::All => (0.0, 0),
-            Choice::Larger => (LARGE * largest, 0),
-            Choice::Last => (0.0, violations.len().saturating_sub(1)),
-        };
-        for (element, size) in violations.iter().skip(skipped) {
-            self.contact[*element] ^= *size >= from;
+        for (place, (element, size)) in violations.iter().enumerate() {
+            let is_last = place + 1 == violations.len();
+            self.contact[*element] ^= least.map_or(is_last, |part| *size >= part * largest);
         }
         violations.len()
     }
@@ -271,20 +257,12 @@ impl<'a> Search<'a> {
         for (gap, height) in self.gap.iter_mut().zip(&self.heights) {
             *gap += height - mean;
         }
-        let in_contact = || {
-            self.gap
-                .iter()
-                .zip(&self.contact)
-                .filter(|(_, inside)| **inside)
-        };
-        self.depth = in_contact().map(|(gap, _)| gap).sum::<f64>() / in_contact().count() as f64;
+        let contact = &self.contact;
+        let in_contact = |(gap, inside): (&f64, &bool)| inside.then_some(*gap);
+        let inside = self.gap.iter().zip(contact).filter_map(in_contact);
+        self.depth = inside.clone().sum::<f64>() / inside.count() as f64;
         self.gap.iter_mut().for_each(|gap| *gap -= self.depth);
-        let in_contact = self
-            .gap
-            .iter()
-            .zip(&self.contact)
-            .filter(|(_, inside)| **inside);
-        let largest = in_contact.fold(0.0, |top, (gap, _)| larger(top, gap.abs()));
-        self.residual = largest / self.scale;
+        let inside = self.gap.iter().zip(contact).filter_map(in_contact);
+        self.residual = inside.fold(0.0, |top, gap| larger(top, gap.abs())) / self.scale;
     }
 }

@@ -12,13 +12,7 @@ use crate::plane_transform::{PlaneTransform, Workspace};
 pub(super) struct Waves {
     transform: PlaneTransform,
     workspace: Workspace,
-    numbers: WaveNumbers,
-}
-
-/// Wave numbers of the rows and columns of a transformed field.
-#[derive(Debug, Clone)]
-pub(super) struct WaveNumbers {
-    /// q_x, \[rad/m]: that of the shortest wave is positive.
+    /// q_x of the rows of a transformed field, \[rad/m]: that of the shortest wave is positive.
     pub(super) along_x: Vec<f64>,
     /// Wave number of the longest wave along y, \[rad/m].
     unit_y: f64,
@@ -26,8 +20,9 @@ pub(super) struct WaveNumbers {
     longest: f64,
 }
 
-impl WaveNumbers {
+impl Waves {
     pub(super) fn new(grid: &Grid) -> Self {
+        let transform = PlaneTransform::new(grid.shape());
         let [rows, columns] = grid.shape();
         let [dx, dy] = grid.spacing();
         let unit_x = 2.0 * PI / (rows as f64 * dx);
@@ -37,53 +32,39 @@ impl WaveNumbers {
             (row as f64 - back) * unit_x
         };
         Self {
+            workspace: Workspace::new(&transform, grid.shape()),
+            transform,
             along_x: (0..rows).map(number).collect(),
             unit_y,
             longest: unit_x.min(unit_y),
         }
     }
 
-    /// |q| of a row and column of the transform; for the mean that of the longest wave.
-    fn magnitude(&self, row: usize, column: usize) -> f64 {
-        if row == 0 && column == 0 {
-            return self.longest;
-        }
-        let [q_x, q_y] = [self.along_x[row], column as f64 * self.unit_y];
-        (q_x * q_x + q_y * q_y).sqrt()
-    }
-}
-
-impl Waves {
-    pub(super) fn new(grid: &Grid) -> Self {
-        let transform = PlaneTransform::new(grid.shape());
-        Self {
-            workspace: Workspace::new(&transform, grid.shape()),
-            transform,
-            numbers: WaveNumbers::new(grid),
-        }
-    }
-
-    /// Multiplies every wave of a field by a symbol of its row in the transform and its |q| \[rad/m], which is that of the
-    /// longest wave for the mean. Does not allocate.
+    /// Multiplies every wave of a field by a symbol of its row in the transform, its q_x and its |q| \[rad/m], which is that
+    /// of the longest wave for the mean. Does not allocate.
     pub(super) fn apply(
         &mut self,
         field: &[f64],
         result: &mut [f64],
-        symbol: impl Fn(usize, f64) -> Complex<f64> + Sync,
+        symbol: impl Fn(usize, [f64; 2]) -> Complex<f64> + Sync,
     ) {
-        let Self {
-            transform,
-            workspace,
-            numbers,
-        } = self;
+        let (transform, along_x) = (&self.transform, &self.along_x);
+        let (unit_y, longest) = (self.unit_y, self.longest);
         let normalisation = transform.normalisation();
-        let rows = 0..workspace.shape[0];
-        transform.load(workspace, field, &rows);
-        transform.pass(workspace, (&rows, &rows), |column, values| {
-            for (row, value) in values.iter_mut().enumerate() {
-                *value *= symbol(row, numbers.magnitude(row, column)) * normalisation;
+        let rows = 0..along_x.len();
+        transform.load(&mut self.workspace, field, &rows);
+        transform.pass(&mut self.workspace, (&rows, &rows), |column, values| {
+            let q_y = column as f64 * unit_y;
+            for (row, (value, &q_x)) in values.iter_mut().zip(along_x).enumerate() {
+                let is_mean = row == 0 && column == 0;
+                let q = if is_mean {
+                    longest
+                } else {
+                    (q_x * q_x + q_y * q_y).sqrt()
+                };
+                *value *= symbol(row, [q_x, q]) * normalisation;
             }
         });
-        transform.read(workspace, result, &rows);
+        transform.read(&mut self.workspace, result, &rows);
     }
 }

@@ -4,7 +4,7 @@ use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, ErrorParts, Goal, Request};
 use rheology::{CreepSpectrum, Material};
 
-use crate::bars::{self, ContactEstimate, OnGrid, Quantities, Resolution, Target, peak_has_limit};
+use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::slide::stationary::settle;
 use crate::slide::{March, PressureField, StationaryOptions, Transient, slide_over};
@@ -73,13 +73,8 @@ pub fn slide_memory(
     Ok(per_element * n_elements + BYTES_PER_STEP * steps)
 }
 
-/// The end of one march.
-struct End {
-    friction: f64,
-    /// Error of the extrapolation to the stationary state, where that is asked for.
-    truncation: Option<f64>,
-    transient: Transient,
-}
+/// One march, the friction at its end, and the error of its extrapolation to the stationary state, where that is asked for.
+type End = (Transient, f64, Option<f64>);
 
 struct Problem<'a, M: ?Sized> {
     surface: &'a dyn Surface,
@@ -157,22 +152,19 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         tell: &dyn Fn(f64),
     ) -> Result<OnGrid<Transient, GridOptions>, BemError> {
         let options = self.options(self.plan.length() / elements as f64);
-        let End {
-            friction,
-            truncation,
-            transient,
-        } = match (self.load.control(), self.load.sliding_distance()) {
-            (Control::NormalForce(_), None) => self.to_stationary(&options, tell)?,
-            _ => self.over_distance(self.load, &options, tell)?,
-        };
+        let (transient, friction, truncation) =
+            match (self.load.control(), self.load.sliding_distance()) {
+                (Control::NormalForce(_), None) => self.to_stationary(&options, tell)?,
+                _ => self.over_distance(self.load, &options, tell)?,
+            };
         let last = transient.last();
-        let quantities = Quantities {
-            friction_coefficient: friction,
-            normal_force: last.normal_force,
-            indentation_depth: last.indentation_depth,
-            contact_area: last.contact_area,
-            peak_pressure: transient.pressure.largest(),
-        };
+        let quantities = [
+            friction,
+            last.normal_force,
+            last.indentation_depth,
+            last.contact_area,
+            transient.pressure.largest(),
+        ];
         let iteration = || iteration_error(self.surface, &transient.pressure);
         Ok(OnGrid {
             quantities,
@@ -194,11 +186,8 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         tell: &dyn Fn(f64),
     ) -> Result<End, BemError> {
         let transient = slide_over(self.surface, self.material, load, options, tell)?;
-        Ok(End {
-            friction: transient.last().friction_coefficient,
-            truncation: None,
-            transient,
-        })
+        let friction = transient.last().friction_coefficient;
+        Ok((transient, friction, None))
     }
 
     fn to_stationary(&self, options: &GridOptions, tell: &dyn Fn(f64)) -> Result<End, BemError> {
@@ -207,13 +196,16 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             return self.until_forgotten(memory, options, tell);
         }
         let load = self.load.after(self.distance())?;
-        let mut end = self.over_distance(&load, options, tell)?;
-        if !self.is_elastic() {
-            let state = end.transient.stationary(DRIFT)?;
-            (end.friction, end.truncation) =
-                (state.friction_coefficient, Some(state.distance_error));
+        let end = self.over_distance(&load, options, tell)?;
+        if self.is_elastic() {
+            return Ok(end);
         }
-        Ok(end)
+        let state = end.0.stationary(DRIFT)?;
+        Ok((
+            end.0,
+            state.friction_coefficient,
+            Some(state.distance_error),
+        ))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.
@@ -242,11 +234,8 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         let load = self.load.after(distance)?;
         let march = March::sliding(self.surface, self.material, &load, options)?;
         let end = settle(march, &load, options, &stationary, tell)?;
-        Ok(End {
-            friction: end.friction_coefficient,
-            truncation: Some(end.change * end.friction_coefficient.abs()),
-            transient: end.transient,
-        })
+        let friction = end.friction_coefficient;
+        Ok((end.transient, friction, Some(end.change * friction.abs())))
     }
 
     /// Distance of the march, at most, \[m].

@@ -9,10 +9,10 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
+use crate::conjugate_residuals::{minimise, norm};
 use crate::reductions::add;
 use crate::steady::SteadyOmission;
 use crate::steady::filter::Product;
-use crate::steady::krylov::minimal_residual;
 use crate::steady::mesh::Mesh;
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
@@ -24,6 +24,8 @@ use crate::steady::wiener_hopf::WienerHopf;
 const FACTORISED: f64 = 5e3;
 /// Larger matrices take too much memory.
 const LARGEST_MATRIX: usize = 4000;
+/// Directions tried before the iteration gives up; a preconditioned contact needs some tens.
+const MOST_DIRECTIONS: usize = 150;
 
 /// Loads of the elements of a contact and the depth, in the units of the mesh.
 #[derive(Debug)]
@@ -113,22 +115,26 @@ impl<'mesh> ContactEquations<'mesh> {
     }
 
     fn iterate(mut self, start: Vec<f64>, tolerance: f64) -> EquationSolution {
-        let (mut loads, mut depth) = self.start(start);
-        let mut residual = self.displacements_below(&loads, depth);
-        for (residual, &element) in residual.iter_mut().zip(self.contact) {
-            *residual = -*residual - self.mesh.height(element);
+        let (mut loads, depth) = self.start(start);
+        let mut gaps = self.displacements_below(&loads, depth);
+        for (gap, &element) in gaps.iter_mut().zip(self.contact) {
+            *gap += self.mesh.height(element);
         }
-        let norm = tolerance * (self.contact.len() as f64).sqrt();
-        let correction = minimal_residual(&residual, norm, |vector| {
-            let (loads, depth) = self.correct(vector);
-            self.displacements_below(&loads, depth)
+        let n = self.contact.len();
+        let allowed = tolerance * (n as f64).sqrt();
+        loads.push(depth);
+        let unknowns = [&mut loads[..], &mut gaps[..]];
+        minimise(unknowns, &vec![1.0; n], [MOST_DIRECTIONS; 2], |gaps| {
+            (norm(gaps) > allowed).then(|| {
+                let (mut loads, depth) = self.correct(gaps);
+                let moved = self.displacements_below(&loads, depth);
+                loads.push(depth);
+                [loads, moved]
+            })
         });
-        let (load_steps, depth_step) = self.correct(&correction);
-        add(&mut loads, 1.0, &load_steps);
-        depth += depth_step;
         EquationSolution {
+            depth: loads.remove(n),
             loads,
-            depth,
             factorised: false,
         }
     }

@@ -23,7 +23,6 @@ mod exponential_rule;
 mod extrapolation;
 mod filter;
 mod kernel;
-mod krylov;
 mod line;
 mod loading;
 mod mesh;

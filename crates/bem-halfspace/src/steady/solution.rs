@@ -3,7 +3,7 @@
 use numerics::ErrorParts;
 
 use crate::BemError;
-use crate::bars::{ContactEstimate, OnGrid, Quantities};
+use crate::bars::{ContactEstimate, OnGrid};
 use crate::bounds::Bounds;
 use crate::error::check_contact_elements;
 use crate::pressure_field::PressureField;
@@ -65,13 +65,13 @@ impl SteadySliding {
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
         OnGrid {
-            quantities: Quantities {
-                friction_coefficient: self.friction_coefficient,
-                normal_force: self.normal_force,
-                indentation_depth: self.depth.at(sliding_distance),
-                contact_area: self.contact_area,
-                peak_pressure: self.pressure.largest(),
-            },
+            quantities: [
+                self.friction_coefficient,
+                self.normal_force,
+                self.depth.at(sliding_distance),
+                self.contact_area,
+                self.pressure.largest(),
+            ],
             other_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::NONE

@@ -66,28 +66,32 @@ fn steady_in(
 
 #[test]
 fn options_out_of_range_are_refused() {
-    let of_grids: [Change<GridOptions>; 5] = [
-        ("spacing along x", |grid, bad| grid.spacing[0] = bad),
-        ("spacing along y", |grid, bad| grid.spacing[1] = bad),
-        ("footprint along x", |grid, bad| grid.footprint.x[1] = bad),
-        ("footprint along y", |grid, bad| grid.footprint.y[0] = -bad),
-        ("contact tolerance", |to, bad| to.contact.tolerance = bad),
-    ];
-    let of_states: [Change<SteadyOptions>; 5] = [
-        ("spacing along x", |grid, bad| grid.spacing[0] = bad),
-        ("spacing along y", |grid, bad| grid.spacing[1] = bad),
-        ("footprint along x", |grid, bad| grid.footprint.x[1] = bad),
-        ("footprint along y", |grid, bad| grid.footprint.y[0] = -bad),
-        ("tolerance", |grid, bad| grid.tolerance = bad),
+    let of_elements: [(_, fn(&mut [f64; 2], &mut Footprint, f64)); 4] = [
+        ("spacing along x", |spacing, _, bad| spacing[0] = bad),
+        ("spacing along y", |spacing, _, bad| spacing[1] = bad),
+        ("footprint along x", |_, footprint, bad| {
+            footprint.x[1] = bad;
+        }),
+        ("footprint along y", |_, footprint, bad| {
+            footprint.y[0] = -bad;
+        }),
     ];
     let body = paraboloid(0.3);
     for bad in BAD {
-        for (name, change) in of_grids {
-            assert_bad(bad, slid(1.0, |grid| change(grid, bad)), name);
+        for (name, change) in of_elements {
+            let moved = slid(1.0, |grid| {
+                change(&mut grid.spacing, &mut grid.footprint, bad);
+            });
+            assert_bad(bad, moved, name);
+            let solved = steady_with(&body, |grid| {
+                change(&mut grid.spacing, &mut grid.footprint, bad);
+            });
+            assert_bad(bad, solved, name);
         }
-        for (name, change) in of_states {
-            assert_bad(bad, steady_with(&body, |grid| change(grid, bad)), name);
-        }
+        let moved = slid(1.0, |grid| grid.contact.tolerance = bad);
+        assert_bad(bad, moved, "contact tolerance");
+        let solved = steady_with(&body, |grid| grid.tolerance = bad);
+        assert_bad(bad, solved, "tolerance");
         let solved = Scene::unit(2.0).try_steady(bad);
         assert_bad(bad, solved, "relative_error");
     }

@@ -1,16 +1,14 @@
 //! The discrete contact problem has one solution, and both controls find it: on bodies of the casebook, in the smallest
-//! contacts, and as a dense active-set method and reciprocity have it; with refinement it tends to the exact pressures,
-//! displacements and forces of axisymmetric bodies.
+//! contacts, and as reciprocity has it; with refinement it tends to the exact pressures, displacements and forces of
+//! axisymmetric bodies.
 
 use std::f64::consts::PI;
 
-use bem_halfspace::{Contact, ContactState, Control, influence};
+use bem_halfspace::{Contact, ContactState, Control};
 use casebook::{Case, group};
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
 use indenters::{FlatPunch, Surface};
 
-use crate::support::{Pressing, assert_close, assert_near, cone, count, difference, paraboloid};
+use crate::support::{Pressing, assert_close, assert_near, cone, count, paraboloid};
 
 fn pressing(case: &Case) -> Pressing {
     let body = match case.input_text("shape") {
@@ -116,67 +114,6 @@ fn without_force_or_depth_nothing_is_in_contact() {
     for contact in [unloaded, held] {
         let carried = (contact.n_contact, contact.normal_force);
         assert_eq!(carried, (0, 0.0), "{contact:?}");
-    }
-}
-
-fn coefficient(n: usize, to: usize, from: usize) -> f64 {
-    let distance = |a: usize, b: usize| a as f64 - b as f64;
-    let offset = [distance(to / n, from / n), distance(to % n, from % n)];
-    influence(offset, [1.0, 1.0]) / (4.0 * PI)
-}
-
-/// Pressures at the given depth: factorises the influence matrix of the contact (faer) and changes the active set until
-/// there is neither tension nor penetration; it shares only the influence coefficient with the solver.
-fn dense_solution(heights: &[f64], n: usize, depth: f64) -> Vec<f64> {
-    let mut contact: Vec<usize> = (0..n * n).filter(|&to| heights[to] < depth).collect();
-    for _ in 0..100 {
-        let size = contact.len();
-        let entry = |i: usize, j: usize| coefficient(n, contact[i], contact[j]);
-        let right = Mat::from_fn(size, 1, |i, _| depth - heights[contact[i]]);
-        let factors = Mat::from_fn(size, size, entry).llt(Side::Lower);
-        let solution = factors.expect("positive definite").solve(&right);
-        let mut pressure = vec![0.0; n * n];
-        for (i, &element) in contact.iter().enumerate() {
-            pressure[element] = solution[(i, 0)];
-        }
-        let is_next = |&to: &usize| {
-            let displacements = contact
-                .iter()
-                .map(|&from| coefficient(n, to, from) * pressure[from]);
-            let gap = || heights[to] + displacements.sum::<f64>() - depth;
-            pressure[to] > 0.0 || !contact.contains(&to) && gap() < 0.0
-        };
-        let next: Vec<usize> = (0..n * n).filter(is_next).collect();
-        if next == contact {
-            return pressure;
-        }
-        contact = next;
-    }
-    panic!("the reference did not find its active set");
-}
-
-/// Two bumps of different height and an inclined, wavy ground.
-#[test]
-fn several_patches_without_symmetry_are_those_of_a_dense_method() {
-    let n = 16;
-    let height = |index: usize| {
-        let (x, y) = ((index / n) as f64 - 4.0, (index % n) as f64 - 3.0);
-        let far = ((x - 6.0).powi(2) + 2.0 * (y - 7.0).powi(2)).mul_add(0.03, 0.15);
-        (0.02 * (x * x + 1.5 * y * y + x * y)).min(far) + 0.01 * (x + 2.0 * y).sin()
-    };
-    let heights: Vec<f64> = (0..n * n).map(height).collect();
-    for depth in [0.02, 0.3, 0.9] {
-        let expected = dense_solution(&heights, n, depth);
-        for control in [
-            Control::IndentationDepth(depth),
-            Control::NormalForce(expected.iter().sum()),
-        ] {
-            let (contact, state) = contact([n, n], &heights, control);
-            assert_close(control, contact.indentation_depth, depth, 1e-10);
-            // Relative to the largest pressure, which is less than the force on unit elements.
-            let error = difference(state.pressure(), &expected);
-            assert_near(control, error, 0.0, 1e-10);
-        }
     }
 }
 

@@ -1,7 +1,10 @@
-//! Friction depends only on the dimensionless groups, and neither units nor footprints nor mirrors matter.
+//! Friction depends only on the dimensionless groups, and neither units nor footprints nor mirrors matter, nor how the
+//! equations of a contact are solved. That the other omissions change nothing is shown by `viscofriction run --explain`.
 
 use bem_halfspace::Footprint;
-use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
+use bem_halfspace::steady::{
+    SteadyOmission, SteadyOptions, SteadySliding, steady_line, steady_on_grid,
+};
 use casebook::group;
 use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
@@ -178,6 +181,34 @@ fn half_of_a_symmetric_scene_stands_for_the_whole() {
     let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
     let scene: Scene<&dyn Material> = Scene::new(power(0.3, 2.0), &solid, at_depth(0.2, 0.7));
     compare(&scene, &scene.steady_options(4.0));
+}
+
+/// Both are the same discrete problem, so that answers differ by what the tolerance of 1e-11 leaves open only.
+#[test]
+fn a_factorised_contact_is_that_of_the_iteration() {
+    let dashpot = viscous(2.0);
+    let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
+    let scenes: [(&dyn Material, _, _); 2] = [
+        (&dashpot, under_force(0.5, 0.7), 6.0),
+        (&solid, at_depth(0.2, 0.7), 4.0),
+    ];
+    for (material, load, elements) in scenes {
+        let scene = Scene::new(power(0.3, 2.0), material, load);
+        let [expected, got] = [None, Some(SteadyOmission::Transforms)].map(|redundant_work| {
+            let state = scene.steady_on(&SteadyOptions {
+                redundant_work,
+                tolerance: 1e-11,
+                ..scene.steady_options(elements)
+            });
+            let is_factorised = redundant_work.is_none();
+            assert_eq!(state.is_factorised(), is_factorised, "{redundant_work:?}");
+            // Friction is a difference of slopes, and known to a part of their mean modulus.
+            let uphill = 1.0 + state.friction_coefficient / state.mean_slope;
+            let depth = state.depth.reference_depth;
+            [uphill, state.contact_area, state.normal_force, depth]
+        });
+        assert_all_close(elements, got, expected, 1e-10);
+    }
 }
 
 /// Tight and lopsided footprints, with and without symmetry on the grid: the same friction, or an error.

@@ -16,7 +16,6 @@ mod kernels;
 mod memory;
 mod mirrors;
 mod nested_grids;
-mod omissions;
 mod periodic_contact;
 mod periodic_sliding;
 mod stationary_state;

@@ -3,18 +3,15 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::{
-    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
-    PeriodicLoad, PeriodicOptions, PeriodicSliding, solve_contact, steady_periodic_on_grid,
+    BemError, Control, Convolution, Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding,
+    steady_periodic_on_grid,
 };
-use casebook::{RoughCase, prony, rough_cases};
-use rheology::{Elastic, Material, Viscous};
+use casebook::{RoughCase, rough_cases};
+use rheology::Material;
 
-macro_rules! assert_is {
-    ($result:expr, $pattern:pat $(if $guard:expr)? $(,)?) => {{
-        let result = $result;
-        assert!(matches!(result, $pattern $(if $guard)?), "{result:?}");
-    }};
-}
+use crate::support::{
+    Pressing, assert_all_close, assert_close, assert_near, assert_refused, elastic, prony, viscous,
+};
 
 /// Heights of waves [m, n, a, φ] over a unit square, `copies` of it along x, from `origin` on.
 fn heights(
@@ -58,36 +55,22 @@ fn solve(case: &RoughCase, n: usize) -> PeriodicSliding {
 fn friction_and_area_are_those_of_the_casebook() {
     for case in rough_cases("cases") {
         let solved = solve(&case, 128);
-        let off = |value: f64, exact: f64| (value / exact - 1.0).abs();
-        let exact = case.friction_coefficient;
-        let [slopes, dissipation] = [
+        let frictions = [
             solved.friction_coefficient,
             solved.friction_from_dissipation,
         ];
         // The gradient is right where the friction is a large part of the slope, the dissipation where the shortest waves
         // dissipate little; their difference tells how far either may be off.
-        let best = off(slopes, exact).min(off(dissipation, exact));
-        let difference = (slopes - dissipation).abs() / exact;
+        let exact = case.friction_coefficient;
+        let off = frictions.map(|friction| (friction / exact - 1.0).abs());
+        let (best, difference) = (off[0].min(off[1]), (frictions[0] - frictions[1]) / exact);
         assert!(
-            best < 5e-3 && best < difference + 1e-3,
+            best < 5e-3 && best < difference.abs() + 1e-3 && solved.products < 60,
             "{}: {solved:?}",
             case.id
         );
         // Five elements per shortest asperity in contact, of which the counted area is 15 % too large.
-        let area = off(solved.area_fraction, case.area);
-        assert!(
-            area < 0.06,
-            "{}: {} instead of {}",
-            case.id,
-            solved.area_fraction,
-            case.area
-        );
-        assert!(
-            solved.products < 60,
-            "{}: {} products",
-            case.id,
-            solved.products
-        );
+        assert_close(&case.id, solved.area_fraction, case.area, 0.06);
     }
 }
 
@@ -95,13 +78,11 @@ fn friction_and_area_are_those_of_the_casebook() {
 fn full_contact_is_exact() {
     for case in rough_cases("full_contact") {
         let solved = solve(&case, 48);
-        for friction in [
+        let frictions = [
             solved.friction_coefficient,
             solved.friction_from_dissipation,
-        ] {
-            let deviation = friction / case.friction_coefficient - 1.0;
-            assert!(deviation.abs() < 1e-11, "{}: {deviation:e}", case.id);
-        }
+        ];
+        assert_all_close(&case.id, frictions, [case.friction_coefficient; 2], 1e-11);
     }
 }
 
@@ -111,35 +92,20 @@ fn at_rest_the_contact_is_the_elastic_one() {
     let (n, modulus) = (96, 3.0);
     let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
     let heights = heights(&case.waves, [n; 2], 1, 0.0);
-    let material = Elastic::new(modulus).expect("a material");
-    let solved = slide(&grid, &heights, &material, [0.02, 0.0]).expect("a contact");
-    let convolution = Convolution::periodic(&grid);
-    let problem = ContactProblem {
-        convolution: &convolution,
-        separation: &heights,
+    let solved = slide(&grid, &heights, &elastic(modulus), [0.02, 0.0]).expect("a contact");
+    let body = Pressing {
         compliance: 1.0 / modulus,
-        control: Control::NormalForce(0.02),
+        heights,
+        ..Pressing::new(Convolution::periodic(&grid), |_| 0.0)
     };
-    let mut state = ContactState::new(&convolution);
-    let options = ContactOptions {
-        tolerance: 1e-10,
-        ..ContactOptions::default()
-    };
-    let contact = solve_contact(&problem, &mut state, &options).expect("a contact");
+    let (contact, state) = body.solve(Control::NormalForce(0.02));
     for (actual, expected) in solved.pressure.pressure.iter().zip(state.pressure()) {
-        assert!(
-            (actual - expected).abs() < 1e-5,
-            "{actual} instead of {expected}"
-        );
+        assert_near("pressure", *actual, *expected, 1e-5);
     }
-    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+    let mean = body.heights.iter().sum::<f64>() / body.heights.len() as f64;
     let depth = solved.mean_depth + mean;
-    let expected = contact.indentation_depth;
-    assert!(
-        (depth - expected).abs() < 1e-8,
-        "{depth} instead of {expected}"
-    );
-    assert!(solved.friction_from_dissipation.abs() < 1e-15, "{solved:?}");
+    assert_near("depth", depth, contact.indentation_depth, 1e-8);
+    assert_near("friction", solved.friction_from_dissipation, 0.0, 1e-15);
 }
 
 /// The elastic pressure in the dissipation integral is the first order in the velocity.
@@ -151,7 +117,7 @@ fn slow_friction_is_the_dissipation_of_the_elastic_pressure() {
         ..case.clone()
     };
     let [one, two] = [1e-6, 2e-6].map(|v| solve(&slow(v), 64).friction_from_dissipation / v);
-    assert!((two / one - 1.0).abs() < 1e-4, "{one} and {two}");
+    assert_close("half as slow", two, one, 1e-4);
 }
 
 #[test]
@@ -160,25 +126,16 @@ fn units_translation_copies_and_split_branches_change_nothing() {
     let n = 64;
     let [p0, v] = [case.mean_pressure, case.velocity];
     let expected = solve(case, n);
+    let numbers = |solved: &PeriodicSliding, slope: f64| {
+        [
+            solved.friction_coefficient / slope,
+            solved.friction_from_dissipation / slope,
+            solved.area_fraction,
+        ]
+    };
     let check = |what: &str, solved: Result<PeriodicSliding, BemError>, slope: f64| {
-        let solved = solved.expect(what);
-        for (actual, expected) in [
-            (
-                solved.friction_coefficient / slope,
-                expected.friction_coefficient,
-            ),
-            (
-                solved.friction_from_dissipation / slope,
-                expected.friction_from_dissipation,
-            ),
-            (solved.area_fraction, expected.area_fraction),
-        ] {
-            let deviation = actual / expected - 1.0;
-            assert!(
-                deviation.abs() < 1e-6,
-                "{what}: {actual} instead of {expected}"
-            );
-        }
+        let actual = numbers(&solved.expect(what), slope);
+        assert_all_close(what, actual, numbers(&expected, 1.0), 1e-6);
     };
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2]).expect("a grid");
     let shape = heights(&case.waves, [n; 2], 1, 0.0);
@@ -209,40 +166,33 @@ fn units_translation_copies_and_split_branches_change_nothing() {
 fn what_has_no_stationary_state_is_refused() {
     let grid = Grid::new([16, 16], [1.0; 2]).expect("a grid");
     let wave = heights(&[[1.0, 0.0, 0.1, 0.0]], [16, 16], 1, 0.0);
-    let solid = Elastic::new(1.0).expect("a material");
-    let fluid = Viscous::new(1.0).expect("a material");
+    let (solid, fluid) = (elastic(1.0), viscous(1.0));
     let mut hole = wave.clone();
     hole[17] = f64::NAN;
     let row = Grid::new([1, 256], [1.0; 2]).expect("a grid");
     let load = [1.0, 1.0];
-    assert_is!(
-        slide(&grid, &wave, &fluid, load),
-        Err(BemError::FlowsUnderWaves)
-    );
-    assert_is!(
-        slide(&grid, &wave[1..], &solid, load),
-        Err(BemError::LengthMismatch { .. })
-    );
-    assert_is!(
-        slide(&grid, &hole, &solid, load),
+    let flowing = slide(&grid, &wave, &fluid, load);
+    assert_refused("a dashpot", flowing, "FlowsUnderWaves");
+    let with_hole = slide(&grid, &hole, &solid, load);
+    let is_found = matches!(
+        with_hole,
         Err(BemError::InvalidHeight {
             row: 1,
             column: 1,
             ..
         })
     );
-    let refused =
-        |grid: &Grid, heights: &[f64], load: [f64; 2]| match slide(grid, heights, &solid, load) {
-            Err(BemError::InvalidParameter(refused)) => refused.parameter,
-            other => panic!("{other:?}"),
-        };
-    assert_eq!(refused(&grid, &[0.5; 256], load), "height");
-    assert_eq!(refused(&row, &wave, load), "rows of heights");
-    for load in [[0.0, 1.0], [f64::NAN, 1.0]] {
-        assert_eq!(refused(&grid, &wave, load), "mean_pressure");
-    }
-    for load in [[1.0, -1.0], [1.0, f64::INFINITY]] {
-        assert_eq!(refused(&grid, &wave, load), "velocity");
+    assert!(is_found, "{with_hole:?}");
+    for (grid, heights, load, name) in [
+        (&grid, &wave[1..], load, "LengthMismatch"),
+        (&grid, &[0.5; 256][..], load, "height"),
+        (&row, &wave[..], load, "rows of heights"),
+        (&grid, &wave[..], [0.0, 1.0], "mean_pressure"),
+        (&grid, &wave[..], [f64::NAN, 1.0], "mean_pressure"),
+        (&grid, &wave[..], [1.0, -1.0], "velocity"),
+        (&grid, &wave[..], [1.0, f64::INFINITY], "velocity"),
+    ] {
+        assert_refused((name, load), slide(grid, heights, &solid, load), name);
     }
 }
 
@@ -271,12 +221,7 @@ fn the_bars_of_the_casebook_hold() {
             (estimate.friction_coefficient, case.friction_coefficient),
             (estimate.area_fraction, case.area),
         ] {
-            let deviation = (bar.value - exact).abs();
-            assert!(
-                deviation <= bar.error,
-                "{}: {bar:?} instead of {exact}",
-                case.id
-            );
+            assert_near(&case.id, bar.value, exact, bar.error);
         }
     }
 }
