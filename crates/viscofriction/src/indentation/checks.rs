@@ -3,6 +3,7 @@
 use super::IndentationCurve;
 use super::depth::{self, ends, median};
 use super::intervals::Statistics;
+use super::model::Forces;
 use super::search::Found;
 use super::start::Start;
 
@@ -116,10 +117,8 @@ fn saturation(IndentationCurve { time, depth, force }: &IndentationCurve) -> Res
     let [_, largest] = ends(force);
     let speed = |from: usize, to: usize| (depth[to] - depth[from]).abs() / (time[to] - time[from]);
     let goes_on = |start: usize| {
-        let is_run = force[start..]
-            .iter()
-            .take(RUN)
-            .all(|force| *force >= largest);
+        let run = &force[start..start + RUN];
+        let is_run = run.iter().all(|force| *force >= largest);
         let begins = is_run && force[start - 1] < largest;
         begins && speed(start, start + RUN - 1) > GOES_ON * speed(start - RUN, start)
     };
@@ -160,7 +159,9 @@ fn dips(curve: &IndentationCurve, begin: &Start, part: f64) -> Option<Flag> {
 
 /// Residuals before and after the contact.
 fn without_contact(statistics: &Statistics) -> [&[f64]; 2] {
-    let [residuals, contact] = [&statistics.residuals, &statistics.forces.contact];
+    let Forces {
+        residuals, contact, ..
+    } = &statistics.forces;
     let n = residuals.len();
     let first = contact.iter().position(|force| *force > 0.0);
     let last = contact.iter().rposition(|force| *force > 0.0);
