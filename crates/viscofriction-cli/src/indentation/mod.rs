@@ -132,10 +132,11 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let findings = fit.findings.iter();
     let findings = findings.map(|one| (&one.name, one.unit, numbers(one)));
     let header = "quantity unit value standard_error lower upper";
-    out.write("findings.csv", &to_csv(&words(header), findings)?)?;
-    out.write("correlation.csv", &to_csv(&names(&fit), &fit.correlation)?)?;
+    out.write("findings.csv", &to_csv(header, findings)?)?;
+    let header = names(&fit).join(" ");
+    out.write("correlation.csv", &to_csv(&header, &fit.correlation)?)?;
     let header = "time_s depth_m force_n force_fit_n";
-    out.write("fit.csv", &to_csv(&words(header), &fit.points)?)?;
+    out.write("fit.csv", &to_csv(header, &fit.points)?)?;
     out.draw("fit", &picture::figure(&fit))?;
     // Last: with it the others are there. What is not determined is said in front of the numbers.
     let findings = table(&fit).replace('\n', "\n# ");
@@ -143,10 +144,6 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     print_line(&format!("written into {}", out.path().display()))
-}
-
-fn words(line: &str) -> Vec<&str> {
-    line.split(' ').collect()
 }
 
 impl FitIndentation {
@@ -198,12 +195,10 @@ fn map(
     let ends = ["", "_error", "_lower", "_upper"];
     let columns = names.iter();
     let columns = columns.flat_map(|name| ends.map(|end| format!("{name}{end}")));
-    let header = ["file", "flags"].map(str::to_owned).into_iter();
-    let header: Vec<String> = header.chain(columns).collect();
+    let columns: Vec<String> = columns.collect();
     let rows = options.curves.iter().zip(&fits);
     let rows = rows.map(|(file, fit)| (file.display().to_string(), flags(fit), cells(fit, &names)));
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let csv = to_csv(&header, rows)?;
+    let csv = to_csv(&format!("file flags {}", columns.join(" ")), rows)?;
     let Some(out) = out else {
         return print_text(&String::from_utf8(csv)?);
     };
