@@ -81,12 +81,7 @@ fn scene_schema() -> anyhow::Result<()> {
 }
 
 fn completions(shell: Shell) -> anyhow::Result<()> {
-    let mut script = Vec::new();
-    clap_complete::generate(
-        shell,
-        &mut CommandLine::command(),
-        "viscofriction",
-        &mut script,
-    );
+    let (mut script, mut command) = (Vec::new(), CommandLine::command());
+    clap_complete::generate(shell, &mut command, "viscofriction", &mut script);
     output::print_text(&String::from_utf8(script)?)
 }

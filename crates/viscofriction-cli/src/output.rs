@@ -33,14 +33,14 @@ pub(crate) fn say(text: &str) {
     writeln!(std::io::stderr(), "{text}").ok();
 }
 
-/// CSV with a line of names, which rows with fields have already; numbers read back to the same f64.
+/// CSV with a line of names between blanks, which rows with fields have already; numbers read back to the same f64.
 pub(crate) fn to_csv(
-    names: &[&str],
+    names: &str,
     rows: impl IntoIterator<Item = impl Serialize>,
 ) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     if !names.is_empty() {
-        writer.write_record(names)?;
+        writer.write_record(names.split(' '))?;
     }
     for row in rows {
         writer.serialize(row)?;

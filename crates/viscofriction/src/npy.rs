@@ -46,19 +46,16 @@ pub(crate) fn from_npy(bytes: &[u8]) -> Result<NpyTable, String> {
         ));
     }
     let mut values: Vec<f64> = if size == SINGLE {
-        let (numbers, _) = numbers.as_chunks();
         let number = |bytes: &[u8; SINGLE]| f32::from_le_bytes(*bytes).into();
-        numbers.iter().map(number).collect()
+        numbers.as_chunks().0.iter().map(number).collect()
     } else {
-        let (numbers, _) = numbers.as_chunks();
         let number = |bytes: &[u8; DOUBLE]| f64::from_le_bytes(*bytes);
-        numbers.iter().map(number).collect()
+        numbers.as_chunks().0.iter().map(number).collect()
     };
     if by_column {
         let place = |index: usize| index / columns + index % columns * rows;
-        values = (0..values.len())
-            .map(|index| values[place(index)])
-            .collect();
+        let in_rows = (0..values.len()).map(|index| values[place(index)]);
+        values = in_rows.collect();
     }
     Ok(NpyTable {
         shape: [rows, columns],
@@ -75,9 +72,8 @@ fn parts(bytes: &[u8]) -> Result<(&str, &[u8]), String> {
     };
     let needed = usize::try_from(length).map_or(usize::MAX, |length| length.saturating_add(start));
     let length = bytes.len();
-    let header = bytes.get(start..needed).ok_or_else(|| {
-        format!("the header ends after {needed} bytes, but the file has {length}")
-    })?;
+    let short = || format!("the header ends after {needed} bytes, but the file has {length}");
+    let header = bytes.get(start..needed).ok_or_else(short)?;
     let header = std::str::from_utf8(header).map_err(|_| without("anything in UTF-8"))?;
     Ok((header, &bytes[needed..]))
 }
@@ -100,10 +96,8 @@ fn size_of_number(header: &str) -> Result<usize, String> {
         Some(value) => {
             let letters = value.chars().filter(|letter| !letter.is_control());
             let letters = letters.take_while(|letter| *letter != ',').take(40);
-            let descr: String = letters.collect();
-            Err(format!(
-                "little-endian floats are needed, '<f8' or '<f4', and not {descr}"
-            ))
+            let needed = "little-endian floats are needed, '<f8' or '<f4'";
+            Err(format!("{needed}, and not {}", letters.collect::<String>()))
         }
         None => Err(without("the type of its numbers, as in 'descr': '<f8'")),
     }
@@ -121,14 +115,16 @@ fn is_by_column(header: &str) -> Result<bool, String> {
 }
 
 fn shape(header: &str) -> Result<[usize; 2], String> {
-    let tuple = after(header, "'shape'").and_then(|value| value.strip_prefix('('));
-    let tuple = tuple.and_then(|tuple| Some(tuple.split_once(')')?.0));
-    let lengths = tuple.and_then(|tuple| {
+    let lengths = || {
+        let (tuple, _) = after(header, "'shape'")?
+            .strip_prefix('(')?
+            .split_once(')')?;
         // A tuple may end with a comma.
         let lengths = tuple.trim().split_terminator(',');
         lengths.map(|length| length.trim().parse().ok()).collect()
-    });
-    let lengths: Vec<usize> = lengths.ok_or_else(|| without("its shape, as in 'shape': (3, 4)"))?;
+    };
+    let lengths: Option<Vec<usize>> = lengths();
+    let lengths = lengths.ok_or_else(|| without("its shape, as in 'shape': (3, 4)"))?;
     <[usize; 2]>::try_from(lengths).map_err(|lengths| {
         let dimensions = lengths.len();
         format!("an array of 2 dimensions is needed, and not of {dimensions}")

@@ -14,14 +14,11 @@ pub type ReadFile = fn(&Path) -> Result<Vec<u8>, WrongInput>;
 #[must_use]
 pub fn line_of_record(contents: &[u8], position: Option<&csv::Position>) -> usize {
     let start = position.map_or(0, csv::Position::byte);
-    let start = usize::try_from(start)
-        .unwrap_or(usize::MAX)
-        .min(contents.len());
+    let start = usize::try_from(start).unwrap_or(usize::MAX);
+    let start = start.min(contents.len());
     let is_break = |byte: &&u8| b"\r\n".contains(byte);
-    line_of(
-        contents,
-        start + contents[start..].iter().take_while(is_break).count(),
-    )
+    let breaks = contents[start..].iter().take_while(is_break);
+    line_of(contents, start + breaks.count())
 }
 
 /// The line of an offset in a text, counted from 1.

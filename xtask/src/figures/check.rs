@@ -159,10 +159,8 @@ fn check_resolutions() -> Result<usize> {
 /// All outlines. Rounding may decide about single elements, so each point may move by one.
 fn check_outlines() -> Result<usize> {
     let contacts = stationary::compute()?;
-    let outlines: Vec<&stationary::Row> = contacts
-        .iter()
-        .flat_map(|contact| &contact.outline)
-        .collect();
+    let outlines = contacts.iter().flat_map(|contact| &contact.outline);
+    let outlines: Vec<&stationary::Row> = outlines.collect();
     compare(stationary::FILE, None, &outlines, |_, row| {
         Tolerance::Absolute(OUTLINE * row.element)
     })

@@ -117,29 +117,19 @@ mod tests {
                 assert!(row.rear >= 0.0 && row.front > row.rear, "{row:?}");
                 let other = &rows[last - column];
                 let same = row.rear.to_bits() == other.rear.to_bits();
-                assert!(
-                    same && (row.y + other.y).abs() < 1e-9,
-                    "{row:?} and {other:?}"
-                );
+                let is_mirrored = same && (row.y + other.y).abs() < 1e-9;
+                assert!(is_mirrored, "{row:?} and {other:?}");
             }
             let middle = contact.middle();
             lengths.push(middle.front - middle.rear);
             let half = 0.5 * middle.element;
             let [rear, next_to_front] = [middle.rear + half, middle.front - 3.0 * half]
                 .map(|x| contact.pressure([x, middle.y]));
-            assert!(
-                next_to_front > 1.5,
-                "p = {exponent}: {next_to_front} at the front"
-            );
-            // The cone has its tip there, where the pressure is singular too.
-            assert!(
-                exponent < 1.5 || rear < 0.5,
-                "p = {exponent}: {rear} at the rear"
-            );
+            // The cone has its tip at the rear, where the pressure is singular too.
+            let is_right = next_to_front > 1.5 && (exponent < 1.5 || rear < 0.5);
+            assert!(is_right, "p = {exponent}: {next_to_front}, {rear}");
         }
-        assert!(
-            lengths.is_sorted_by(|longer, shorter| longer > shorter),
-            "{lengths:?}"
-        );
+        let fall = lengths.is_sorted_by(|longer, shorter| longer > shorter);
+        assert!(fall, "{lengths:?}");
     }
 }

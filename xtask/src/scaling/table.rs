@@ -49,11 +49,8 @@ impl Node {
 /// Computes all nodes that are not in `out` yet, and adds them to the table there.
 pub(crate) fn generate(out: &Path) -> Result<()> {
     let finished = out.join(TABLE);
-    let mut nodes: Vec<Node> = if finished.exists() {
-        read_csv(&finished)?
-    } else {
-        Vec::new()
-    };
+    let nodes = finished.exists().then(|| read_csv(&finished)).transpose()?;
+    let mut nodes: Vec<Node> = nodes.unwrap_or_default();
     let is_node = |p: f64| move |node: &Node| (node.exponent / p - 1.0).abs() < SAME;
     let mut missing: Vec<f64> = (0..N_NODES).map(exponent).collect();
     missing.retain(|p| !nodes.iter().any(is_node(*p)));

@@ -16,17 +16,13 @@ fn nine_of_ten_error_bars_hold_on_random_scenes() {
         *held += usize::from(deviation <= bar + reference);
         *all += 1;
     }
-    let total = methods
-        .values()
-        .fold([0, 0], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+    let total: [usize; 2] = [0, 1].map(|part| methods.values().map(|counts| counts[part]).sum());
     let large = methods.iter().filter(|(_, [_, all])| *all >= 10);
     for (method, [held, all]) in large.chain([(&"all", &total)]) {
         assert!(10 * held >= 9 * all, "{method}: {held} of {all} hold");
     }
-    assert!(
-        total[1] >= 100 && methods.len() >= 10,
-        "too few answers: {methods:?}"
-    );
+    let are_enough = total[1] >= 100 && methods.len() >= 10;
+    assert!(are_enough, "too few answers: {methods:?}");
 }
 
 #[test]

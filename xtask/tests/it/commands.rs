@@ -16,10 +16,8 @@ fn scaling_factors_as_json_have_the_fields_of_the_contract() {
     let number = |field: &str| rows[0][field].as_f64().expect(field);
     let [exponent, factor, error] = ["exponent", "scaling_factor", "error"].map(number);
     let [unknowns, seconds] = ["unknowns", "seconds"].map(number);
-    assert!(
-        (exponent - 2.0).abs() < 1e-15 && unknowns > 0.0 && seconds > 0.0,
-        "{json}"
-    );
+    let is_solved = unknowns > 0.0 && seconds > 0.0;
+    assert!((exponent - 2.0).abs() < 1e-15 && is_solved, "{json}");
     // The finest value known is 0.6996.
     let off = (factor - 0.6996).abs();
     assert!(off <= error && error <= 0.01 * factor, "{json}");
@@ -40,23 +38,11 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
         ("scaling-factors --exponent nan", "above 1/2, but is NaN"),
         ("scaling-factors --exponent inf", "above 1/2, but is inf"),
         ("scaling-factors --exponent two", "invalid value 'two'"),
-        (
-            "scaling-factors --relative-error 1",
-            "between 1e-6 and 0.1, but is 1",
-        ),
-        (
-            "scaling-factors --format xml",
-            "possible values: table, csv, json",
-        ),
+        ("scaling-factors --relative-error 1", "0.1, but is 1"),
+        ("scaling-factors --format xml", "table, csv, json"),
         ("reproduce-figures --everything", "unexpected argument"),
-        (
-            "evidence stationary --largest nan",
-            "between 2e3 and 1e7, but is NaN",
-        ),
-        (
-            "evidence stationary --table colours",
-            "possible values: growth, error-bars",
-        ),
+        ("evidence stationary --largest nan", "1e7, but is NaN"),
+        ("evidence stationary --table colours", "growth, error-bars"),
         ("evidence calibration --scenes 0", "from 1 to 100000"),
         ("evidence stability --only nonsense", "is in no case"),
         ("reproduce", "unrecognized subcommand"),
@@ -65,24 +51,14 @@ fn wrong_input_ends_with_status_2_and_says_what_is_allowed() {
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{line}: {message}");
         assert!(message.contains(needed), "{line} says: {message}");
-        assert!(
-            output.stdout.is_empty(),
-            "{line} printed {}",
-            text(&output.stdout)
-        );
+        assert_eq!(text(&output.stdout), "", "{line} printed");
     }
 }
 
 #[test]
 fn every_command_explains_itself() {
-    for command in [
-        "reproduce-figures",
-        "scaling-factors",
-        "scaling-table",
-        "evidence",
-        "dependencies",
-        "ci",
-    ] {
+    let commands = "reproduce-figures scaling-factors scaling-table evidence dependencies ci";
+    for command in commands.split(' ') {
         let help = printed(&format!("{command} --help"));
         assert!(help.contains("Usage: cargo xtask"), "{help}");
     }

@@ -27,9 +27,10 @@ fn curve(exponent: f64) -> Vec<Row> {
 }
 
 fn assert_within([actual, expected]: [f64; 2], allowed: f64, what: &str) {
+    let holds = (actual - expected).abs() <= allowed;
     assert!(
-        (actual - expected).abs() <= allowed,
-        "{what}: {actual}, expected {expected} within {allowed:e}"
+        holds,
+        "{what}: {actual} and not {expected} within {allowed:e}"
     );
 }
 
@@ -47,10 +48,8 @@ fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one() {
         ] {
             let bar = number(row, "ratio_error");
             let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
-            assert!(
-                bar <= 2.01e-2 * number(row, "ratio"),
-                "{what}: error bar {bar}"
-            );
+            let is_narrow = bar <= 2.01e-2 * number(row, "ratio");
+            assert!(is_narrow, "{what}: error bar {bar}");
             assert_within([number(row, "ratio"), expected], bar + allowed, &what);
         }
     }
@@ -73,16 +72,9 @@ fn friction_vanishes_at_both_ends_as_the_elastic_limits_say() {
             contact_radius: 1.0,
             velocity: number(row, "speed"),
         };
-        for (row, limit) in [
-            (
-                &rows[0],
-                low_speed_friction(&body, &solid, contact(&rows[0])),
-            ),
-            (
-                &rows[10],
-                high_speed_friction(&body, &solid, contact(&rows[10])),
-            ),
-        ] {
+        let slow = low_speed_friction(&body, &solid, contact(&rows[0]));
+        let fast = high_speed_friction(&body, &solid, contact(&rows[10]));
+        for (row, limit) in [(&rows[0], slow), (&rows[10], fast)] {
             let limit = limit.expect("an elastic limit");
             let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
             let bar = number(row, "half_space_error");
@@ -115,11 +107,8 @@ fn friction_has_one_maximum_over_the_speed() {
             for step in 1..values.len() {
                 let rise = values[step] - values[step - 1];
                 let rise = if step <= top { rise } else { -rise };
-                let allowed = bars[step] + bars[step - 1];
-                assert!(
-                    rise >= -allowed,
-                    "p = {exponent}, {column}, step {step}: {values:?}"
-                );
+                let is_right = rise >= -(bars[step] + bars[step - 1]);
+                assert!(is_right, "p = {exponent}, {column}, {step}: {values:?}");
             }
         }
     }

@@ -12,25 +12,19 @@ fn error_bars_are_compared_with_finer_solutions() {
         let number = |column| number(row, column);
         let [friction, reference] = ["friction", "reference_friction"].map(number);
         let [bar, error, deviation] = ["error_bar", "reference_error", "deviation"].map(number);
-        assert!(
-            ((friction - reference).abs() - deviation).abs() <= 1e-12 && bar > 0.0,
-            "{row:?}"
-        );
+        let is_deviation = ((friction - reference).abs() - deviation).abs() <= 1e-12;
+        assert!(is_deviation && bar > 0.0, "{row:?}");
         let holds = deviation <= bar + error;
         assert_eq!(row["holds"], holds.to_string(), "{row:?}");
-        assert!(
-            error < number("relative_error_asked") * reference,
-            "the reference is finer: {row:?}"
-        );
+        let is_finer = error < number("relative_error_asked") * reference;
+        assert!(is_finer, "the reference of {row:?}");
     }
     let held = rows.iter().filter(|row| row["holds"] == "true").count();
     assert_eq!(held, 12, "of twelve bars hold: {rows:?}");
     let said = format!("{held} of 12 error bars hold");
     assert!(printed.contains(&said), "expected '{said}' in {printed}");
-    assert!(
-        !evidence.folder.join("growth.csv").exists(),
-        "only the table asked for is made"
-    );
+    let other = evidence.folder.join("growth.csv");
+    assert!(!other.exists(), "only the table asked for is made");
 }
 
 #[test]
@@ -42,10 +36,8 @@ fn growth_is_measured_with_its_error() {
     let elements: Vec<f64> = elements.collect();
     // The area of the contact is known to one or two per cent on the grid that the spacings follow from.
     let close = |got: f64, asked: f64| (got / asked - 1.0).abs() < 0.06;
-    assert!(
-        elements.len() == 2 && close(elements[0], 1e3) && close(elements[1], 4e3),
-        "about 1000 and 4000 elements, got {elements:?}"
-    );
+    let are_right = elements.len() == 2 && close(elements[0], 1e3) && close(elements[1], 4e3);
+    assert!(are_right, "about 1000 and 4000 elements, got {elements:?}");
     for row in &growth {
         // One grid of a thousand elements is within a few tenths of a per cent.
         assert!(number(row, "relative_deviation").abs() < 5e-3, "{row:?}");

@@ -43,11 +43,8 @@ fn every_method_answers_its_scenes_with_an_error_and_a_time() {
         assert!(number(row, "seconds") > 0.0, "no time passed: {row:?}");
         assert!(number(row, "error") < 0.05, "a coarse answer: {row:?}");
     }
-    assert!(
-        !evidence().printed.contains("refused"),
-        "none of the quick runs is refused: {}",
-        evidence().printed
-    );
+    let printed = &evidence().printed;
+    assert!(!printed.contains("refused"), "refused: {printed}");
 }
 
 /// Over elements and tolerances errors fall by a half at least; a relative error that is asked for is kept.
@@ -62,10 +59,8 @@ fn errors_fall_with_the_resolution_or_are_those_asked_for() {
             _ => number(last, "error_bar"),
         };
         let allowed = allowed + number(last, "reference_error");
-        assert!(
-            number(last, "error") <= allowed,
-            "the error must be at most {allowed:e}: {first:?}, {last:?}"
-        );
+        let holds = number(last, "error") <= allowed;
+        assert!(holds, "not within {allowed:e}: {first:?}, {last:?}");
     }
 }
 
@@ -84,10 +79,8 @@ fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
             ["rough surface", ..] => [0.8, 1.2],
             _ => [f64::MIN_POSITIVE, f64::MAX],
         };
-        assert!(
-            (low..=high).contains(&order),
-            "order between {low} and {high}: {fit:?}"
-        );
+        let is_known = (low..=high).contains(&order);
+        assert!(is_known, "order between {low} and {high}: {fit:?}");
     }
 }
 
@@ -96,9 +89,8 @@ fn pictures_are_drawn_and_the_table_is_printed() {
     let Evidence { printed, .. } = evidence();
     evidence().assert_pictures(&["work_precision_sliding", "work_precision_at_rest"]);
     for [scene, _, method] in SERIES {
-        let line = printed
-            .lines()
-            .find(|line| line.contains(scene) && line.contains(method));
-        assert!(line.is_some(), "{scene}, {method} is missing in {printed}");
+        let mut lines = printed.lines();
+        let is_there = lines.any(|line| line.contains(scene) && line.contains(method));
+        assert!(is_there, "{scene}, {method} is missing in {printed}");
     }
 }

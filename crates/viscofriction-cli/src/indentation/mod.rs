@@ -129,15 +129,14 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let Some(out) = &out else {
         return Ok(());
     };
-    let names = fit.findings.iter().map(|one| &one.name[..]);
-    let names: Vec<&str> = names.collect();
     let findings = fit.findings.iter();
     let findings = findings.map(|one| (&one.name, one.unit, numbers(one)));
     let header = "quantity unit value standard_error lower upper";
-    out.write("findings.csv", &to_csv(&words(header), findings)?)?;
-    out.write("correlation.csv", &to_csv(&names, &fit.correlation)?)?;
+    out.write("findings.csv", &to_csv(header, findings)?)?;
+    let header = names(&fit).join(" ");
+    out.write("correlation.csv", &to_csv(&header, &fit.correlation)?)?;
     let header = "time_s depth_m force_n force_fit_n";
-    out.write("fit.csv", &to_csv(&words(header), &fit.points)?)?;
+    out.write("fit.csv", &to_csv(header, &fit.points)?)?;
     out.draw("fit", &picture::figure(&fit))?;
     // Last: with it the others are there. What is not determined is said in front of the numbers.
     let findings = table(&fit).replace('\n', "\n# ");
@@ -145,10 +144,6 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     print_line(&format!("written into {}", out.path().display()))
-}
-
-fn words(line: &str) -> Vec<&str> {
-    line.split(' ').collect()
 }
 
 impl FitIndentation {
@@ -193,26 +188,17 @@ fn map(
     let longest = fits.iter().flatten().max_by_key(|fit| fit.findings.len());
     let Some(longest) = longest else {
         // One reason for all, as a wrong option is.
-        return Err(fits
-            .into_iter()
-            .find_map(Result::err)
-            .map_or(anyhow!("no curves"), Into::into));
+        let reason = fits.into_iter().find_map(Result::err);
+        return Err(reason.map_or(anyhow!("no curves"), Into::into));
     };
-    let names = longest.findings.iter().map(|one| &one.name[..]);
-    let names: Vec<&str> = names.collect();
+    let names = names(longest);
     let ends = ["", "_error", "_lower", "_upper"];
-    let columns = names
-        .iter()
-        .flat_map(|name| ends.map(|end| format!("{name}{end}")));
-    let header: Vec<String> = ["file", "flags"]
-        .map(str::to_owned)
-        .into_iter()
-        .chain(columns)
-        .collect();
+    let columns = names.iter();
+    let columns = columns.flat_map(|name| ends.map(|end| format!("{name}{end}")));
+    let columns: Vec<String> = columns.collect();
     let rows = options.curves.iter().zip(&fits);
     let rows = rows.map(|(file, fit)| (file.display().to_string(), flags(fit), cells(fit, &names)));
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let csv = to_csv(&header, rows)?;
+    let csv = to_csv(&format!("file flags {}", columns.join(" ")), rows)?;
     let Some(out) = out else {
         return print_text(&String::from_utf8(csv)?);
     };
@@ -220,6 +206,10 @@ fn map(
     let n_fitted = fits.iter().flatten().count();
     print_line(&format!("{n_fitted} of {} curves fitted", fits.len()))?;
     print_line(&format!("written into {}", out.path().display()))
+}
+
+fn names(fit: &IndentationFit) -> Vec<&str> {
+    fit.findings.iter().map(|one| &one.name[..]).collect()
 }
 
 /// What is doubtful, or why there is nothing.
@@ -236,9 +226,8 @@ fn flags(fit: &Result<IndentationFit, WrongInput>) -> String {
 fn cells(fit: &Result<IndentationFit, WrongInput>, names: &[&str]) -> Vec<Option<f64>> {
     let findings = fit.as_ref().map_or(&[][..], |fit| &fit.findings);
     let find = |name: &&str| findings.iter().find(|one| one.name == **name);
-    let cells = names
-        .iter()
-        .map(|name| find(name).map_or([None; 4], numbers));
+    let cells = names.iter().map(find);
+    let cells = cells.map(|one| one.map_or([None; 4], numbers));
     cells.flatten().collect()
 }
 
@@ -267,9 +256,9 @@ fn table(fit: &IndentationFit) -> String {
         };
         table.add_row([&finding.name, &value, &error, &interval, finding.unit]);
     }
-    let noise = fit.noise.map_or_else(String::new, |noise| {
-        format!(", noise before the contact {noise:.3e} N")
-    });
+    let noise = fit.noise;
+    let noise = noise.map(|noise| format!(", noise before the contact {noise:.3e} N"));
+    let noise = noise.unwrap_or_default();
     let [residual, correlated] = [fit.residual, fit.correlated_points];
     let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
     format!(

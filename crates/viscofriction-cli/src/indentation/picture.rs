@@ -33,10 +33,8 @@ pub(super) fn figure(fit: &IndentationFit) -> Figure {
 
 fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let range = |axis: usize| {
-        let values = series
-            .iter()
-            .flat_map(|one| &one.points)
-            .map(|point| point[axis]);
+        let points = series.iter().flat_map(|one| &one.points);
+        let values = points.map(|point| point[axis]);
         let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
             [low.min(value), high.max(value)]
         });

@@ -12,15 +12,9 @@ use crate::output::{OutputFolder, to_csv};
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
 
 /// Columns of fit.csv: what was measured, the same of the series, and the relative error |G_fit/G − 1|.
-const OSCILLATION: [&str; 6] = [
-    "angular_frequency_rad_per_s",
-    "storage_pa",
-    "loss_pa",
-    "storage_fit_pa",
-    "loss_fit_pa",
-    "relative_error",
-];
-const RELAXATION: [&str; 4] = ["time_s", "modulus_pa", "modulus_fit_pa", "relative_error"];
+pub(super) const OSCILLATION: &str =
+    "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa relative_error";
+const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
 pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
@@ -29,8 +23,8 @@ pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
     out.write("fit.csv", &rows)?;
     out.draw("fit", &figure(&comparison))?;
     if let Some(master) = &fitted.master {
-        let names = ["temperature", "log10_shift_factor"];
-        out.write("shifts.csv", &to_csv(&names, &master.log10_factors)?)?;
+        let names = "temperature log10_shift_factor";
+        out.write("shifts.csv", &to_csv(names, &master.log10_factors)?)?;
     }
     // Last: with it the others are there.
     out.write("material.toml", material(fitted).as_bytes())
@@ -52,9 +46,9 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
         let fit = spectrum.relaxation_modulus(time)?;
         Ok(vec![time, modulus, fit, (fit / modulus - 1.0).abs()])
     };
-    let (names, rows): (&[&str], Result<Vec<_>>) = match &fitted.points {
-        Points::Oscillation(points) => (&OSCILLATION, points.iter().map(oscillation).collect()),
-        Points::Relaxation(points) => (&RELAXATION, points.iter().map(relaxation).collect()),
+    let (names, rows): (_, Result<Vec<_>>) = match &fitted.points {
+        Points::Oscillation(points) => (OSCILLATION, points.iter().map(oscillation).collect()),
+        Points::Relaxation(points) => (RELAXATION, points.iter().map(relaxation).collect()),
     };
     Ok(Comparison { names, rows: rows? })
 }

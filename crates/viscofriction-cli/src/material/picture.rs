@@ -1,16 +1,17 @@
 //! Measured and fitted moduli, and the error between them.
 
+use super::output_files::OSCILLATION;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
 /// Measured against fitted, as rows of a table.
 pub(super) struct Comparison {
-    pub(super) names: &'static [&'static str],
+    pub(super) names: &'static str,
     pub(super) rows: Vec<Vec<f64>>,
 }
 
 pub(super) fn figure(comparison: &Comparison) -> Figure {
-    let (x, moduli) = match comparison.names.len() {
-        6 => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),
+    let (x, moduli) = match comparison.names {
+        OSCILLATION => ("angular frequency ω [rad/s]", &["G′", "G″"][..]),
         _ => ("time t [s]", &["G"][..]),
     };
     // A logarithm has no zero; the CSV file has all points.

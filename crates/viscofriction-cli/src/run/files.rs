@@ -36,10 +36,11 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
         places.collect::<Vec<f64>>()
     });
     let pressures = field.pressure.iter().enumerate();
-    let table =
-        pressures.map(|(index, pressure)| [x[index / columns], y[index % columns], *pressure]);
-    let names = ["x_m", "y_m", "pressure_pa"];
-    out.write("pressure.csv", &to_csv(&names, table)?)?;
+    let row =
+        |(index, pressure): (usize, &f64)| [x[index / columns], y[index % columns], *pressure];
+    let table = pressures.map(row);
+    let names = "x_m y_m pressure_pa";
+    out.write("pressure.csv", &to_csv(names, table)?)?;
     out.write("pressure.npy", &to_npy(&field.pressure, &[rows, columns]))?;
     out.write("pressure_x.npy", &to_npy(&x, &[rows]))?;
     out.write("pressure_y.npy", &to_npy(&y, &[columns]))?;
@@ -55,7 +56,8 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
         if points.is_empty() {
             continue;
         }
-        out.write(&format!("{name}.csv"), &to_csv(&["x_m", column], points)?)?;
+        let names = format!("x_m {column}");
+        out.write(&format!("{name}.csv"), &to_csv(&names, points)?)?;
         let array = to_npy(&points.concat(), &[points.len(), 2]);
         out.write(&format!("{name}.npy"), &array)?;
         let figure = pictures::curve("position x [m]", label, points.clone());
@@ -76,16 +78,9 @@ fn write_curve(answer: &Answer, out: &OutputFolder) -> Result<()> {
         let numbers = quantities.map(|Estimate { value, error }| [value, error]);
         [vec![point.time], numbers.concat()].concat()
     });
-    let names = [
-        "time_s",
-        "normal_force_n",
-        "normal_force_error_n",
-        "indentation_depth_m",
-        "indentation_depth_error_m",
-        "contact_radius_m",
-        "contact_radius_error_m",
-    ];
-    out.write("history.csv", &to_csv(&names, rows)?)?;
+    let names = "time_s normal_force_n normal_force_error_n indentation_depth_m indentation_depth_error_m \
+                 contact_radius_m contact_radius_error_m";
+    out.write("history.csv", &to_csv(names, rows)?)?;
     let force = "normal force [N]";
     let points = curve
         .iter()
@@ -105,7 +100,7 @@ fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
     if rows.is_empty() {
         return Ok(());
     }
-    out.write("history.csv", &to_csv(&[], rows)?)?;
+    out.write("history.csv", &to_csv("", rows)?)?;
     let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
     let points = rows.iter().map(point).collect();
     let figure = pictures::curve("sliding distance [m]", "friction coefficient", points);

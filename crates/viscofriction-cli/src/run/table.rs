@@ -24,37 +24,25 @@ pub(super) fn table(answer: &Answer) -> Table {
         ("peak pressure", answer.peak_pressure, "Pa"),
     ];
     let of_rough = answer.rough.map(|rough| {
-        let (theory, exact) = (rough.persson, Estimate::exact);
+        let theory = rough.persson;
+        let theory = [theory.friction_coefficient, theory.area_fraction];
+        let [friction, area] = theory.map(Estimate::exact);
+        let dissipation = rough.friction_from_dissipation;
         [
-            (
-                "friction by dissipation",
-                rough.friction_from_dissipation,
-                "",
-            ),
-            ("mean pressure", rough.mean_pressure, "Pa"),
-            ("area fraction", rough.area_fraction, ""),
-            (
-                "friction, Persson's theory",
-                exact(theory.friction_coefficient),
-                "",
-            ),
-            (
-                "area fraction, Persson's theory",
-                exact(theory.area_fraction),
-                "",
-            ),
+            ("friction by dissipation", Some(dissipation), ""),
+            ("mean pressure", Some(rough.mean_pressure), "Pa"),
+            ("area fraction", Some(rough.area_fraction), ""),
+            ("friction, Persson's theory", Some(friction), ""),
+            ("area fraction, Persson's theory", Some(area), ""),
         ]
-        .map(|(name, quantity, unit)| (name, Some(quantity), unit))
     });
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
     for (name, known, unit) in rows {
         if let Some(Estimate { value, error }) = known {
-            let error = if error == 0.0 {
-                String::new()
-            } else {
-                format!("{error:.1e}")
-            };
-            table.add_row([name.to_owned(), short(value), error, unit.to_owned()]);
+            let is_exact = error == 0.0;
+            let error = format!("{error:.1e}");
+            let error = if is_exact { "" } else { &error };
+            table.add_row([name, &short(value), error, unit]);
         }
     }
     table
@@ -72,9 +60,8 @@ fn short(value: f64) -> String {
 pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
     let known = parts.named().into_iter();
     let known = known.filter_map(|(name, part)| Some((name.replace('_', " "), part?)));
-    let parts: Vec<String> = known
-        .map(|(name, part)| format!("{name} {part:.1e}"))
-        .collect();
+    let parts = known.map(|(name, part)| format!("{name} {part:.1e}"));
+    let parts: Vec<String> = parts.collect();
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 

@@ -171,5 +171,5 @@ fn check(path: &Path, plan: &Plan, table: &RowTable) -> Result<(), WrongInput> {
 
 /// One record with the end of its line.
 pub(super) fn line(fields: &[String]) -> Result<String> {
-    Ok(String::from_utf8(to_csv(&[], [fields])?)?)
+    Ok(String::from_utf8(to_csv("", [fields])?)?)
 }

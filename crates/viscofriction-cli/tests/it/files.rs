@@ -6,30 +6,21 @@ use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::{Folder, argument, example, measured, said, scene};
+use crate::support::{Folder, argument, example, measured, rows, said, scene};
 
 /// Commands that write into `out`, and the file that they write last.
-const WRITING: [(&str, &str); 4] = [
-    ("run IN/hertz.toml --out out", "result.json"),
-    (
-        "sweep IN/hertz.toml --vary load.normal_force=1,2 --out out/s.csv",
-        "s.csv",
-    ),
-    ("sweep --out out/m.csv --merge rows.csv", "m.csv"),
-    (
-        "fit-material moduli.csv --liquid --out out",
-        "material.toml",
-    ),
-];
+const WRITING: &str = "
+run IN/hertz.toml --out out | result.json
+sweep IN/hertz.toml --vary load.normal_force=1,2 --out out/s.csv | s.csv
+sweep --out out/m.csv --merge rows.csv | m.csv
+fit-material moduli.csv --liquid --out out | material.toml
+";
 
 /// A folder with rows of a sweep in it, and an empty one for the output.
 fn prepared(name: &str) -> Folder {
     let folder = Folder::new(name);
-    fs::copy(
-        measured("pyvisco_frequency_master.csv"),
-        folder.path("moduli.csv"),
-    )
-    .expect("a copy");
+    let moduli = measured("pyvisco_frequency_master.csv");
+    fs::copy(moduli, folder.path("moduli.csv")).expect("a copy");
     let sweep = "sweep IN/hertz.toml --vary load.normal_force=1,2 --out rows.csv";
     folder.done(sweep);
     fs::create_dir(folder.path("out")).expect("a folder");
@@ -38,23 +29,23 @@ fn prepared(name: &str) -> Folder {
 
 #[test]
 fn what_is_there_is_replaced_only_when_asked_for_and_keeps_link_and_permissions() {
-    for (line, written) in WRITING {
+    for [line, written] in rows(WRITING) {
         let folder = prepared("existing");
-        let file = folder.path("out").join(written);
+        let file = folder.path("out").join(&written);
         folder.write("target", "mine");
         // More than the umask leaves to a new file.
         let permissions = Permissions::from_mode(0o666);
         fs::set_permissions(folder.path("target"), permissions).expect("permissions");
         symlink("../target", &file).expect("a link");
         let there = "the file is there already; --overwrite replaces it";
-        folder.ends(line, 2, there);
+        folder.ends(&line, 2, there);
         assert_eq!(folder.text("target"), "mine", "{line}");
         folder.done(format!("{line} --overwrite"));
         assert!(file.is_symlink(), "{line} cut the link");
         assert_ne!(folder.text("target"), "mine", "{line}");
         let mode = fs::metadata(&file).expect("the file").permissions().mode();
         assert_eq!(mode & 0o777, 0o666, "{line}");
-        folder.ends(line, 2, there);
+        folder.ends(&line, 2, there);
     }
 }
 
@@ -63,7 +54,8 @@ fn the_picture_of_another_is_not_replaced() {
     let folder = prepared("foreign-picture");
     folder.write("out/s.svg", "<svg/>");
     for more in ["", " --resume"] {
-        let line = format!("{}{more}", WRITING[1].0);
+        let sweep = "sweep IN/hertz.toml --vary load.normal_force=1,2 --out out/s.csv";
+        let line = format!("{sweep}{more}");
         folder.ends(&line, 2, "s.svg: the file is there already");
     }
     assert_eq!(folder.names("out"), ["s.svg"], "rows without their picture");
@@ -76,16 +68,16 @@ fn pipe(folder: &Folder, name: &str) {
 
 #[test]
 fn only_regular_files_are_written() {
-    for (line, written) in WRITING {
+    for [line, written] in rows(WRITING) {
         let folder = prepared("no-file");
         let file = format!("out/{written}");
         pipe(&folder, &file);
         let needed = "only a regular file is written";
-        folder.ends(line, 2, needed);
+        folder.ends(&line, 2, needed);
         folder.ends(&format!("{line} --overwrite"), 2, needed);
         fs::remove_file(folder.path(&file)).expect("the pipe");
         symlink("/dev/null", folder.path(&file)).expect("a link");
-        folder.ends(line, 2, needed);
+        folder.ends(&line, 2, needed);
     }
 }
 
@@ -104,7 +96,7 @@ fn only_regular_files_and_scenes_with_an_end_are_read() {
             &format!("sweep --merge {input}"),
             &format!("fit-material {input}"),
         ] {
-            folder.ends(line, 2, &format!("{input}: a regular file is needed"));
+            folder.ends(&line, 2, &format!("{input}: a regular file is needed"));
         }
     }
     let endless = File::open("/dev/zero").expect("a device");
@@ -167,7 +159,7 @@ fn a_run_that_is_killed_leaves_whole_files() {
 /// A kill between writing a file and giving it its name leaves a part; it is too rare to wait for.
 #[test]
 fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
-    for (line, written) in WRITING {
+    for [line, written] in rows(WRITING) {
         let folder = prepared("parts");
         let of = ["viscofriction-4711", "viscofriction-0815", "old"];
         let [part, at_work, other] = of.map(|of| format!(".{written}.{of}.part"));
@@ -176,7 +168,7 @@ fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
         }
         let open = File::open(folder.path("out").join(&at_work)).expect("a part");
         open.lock().expect("a lock, as of one who writes it");
-        folder.done(line);
+        folder.done(&line);
         let names = folder.names("out");
         let kept = !names.contains(&part) && names.contains(&at_work) && names.contains(&other);
         assert!(kept, "{line} leaves {names:?}");

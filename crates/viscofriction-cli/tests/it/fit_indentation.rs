@@ -55,9 +55,8 @@ impl Case {
     /// The exact force of an approach for a second to 1.5 µm, a dwell, and the way back, and Gaussian noise of a part of its
     /// peak.
     fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
-        let time: Vec<f64> = (0..points)
-            .map(|i| 3.0 * i as f64 / (points - 1) as f64)
-            .collect();
+        let time = (0..points).map(|i| 3.0 * i as f64 / (points - 1) as f64);
+        let time: Vec<f64> = time.collect();
         let depth = time.iter().map(|t| 1.5e-6 * t.min(1.0).min(3.0 - t));
         let depth: Vec<f64> = depth.collect();
         let history = time.iter().zip(&depth).map(|(&time, depth)| HistoryPoint {
@@ -72,9 +71,8 @@ impl Case {
         let mut force: Vec<f64> = force.collect();
         let noise = level * peak(&force);
         let mut normal = Normal(seed);
-        force
-            .iter_mut()
-            .for_each(|force| *force += noise * normal.draw());
+        let forces = force.iter_mut();
+        forces.for_each(|force| *force += noise * normal.draw());
         IndentationCurve { time, depth, force }
     }
 
@@ -163,14 +161,10 @@ fn intervals_hold_the_truth_in_95_of_100_noisy_curves() {
     let mean = parts.iter().sum::<f64>() / parts.len() as f64;
     // As if the parameters of a curve were one trial; each of them may be off by four standard deviations.
     let spread = |n: usize| (0.95 * 0.05 / n as f64).sqrt();
-    assert!(
-        (mean - 0.95).abs() < 0.01 + 2.0 * spread(n_curves),
-        "{mean}\n{table}"
-    );
-    let worst = parts
-        .into_iter()
-        .map(|part| (part - 0.95).abs())
-        .fold(0.0, f64::max);
+    let allowed = 0.01 + 2.0 * spread(n_curves);
+    assert!((mean - 0.95).abs() < allowed, "{mean}\n{table}");
+    let off = parts.into_iter().map(|part| (part - 0.95).abs());
+    let worst = off.fold(0.0, f64::max);
     assert!(worst < 0.01 + 4.0 * spread(each), "{worst}\n{table}");
 }
 
@@ -180,13 +174,9 @@ fn noiseless_curves_give_the_material_itself() {
         let fit = case.fit(&case.curve(1000, 0.0, 1)).expect("a fit");
         for (finding, truth) in fit.findings.iter().zip(&case.truth) {
             let value = finding.estimate.expect("it is determined").value;
+            let what = format!("{}, {}", case.name, finding.name);
             // Of a power law the series in the fit is good to 1e-4 of its modulus.
-            assert_close(
-                format!("{}, {}", case.name, finding.name),
-                value,
-                *truth,
-                1e-3,
-            );
+            assert_close(what, value, *truth, 1e-3);
         }
         assert_eq!(fit.flags, [], "{}", case.name);
     }
@@ -216,14 +206,12 @@ fn damage(curve: &mut IndentationCurve, place: usize) {
         3 => forces.for_each(|force| *force = force.min(0.6 * most)),
         4 => forces.for_each(|force| *force *= -1.0),
         5 => forces.for_each(|force| *force = 1e-10 * normal.draw()),
-        6 => forces
-            .skip(45)
-            .take(11)
-            .for_each(|force| *force -= 0.15 * most),
-        _ => forces
-            .skip(500)
-            .take(40)
-            .for_each(|force| *force -= 0.3 * most),
+        6 => curve.force[45..56]
+            .iter_mut()
+            .for_each(|f| *f -= 0.15 * most),
+        _ => curve.force[500..540]
+            .iter_mut()
+            .for_each(|f| *f -= 0.3 * most),
     }
 }
 
@@ -238,11 +226,8 @@ fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
             let mut curve = case.curve(600, 0.005, 7);
             damage(&mut curve, place);
             let error = case.fit(&curve).expect_err(reason);
-            assert!(
-                error.starts_with(reason),
-                "{}, {reason}: {error}",
-                case.name
-            );
+            let is_right = error.starts_with(reason);
+            assert!(is_right, "{}, {reason}: {error}", case.name);
         }
         let mut curve = case.curve(600, 0.005, 7);
         let rate = 0.05 * peak(&curve.force);
@@ -264,7 +249,12 @@ fn two_branches_are_told_apart_and_a_third_is_not_invented() {
     };
     let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
     assert_eq!(fit.findings.len(), case.truth.len(), "{:?}", fit.findings);
-    for (finding, truth) in fit.findings.iter().zip(&case.truth) {
+    assert_found(&fit.findings, &case.truth);
+}
+
+#[track_caller]
+fn assert_found(findings: &[Finding], truth: &[f64]) {
+    for (finding, truth) in findings.iter().zip(truth) {
         let estimate = finding.estimate.expect("it is determined");
         let off = (estimate.value - truth).abs();
         assert!(off < 4.0 * estimate.error, "{finding:?} and not {truth}");
@@ -289,17 +279,10 @@ fn a_tenth_of_wild_points_does_not_move_the_result() {
     let case = &cases()[0];
     let mut curve = case.curve(600, 0.01, 9);
     let jump = 0.4 * peak(&curve.force);
-    curve
-        .force
-        .iter_mut()
-        .step_by(11)
-        .for_each(|force| *force += jump);
+    let forces = curve.force.iter_mut().step_by(11);
+    forces.for_each(|force| *force += jump);
     let fit = case.fit(&curve).expect("a fit");
-    for (finding, truth) in fit.findings.iter().zip(&case.truth).take(3) {
-        let estimate = finding.estimate.expect("it is determined");
-        let off = (estimate.value - truth).abs();
-        assert!(off < 4.0 * estimate.error, "{finding:?} and not {truth}");
-    }
+    assert_found(&fit.findings[..3], &case.truth);
 }
 
 /// The names of three instruments, and the order of time, depth and force with their factors.
@@ -329,47 +312,36 @@ fn a_map_of_tables_in_any_order_and_unit_has_a_row_for_each() {
         let cells = |i: usize| {
             let [time, depth, force] = [curve.time[i], curve.depth[i], curve.force[i]];
             let numbers = [time, depth, force, depth + force / 0.06];
-            columns
-                .map(|(column, factor)| format!("{:?}", factor * numbers[column]))
-                .join(";")
+            let cell = |(column, factor): (usize, f64)| format!("{:?}", factor * numbers[column]);
+            columns.map(cell).join(";")
         };
         let rows: Vec<String> = (0..curve.time.len()).map(cells).collect();
         let text = format!("# an instrument\n{names}\n{}\n", rows.join("\n"));
         folder.write(&format!("{file}.csv"), text);
     }
-    let options = "--sphere 5e-6 --spring-constant 0.06 --sensitivity 5e-8";
-    folder.done(format!(
-        "fit-indentation 0.csv 1.csv 2.csv 3.csv 4.csv {options} --out out"
-    ));
+    let curves = "0.csv 1.csv 2.csv 3.csv 4.csv";
+    let options = "--sphere 5e-6 --spring-constant 0.06 --sensitivity 5e-8 --out out";
+    folder.done(format!("fit-indentation {curves} {options}"));
     let csv = folder.text("out/curves.csv");
     let rows: Vec<Vec<&str>> = csv.lines().map(|row| row.split(',').collect()).collect();
     for row in &rows[1..4] {
         for (k, finding) in expected.findings.iter().take(3).enumerate() {
             let value = row[2 + 4 * k].parse().expect("a number");
             let expected = finding.estimate.expect("it is determined").value;
-            assert_close(
-                format!("{}: {}", row[0], finding.name),
-                value,
-                expected,
-                1e-6,
-            );
+            let what = format!("{}: {}", row[0], finding.name);
+            assert_close(what, value, expected, 1e-6);
         }
     }
     for (row, reason) in [(4, "3.csv: the force falls"), (5, "4.csv: No such file")] {
         let is_kept = rows[row][1].starts_with(reason) && rows[row].ends_with(&["", "", ""]);
         assert!(is_kept, "{:?}", rows[row]);
     }
-    folder.ends(
-        "fit-indentation 3.csv --sphere 5e-6",
-        2,
-        "3.csv: the force falls",
-    );
-    folder.ends("fit-indentation 0.csv --sphere 5e-9", 2, "equator");
-    folder.ends("fit-indentation 2.csv --sphere 5e-6", 2, "spring_constant");
-}
-
-#[test]
-fn a_cone_has_an_angle_below_90_degrees() {
-    let wrong = "--cone must be greater than 0";
-    Folder::new("cone").ends("fit-indentation 0.csv --cone 90", 2, wrong);
+    for (options, wrong) in [
+        ("3.csv --sphere 5e-6", "3.csv: the force falls"),
+        ("0.csv --sphere 5e-9", "equator"),
+        ("2.csv --sphere 5e-6", "spring_constant"),
+        ("0.csv --cone 90", "--cone must be greater than 0"),
+    ] {
+        folder.ends(&format!("fit-indentation {options}"), 2, wrong);
+    }
 }

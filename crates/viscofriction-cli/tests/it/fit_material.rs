@@ -24,10 +24,8 @@ fn float(value: &Value) -> f64 {
 #[test]
 fn a_master_curve_becomes_the_material_of_a_scene() {
     let folder = Folder::new("master");
-    let table = "DATA/pyvisco_frequency_master.csv";
-    folder.done(format!(
-        "fit-material {table} --out out --branches 20 --poisson-ratio 0.4"
-    ));
+    let table = "DATA/pyvisco_frequency_master.csv --poisson-ratio 0.4";
+    folder.done(format!("fit-material {table} --out out --branches 20"));
     let prony = prony(&folder);
     let branches = prony["branches"].as_array().expect("a list");
     let n_branches = branches.len();
@@ -50,19 +48,14 @@ const PEERS: [f64; 6] = [7.840, 6.095, 0.0, -6.689, -14.511, -18.345];
 #[test]
 fn isotherms_are_shifted_onto_one_curve() {
     let folder = Folder::new("isotherms");
-    let table = "DATA/pyvisco_frequency_raw.csv";
-    folder.done(format!(
-        "fit-material {table} --out out --reference-temperature -5"
-    ));
+    let table = "DATA/pyvisco_frequency_raw.csv --reference-temperature -5";
+    folder.done(format!("fit-material {table} --out out"));
     let [temperatures, logs] = [0, 1].map(|column| folder.column("out/shifts.csv", column));
     assert_eq!(logs.len(), 21, "isotherms");
     for (place, peer) in [2, 3, 6, 10, 15, 20].into_iter().zip(PEERS) {
         let (temperature, log) = (temperatures[place], logs[place]);
-        let off = (log - peer).abs();
-        assert!(
-            off < 0.3,
-            "log a_T at {temperature} is {log} and not {peer}"
-        );
+        let is_near = (log - peer).abs() < 0.3;
+        assert!(is_near, "log a_T at {temperature}: {log} and not {peer}");
     }
     let slower = logs.windows(2).find(|pair| pair[1] >= pair[0]);
     assert_eq!(slower, None, "warmer and slower");
@@ -77,19 +70,15 @@ fn a_liquid_and_a_relaxation_are_fitted_too() {
         let loss = 3.0 * x / (1.0 + x * x);
         format!("{omega},{},{loss}\n", x * loss)
     });
-    folder.write(
-        "maxwell.csv",
-        format!("ω, G′, G″\nrad/s, kPa, kPa\n{}", rows.concat()),
-    );
+    let table = format!("ω, G′, G″\nrad/s, kPa, kPa\n{}", rows.concat());
+    folder.write("maxwell.csv", table);
     folder.done("fit-material maxwell.csv --liquid --out out");
     let branch = &prony(&folder)["branches"][0];
     for (name, expected) in [("modulus", 3e3), ("relaxation_time", 2.0)] {
         assert_close(name, float(&branch[name]), expected, 1e-6);
     }
-    let table = "DATA/pyvisco_time_master.csv";
-    folder.done(format!(
-        "fit-material {table} --branches 10 --out out --overwrite"
-    ));
+    let table = "DATA/pyvisco_time_master.csv --branches 10";
+    folder.done(format!("fit-material {table} --out out --overwrite"));
 }
 
 /// Options | what is said.
@@ -125,20 +114,14 @@ fn swapped_columns_are_refused_and_nothing_is_written() {
         let line = format!("fit-material swapped.csv --out out {options}");
         folder.ends(&line, 1, "storage and loss modulus seem to be swapped");
     }
-    assert_eq!(
-        folder.names(""),
-        ["swapped.csv"],
-        "a material from swapped columns"
-    );
+    assert_eq!(folder.names(""), ["swapped.csv"], "a material from them");
 }
 
 #[test]
 fn a_scene_names_the_file_of_a_fit() {
     let folder = Folder::new("named");
-    let table = "DATA/pyvisco_frequency_master.csv";
-    folder.done(format!(
-        "fit-material {table} --out out --branches 5 --poisson-ratio 0.4"
-    ));
+    let table = "DATA/pyvisco_frequency_master.csv --poisson-ratio 0.4";
+    folder.done(format!("fit-material {table} --out out --branches 5"));
     let parts = |material: &str| {
         format!(
             "[indenter.sphere]\nradius = 5e-3\n{material}\n[load]\nnormal_force = 2\nvelocity = 0.1\n[solve]\nmodel = \"line\"\n"

@@ -225,26 +225,19 @@ pub(crate) fn estimate(result: &Value, field: &str) -> Estimate {
 #[track_caller]
 pub(crate) fn assert_agree(what: impl Display, one: Estimate, other: Estimate, part: f64) {
     let error = one.error + other.error;
-    let scale = if other.value == 0.0 {
-        1.0
-    } else {
-        other.value.abs()
-    };
+    let is_zero = other.value == 0.0;
+    let scale = if is_zero { 1.0 } else { other.value.abs() };
     let is_small = (error > 0.0 && error < part * scale) || (error == 0.0 && part == 0.0);
-    assert!(
-        (one.value - other.value).abs() <= error && is_small,
-        "{what}: {one:?} and {other:?}"
-    );
+    let agree = (one.value - other.value).abs() <= error;
+    assert!(agree && is_small, "{what}: {one:?} and {other:?}");
 }
 
 /// Requires a value that is off by a part of what is expected at most.
 #[track_caller]
 pub(crate) fn assert_close(what: impl Display, value: f64, expected: f64, part: f64) {
     let off = (value / expected - 1.0).abs();
-    assert!(
-        off < part,
-        "{what}: {value} instead of {expected}, off by {off:e}"
-    );
+    let said = format!("{what}: {value} instead of {expected}");
+    assert!(off < part, "{said}, off by {off:e}");
 }
 
 /// A file as `numpy.save` of NumPy 2.4.6 writes it in the format 1.0, of a header and numbers.

@@ -58,10 +58,8 @@ fn a_sweep_killed_at_any_moment_goes_on_to_the_same_rows() {
         let left = folder.names("out").join(" ");
         assert_eq!(left, "rows.csv rows.png rows.svg", "round {round}");
     }
-    assert!(
-        n_partial >= 3,
-        "only {n_partial} of 8 kills came between beginning and end"
-    );
+    let said = "of 8 kills came between beginning and end";
+    assert!(n_partial >= 3, "only {n_partial} {said}");
 }
 
 #[test]

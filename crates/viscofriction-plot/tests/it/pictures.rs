@@ -51,10 +51,8 @@ fn markers_stand_on_their_points() {
         let circle = Marker::filled(Shape::Circle);
         one.series = vec![Series::markers(vec![[1e-1, y]], circle, Colour::Black)];
         let got = number(&svg(one), "cy");
-        assert!(
-            (got - expected).abs() < 0.011,
-            "expected μ = {y} at {expected} px, got {got}"
-        );
+        let is_there = (got - expected).abs() < 0.011;
+        assert!(is_there, "expected μ = {y} at {expected} px, got {got}");
     }
 }
 
@@ -64,8 +62,9 @@ fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
     let inside = height(chart());
     let legend = LegendPlace::Below;
     let below = height(Chart { legend, ..chart() });
+    let is_lower = below > inside + 17.0;
     assert!(
-        below > inside + 17.0,
+        is_lower,
         "expected a row more than {inside} px, got {below}"
     );
     let zigzag = (0..40).map(|k| {
@@ -76,10 +75,8 @@ fn a_legend_that_covers_no_data_stays_inside_and_moves_out_otherwise() {
     let mut full = chart();
     full.series.push(zigzag);
     let got = height(full);
-    assert!(
-        (got - below).abs() < 0.011,
-        "expected the legend below, {below} px, got {got}"
-    );
+    let is_below = (got - below).abs() < 0.011;
+    assert!(is_below, "expected the legend below, {below} px, got {got}");
 }
 
 #[test]

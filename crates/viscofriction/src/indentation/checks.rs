@@ -3,6 +3,7 @@
 use super::IndentationCurve;
 use super::depth::{self, ends, median};
 use super::intervals::Statistics;
+use super::model::Forces;
 use super::search::Found;
 use super::start::Start;
 
@@ -111,25 +112,20 @@ pub(super) fn usable(
     Ok(curve)
 }
 
-fn saturation(curve: &IndentationCurve) -> Result<(), Flag> {
-    let IndentationCurve { time, depth, force } = curve;
+/// Whether the largest force stays the same over some points while the body goes on.
+fn saturation(IndentationCurve { time, depth, force }: &IndentationCurve) -> Result<(), Flag> {
     let [_, largest] = ends(force);
-    let is_largest = |place: &usize| force[*place] >= largest;
-    let speed = |from: usize, to: usize| {
-        let sunk = depth[to] - depth[from];
-        sunk.abs() / (time[to] - time[from])
+    let speed = |from: usize, to: usize| (depth[to] - depth[from]).abs() / (time[to] - time[from]);
+    let goes_on = |start: usize| {
+        let run = &force[start..start + RUN];
+        let is_run = run.iter().all(|force| *force >= largest);
+        let begins = is_run && force[start - 1] < largest;
+        begins && speed(start, start + RUN - 1) > GOES_ON * speed(start - RUN, start)
     };
-    let places: Vec<usize> = (0..force.len()).collect();
-    let mut runs = places.chunk_by(|one, other| is_largest(one) == is_largest(other));
-    let goes_on = |run: &[usize]| {
-        let start = run[0];
-        let is_run = is_largest(&start) && run.len() >= RUN && start >= RUN;
-        is_run && speed(start, start + RUN - 1) > GOES_ON * speed(start - RUN, start)
-    };
-    match runs.any(goes_on) {
-        true => Err(Flag::Saturated(largest)),
-        false => Ok(()),
+    if (RUN..force.len() + 1 - RUN).any(goes_on) {
+        return Err(Flag::Saturated(largest));
     }
+    Ok(())
 }
 
 /// What makes a fit useless, by the elastic start.
@@ -163,14 +159,14 @@ fn dips(curve: &IndentationCurve, begin: &Start, part: f64) -> Option<Flag> {
 
 /// Residuals before and after the contact.
 fn without_contact(statistics: &Statistics) -> [&[f64]; 2] {
-    let [residuals, contact] = [&statistics.residuals, &statistics.forces.contact];
+    let Forces {
+        residuals, contact, ..
+    } = &statistics.forces;
+    let n = residuals.len();
     let first = contact.iter().position(|force| *force > 0.0);
     let last = contact.iter().rposition(|force| *force > 0.0);
-    let n = residuals.len();
-    [
-        &residuals[..first.unwrap_or(n)],
-        &residuals[last.map_or(n, |last| last + 1)..],
-    ]
+    let behind = last.map_or(n, |last| last + 1);
+    [&residuals[..first.unwrap_or(n)], &residuals[behind..]]
 }
 
 /// Noise before the contact, where there are points enough.

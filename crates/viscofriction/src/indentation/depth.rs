@@ -44,20 +44,17 @@ pub(super) fn smoothed(time: &[f64], depth: &[f64]) -> Vec<f64> {
         let path = pieces(time, depth, &knots);
         let is_rough = |&[from, to]: &[usize; 2]| {
             let quarter = (to - from).div_ceil(4);
-            let quarters = (from..to)
-                .step_by(quarter)
-                .map(|start| start..(start + quarter).min(to));
-            let mut sums = quarters.map(|points| {
+            let starts = (from..to).step_by(quarter);
+            let mut sums = starts.map(|start| {
+                let points = start..(start + quarter).min(to);
                 let n = points.len() as f64;
                 points.map(|i| depth[i] - path[i]).sum::<f64>().abs() / n.sqrt()
             });
             to - from > 1 && sums.any(|sum| sum > STRUCTURE * noise)
         };
         let intervals = knots.windows(2).map(|pair| [pair[0], pair[1]]);
-        let middles: Vec<usize> = intervals
-            .filter(is_rough)
-            .map(|[from, to]| usize::midpoint(from, to))
-            .collect();
+        let middles = intervals.filter(is_rough);
+        let middles: Vec<usize> = middles.map(|[a, b]| usize::midpoint(a, b)).collect();
         if middles.is_empty() {
             return path;
         }
@@ -69,9 +66,7 @@ pub(super) fn smoothed(time: &[f64], depth: &[f64]) -> Vec<f64> {
 /// Straight from knot to knot, by least squares; the matrix of its hats is tridiagonal.
 fn pieces(time: &[f64], values: &[f64], knots: &[usize]) -> Vec<f64> {
     let n = knots.len();
-    let mut diagonal = vec![0.0; n];
-    let mut beside = vec![0.0; n];
-    let mut right = vec![0.0; n];
+    let [mut diagonal, mut beside, mut right] = [0; 3].map(|_| vec![0.0; n]);
     let interval = |i: usize| knots.partition_point(|&knot| knot <= i).clamp(1, n - 1) - 1;
     let part = |i: usize, k: usize| {
         let [from, to] = [time[knots[k]], time[knots[k + 1]]];
@@ -91,13 +86,9 @@ fn pieces(time: &[f64], values: &[f64], knots: &[usize]) -> Vec<f64> {
         diagonal[k] -= factor * beside[k - 1];
         right[k] -= factor * right[k - 1];
     }
-    for k in (0..n).rev() {
-        let above = if k + 1 < n {
-            beside[k] * right[k + 1]
-        } else {
-            0.0
-        };
-        right[k] = (right[k] - above) / diagonal[k];
+    right[n - 1] /= diagonal[n - 1];
+    for k in (0..n - 1).rev() {
+        right[k] = (right[k] - beside[k] * right[k + 1]) / diagonal[k];
     }
     let at = |i: usize| {
         let k = interval(i);

@@ -28,8 +28,6 @@ pub(super) struct Statistics {
     /// Rise of the sum at the ends of an interval.
     rise: f64,
     pub(super) correlated_points: f64,
-    /// Residuals, \[N].
-    pub(super) residuals: Vec<f64>,
     pub(super) forces: Forces,
 }
 
@@ -37,10 +35,9 @@ impl Statistics {
     pub(super) fn of(found: &Found) -> Result<Self, MdrError> {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
-        let measured = found.model.curve.force.iter().zip(&forces.values);
-        let residuals: Vec<f64> = measured.map(|(force, value)| force - value).collect();
-        let scaled = residuals.iter().map(|residual| residual / found.scale);
-        let psi: Vec<f64> = scaled.map(|one| one.clamp(-HUBER, HUBER)).collect();
+        let residuals = forces.residuals.iter();
+        let psi = residuals.map(|one| (one / found.scale).clamp(-HUBER, HUBER));
+        let psi: Vec<f64> = psi.collect();
         let n_points = psi.len() as f64;
         let square = psi.iter().map(|psi| psi * psi).sum::<f64>() / (n_points - n as f64);
         let curvature = psi.iter().filter(|psi| psi.abs() < HUBER).count() as f64 / n_points;
@@ -59,7 +56,6 @@ impl Statistics {
             covariance: covariance.iter().map(|entry| factor * entry).collect(),
             rise: NORMAL * NORMAL * correlated_points * square / curvature,
             correlated_points,
-            residuals,
             forces,
         })
     }
@@ -73,9 +69,8 @@ impl Statistics {
             let entry = self.covariance[j * self.n + k] / self.deviation(j) / self.deviation(k);
             if entry.is_finite() { entry } else { 0.0 }
         };
-        (0..self.n)
-            .map(|j| (0..self.n).map(|k| entry(j, k)).collect())
-            .collect()
+        let row = |j: usize| (0..self.n).map(|k| entry(j, k)).collect();
+        (0..self.n).map(row).collect()
     }
 
     pub(super) fn findings(&self, found: &Found, profile: bool) -> Vec<Finding> {
@@ -94,21 +89,16 @@ impl Statistics {
                 Some(value + side * NORMAL * deviation).filter(|end| end.is_finite())
             }
         });
-        let [shown, error] = if is_logarithm {
-            [value.exp(), value.exp() * deviation]
-        } else {
-            [value, deviation]
-        };
+        let shown = |value: f64| if is_logarithm { value.exp() } else { value };
+        let slope = if is_logarithm { value.exp() } else { 1.0 };
+        let (value, error) = (shown(value), slope * deviation);
         let is_determined = ends.iter().all(Option::is_some) && error.is_finite();
         let (name, unit) = name(found.model.kind, parameter);
         Finding {
             name,
             unit,
-            estimate: is_determined.then_some(Estimate {
-                value: shown,
-                error,
-            }),
-            interval: ends.map(|end| end.map(|end| if is_logarithm { end.exp() } else { end })),
+            estimate: is_determined.then_some(Estimate { value, error }),
+            interval: ends.map(|end| end.map(shown)),
         }
     }
 
@@ -126,23 +116,18 @@ impl Statistics {
             let held = minimise(sum, start, &ranges, 3e-3 * self.rise / least);
             let held = held.map(|held| held.linearised.sum);
             // Nearly linear in the distance from the best one; where there is no force, the end is before.
-            held.map_or(f64::INFINITY, |sum| {
-                ((sum - least).max(0.0) / self.rise).sqrt()
-            })
+            held.map_or(f64::INFINITY, |sum| (sum - least).max(0.0) / self.rise)
+                .sqrt()
         };
         let Range {
             bounds,
             largest_step,
         } = found.ranges[parameter];
-        let room = if side < 0.0 {
-            best[parameter] - bounds[0]
-        } else {
-            bounds[1] - best[parameter]
-        };
+        let end = if side < 0.0 { bounds[0] } else { bounds[1] };
+        let room = side * (end - best[parameter]);
         let [mut inner, mut outer] = [[0.0; 2], [f64::INFINITY; 2]];
-        let mut step = (NORMAL * self.deviation(parameter))
-            .min(largest_step)
-            .min(room);
+        let step = NORMAL * self.deviation(parameter);
+        let mut step = step.min(largest_step).min(room);
         for _ in 0..STEPS {
             let at = rise(best[parameter] + side * step);
             if (at - 1.0).abs() < CLOSE {

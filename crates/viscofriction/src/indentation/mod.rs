@@ -177,11 +177,9 @@ pub fn fit_indentation(
     checks::before(&curve, &begin).map_err(IndentationError::Damaged)?;
     let found = search::search(body, &curve, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
-    let spectrum = found
-        .model
-        .spectrum(&found.parameters)
-        .map_err(MdrError::from)?;
-    let residuals = statistics.residuals.iter().enumerate();
+    let spectrum = found.model.spectrum(&found.parameters);
+    let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
+    let residuals = statistics.forces.residuals.iter().enumerate();
     let points = residuals.map(|(i, residual)| {
         let force = curve.force[i];
         [curve.time[i], curve.depth[i], force, force - residual]
@@ -189,7 +187,7 @@ pub fn fit_indentation(
     Ok(IndentationFit {
         findings: statistics.findings(&found, options.profile),
         correlation: statistics.correlation(),
-        material: Prony::new(spectrum).map_err(MdrError::from)?,
+        material,
         noise: checks::noise(&statistics),
         residual: found.scale,
         correlated_points: statistics.correlated_points,

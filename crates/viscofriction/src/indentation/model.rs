@@ -56,9 +56,10 @@ pub(super) struct Model<'a> {
     pub(super) times: [f64; 2],
 }
 
-/// Forces, and a row of derivatives for each parameter.
+/// What is measured beside the forces, and a row of derivatives of these for each parameter.
 pub(super) struct Forces {
-    pub(super) values: Vec<f64>,
+    /// Measured less computed, \[N].
+    pub(super) residuals: Vec<f64>,
     pub(super) rows: Vec<Vec<f64>>,
     /// Without baseline and tilt.
     pub(super) contact: Vec<f64>,
@@ -129,7 +130,8 @@ impl<'a> Model<'a> {
         let sides: Vec<f64> = sides.collect();
         let pairs = found.normal_force.iter().zip(&sides);
         let values = pairs.map(|(force, side)| force + baseline + tilt * side);
-        let values = values.collect();
+        let measured = self.curve.force.iter().zip(values);
+        let residuals = measured.map(|(force, value)| force - value).collect();
         let mut rows = self.material_rows(parameters, &spectrum, &found)?;
         rows.push(found.depth.iter().map(|slope| -slope).collect());
         rows.push(vec![1.0; sides.len()]);
@@ -137,7 +139,7 @@ impl<'a> Model<'a> {
             rows.push(sides);
         }
         Ok(Forces {
-            values,
+            residuals,
             rows,
             contact: found.normal_force,
         })

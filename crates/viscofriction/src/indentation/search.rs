@@ -110,9 +110,8 @@ impl Found<'_> {
 
 /// Standard deviation of the residuals by their median.
 fn spread(model: &Model, parameters: &[f64]) -> Option<f64> {
-    let values = model.forces(parameters).ok()?.values;
-    let residuals = model.curve.force.iter().zip(&values);
-    let sizes = residuals.map(|(force, value)| (force - value).abs());
+    let residuals = model.forces(parameters).ok()?.residuals;
+    let sizes = residuals.into_iter().map(f64::abs);
     Some(1.4826 * median(sizes.collect()))
 }
 
@@ -181,10 +180,8 @@ pub(super) const HUBER: f64 = 1.345;
 /// Squares of residuals in units of a scale; linear beyond a threshold.
 fn linearise(model: &Model, parameters: &[f64], threshold: f64, scale: f64) -> Option<Linearised> {
     let forces = model.forces(parameters).ok()?;
-    let measured = model.curve.force.iter().zip(&forces.values);
-    let residuals: Vec<f64> = measured
-        .map(|(force, value)| (force - value) / scale)
-        .collect();
+    let residuals = forces.residuals.iter();
+    let residuals: Vec<f64> = residuals.map(|residual| residual / scale).collect();
     let loss = |residual: &f64| {
         let inside = residual.abs().min(threshold);
         inside * (2.0 * residual.abs() - inside)

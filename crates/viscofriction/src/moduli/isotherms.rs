@@ -66,17 +66,11 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static s
 impl Group {
     /// How far a row is from the first one in temperature, where it may be of this isotherm.
     fn distance(&self, row: &Row) -> Option<f64> {
-        match (
-            row.set,
-            self.set,
-            row.temperature,
-            self.temperatures.first(),
-        ) {
-            (Some(set), Some(own), ..) => set.total_cmp(&own).is_eq().then_some(0.0),
-            (.., Some(temperature), Some(first)) => {
-                Some((temperature - first).abs()).filter(|distance| *distance <= DRIFT)
-            }
-            _ => Some(0.0),
+        if let (Some(set), Some(own)) = (row.set, self.set) {
+            return set.total_cmp(&own).is_eq().then_some(0.0);
         }
+        let both = row.temperature.zip(self.temperatures.first());
+        let distance = both.map_or(0.0, |(temperature, first)| (temperature - first).abs());
+        (distance <= DRIFT).then_some(distance)
     }
 }

@@ -48,12 +48,9 @@ pub fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
     let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
     let mut before = 0.0;
     let point = |(line, row): (usize, HistoryTableRow)| {
-        let numbers = [
-            row.normal_force_n,
-            row.indentation_depth_m,
-            Some(row.time_s),
-        ];
-        let problem = if numbers.iter().flatten().any(|number| !number.is_finite()) {
+        let controls = [row.normal_force_n, row.indentation_depth_m];
+        let mut numbers = controls.into_iter().flatten().chain([row.time_s]);
+        let problem = if numbers.any(|number| !number.is_finite()) {
             "finite numbers are needed"
         } else if row.time_s < before {
             "time_s must be at least 0, and not less than in the row before"
@@ -110,14 +107,15 @@ fn problem(error: &csv::Error, names: &StringRecord) -> String {
 
 /// The line of the row that the library refuses.
 fn line_of_error(error: &IndenterError, rows: &[(usize, Row)]) -> usize {
+    let has = |row: &Row, value: f64| {
+        let numbers = [row.radius_m, row.height_m];
+        numbers.map(f64::to_bits).contains(&value.to_bits())
+    };
     let row = match error {
         IndenterError::NotIncreasing { index, .. } => rows.get(*index),
-        IndenterError::InvalidParameter(refused) => rows.iter().find(|(_, row)| {
-            let numbers = [row.radius_m, row.height_m];
-            numbers
-                .iter()
-                .any(|other| other.total_cmp(&refused.value).is_eq())
-        }),
+        IndenterError::InvalidParameter(refused) => {
+            rows.iter().find(|(_, row)| has(row, refused.value))
+        }
         _ => rows.last(),
     };
     row.map_or(1, |(line, _)| *line)

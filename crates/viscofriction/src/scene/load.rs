@@ -58,39 +58,43 @@ impl Load {
     /// # Errors
     /// [`SceneError`] unless there is exactly one of force and depth, or of a period the mean pressure, and it is positive.
     pub fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
-        let others = [self.normal_force, self.indentation_depth];
-        match (period, self.mean_pressure, others) {
-            (None, None, _) => {}
-            (Some(area), Some(pressure), [None, None]) => {
+        let at = |key: &str, problem: &str| Err(SceneError::at(format!("load.{key}"), problem));
+        let Self {
+            normal_force,
+            indentation_depth,
+            mean_pressure,
+            ..
+        } = *self;
+        match (period, mean_pressure, normal_force, indentation_depth) {
+            (Some(area), Some(pressure), None, None) => {
                 let pressure = positive("load.mean_pressure", pressure)?;
-                return Ok(Control::NormalForce(positive(
-                    "load.mean_pressure times the period",
-                    pressure * area,
-                )?));
+                let key = "load.mean_pressure times the period";
+                Ok(Control::NormalForce(positive(key, pressure * area)?))
             }
-            (Some(_), _, _) => {
+            (Some(_), ..) => {
                 let problem = "a periodic surface takes a mean_pressure, and neither normal_force nor indentation_depth";
-                return Err(SceneError::at("load.mean_pressure", problem));
+                at("mean_pressure", problem)
             }
-            (None, Some(_), _) => {
+            (None, Some(_), ..) => {
                 let problem = "only a periodic surface has a mean pressure; give normal_force or indentation_depth";
-                return Err(SceneError::at("load.mean_pressure", problem));
+                at("mean_pressure", problem)
             }
-        }
-        Ok(match (self.normal_force, self.indentation_depth) {
-            (Some(force), None) => Control::NormalForce(positive("load.normal_force", force)?),
-            (None, Some(depth)) => {
-                Control::IndentationDepth(positive("load.indentation_depth", depth)?)
+            (None, None, Some(force), None) => {
+                Ok(Control::NormalForce(positive("load.normal_force", force)?))
             }
-            (Some(_), Some(_)) => Err(SceneError::at(
-                "load.indentation_depth",
-                "either normal_force or indentation_depth is given, not both",
-            ))?,
-            (None, None) => Err(SceneError::at(
-                "load.normal_force",
+            (None, None, None, Some(depth)) => {
+                let depth = positive("load.indentation_depth", depth)?;
+                Ok(Control::IndentationDepth(depth))
+            }
+            (None, None, Some(_), Some(_)) => {
+                let problem = "either normal_force or indentation_depth is given, not both";
+                at("indentation_depth", problem)
+            }
+            (None, None, None, None) => at(
+                "normal_force",
                 "normal_force or indentation_depth is missing",
-            ))?,
-        })
+            ),
+        }
     }
 
     /// The sliding speed, \[m/s].
@@ -99,10 +103,8 @@ impl Load {
     /// [`SceneError::Value`] for a speed that is negative or not finite; [`SceneError::At`] for none.
     pub fn checked_velocity(&self) -> Result<f64, SceneError> {
         let missing = || SceneError::at("load.velocity", "missing field `velocity`");
-        Ok(not_negative(
-            "load.velocity",
-            self.velocity.ok_or_else(missing)?,
-        )?)
+        let velocity = self.velocity.ok_or_else(missing)?;
+        Ok(not_negative("load.velocity", velocity)?)
     }
 
     /// The points of the history; none where the load is constant. A file is in `folder` and read by `read`.
@@ -155,10 +157,8 @@ fn checked(
     key: impl Fn(usize, &str) -> String,
 ) -> Result<Vec<HistoryPoint>, SceneError> {
     if points.len() < 2 {
-        return Err(SceneError::at(
-            key(0, "").replace("[0]", ""),
-            "at least two points are needed",
-        ));
+        let key = key(0, "").replace("[0]", "");
+        return Err(SceneError::at(key, "at least two points are needed"));
     }
     let mut before = 0.0;
     let mut checked = Vec::with_capacity(points.len());

@@ -128,48 +128,34 @@ pub struct HistoryRow {
     pub friction_coefficient: f64,
 }
 
-/// A point of a history in JSON.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-struct CurveRow {
-    time: f64,
-    normal_force: f64,
-    indentation_depth: f64,
-    contact_radius: f64,
-}
+/// Numbers by their names.
+struct Named<'a, const N: usize>([(&'a str, f64); N]);
 
-impl From<&CurvePoint> for CurveRow {
-    fn from(point: &CurvePoint) -> Self {
-        Self {
-            time: point.time,
-            normal_force: point.normal_force.value,
-            indentation_depth: point.indentation_depth.value,
-            contact_radius: point.contact_radius.value,
-        }
+impl<const N: usize> Serialize for Named<'_, N> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0)
     }
 }
 
-/// Largest errors of a history in JSON.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-struct CurveError {
-    normal_force: f64,
-    indentation_depth: f64,
-    contact_radius: f64,
-}
+/// What is known at each point of a history beside its time.
+const OF_CURVE: [(&str, fn(&CurvePoint) -> Estimate); 3] = [
+    ("normal_force", |point| point.normal_force),
+    ("indentation_depth", |point| point.indentation_depth),
+    ("contact_radius", |point| point.contact_radius),
+];
 
-impl CurveError {
-    fn of(curve: &[CurvePoint]) -> Self {
-        let largest = |quantity: fn(&CurvePoint) -> Estimate| {
-            curve
-                .iter()
-                .map(|point| quantity(point).error)
-                .fold(0.0, f64::max)
-        };
-        Self {
-            normal_force: largest(|point| point.normal_force),
-            indentation_depth: largest(|point| point.indentation_depth),
-            contact_radius: largest(|point| point.contact_radius),
-        }
-    }
+/// The values of a point, and the largest errors of all points.
+fn curve_in_json(curve: &[CurvePoint]) -> (Vec<Named<'_, 4>>, Named<'_, 3>) {
+    let row = |point: &CurvePoint| {
+        let [force, depth, radius] = OF_CURVE.map(|(name, of)| (name, of(point).value));
+        Named([("time", point.time), force, depth, radius])
+    };
+    let largest = |of: fn(&CurvePoint) -> Estimate| {
+        let errors = curve.iter().map(|point| of(point).error);
+        errors.fold(0.0, f64::max)
+    };
+    let errors = OF_CURVE.map(|(name, of)| (name, largest(of)));
+    (curve.iter().map(row).collect(), Named(errors))
 }
 
 /// A value that is known to a relative error.
@@ -218,16 +204,15 @@ impl Answer {
     /// error is asked of.
     #[must_use]
     pub fn asked(&self) -> Estimate {
-        let depth = self
-            .indentation_depth
-            .filter(|_| self.normal_force.error == 0.0);
-        self.friction_coefficient
-            .or(depth)
-            .unwrap_or(self.normal_force)
+        let (force, depth) = (self.normal_force, self.indentation_depth);
+        let depth = depth.filter(|_| force.error == 0.0);
+        self.friction_coefficient.or(depth).unwrap_or(force)
     }
 
     /// Quantities by their names in JSON and CSV, in this order, each with its error.
     fn quantities(&self) -> [(&str, Option<Estimate>); 9] {
+        let rough = |of: fn(RoughAnswer) -> Estimate| self.rough.map(of);
+        let dissipation = rough(|rough| rough.friction_from_dissipation);
         [
             ("friction_coefficient", self.friction_coefficient),
             ("normal_force", Some(self.normal_force)),
@@ -235,12 +220,9 @@ impl Answer {
             ("indentation_depth", self.indentation_depth),
             ("contact_area", self.contact_area),
             ("peak_pressure", self.peak_pressure),
-            ("mean_pressure", self.rough.map(|rough| rough.mean_pressure)),
-            ("area_fraction", self.rough.map(|rough| rough.area_fraction)),
-            (
-                "friction_from_dissipation",
-                self.rough.map(|rough| rough.friction_from_dissipation),
-            ),
+            ("mean_pressure", rough(|rough| rough.mean_pressure)),
+            ("area_fraction", rough(|rough| rough.area_fraction)),
+            ("friction_from_dissipation", dissipation),
         ]
     }
 
@@ -256,15 +238,17 @@ impl Answer {
         numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
-        numbers.extend(EDGES.map(str::to_owned).into_iter().zip(edges));
-        let error = contact.map(|contact| contact.error);
-        numbers.push(("contact_box_error".to_owned(), error));
         let theory = self.rough.map(|rough| rough.persson);
-        let [area, friction] = theory.map_or([None; 2], |theory| {
-            [theory.area_fraction, theory.friction_coefficient].map(Some)
-        });
-        numbers.push(("persson_area_fraction".to_owned(), area));
-        numbers.push(("persson_friction_coefficient".to_owned(), friction));
+        let others = [
+            ("contact_box_error", contact.map(|contact| contact.error)),
+            ("persson_area_fraction", theory.map(|one| one.area_fraction)),
+            (
+                "persson_friction_coefficient",
+                theory.map(|one| one.friction_coefficient),
+            ),
+        ];
+        let others = EDGES.into_iter().zip(edges).chain(others);
+        numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));
         numbers
     }
 
@@ -297,11 +281,8 @@ impl ContactBox {
 
     /// On a surface.
     pub(crate) const fn around(x: [f64; 2], y: [f64; 2], error: f64) -> Self {
-        Self {
-            x,
-            y: Some(y),
-            error,
-        }
+        let y = Some(y);
+        Self { x, y, error }
     }
 
     fn edges(&self) -> [Option<f64>; 4] {
@@ -340,9 +321,9 @@ impl Serialize for Answer {
             map.serialize_entry("error_parts", &self.error_parts)?;
         }
         if !self.fields.curve.is_empty() {
-            let values: Vec<CurveRow> = self.fields.curve.iter().map(CurveRow::from).collect();
+            let (values, errors) = curve_in_json(&self.fields.curve);
             map.serialize_entry("history", &values)?;
-            map.serialize_entry("history_error", &CurveError::of(&self.fields.curve))?;
+            map.serialize_entry("history_error", &errors)?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

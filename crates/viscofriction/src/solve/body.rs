@@ -157,18 +157,12 @@ fn other(shape: impl Axisymmetric + 'static) -> Revolution {
 
 fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
     let table = "indenter.superposition.terms";
-    for (
-        index,
-        &Term {
-            coefficient,
-            exponent,
-        },
-    ) in terms.iter().enumerate()
-    {
+    for (index, term) in terms.iter().enumerate() {
         let wrong = |refused| SceneError::within(&format!("{table}[{index}]"), refused);
+        let coefficient = term.coefficient;
         let holds = coefficient.is_finite() && coefficient != 0.0;
         in_range("coefficient", coefficient, holds, "finite and not 0").map_err(wrong)?;
-        positive("exponent", exponent).map_err(wrong)?;
+        positive("exponent", term.exponent).map_err(wrong)?;
     }
     let term = |term: &Term| PowerTerm {
         coefficient: term.coefficient,
@@ -222,10 +216,9 @@ fn map(
 /// The extension, where it is that of a measured surface.
 fn measured(file: &Path) -> Option<&str> {
     let extension = file.extension()?.to_str()?;
-    let mut known = ["gsf", "sur", "x3p", "xyz"].into_iter();
-    known
-        .any(|known| known.eq_ignore_ascii_case(extension))
-        .then_some(extension)
+    let mut known = ["gsf", "sur", "x3p", "xyz"].iter();
+    let is_known = known.any(|known| known.eq_ignore_ascii_case(extension));
+    is_known.then_some(extension)
 }
 
 /// The body of a measured surface, whose missing heights are filled, and then whose tilt is taken out, where it is asked.

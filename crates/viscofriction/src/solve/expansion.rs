@@ -32,37 +32,31 @@ pub struct Expansion {
     pub time_range: [f64; 2],
 }
 
-/// A fractional element and a spring beside it.
-pub(crate) struct Fractional {
-    pub(crate) exponent: f64,
-    pub(crate) time_range: [f64; 2],
-    pub(crate) equilibrium_modulus: f64,
-}
-
-impl Fractional {
-    /// The series that stands for both, of an element that is expanded over a band of frequencies to an error.
-    pub(crate) fn expanded(
-        &self,
-        expand: impl FnOnce([f64; 2], f64) -> Result<PronyExpansion, RheologyError>,
-    ) -> Result<HalfSpace, RheologyError> {
-        let PronyExpansion {
-            spectrum,
-            relative_error,
-        } = expand(band(self.time_range)?, RELATIVE_ERROR)?;
-        let modulus = not_negative("equilibrium_modulus", self.equilibrium_modulus)?;
-        let sum = RelaxationSpectrum::new(
-            modulus + spectrum.equilibrium_modulus(),
-            spectrum.viscosity(),
-            spectrum.branches().to_vec(),
-        )?;
-        Ok(HalfSpace {
-            material: Box::new(Prony::new(sum)?),
-            expansion: Some(Expansion {
-                relative_error: 2.0 * relative_error / (1.0 - self.exponent),
-                time_range: self.time_range,
-            }),
-        })
-    }
+/// The series that stands for a fractional element, which is expanded over a band of frequencies to an error, and for a
+/// spring beside it.
+pub(crate) fn expanded(
+    expand: impl FnOnce([f64; 2], f64) -> Result<PronyExpansion, RheologyError>,
+    exponent: f64,
+    equilibrium_modulus: f64,
+    time_range: [f64; 2],
+) -> Result<HalfSpace, RheologyError> {
+    let PronyExpansion {
+        spectrum,
+        relative_error,
+    } = expand(band(time_range)?, RELATIVE_ERROR)?;
+    let modulus = not_negative("equilibrium_modulus", equilibrium_modulus)?;
+    let sum = RelaxationSpectrum::new(
+        modulus + spectrum.equilibrium_modulus(),
+        spectrum.viscosity(),
+        spectrum.branches().to_vec(),
+    )?;
+    Ok(HalfSpace {
+        material: Box::new(Prony::new(sum)?),
+        expansion: Some(Expansion {
+            relative_error: 2.0 * relative_error / (1.0 - exponent),
+            time_range,
+        }),
+    })
 }
 
 fn band([shortest, longest]: [f64; 2]) -> Result<[f64; 2], RheologyError> {
@@ -113,13 +107,12 @@ impl Problem {
         let Estimate { value, error } = answer.asked();
         match accuracy {
             Accuracy::RelativeError(asked) if error > asked * value.abs() => {
-                let (quantity, elements) = (0, answer.unknowns);
                 Err(SolveError::TooCoarse(NotReached {
-                    quantity,
+                    quantity: 0,
                     asked,
                     value,
                     error,
-                    elements,
+                    elements: answer.unknowns,
                 }))
             }
             _ => Ok(answer),
@@ -131,18 +124,16 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for a depth on the half space, which depends on times beyond every range.
     pub(super) fn check_control(&self) -> Result<(), SceneError> {
-        match self.motion {
-            Motion::Sliding(load)
-                if self.expansion.is_some()
-                    && self.model == Model::HalfSpace
-                    && matches!(load.control(), Control::IndentationDepth(_)) =>
-            {
-                let problem = "on the half space the depth of a fractional element in sliding depends on times beyond \
-                               time_range; give load.normal_force";
-                Err(SceneError::at("load.indentation_depth", problem))
-            }
-            _ => Ok(()),
+        if self.expansion.is_some()
+            && self.model == Model::HalfSpace
+            && matches!(self.motion, Motion::Sliding(_))
+            && matches!(self.motion.control(), Control::IndentationDepth(_))
+        {
+            let problem = "on the half space the depth of a fractional element in sliding depends on times beyond \
+                           time_range; give load.normal_force";
+            return Err(SceneError::at("load.indentation_depth", problem));
         }
+        Ok(())
     }
 
     fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
@@ -162,10 +153,8 @@ impl Problem {
                 between.filter(|time| *time > 0.0).chain(all).collect()
             }
         };
-        match times
-            .into_iter()
-            .find(|t| !(shortest..=longest).contains(t))
-        {
+        let is_outside = |time: &f64| !(shortest..=longest).contains(time);
+        match times.into_iter().find(is_outside) {
             None => Ok(()),
             Some(time) => Err(SolveError::OutsideTimeRange {
                 time,
@@ -180,11 +169,13 @@ impl Answer {
     /// With the error that a relative error of the moduli makes; friction has that of the mean slope in contact, of which it
     /// is a small part on an almost elastic material.
     fn widened(mut self, relative: f64, slope: f64) -> Self {
-        let (force, depth) = (&mut self.normal_force, self.indentation_depth.as_mut());
+        let given_or_found = [
+            Some(&mut self.normal_force),
+            self.indentation_depth.as_mut(),
+        ];
+        let given_or_found = given_or_found.into_iter().flatten();
         // What is exact was given.
-        let found = std::iter::once(force)
-            .chain(depth)
-            .filter(|found| found.error > 0.0);
+        let found = given_or_found.filter(|found| found.error > 0.0);
         let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
         for quantity in found.chain(others.into_iter().flatten()) {
             quantity.error += relative * quantity.value.abs();

@@ -8,7 +8,7 @@ use rheology::{
     StandardSolidParameters, Viscous,
 };
 
-use super::expansion::{Expansion, Fractional};
+use super::expansion::{Expansion, expanded};
 use crate::scene::{Branch, MaterialTable, SceneError, Source};
 use crate::text::{ReadFile, WrongInput};
 
@@ -121,12 +121,8 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
             ..
         } => {
             let element = Springpot::new(coefficient, exponent)?;
-            let beside = Fractional {
-                exponent,
-                time_range,
-                equilibrium_modulus,
-            };
-            beside.expanded(|band, error| element.expand(band, error))
+            let expand = |band, error| element.expand(band, error);
+            expanded(expand, exponent, equilibrium_modulus, time_range)
         }
         MaterialTable::FractionalMaxwell {
             shear_modulus,
@@ -141,12 +137,8 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
                 relaxation_time,
                 exponent,
             })?;
-            let beside = Fractional {
-                exponent,
-                time_range,
-                equilibrium_modulus,
-            };
-            beside.expanded(|band, error| element.expand(band, error))
+            let expand = |band, error| element.expand(band, error);
+            expanded(expand, exponent, equilibrium_modulus, time_range)
         }
         // All others have finitely many elements.
         _ => Err(RheologyError::NoStiffness),

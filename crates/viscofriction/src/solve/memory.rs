@@ -22,15 +22,11 @@ pub fn check_memory(
     method: Method,
     accuracy: Accuracy,
 ) -> Result<(), SceneError> {
-    match accuracy {
-        Accuracy::Elements(elements) => check(
-            problem,
-            method,
-            elements,
-            ["solve.elements", "fewer elements"],
-        ),
-        Accuracy::RelativeError(_) => check(problem, method, FIRST, OTHERWISE),
-    }
+    let (elements, change) = match accuracy {
+        Accuracy::Elements(elements) => (elements, ["solve.elements", "fewer elements"]),
+        Accuracy::RelativeError(_) => (FIRST, OTHERWISE),
+    };
+    check(problem, method, elements, change)
 }
 
 /// The key, and what to give, where the number of elements is not given.
@@ -72,12 +68,11 @@ pub(super) struct Limited<'a> {
 
 impl<'a> Limited<'a> {
     pub(super) const fn new(problem: &'a Problem, method: Method, watch: &'a dyn Watch) -> Self {
-        let refused = OnceLock::new();
         Self {
             problem,
             method,
             watch,
-            refused,
+            refused: OnceLock::new(),
         }
     }
 
@@ -128,12 +123,9 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
 }
 
 fn written(bytes: f64) -> String {
-    let units = ["GiB", "MiB", "KiB"];
-    let powers = [30, 20, 10].map(|power: i32| 2.0_f64.powi(power));
-    let unit = powers
-        .into_iter()
-        .zip(units)
-        .find(|(size, _)| bytes >= *size);
-    let (size, unit) = unit.unwrap_or((1.0, "B"));
+    let mut units = [(30, "GiB"), (20, "MiB"), (10, "KiB")].into_iter();
+    let unit = units.find(|(power, _)| bytes >= 2.0_f64.powi(*power));
+    let (power, unit) = unit.unwrap_or((0, "B"));
+    let size = 2.0_f64.powi(power);
     format!("{:.1} {unit}", bytes / size)
 }

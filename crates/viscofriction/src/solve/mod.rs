@@ -8,7 +8,6 @@ mod elements;
 mod error;
 mod expansion;
 mod half_space;
-mod left_out;
 mod mdr;
 mod memory;
 mod offer;
@@ -31,7 +30,7 @@ pub use omission::Omission;
 pub use problem::{Motion, Problem};
 pub use same_problem::solve_again;
 
-use self::left_out::plan;
+use self::omission::plan;
 use self::validity::warnings;
 use self::work::work;
 use crate::scene::{Accuracy, Method};

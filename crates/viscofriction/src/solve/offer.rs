@@ -26,11 +26,10 @@ pub fn choose(problem: &Problem) -> Result<Method, NotOffered> {
     };
     let offered = || BY_COST.into_iter().filter(|&m| why(m).is_none());
     match problem.method {
-        None => offered().next().ok_or_else(|| NotOffered::AnyMethod {
-            refusals: BY_COST
-                .into_iter()
-                .filter_map(|method| Some((method, why(method)?)))
-                .collect(),
+        None => offered().next().ok_or_else(|| {
+            let refusals = BY_COST.into_iter().filter_map(|m| Some((m, why(m)?)));
+            let refusals = refusals.collect();
+            NotOffered::AnyMethod { refusals }
         }),
         Some(method) => match why(method) {
             None => Ok(method),

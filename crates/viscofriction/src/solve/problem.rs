@@ -69,10 +69,8 @@ impl Problem {
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
         let body = body(&scene.indenter, folder, read)?;
-        let history = scene
-            .load
-            .checked_history(folder, read)?
-            .unwrap_or_default();
+        let history = scene.load.checked_history(folder, read)?;
+        let history = history.unwrap_or_default();
         let motion = match history.last() {
             Some(last) => followed(scene, last)?,
             None => motion(scene, &body)?,

@@ -53,11 +53,9 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
         Body::Revolution(body) => body.profile_height(radius),
         Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),
         Body::HeightMap(map) => {
-            let heights = contact.x.map(|x| map.height([x, 0.0]));
-            heights
-                .into_iter()
-                .filter(|height| height.is_finite())
-                .fold(0.0, f64::max)
+            let heights = contact.x.into_iter().map(|x| map.height([x, 0.0]));
+            let heights = heights.filter(|height| height.is_finite());
+            heights.fold(0.0, f64::max)
         }
     };
     (height.is_finite() && radius > 0.0).then(|| height / radius)

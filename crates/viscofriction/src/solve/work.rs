@@ -92,11 +92,9 @@ fn line_contact<'a>(
             "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
         );
     };
-    let is_line = matches!(method, Method::MdrSteady | Method::MdrTransient);
-    require(
-        !is_line,
-        "it needs a body of revolution, and a cylinder is none",
-    )?;
+    let is_line = method.model() == Some(Model::Line);
+    let of_revolution = "it needs a body of revolution, and a cylinder is none";
+    require(!is_line, of_revolution)?;
     require(
         problem.model == Model::HalfSpace,
         "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
@@ -166,14 +164,13 @@ fn boundary_elements<'a>(
     let is_stationary = method == Method::BemSteady;
     let material = &*problem.material;
     let load = match problem.motion {
-        Motion::History(_) => return Err(NOTHING_SLIDES),
-        Motion::Pressing(_) if is_stationary => return Err(NOTHING_SLIDES),
-        Motion::Pressing(load) => {
+        Motion::Sliding(load) => load,
+        Motion::Pressing(load) if !is_stationary => {
             return ready(move |watch| {
                 elements::pressed(surface, material, &load, Request { accuracy, watch })
             });
         }
-        Motion::Sliding(load) => load,
+        Motion::Pressing(_) | Motion::History(_) => return Err(NOTHING_SLIDES),
     };
     if !has_force(problem) && load.sliding_distance().is_none() {
         require(
@@ -185,12 +182,12 @@ fn boundary_elements<'a>(
             "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance",
         )?;
     }
-    if is_stationary {
-        return ready(move |watch| {
-            elements::stationary(surface, material, &load, Request { accuracy, watch })
-        });
-    }
-    ready(move |watch| elements::transient(surface, material, &load, Request { accuracy, watch }))
+    let slid = if is_stationary {
+        elements::stationary
+    } else {
+        elements::transient
+    };
+    ready(move |watch| slid(surface, material, &load, Request { accuracy, watch }))
 }
 
 fn one_dimensional<'a>(

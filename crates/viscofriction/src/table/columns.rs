@@ -100,69 +100,47 @@ impl Quantity {
     /// The unit, and the factor that turns a number into SI; temperatures stay as they are.
     pub(crate) fn unit(self, unit: &str) -> Option<(&'static str, f64)> {
         let unit = unit.trim().trim_matches(['[', ']', '(', ')']).trim();
+        let unit = unit.replace(['µ', 'μ'], "u");
         let same = SAME_UNITS.iter().find(|(other, _)| *other == unit);
-        let unit = same.map_or(unit, |(_, usual)| usual);
-        let mut known = self.units().iter();
-        known.find(|(known, _)| *known == unit).copied()
+        let unit = same.map_or(&*unit, |(_, usual)| usual);
+        let known = self.units().split(' ').find(|known| *known == unit)?;
+        Some((known, self.factor(known)))
     }
 
-    /// Units and the factors that turn a number into SI.
-    pub(crate) const fn units(self) -> &'static [(&'static str, f64)] {
+    /// Units between blanks, of which one may be empty.
+    pub(crate) const fn units(self) -> &'static str {
         match self {
-            Frequency => &FREQUENCIES,
-            Time => &TIMES,
-            Storage | Loss | Relaxation => &MODULI,
-            Temperature => &[("C", 1.0), ("°C", 1.0), ("K", 1.0)],
-            LossFactor | Set | Other => &[("-", 1.0), ("", 1.0), ("1", 1.0)],
-            Force => &FORCES,
-            Depth | Piezo | Height => &LENGTHS,
-            Deflection => &DEFLECTIONS,
+            Frequency => "Hz mHz kHz rad/s 1/s",
+            Time => "s ms us min h",
+            Storage | Loss | Relaxation => "Pa kPa MPa GPa",
+            Temperature => "C °C K",
+            LossFactor | Set | Other => "-  1",
+            Force => "N mN uN nN pN kN",
+            Depth | Piezo | Height => "m mm um nm pm A",
+            // Lengths, and what a detector says.
+            Deflection => "m um nm pm V mV",
         }
+    }
+
+    /// What turns a number with one of these units into SI.
+    fn factor(self, unit: &str) -> f64 {
+        let of_unit = match unit {
+            "Hz" | "mHz" | "kHz" => TAU,
+            "min" => return 60.0,
+            "h" => return 3600.0,
+            "A" => return 1e-10,
+            _ => 1.0,
+        };
+        let prefixes = "pnumkMG"
+            .chars()
+            .zip([1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9]);
+        let mut prefix = prefixes.filter(|(prefix, _)| unit.len() > 1 && unit.starts_with(*prefix));
+        of_unit * prefix.next().map_or(1.0, |(_, factor)| factor)
     }
 }
 
-const FREQUENCIES: [(&str, f64); 5] = [
-    ("Hz", TAU),
-    ("mHz", 1e-3 * TAU),
-    ("kHz", 1e3 * TAU),
-    ("rad/s", 1.0),
-    ("1/s", 1.0),
-];
-const TIMES: [(&str, f64); 5] = [
-    ("s", 1.0),
-    ("ms", 1e-3),
-    ("us", 1e-6),
-    ("min", 60.0),
-    ("h", 3600.0),
-];
-const FORCES: [(&str, f64); 6] = [
-    ("N", 1.0),
-    ("mN", 1e-3),
-    ("uN", 1e-6),
-    ("nN", 1e-9),
-    ("pN", 1e-12),
-    ("kN", 1e3),
-];
-const LENGTHS: [(&str, f64); 6] = [
-    ("m", 1.0),
-    ("mm", 1e-3),
-    ("um", 1e-6),
-    ("nm", 1e-9),
-    ("pm", 1e-12),
-    ("A", 1e-10),
-];
-/// Lengths, and what a detector says.
-const DEFLECTIONS: [(&str, f64); 6] = [
-    ("m", 1.0),
-    ("um", 1e-6),
-    ("nm", 1e-9),
-    ("pm", 1e-12),
-    ("V", 1.0),
-    ("mV", 1e-3),
-];
-const MODULI: [(&str, f64); 4] = [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
 /// Other ways to write them.
-const SAME_UNITS: [(&str, &str); 14] = [
+const SAME_UNITS: [(&str, &str); 8] = [
     ("N/mm²", "MPa"),
     ("N/mm^2", "MPa"),
     ("rad/sec", "rad/s"),
@@ -170,11 +148,5 @@ const SAME_UNITS: [(&str, &str); 14] = [
     ("sec", "s"),
     ("ºC", "°C"),
     ("deg C", "°C"),
-    ("µs", "us"),
-    ("μs", "us"),
-    ("µm", "um"),
-    ("μm", "um"),
-    ("µN", "uN"),
-    ("μN", "uN"),
     ("Å", "A"),
 ];

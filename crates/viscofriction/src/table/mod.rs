@@ -100,8 +100,7 @@ impl<'a> Source<'a> {
         let lines = &self.lines;
         let is_head = |at: &usize| {
             let columns = self.columns(&lines[*at]);
-            let quantities: Vec<Quantity> = columns.iter().map(|column| column.quantity).collect();
-            (self.vocabulary.is_head)(&quantities)
+            (self.vocabulary.is_head)(&quantities(&columns))
         };
         let heads: Vec<usize> = (0..lines.len()).filter(is_head).collect();
         let ends = heads.iter().skip(1).copied().chain([lines.len()]);
@@ -177,6 +176,10 @@ impl<'a> Source<'a> {
     }
 }
 
+fn quantities(columns: &[Column]) -> Vec<Quantity> {
+    columns.iter().map(|column| column.quantity).collect()
+}
+
 /// A cell as a part of one line; a quote that is never closed makes the rest of the line one cell.
 fn shown(cell: &str, most: usize) -> String {
     let is_end = |(at, character): &(usize, char)| *at >= most || character.is_control();
@@ -192,7 +195,7 @@ impl<'a> Table<'a> {
         let head = &block[0];
         let vocabulary = source.vocabulary;
         let mut columns = source.columns(head);
-        let quantities: Vec<Quantity> = columns.iter().map(|column| column.quantity).collect();
+        let quantities = quantities(&columns);
         let needed = (vocabulary.needed)(&quantities);
         if let Some(missing) = needed.iter().find(|one| !quantities.contains(one)) {
             let [what, names, found] = [missing.usual(), vocabulary.names, &source.found(head)];
@@ -220,8 +223,8 @@ impl<'a> Table<'a> {
         for column in &self.columns {
             let first = self.find(column.quantity);
             let is_again = first.is_some_and(|first| {
-                first.place < column.place
-                    && (first.quantity != Frequency || first.name == column.name)
+                let may_be_there = first.quantity == Frequency && first.name != column.name;
+                first.place < column.place && !may_be_there
             });
             let storage = self.find(Storage).filter(|_| column.quantity == Loss);
             let other = storage.filter(|storage| storage.deformation != column.deformation);
@@ -247,10 +250,8 @@ impl<'a> Table<'a> {
         let mut units = below.map_or(Vec::new(), |line| layout.names(line.text));
         if layout.is_blank() {
             // The first columns may be without.
-            let missing = layout
-                .names(block[0].text)
-                .len()
-                .saturating_sub(units.len());
+            let n_names = layout.names(block[0].text).len();
+            let missing = n_names.saturating_sub(units.len());
             units.splice(0..0, vec![""; missing]);
         }
         for column in &mut self.columns {
@@ -260,8 +261,7 @@ impl<'a> Table<'a> {
                 column.unit = units.get(column.place).copied().unwrap_or_default();
             }
             let Some((unit, factor)) = column.quantity.unit(column.unit) else {
-                let known = column.quantity.units().iter().map(|(unit, _)| *unit);
-                let known = known.collect::<Vec<_>>().join(", ");
+                let known = column.quantity.units().replace(' ', ", ");
                 let expected = format!("the unit of {}: {known}", shown(column.name, 40));
                 let source = self.source;
                 return Err(source.wrong(line.number, column, &expected, column.unit));
@@ -281,13 +281,9 @@ impl<'a> Table<'a> {
     fn rows<'b>(&self, block: &'b [Line<'a>], is_last: bool) -> Vec<&'b Line<'a>> {
         let lines = block[self.n_heads..].iter();
         let mut lines: Vec<&Line> = lines.filter(|line| !is_comment(line.text)).collect();
-        let is_number = |line, one| {
-            self.find(one)
-                .is_some_and(|one| self.number(line, one).is_ok())
-        };
         let n_numbers = |line| {
-            let columns = self.needed.iter();
-            columns.filter(|one| is_number(line, **one)).count()
+            let columns = self.needed.iter().filter_map(|one| self.find(*one));
+            columns.filter(|one| self.number(line, one).is_ok()).count()
         };
         while !is_last && lines.last().is_some_and(|line| n_numbers(*line) < 2) {
             lines.pop();

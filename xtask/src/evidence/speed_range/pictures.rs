@@ -1,5 +1,7 @@
 //! The curves and the map as pictures.
 
+use std::iter::once;
+
 use anyhow::{Context, Result};
 use rheology::StandardSolid;
 use viscofriction_plot::{
@@ -150,10 +152,7 @@ pub(super) fn validity(
             let model = model.name().replace('-', " ");
             panels.push(Chart {
                 title: Some(format!("{}, {model}", name(exponent))),
-                series: [window.clone()]
-                    .into_iter()
-                    .chain(outline(borders))
-                    .collect(),
+                series: once(window.clone()).chain(outline(borders)).collect(),
                 ..Chart::map(x, y, field)
             });
         }

@@ -21,15 +21,9 @@ const WIDTHS: [f64; 6] = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
 const ELEMENTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 7.0, 30.0, 100.0, 1000.0];
 
 pub(super) fn all() -> Vec<Family> {
-    [
-        shapes(),
-        on_the_line(),
-        on_the_half_space(),
-        range::families(),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
+    let usual = shapes().into_iter().chain(on_the_line());
+    let usual = usual.chain(on_the_half_space());
+    usual.chain(range::families()).collect()
 }
 
 fn ratios() -> impl Iterator<Item = f64> {
