@@ -7,8 +7,6 @@ use bem_halfspace::{
     solve_contact,
 };
 use casebook::SquareContact;
-use indenters::IndenterError;
-use indenters::rough::{PeriodicSurface, Wave};
 
 const MAX_ITERATIONS: usize = 500;
 
@@ -72,27 +70,39 @@ const DIRECTIONS: usize = 16;
 /// Periodic self-affine heights over `n` × `n` elements of the unit square, with the root of the mean square slope 1: a
 /// sum of waves like that of Weierstrass and Mandelbrot, of the lengths 1/4, 1/5.6, 1/8 … down to eight elements, 16
 /// directions each, with amplitudes `q^(−H)` for the Hurst exponent H = 0.8.
-///
-/// # Errors
-/// [`IndenterError`] for a grid without waves.
-pub fn rough_heights(n: usize) -> Result<Vec<f64>, IndenterError> {
-    let lengths = (4..).map(|step| 2.0_f64.powf(0.5 * f64::from(step)));
-    let lengths = lengths.take_while(|number| *number <= n as f64 / 8.0);
-    let waves = lengths.flat_map(|number| (0..DIRECTIONS).map(move |index| (number, index)));
-    let wave = |(index, (number, direction)): (usize, (f64, usize))| {
+#[must_use]
+pub fn rough_heights(n: usize) -> Vec<f64> {
+    let mut heights = vec![0.0; n * n];
+    let mut square_slope = 0.0;
+    let numbers = (4..).map(|step| 2.0_f64.powf(0.5 * f64::from(step)));
+    let numbers = numbers.take_while(|number| *number <= n as f64 / 8.0);
+    let waves = numbers.flat_map(|number| (0..DIRECTIONS).map(move |index| (number, index)));
+    for (index, (number, direction)) in waves.enumerate() {
         let angle = PI * (direction as f64 + 0.5) / DIRECTIONS as f64;
-        let numbers = [angle.cos(), angle.sin()].map(|part| (number * part).round());
-        #[expect(clippy::cast_possible_truncation, reason = "whole and small")]
-        let whole = numbers.map(|number| number as i32);
-        Wave {
-            numbers: whole,
-            amplitude: (TAU * numbers[0].hypot(numbers[1])).powf(-0.8),
-            // Equally distributed (Weyl).
-            phase: TAU * (index as f64 * 0.618_033_988_749_894_9).fract(),
+        let wave = [angle.cos(), angle.sin()].map(|part| (number * part).round());
+        let q = TAU * wave[0].hypot(wave[1]);
+        let amplitude = q.powf(-0.8);
+        square_slope += 0.5 * (q * amplitude).powi(2);
+        // Equally distributed (Weyl).
+        let phase = TAU * (index as f64 * 0.618_033_988_749_894_9).fract();
+        add_wave(&mut heights, wave, (amplitude, phase));
+    }
+    let scale = 1.0 / square_slope.sqrt();
+    heights.iter_mut().for_each(|height| *height *= scale);
+    heights
+}
+
+/// Adds a wave with so many periods along x and y.
+fn add_wave(heights: &mut [f64], wave: [f64; 2], (amplitude, phase): (f64, f64)) {
+    let n = heights.len().isqrt();
+    let angle = |periods: f64, index: usize| TAU * periods * index as f64 / n as f64;
+    let along_y: Vec<[f64; 2]> = (0..n)
+        .map(|column| angle(wave[1], column).sin_cos().into())
+        .collect();
+    for (row, heights) in heights.chunks_exact_mut(n).enumerate() {
+        let (sine, cosine) = (angle(wave[0], row) + phase).sin_cos();
+        for (height, [sine_y, cosine_y]) in heights.iter_mut().zip(&along_y) {
+            *height += amplitude * (cosine * cosine_y - sine * sine_y);
         }
-    };
-    let surface = PeriodicSurface::new([1.0; 2], waves.enumerate().map(wave).collect())?;
-    let scale = surface.rms_slope().recip();
-    let heights = surface.heights([n; 2])?.into_iter();
-    Ok(heights.map(|height| scale * height).collect())
+    }
 }

@@ -1,8 +1,10 @@
 //! Contacts of one instant on a given grid.
 
 use anyhow::Result;
-use bem_halfspace::ContactState;
-use benches::ContactScene;
+use bem_halfspace::{
+    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
+    solve_contact,
+};
 use casebook::{SquareContact, deviation};
 use viscofriction::scene::Model;
 
@@ -29,7 +31,9 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
             ..row()
         };
         measured.add(run, || {
-            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
+            let convolution = Convolution::new(&grid(edge)?);
+            let body = SquareContact::hertz(edge, 0.0);
+            let (contact, state) = solve(&convolution, &body, TOLERANCE)?;
             let depth = [contact.indentation_depth];
             Ok(found(&state, &depth, &[SquareContact::HERTZ_DEPTH]))
         });
@@ -38,8 +42,9 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
-    let scene = ContactScene::periodic(self_affine(edge))?;
-    let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
+    let body = SquareContact::rough(self_affine(edge));
+    let convolution = Convolution::periodic(&grid(edge)?);
+    let (contact, exact) = solve(&convolution, &body, REFERENCE_TOLERANCE)?;
     for tolerance in TOLERANCES {
         let run = Row {
             scene: "rough surface",
@@ -51,7 +56,7 @@ pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
             ..row()
         };
         measured.add(run, || {
-            let (_, state) = scene.solve(tolerance)?;
+            let (_, state) = solve(&convolution, &body, tolerance)?;
             Ok(found(&state, state.pressure(), exact.pressure()))
         });
     }
@@ -72,4 +77,28 @@ fn found(state: &ContactState, values: &[f64], exact: &[f64]) -> Found {
         error_bar: None,
         unknowns: state.pressure().len(),
     }
+}
+
+fn grid(edge: usize) -> Result<Grid> {
+    Ok(Grid::new([edge; 2], [1.0 / edge as f64; 2])?)
+}
+
+/// Solves a contact from a cold start.
+fn solve(
+    convolution: &Convolution,
+    body: &SquareContact,
+    tolerance: f64,
+) -> Result<(Contact, ContactState)> {
+    let problem = ContactProblem {
+        convolution,
+        separation: &body.heights,
+        compliance: SquareContact::COMPLIANCE,
+        control: Control::NormalForce(body.force),
+    };
+    let options = ContactOptions {
+        tolerance,
+        ..ContactOptions::default()
+    };
+    let mut state = ContactState::new(convolution);
+    Ok((solve_contact(&problem, &mut state, &options)?, state))
 }
