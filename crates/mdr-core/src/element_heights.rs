@@ -88,6 +88,15 @@ impl ElementHeights {
         self.anchor + (ahead - behind) * self.spacing
     }
 
+    /// The contact has reached an element beyond which the line is not given.
+    pub(crate) fn reached(&self, element: usize, indentation_depth: f64, time: f64) -> MdrError {
+        MdrError::ContactReachesEdge {
+            position: self.position(element),
+            indentation_depth,
+            time,
+        }
+    }
+
     /// Σ max(0, level − h_i) Δx, \[m²].
     fn area_below(&self, level: f64) -> f64 {
         let sum: f64 = self.heights.iter().map(|h| (level - h).max(0.0)).sum();

@@ -10,9 +10,9 @@ use numerics::{ErrorParts, Estimate, Goal, Quantity, Refined, Request, refine};
 use rheology::Material;
 
 use crate::MdrError;
-use crate::chain::is_elastic;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
+use march::is_elastic;
 use memory::{ahead, has_memory};
 use on_grid::march;
 pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
