@@ -43,15 +43,6 @@ pub(super) struct March {
     n_steps: usize,
 }
 
-/// Errors that all resolutions may have in common.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub(super) struct Unresolved {
-    pub(super) friction_coefficient: f64,
-    /// \[m].
-    pub(super) indentation_depth: f64,
-}
-
 /// The state at the end of a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stepped {
@@ -192,7 +183,8 @@ impl March {
         sums
     }
 
-    /// What a line that rises by more than its neighbours do within one element may do to the last step.
+    /// What a line that rises by more than its neighbours do within one element may do to the friction coefficient and the
+    /// depth \[m] of the last step, on all resolutions alike.
     ///
     /// ```text
     /// δμ = w_f (h_(f+1) − d)⁺/Δx · 4 Δx/F_N + (2/F_N) Σ_k G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²
@@ -201,7 +193,7 @@ impl March {
     /// The foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and branches
     /// that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r, which is
     /// r_(j−1) where it rises evenly, and which the step does not see.
-    pub(super) fn unresolved(&self) -> Unresolved {
+    pub(super) fn unresolved(&self) -> [f64; 2] {
         let (line, depth) = (&self.line, self.depth);
         let heights = &line.heights;
         let rise = |element: usize| heights[element + 1].min(depth) - heights[element];
@@ -217,10 +209,10 @@ impl March {
             }
         }
         let [stored, carried] = self.fast_moduli;
-        Unresolved {
-            friction_coefficient: (beyond + 2.0 * stored * squares) / self.normal_force,
-            indentation_depth: depth * (8.0 * carried * jumps / self.normal_force),
-        }
+        [
+            (beyond + 2.0 * stored * squares) / self.normal_force,
+            depth * (8.0 * carried * jumps / self.normal_force),
+        ]
     }
 
     fn row(

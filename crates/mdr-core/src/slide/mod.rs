@@ -203,9 +203,9 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             ..ErrorParts::NONE
         });
         if has_steep_kinks(self.line) && !is_elastic(&self.material.creep()) {
-            let unresolved = march.transient.unresolved;
-            parts[0].discretisation = Some(unresolved.friction_coefficient);
-            parts[1].discretisation = Some(unresolved.indentation_depth);
+            for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
+                part.discretisation = Some(unresolved);
+            }
         }
         Ok(parts)
     }
