@@ -3,42 +3,12 @@
 //! ```text
 //! f = 4 η Δx du/dt                                   (10)
 //! f_i = (4 Δx / α) max(0, d − h_i − u_i)              over one implicit step of compliance α
-//! Σ f_i = F_N
+//! Σ (d − h_i − u_i)⁺ = α F_N / (4 Δx)
 //! ```
-//! The load potential of an element under the force f is w = f/(4 Δx), and a step moves it by α w. The force is a
+//! The load potential of an element under the force f is w = f/(4 Δx), and a step moves it by α w. The sum is a
 //! convex, increasing, piecewise-linear function of the depth, so that Newton's method ends at the solution itself.
 
-use crate::MdrError;
 use crate::compensated::CompensatedSum;
-use numerics::positive;
-
-/// What one element does in one step.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Element {
-    spacing: f64,
-    pub(crate) compliance: f64,
-}
-
-impl Element {
-    /// An element of a chain with a `spacing` Δx > 0 \[m], over a step of compliance α \[1/Pa].
-    pub(crate) fn new(spacing: f64, compliance: f64) -> Result<Self, MdrError> {
-        Ok(Self {
-            spacing,
-            compliance: positive("compliance", compliance)?,
-        })
-    }
-
-    /// Force on the element when it is compressed by `compression` \[m] in the step: f = 4 Δx · compression/α, \[N].
-    pub(crate) fn force(&self, compression: f64) -> f64 {
-        4.0 * self.spacing * (compression / self.compliance)
-    }
-
-    /// The compression \[m] of one element under a `force` \[N].
-    pub(crate) fn compression(&self, force: f64) -> f64 {
-        // In this order forces whose square is no number stay in range.
-        0.25 * force / self.spacing * self.compliance
-    }
-}
 
 /// A rigid line over a chain, before the depth of the instant is known.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +17,6 @@ pub(crate) struct Instant<'a> {
     pub(crate) heights: &'a [f64],
     /// Displacements u_i that the elements would have at the end of the step without load, \[m].
     pub(crate) displacements: &'a [f64],
-    pub(crate) element: Element,
 }
 
 /// The elements below a depth, and the sum of their compressions.
@@ -59,15 +28,14 @@ pub(crate) struct Level {
 }
 
 impl Instant<'_> {
-    /// The depth that carries `normal_force` ≥ 0 \[N], beginning with the elements below `guess`; without force the line
-    /// touches the first element.
+    /// The depth at which the compressions add up to what is `needed` ≥ 0 \[m], beginning with the elements below `guess`;
+    /// where that is 0 the line touches the first element.
     ///
     /// From the first step on Newton's method comes down to the solution from above, and its contacts are nested;
     /// when the contact has not lost an element, the equation is linear between the last two depths and solved. If f is
     /// the excess of force and g the number of elements, convexity gives f'/f + g'/g ≤ 1 from step to step, so that
     /// f g falls by a factor of four or more: the number of passes is logarithmic, with a guess two or three.
-    pub(crate) fn solve(&self, normal_force: f64, guess: f64) -> Level {
-        let needed = self.element.compression(normal_force);
+    pub(crate) fn solve(&self, needed: f64, guess: f64) -> Level {
         let guessed = self.level(guess);
         let mut level = self.level(if guessed.n_below == 0 {
             self.touch_depths().fold(f64::INFINITY, f64::min) + needed

@@ -4,7 +4,7 @@
 //! falls between two steps and never inside one, so that the slopes on its two sides are not mixed.
 
 use indenters::RigidLine;
-use numerics::{in_range, positive};
+use numerics::{golden_section, in_range, positive};
 
 use crate::MdrError;
 
@@ -86,6 +86,15 @@ impl ElementHeights {
         let ahead = element.saturating_sub(self.anchor_index) as f64;
         let behind = self.anchor_index.saturating_sub(element) as f64;
         self.anchor + (ahead - behind) * self.spacing
+    }
+
+    /// The contact has reached an element beyond which the line is not given.
+    pub(crate) fn reached(&self, element: usize, indentation_depth: f64, time: f64) -> MdrError {
+        MdrError::ContactReachesEdge {
+            position: self.position(element),
+            indentation_depth,
+            time,
+        }
     }
 
     /// Σ max(0, level − h_i) Δx, \[m²].
@@ -248,24 +257,14 @@ pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, 
 
 /// The lowest point within one spacing of the lowest sample, by golden section.
 fn refine_lowest(line: &(impl RigidLine + ?Sized), position: f64, spacing: f64) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    // Each pass shortens the bracket by the golden ratio; 80 passes exhaust the digits.
-    const PASSES: usize = 80;
     let [rear, front] = line.domain();
-    let mut left = (position - spacing).max(rear);
-    let mut right = (position + spacing).min(front);
-    for _ in 0..PASSES {
-        let inner_left = right - GOLDEN * (right - left);
-        let inner_right = left + GOLDEN * (right - left);
-        if line.height(inner_left) <= line.height(inner_right) {
-            right = inner_right;
-        } else {
-            left = inner_left;
-        }
-    }
-    let middle = left.midpoint(right);
-    if line.height(middle) <= line.height(position) {
-        middle
+    let bracket = [
+        (position - spacing).max(rear),
+        (position + spacing).min(front),
+    ];
+    let lowest = golden_section(|x| line.height(x), bracket);
+    if line.height(lowest) <= line.height(position) {
+        lowest
     } else {
         position
     }

@@ -3,8 +3,8 @@
 //! [`Material`](rheology::Material).
 //!
 //! [`steady`](steady()) is the stationary state of sliding, [`slide`](slide()) the approach to it from first touch, [`indent`](indent())
-//! pressing for a time, [`press`](press()) the contact at rest; each gives its numbers with their errors. The functions
-//! `…_on_grid` march on one stated resolution. A body of revolution is given by its
+//! pressing for a time, [`press`](press()) the contact at rest; each gives its numbers with their errors.
+//! [`slide_on_grid`] marches on one stated resolution. A body of revolution is given by its
 //! [`EquivalentLine`](indenters::EquivalentLine), or any other [`RigidLine`](indenters::RigidLine) as it is.
 //!
 //! The cone of Fig. 7 has the friction coefficient μ = (π/2) c₁, (21), at every speed:
@@ -28,7 +28,6 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
-mod chain;
 mod compensated;
 mod contact;
 mod element_heights;
@@ -43,9 +42,7 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, HistoryPoint, force_derivatives, indent_along,
 };
-pub use indent::{
-    IndentOptions, IndentRow, IndentStep, Indentation, indent, indent_history, indent_on_grid,
-};
+pub use indent::{Indentation, indent};
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};

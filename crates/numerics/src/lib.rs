@@ -45,4 +45,4 @@ pub use quadrature::{integrate, integrate_from_ends};
 pub use refinement::{
     Accuracy, Goal, NotReached, Quantity, Refined, Request, no_other_error, refine,
 };
-pub use root::{bracketed_root, try_bracketed_root};
+pub use root::{bracketed_root, golden_section, try_bracketed_root};

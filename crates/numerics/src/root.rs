@@ -70,6 +70,22 @@ pub fn try_bracketed_root<E>(
 /// Bisection alone needs about 2100 halvings between the smallest and the largest number.
 const MAX_ITERATIONS: usize = 2200;
 
+/// The position of the minimum of a function that has one in a bracket, by golden section to the last digits.
+pub fn golden_section(function: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    // Each pass shortens the bracket by the golden ratio; 80 passes exhaust the digits.
+    const PASSES: usize = 80;
+    for _ in 0..PASSES {
+        let inner = GOLDEN * (high - low);
+        if function(high - inner) <= function(low + inner) {
+            high = low + inner;
+        } else {
+            low = high - inner;
+        }
+    }
+    low.midpoint(high)
+}
+
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;

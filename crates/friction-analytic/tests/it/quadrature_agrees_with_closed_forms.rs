@@ -95,19 +95,6 @@ fn the_transform_by_quadrature_gives_the_same_friction() {
 }
 
 #[test]
-fn a_single_term_slides_like_its_power() {
-    for p in [0.51, 0.75, 1.0, 2.0, 7.5, 64.0] {
-        let (material, load) = with_depth(0.1);
-        let single = power_sliding(&power(0.4, p), &material, &load).unwrap();
-        let sum = sum_up(&superposition(&[(0.4, p)]), 0.1).unwrap();
-        // c x^p is rounded in proportion to p.
-        let tolerance = 1e-14 + 4.0 * f64::EPSILON * p;
-        assert_close!(sum.friction_coefficient => single.friction_coefficient, within tolerance; "p = {p}");
-        assert_close!(sum.contact_length() => single.contact_length(), within 1e-14; "p = {p}");
-    }
-}
-
-#[test]
 fn a_sum_that_turns_downwards_is_refused() {
     // h̃ = (π/2) x − 2 x² has its maximum π²/32 at π/8.
     let sum = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);

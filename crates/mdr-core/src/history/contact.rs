@@ -14,7 +14,7 @@ use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::Measured;
 use super::edge::Edge;
-use super::element::{Elements, Free, State};
+use super::element::{Elements, State};
 use super::path::{Instant, Path, ROUNDING};
 use super::radius::Radii;
 use crate::MdrError;
@@ -67,8 +67,6 @@ pub(super) struct Contact<'a> {
     pub(super) edge_modulus: Option<f64>,
     /// What comes after the edge has turned within a segment.
     turned: Option<Motion>,
-    /// The element at the centre after the contact was lost.
-    centre: Option<Free>,
 }
 
 /// Nodes of a panel.
@@ -94,7 +92,6 @@ impl<'a> Contact<'a> {
             quadrature_error: 0.0,
             edge_modulus: None,
             turned: None,
-            centre: None,
         }
     }
 
@@ -105,35 +102,25 @@ impl<'a> Contact<'a> {
 
     /// η₀ ḋ a + Σ Φ_k, and the size of its terms.
     pub(super) fn load(&self) -> [f64; 2] {
-        let segment = self.path.times.len() - 2;
-        let viscous = match self.path.step(segment) {
+        let end = self.path.end();
+        let viscous = match self.path.step(end.segment) {
             0.0 => 0.0,
-            _ => self.path.viscosity * self.path.speed(segment) * self.radius(),
+            _ => self.path.viscosity * self.path.speed(end.segment) * self.radius(),
         };
-        let end = Instant { segment, part: 1.0 };
         let sum = viscous + self.sums.iter().sum::<f64>();
         let inner = self.sums.iter().map(|sum| sum.abs()).sum::<f64>();
-        [
-            sum,
-            viscous.abs() + inner + self.radius() * self.path.scale(end),
-        ]
+        let shared = self.radius() * self.path.scale(end);
+        [sum, viscous.abs() + inner + shared]
     }
 
     pub(super) fn measured(&self) -> Measured {
         let (time, depth) = self.path.last();
         let [load, terms] = self.load();
-        let end = Instant {
-            segment: self.path.times.len() - 2,
-            part: 1.0,
-        };
-        let edge = self
-            .rings
-            .last()
-            .zip(self.edge_modulus)
-            .map(|(ring, modulus)| {
-                let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
-                self.radii.at(depths)[1].abs() / modulus * self.path.scale(end)
-            });
+        let at_edge = self.rings.last().zip(self.edge_modulus);
+        let edge = at_edge.map(|(ring, modulus)| {
+            let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
+            self.radii.at(depths)[1].abs() / modulus * self.path.scale(self.path.end())
+        });
         Measured {
             point: [time, depth],
             load,
@@ -157,8 +144,10 @@ impl<'a> Contact<'a> {
     /// [`MdrError::NotADisc`].
     pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
         self.path.push(time, depth);
-        let segment = self.path.times.len() - 2;
-        let mut at = Instant { segment, part: 0.0 };
+        let mut at = Instant {
+            part: 0.0,
+            ..self.path.end()
+        };
         while at.part < 1.0 {
             at = self.move_on(at)?;
         }
@@ -169,9 +158,9 @@ impl<'a> Contact<'a> {
     fn move_on(&mut self, at: Instant) -> Result<Instant, MdrError> {
         let end = Instant { part: 1.0, ..at };
         if self.rings.is_empty() {
-            if let Some(centre) = &self.centre {
+            if let State::Free(centre) = self.elements().follow(f64::MIN_POSITIVE, &self.legs) {
                 // A contact that begins and ends within one segment is not seen.
-                if self.elements().gap(centre, end) > 0.0 {
+                if self.elements().gap(&centre, end) > 0.0 {
                     return Ok(end);
                 }
                 return self.grow_again([at, end], true);
@@ -358,9 +347,6 @@ impl<'a> Contact<'a> {
             self.rings.clear();
             self.inside.clear();
             self.sums.fill(0.0);
-            if let State::Free(free) = self.elements().follow(f64::MIN_POSITIVE, &self.legs) {
-                self.centre = Some(free);
-            }
             return Ok(to);
         };
         self.leave([at, to], [edge.radius, outer]);

@@ -12,7 +12,7 @@ use super::{HistoryPoint, checked};
 use crate::{MdrError, error};
 
 /// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ForceDerivatives {
     /// Normal force F, \[N].
     pub normal_force: Vec<f64>,
@@ -57,7 +57,12 @@ pub fn force_derivatives(
     }
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
     let spectrum = material.relaxation();
-    let mut result = ForceDerivatives::empty(spectrum.branches().len());
+    let of_branches = vec![Vec::new(); spectrum.branches().len()];
+    let mut result = ForceDerivatives {
+        moduli: of_branches.clone(),
+        relaxation_times: of_branches,
+        ..ForceDerivatives::default()
+    };
     if deepest == 0.0 {
         result.exact_until = points.len();
         points.iter().for_each(|_| result.push(None, 0.0));
@@ -82,20 +87,6 @@ pub fn force_derivatives(
 }
 
 impl ForceDerivatives {
-    fn empty(n_branches: usize) -> Self {
-        Self {
-            normal_force: Vec::new(),
-            contact_radius: Vec::new(),
-            equilibrium_modulus: Vec::new(),
-            viscosity: Vec::new(),
-            moduli: vec![Vec::new(); n_branches],
-            relaxation_times: vec![Vec::new(); n_branches],
-            depth: Vec::new(),
-            stretch: Vec::new(),
-            exact_until: 0,
-        }
-    }
-
     fn push(&mut self, contact: Option<(&Approach, [f64; 3])>, factor: f64) {
         let n_branches = self.moduli.len();
         let [

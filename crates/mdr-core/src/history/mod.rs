@@ -163,9 +163,10 @@ fn along_depth(
     options: &Follow,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let deepest = points.iter().map(|[_, depth]| *depth).fold(0.0, f64::max);
-    let bars = Bars {
+    let mut bars = Bars {
         factor: 8.0 / material.half_space_factor(),
         modulus_error: options.modulus_error,
+        largest: 0.0,
     };
     let radii = Radii::new(body, deepest)?;
     let spectrum = material.relaxation();
@@ -179,15 +180,13 @@ fn along_depth(
     let mut approach = Approach::new(radii.clone(), &spectrum, points.len(), false);
     approach.start(points[0]);
     let mut curve = Vec::with_capacity(points.len());
-    let mut largest = 0.0_f64;
     for point in points {
         approach.follow(*point);
         if approach.is_touched_again {
-            return touched_again(body, material, points, radii, &bars);
+            bars.largest = 0.0;
+            return touched_again(body, material, points, radii, bars);
         }
-        let point = bars.point(&approach.measured(), largest);
-        largest = largest.max(point.normal_force.value);
-        curve.push(point);
+        curve.push(bars.point(&approach.measured()));
     }
     Ok(curve)
 }
@@ -198,24 +197,18 @@ fn touched_again(
     material: &dyn Material,
     points: &[[f64; 2]],
     radii: Radii,
-    bars: &Bars,
+    mut bars: Bars,
 ) -> Result<Vec<CurvePoint>, MdrError> {
     let mut path = Path::new(material);
-    let mut rest = points;
-    let mut curve = Vec::with_capacity(points.len());
     // A body that begins above the surface is there; one below it jumps there.
     path.push(points[0][0], points[0][1].min(0.0));
-    if points[0][1] <= 0.0 {
-        curve.push(free(points[0]));
-        rest = &points[1..];
-    }
+    let begins_above = points[0][1] <= 0.0;
+    let mut curve = Vec::with_capacity(points.len());
+    curve.extend(begins_above.then(|| free(points[0])));
     let mut contact = Contact::new(body, path, radii);
-    let mut largest = 0.0_f64;
-    for [time, depth] in rest {
+    for [time, depth] in &points[curve.len()..] {
         contact.follow(*time, *depth)?;
-        let point = bars.point(&contact.measured(), largest);
-        largest = largest.max(point.normal_force.value);
-        curve.push(point);
+        curve.push(bars.point(&contact.measured()));
     }
     Ok(curve)
 }
@@ -226,6 +219,8 @@ struct Bars {
     /// 8/(2 (1 − ν)).
     factor: f64,
     modulus_error: f64,
+    /// Largest force so far, \[N].
+    largest: f64,
 }
 
 /// Units in the last place of the terms of a sum that rounding may leave; the tests compare it with 40 digits.
@@ -246,13 +241,14 @@ struct Measured {
 }
 
 impl Bars {
-    /// A contact after a largest force.
-    fn point(&self, contact: &Measured, largest: f64) -> CurvePoint {
+    /// The next contact of a curve.
+    fn point(&mut self, contact: &Measured) -> CurvePoint {
         let [time, depth] = contact.point;
         let force = self.factor * contact.load;
+        self.largest = self.largest.max(force);
         let rounding = ROUNDING * contact.terms + contact.load_error;
         // By a shift of the edge the force changes in second order only, because its elements carry nothing.
-        let expansion = 2.0 * self.modulus_error * largest.max(force);
+        let expansion = 2.0 * self.modulus_error * self.largest;
         CurvePoint {
             time,
             indentation_depth: Estimate::exact(depth),

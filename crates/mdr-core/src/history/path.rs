@@ -94,6 +94,14 @@ impl Path {
         (self.times[last], self.depths[last])
     }
 
+    /// The end of the last segment.
+    pub(super) fn end(&self) -> Instant {
+        Instant {
+            segment: self.times.len() - 2,
+            part: 1.0,
+        }
+    }
+
     pub(super) fn n_branches(&self) -> usize {
         self.moduli.len()
     }
@@ -171,15 +179,10 @@ impl Path {
         }
     }
 
-    /// G(t − s) \[Pa] and its derivative with s, [Pa/s].
-    pub(super) fn modulus(&self, lag: &Lag) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for (k, decay) in lag.decays.iter().enumerate() {
-            let modulus = self.moduli[k] * decay;
-            sums[0] += modulus;
-            sums[1] += self.rates[k] * modulus;
-        }
-        sums
+    /// G(t − s), \[Pa].
+    pub(super) fn modulus(&self, lag: &Lag) -> f64 {
+        let branches = self.moduli.iter().zip(&lag.decays);
+        branches.map(|(modulus, decay)| modulus * decay).sum()
     }
 
     /// Size of the terms that cancel in the load of an element, \[Pa m].

@@ -73,12 +73,12 @@ impl Radii {
             // At the apex d^(1/p) is a polynomial only of a cone and of a flat end.
             let root = low == 0.0 && exponent.is_finite() && (exponent - 1.0).abs() > f64::EPSILON;
             if tiny || !root {
-                let fitted = Piece::fitted(body, depths, radii_there, &cosines);
-                if tiny || fitted.tail <= TAIL * outer {
+                let (piece, tail) = Piece::fitted(body, depths, radii_there, &cosines);
+                if tiny || tail <= TAIL * outer {
                     // At the apex the radius itself is the bound.
-                    let tail = if root { outer } else { fitted.tail };
+                    let tail = if root { outer } else { tail };
                     radii.area_error += 0.01 * tail * (high - low);
-                    radii.pieces.push(fitted.piece);
+                    radii.pieces.push(piece);
                     continue;
                 }
             }
@@ -180,11 +180,6 @@ impl Polynomial {
     }
 }
 
-struct Fitted {
-    piece: Piece,
-    tail: f64,
-}
-
 impl Piece {
     /// The first coefficients over the powers of ξ − start.
     fn about<const N_TERMS: usize>(&self, start: f64) -> [f64; ORDER] {
@@ -212,13 +207,13 @@ impl Piece {
         (depth - low) / (0.5 * (high - low)) - 1.0
     }
 
-    /// Interpolates at the zeros of the Chebyshev polynomial T_n.
+    /// Interpolates at the zeros of the Chebyshev polynomial T_n; the size of the last two terms tells how well.
     fn fitted(
         body: &dyn Axisymmetric,
         depths: [f64; 2],
         [inner, outer]: [f64; 2],
         cosines: &[[f64; ORDER]; ORDER],
-    ) -> Fitted {
+    ) -> (Self, f64) {
         let [low, high] = depths;
         let mut above = outer;
         let values: [f64; ORDER] = std::array::from_fn(|node| {
@@ -233,13 +228,11 @@ impl Piece {
         });
         series[0] *= 0.5;
         let coefficients = powers(&series);
-        Fitted {
-            tail: series[ORDER - 2].abs() + series[ORDER - 1].abs(),
-            piece: Self {
-                depths,
-                coefficients,
-            },
-        }
+        let piece = Self {
+            depths,
+            coefficients,
+        };
+        (piece, series[ORDER - 2].abs() + series[ORDER - 1].abs())
     }
 }
 

@@ -22,13 +22,13 @@ impl Contact<'_> {
             if ring.to != at {
                 let lag = self.path.lag(ring.to, at);
                 held(&mut sums, ring.outer, &lag);
-                self.edge_modulus = Some(self.path.modulus(&lag)[0]);
+                self.edge_modulus = Some(self.path.modulus(&lag));
             }
             return sums;
         }
         let lag = self.path.lag(ring.from, at);
         held(&mut sums, ring.inner, &lag);
-        self.edge_modulus = Some(self.path.modulus(&lag)[0]);
+        self.edge_modulus = Some(self.path.modulus(&lag));
         let around = self.ring_sums(&ring, at);
         sums.iter_mut()
             .zip(around)

@@ -1,37 +1,46 @@
-//! The chain in motion.
+//! The chain in motion: the elements under a line, and what they remember.
+//!
+//! ```text
+//! u_new = α w + history,   f = 4 Δx w        over one step of compliance α, w held
+//! ```
+//! A chain stores one number per element and retardation element of its material, one for free flow, none for an
+//! elastic material ([`rheology::ExponentialStep`]). A Poisson ratio other than 1/2 makes both parts of u larger by
+//! 2 (1 − ν).
 
-use indenters::{Control, RigidLine, SlidingLoad};
+use indenters::{RigidLine, SlidingLoad};
 use numerics::positive;
-use rheology::Material;
+use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use super::row::SlideRow;
 use crate::MdrError;
-use crate::chain::{Chain, Contact, is_elastic};
 use crate::compensated::CompensatedSum;
+use crate::contact::Instant;
 use crate::element_heights::ElementHeights;
 use crate::error::{enough_elements, finite};
 
 /// A line moving over a chain. All lists run from the rear to the front of the line.
 pub(super) struct March {
-    chain: Chain,
+    line: ElementHeights,
     /// Mean slope that an element meets during the step to which its force belongs.
     mean_slopes: Vec<f64>,
     /// h̃'(x) at the end of a step.
     end_slopes: Vec<f64>,
+    creep: CreepSpectrum,
+    half_space_factor: f64,
+    step: ExponentialStep,
+    state: Vec<f64>,
+    /// Load potentials of the last step.
+    values: Vec<f64>,
+    /// Depth after the last step, \[m].
+    depth: f64,
+    /// Compliance α of a step, [1/Pa], and what all elements are compressed by in sum, \[m].
+    compliance: f64,
+    compression: f64,
     /// Σ G_k min(1, Δx/(v τ_k)) \[Pa] and Σ G_k min(Δx, v τ_k) \[Pa m], of what is relaxed after a step.
     fast_moduli: [f64; 2],
     normal_force: f64,
     time_step: f64,
     n_steps: usize,
-}
-
-/// Errors that all resolutions may have in common.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub(super) struct Unresolved {
-    pub(super) friction_coefficient: f64,
-    /// \[m].
-    pub(super) indentation_depth: f64,
 }
 
 /// The state at the end of a step.
@@ -53,6 +62,8 @@ struct Sums {
     steepness: f64,
     /// With the slope of the line at the end of the step.
     end_slope: CompensatedSum,
+    /// The rearmost and the foremost loaded element.
+    ends: Option<[usize; 2]>,
 }
 
 impl March {
@@ -64,22 +75,35 @@ impl March {
         load: &SlidingLoad,
     ) -> Result<Self, MdrError> {
         let (n_elements, spacing) = (sampled.heights.len(), sampled.spacing);
-        let time_step = spacing / load.velocity();
-        let chain = Chain::new(sampled, material, time_step)?;
+        let (time_step, creep) = (spacing / load.velocity(), material.creep());
+        let step = ExponentialStep::creep(&creep, time_step)?;
+        let half_space_factor = material.half_space_factor();
+        let compliance = positive("compliance", half_space_factor * step.response())?;
         let normal_force = load.require_normal_force()?;
-        positive("compression", chain.element.compression(normal_force))?;
-        let pairs = chain.line.heights.windows(2);
+        // In this order forces whose square is no number stay in range.
+        let compression = 0.25 * normal_force / spacing * compliance;
+        let pairs = sampled.heights.windows(2);
         let slopes: Vec<f64> = pairs.map(|h| (h[1] - h[0]) / spacing).collect();
-        let positions = (0..n_elements).map(|element| chain.line.position(element));
+        let positions = (0..n_elements).map(|element| sampled.position(element));
         let end_slopes = positions.map(|x| line.slope(x)).collect();
-        let mut mean_slopes = mean_slopes(&slopes, chain.elastic_share());
+        // Part of the compliance of a step that is there at once.
+        let elastic_share = creep.instantaneous_compliance() / step.response();
+        let mut mean_slopes = mean_slopes(&slopes, elastic_share);
         // The last element never carries load: see `advance`.
         mean_slopes.push(f64::INFINITY);
         Ok(Self {
+            line: sampled,
             mean_slopes,
             end_slopes,
-            chain,
+            state: vec![0.0; step.n_fields() * n_elements],
+            values: vec![0.0; n_elements],
+            depth: 0.0,
+            compliance,
+            compression: positive("compression", compression)?,
             fast_moduli: fast_moduli(material, load.velocity(), spacing),
+            creep,
+            half_space_factor,
+            step,
             normal_force,
             time_step,
             n_steps: 0,
@@ -88,48 +112,79 @@ impl March {
 
     /// Distance slid at the end of the step to come, \[m].
     pub(super) fn next_sliding_distance(&self) -> f64 {
-        (self.n_steps + 1) as f64 * self.chain.line.spacing
+        (self.n_steps + 1) as f64 * self.line.spacing
     }
 
     /// One step; nothing at a depth at which elements would be needed that the chain has not.
     pub(super) fn advance(&mut self) -> Result<Option<Stepped>, MdrError> {
         self.n_steps += 1;
         let time = self.n_steps as f64 * self.time_step;
-        self.chain.travel();
-        let depth_before = self.chain.depth;
-        let (mean_slopes, end_slopes) = (&self.mean_slopes, &self.end_slopes);
-        let whole = self.chain.element.compression(self.normal_force);
-        let mut sums = Sums::default();
-        let add = |here: usize, compression: f64| {
-            // The product of a compression and a slope may be too small for a number where its part of the force is not.
-            let part = compression / whole;
-            sums.mean_slope.add(part * mean_slopes[here]);
-            sums.steepness += part * mean_slopes[here].abs();
-            sums.end_slope.add(part * end_slopes[here]);
+        self.travel();
+        let depth_before = self.depth;
+        self.step.history(&self.state, &mut self.values);
+        for value in &mut self.values {
+            *value *= self.half_space_factor;
+        }
+        let instant = Instant {
+            heights: &self.line.heights,
+            displacements: &self.values,
         };
-        let control = Control::NormalForce(self.normal_force);
-        let contact = self.chain.press(control, time, add)?;
-        if contact.indentation_depth > self.chain.line.ceiling {
+        let level = instant.solve(self.compression, depth_before);
+        self.depth = finite("indentation depth", level.depth, time)?;
+        let mut sums = self.press();
+        self.step.advance(&self.values, &mut self.state);
+        if self.depth > self.line.ceiling {
             return Ok(None);
         }
-        let Some([rear, front]) = contact.ends else {
-            return enough_elements(0, self.chain.line.spacing).map(|()| None);
+        let Some([rear, front]) = sums.ends else {
+            return enough_elements(0, self.line.spacing).map(|()| None);
         };
-        if front + 1 == self.chain.line.heights.len() {
-            return Err(self.chain.reaches_edge(front, time));
+        if front + 1 == self.line.heights.len() {
+            return Err(self.line.reached(front, self.depth, time));
         }
         // The slopes of a contact that ends inside the line sum up to nothing on springs.
-        if is_elastic(&self.chain.creep) && rear > 0 {
+        if is_elastic(&self.creep) && rear > 0 {
             sums.mean_slope = CompensatedSum::default();
         }
         Ok(Some(Stepped {
-            row: self.row(&contact, [rear, front], &sums, depth_before)?,
+            row: self.row(level.n_below, [rear, front], &sums, depth_before)?,
             span: front + 1 - rear,
             steepness: sums.steepness,
         }))
     }
 
-    /// What a line that rises by more than its neighbours do within one element may do to the last step.
+    /// Moves the line on by one element: each comes under the place behind, and one that is at rest enters in front.
+    fn travel(&mut self) {
+        let n_elements = self.values.len();
+        for field in self.state.chunks_exact_mut(n_elements) {
+            field.copy_within(1.., 0);
+            field[n_elements - 1] = 0.0;
+        }
+    }
+
+    /// Loads the elements that would be above the line, from the rear to the front.
+    fn press(&mut self) -> Sums {
+        let mut sums = Sums::default();
+        let elements = self.values.iter_mut().zip(&self.line.heights);
+        for (here, (value, height)) in elements.enumerate() {
+            let compression = self.depth - (height + *value);
+            if compression <= 0.0 {
+                *value = 0.0;
+                continue;
+            }
+            *value = compression / self.compliance;
+            // The product of a compression and a slope may be too small for a number where its part of the force is not.
+            let part = compression / self.compression;
+            sums.mean_slope.add(part * self.mean_slopes[here]);
+            sums.steepness += part * self.mean_slopes[here].abs();
+            sums.end_slope.add(part * self.end_slopes[here]);
+            sums.ends = Some([sums.ends.map_or(here, |[rear, _]| rear), here]);
+        }
+        sums
+    }
+
+    /// What a line that rises by more than its neighbours do within one element may do to the friction coefficient and the
+    /// depth \[m] of the last step, on all resolutions alike.
     ///
     /// ```text
     /// δμ = w_f (h_(f+1) − d)⁺/Δx · 4 Δx/F_N + (2/F_N) Σ_k G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²
@@ -138,38 +193,40 @@ impl March {
     /// The foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and branches
     /// that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r, which is
     /// r_(j−1) where it rises evenly, and which the step does not see.
-    pub(super) fn unresolved(&self) -> Unresolved {
-        let (heights, depth) = (&self.chain.line.heights, self.chain.depth);
+    pub(super) fn unresolved(&self) -> [f64; 2] {
+        let (line, depth) = (&self.line, self.depth);
+        let heights = &line.heights;
         let rise = |element: usize| heights[element + 1].min(depth) - heights[element];
         let (mut beyond, mut jumps, mut squares) = (0.0, 0.0, 0.0);
-        for (element, part) in self.chain.forces().enumerate() {
+        for (element, value) in self.values.iter().enumerate() {
+            let part = 4.0 * line.spacing * value;
             if part > 0.0 && element + 1 < heights.len() {
                 let before = if element > 0 { rise(element - 1) } else { 0.0 };
                 let jump = rise(element) - before;
                 jumps += jump.abs();
                 squares += jump * jump;
-                beyond = part * (heights[element + 1] - depth).max(0.0) / self.chain.line.spacing;
+                beyond = part * (heights[element + 1] - depth).max(0.0) / line.spacing;
             }
         }
         let [stored, carried] = self.fast_moduli;
-        Unresolved {
-            friction_coefficient: (beyond + 2.0 * stored * squares) / self.normal_force,
-            indentation_depth: depth * (8.0 * carried * jumps / self.normal_force),
-        }
+        [
+            (beyond + 2.0 * stored * squares) / self.normal_force,
+            depth * (8.0 * carried * jumps / self.normal_force),
+        ]
     }
 
     fn row(
         &self,
-        contact: &Contact,
+        n_contact: usize,
         ends: [usize; 2],
         sums: &Sums,
         depth_before: f64,
     ) -> Result<SlideRow, MdrError> {
-        let line = &self.chain.line;
+        let line = &self.line;
         let time = self.n_steps as f64 * self.time_step;
         let friction = sums.mean_slope.value();
         let end_of_step = sums.end_slope.value();
-        let depth = contact.indentation_depth;
+        let depth = self.depth;
         Ok(SlideRow {
             sliding_distance: self.n_steps as f64 * line.spacing,
             time,
@@ -178,8 +235,8 @@ impl March {
             friction_coefficient_end_of_step: end_of_step.is_finite().then_some(end_of_step),
             sinking_velocity: (depth - depth_before) / self.time_step,
             contact: ends.map(|element| line.position(element)),
-            n_contact: contact.n_contact,
-            contact_length: contact.n_contact as f64 * line.spacing,
+            n_contact,
+            contact_length: n_contact as f64 * line.spacing,
         })
     }
 }
@@ -205,4 +262,9 @@ fn mean_slopes(slopes: &[f64], elastic_share: f64) -> Vec<f64> {
     let before = rear.chain(slopes);
     let mean = |(slope, before): (&f64, &f64)| slope - 0.5 * elastic_share * (slope - before);
     slopes.iter().zip(before).map(mean).collect()
+}
+
+/// Whether nothing of a material depends on time.
+pub(super) fn is_elastic(creep: &CreepSpectrum) -> bool {
+    creep.elements().is_empty() && creep.fluidity() == 0.0
 }

@@ -13,8 +13,8 @@
 
 use rheology::{Compressible, CreepSpectrum, ExponentialStep, Material, Prony, RetardationElement};
 
+use super::march::is_elastic;
 use crate::MdrError;
-use crate::chain::is_elastic;
 
 /// Whether a step changes the memory of a material: not without memory, nor without a spring that acts at once.
 pub(super) fn has_memory(creep: &CreepSpectrum) -> bool {

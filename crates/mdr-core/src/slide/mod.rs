@@ -10,9 +10,9 @@ use numerics::{ErrorParts, Estimate, Goal, Quantity, Refined, Request, refine};
 use rheology::Material;
 
 use crate::MdrError;
-use crate::chain::is_elastic;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
+use march::is_elastic;
 use memory::{ahead, has_memory};
 use on_grid::march;
 pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
@@ -203,9 +203,9 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             ..ErrorParts::NONE
         });
         if has_steep_kinks(self.line) && !is_elastic(&self.material.creep()) {
-            let unresolved = march.transient.unresolved;
-            parts[0].discretisation = Some(unresolved.friction_coefficient);
-            parts[1].discretisation = Some(unresolved.indentation_depth);
+            for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
+                part.discretisation = Some(unresolved);
+            }
         }
         Ok(parts)
     }

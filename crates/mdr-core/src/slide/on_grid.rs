@@ -16,7 +16,7 @@ use indenters::{RigidLine, SlidingLoad};
 use numerics::{between_zero_and_one, in_range, positive};
 use rheology::{ExponentialStep, Material};
 
-use super::march::{March, Stepped, Unresolved};
+use super::march::{March, Stepped};
 use super::row::SlideRow;
 use crate::MdrError;
 use crate::element_heights::{ElementHeights, checked_height};
@@ -91,9 +91,9 @@ pub struct Transient {
     pub last: SlideRow,
     /// Larger of the relative changes of depth and friction coefficient over the last contact length.
     pub drift: f64,
-    /// What a front that rises within one element and is relaxed within one step may do.
+    /// What a front that rises within one element and is relaxed within one step may do to friction and depth.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) unresolved: Unresolved,
+    pub(super) unresolved: [f64; 2],
 }
 
 /// Memory that [`slide`](super::slide) takes at most for a number of elements along the contact, most of it for its steps,

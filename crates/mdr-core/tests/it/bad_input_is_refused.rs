@@ -1,14 +1,15 @@
 //! Bad input is refused with its name and value, before anything is computed (casebook EXT-01).
 
-use casebook::{NEGATIVE, NOT_POSITIVE, assert_close, assert_matches, refuses};
-use indenters::{Control, EquivalentLine, RigidLine, SlidingLoad};
+use casebook::{NOT_POSITIVE, assert_close, assert_matches, refuses};
+use indenters::{Control, EquivalentLine, PressingLoad, RigidLine, SlidingLoad};
 use mdr_core::{
-    IndentRow, MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady,
+    Indentation, MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady,
 };
+use numerics::Accuracy;
 use rheology::Maxwell;
 
 use crate::support::{
-    ASKED, DEPTH, Line, VISCOSITY, endless, indent, line, load, load_for_depth, material, power,
+    ASKED, DEPTH, Line, VISCOSITY, endless, line, load, load_for_depth, material, power,
 };
 
 const GOOD: SlideOptions = SlideOptions {
@@ -27,17 +28,14 @@ fn slide_steadily(line: &impl RigidLine, relative_error: f64) -> Result<SteadySl
     steady(line, &material(VISCOSITY), &load, relative_error)
 }
 
-fn press(
-    times: &[f64],
-    spacing: f64,
-    control: impl Fn(f64) -> Control,
-) -> Result<Vec<IndentRow>, MdrError> {
-    let line = EquivalentLine(&power(2.0));
-    indent(&line, &material(VISCOSITY), times, spacing, control)
-}
-
-fn newton(_: f64) -> Control {
-    Control::NormalForce(1.0)
+fn press(line: &impl RigidLine, elements: usize) -> Result<Indentation, MdrError> {
+    let load = PressingLoad::new(Control::NormalForce(1.0), 1.0).expect("a load");
+    indent(
+        line,
+        &material(VISCOSITY),
+        &load,
+        Accuracy::Elements(elements),
+    )
 }
 
 /// Rows 16 and 21: the spacing is the grid and, through the speed, the time step.
@@ -61,54 +59,21 @@ fn numbers_are_checked() {
     refuses("drift_tolerance", &[2.0], |x| with(0.01, x, 10.0));
     refuses("max_sliding_distance", bad, |x| with(0.01, 1e-6, x));
     refuses("relative_error", bad, |x| slide_steadily(&line, x));
-    refuses("spacing", bad, |x| press(&[1.0], x, newton));
-    refuses("time", bad, |x| press(&[x], 0.01, newton));
-    refuses("time_step", &[0.0, -1.0], |x| {
-        press(&[2.0, 2.0 + x], 0.01, newton)
-    });
-    refuses("normal_force", NEGATIVE, |x| {
-        press(&[1.0], 0.01, |_| Control::NormalForce(x))
-    });
     let message = with(-2.0, 1e-6, 10.0).unwrap_err().to_string();
     let expected = "spacing must be finite and greater than 0, but is -2";
     assert_eq!(message, expected, "messages name numbers");
 }
 
 #[test]
-fn histories_without_a_contact_are_refused() {
-    let none = MdrError::Empty { list: "times" };
-    assert_eq!(press(&[], 0.01, newton), Err(none), "no times");
+fn pressing_without_a_contact_inside_the_line_is_refused() {
     assert_matches!(
-        press(&[1.0], 10.0, newton),
-        Err(MdrError::TooCoarse {
-            n_contact: 1,
-            needed: 3,
-            ..
-        })
-    );
-    assert_matches!(
-        press(&[1.0], 1e-12, newton),
-        Err(MdrError::TooManyElements { .. })
-    );
-    assert_matches!(
-        press(&[1.0], 0.01, |_| Control::IndentationDepth(f64::NAN)),
-        Err(MdrError::NonFinite {
-            quantity: "indentation depth",
-            ..
-        })
-    );
-    let lifted = |time: f64| match time {
-        1.0 => Control::IndentationDepth(-1.0),
-        _ => Control::NormalForce(0.0),
-    };
-    assert_matches!(
-        press(&[1.0, 2.0], 0.01, lifted),
-        Err(MdrError::TooCoarse { n_contact: 0, .. })
+        press(&EquivalentLine(&power(2.0)), 1),
+        Err(MdrError::TooCoarse { needed: 3, .. })
     );
     // The lowest point of the ramp is the end of its domain.
     let ramp = line([0.0, 3.0], |x| x);
     assert_matches!(
-        indent(&ramp, &material(VISCOSITY), &[1.0], 0.01, newton),
+        press(&ramp, 16),
         Err(MdrError::ContactReachesEdge { position, .. }) if position.abs() < 1e-12
     );
 }

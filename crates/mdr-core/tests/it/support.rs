@@ -6,13 +6,10 @@ use casebook::{Case, standard_solid};
 pub(crate) use casebook::{fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
-    SlidingLoad, Sphere, TruncatedParaboloid, stretch,
+    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone, SlidingLoad,
+    Sphere, TruncatedParaboloid, stretch,
 };
-use mdr_core::{
-    IndentRow, IndentStep, MdrError, SlideOptions, SteadySliding, Transient, indent_history,
-    slide_on_grid, steady,
-};
+use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
 use numerics::Estimate;
 use proptest::prelude::*;
 use rheology::{Material, Prony, Viscous};
@@ -160,22 +157,6 @@ pub(crate) fn slid(
     load: &SlidingLoad,
 ) -> SteadySliding {
     steady(line, material, load, ASKED).expect("a stationary state")
-}
-
-/// Presses by what a control says at each of some times.
-pub(crate) fn indent(
-    line: &(impl RigidLine + ?Sized),
-    material: &dyn Material,
-    times: &[f64],
-    spacing: f64,
-    control: impl Fn(f64) -> Control,
-) -> Result<Vec<IndentRow>, MdrError> {
-    let step = |time: &f64| IndentStep {
-        time: *time,
-        control: control(*time),
-    };
-    let steps: Vec<IndentStep> = times.iter().map(step).collect();
-    indent_history(line, material, &steps, spacing)
 }
 
 /// Asserts that errors at halved spacings fall with a power of the spacing, from each to the next.

@@ -1,10 +1,11 @@
 //! Numbers depend on the question, not on its units, also near the smallest and largest ones, where squares of depths are
 //! no numbers any more; and they are the same every time.
 
-use indenters::{Control, EquivalentLine, PowerProfile};
-use mdr_core::Transient;
+use indenters::{Control, EquivalentLine, PowerProfile, PressingLoad};
+use mdr_core::{Transient, indent};
+use numerics::Accuracy;
 
-use crate::support::{assert_close, indent, load, march, material, prony, slid};
+use crate::support::{assert_close, load, march, material, prony, slid};
 
 /// One unit of length, force and time, in units of SI.
 type Units = [f64; 3];
@@ -71,11 +72,11 @@ fn indentation_is_the_same_over_twenty_four_decades() {
     let depth = |[length, force, time]: Units| {
         let body = body(2.0, length);
         let dashpot = material(50.0 * force * time / (length * length));
+        let pressing = PressingLoad::new(Control::NormalForce(2.0 * force), 3.0 * time);
+        let pressing = pressing.expect("a load");
         let line = EquivalentLine(&body);
-        let times = [1.0 * time, 3.0 * time];
-        let force = |_| Control::NormalForce(2.0 * force);
-        let rows = indent(&line, &dashpot, &times, 0.01 * length, force).expect("a contact");
-        rows[1].indentation_depth / length
+        let pressed = indent(&line, &dashpot, &pressing, Accuracy::Elements(48));
+        pressed.expect("a contact").indentation_depth.value / length
     };
     let expected = depth([1.0; 3]);
     for units in all_units() {

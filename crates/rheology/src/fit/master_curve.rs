@@ -2,6 +2,7 @@
 
 use super::curve::{MeasuredCurve, ModulusPoint};
 use crate::RheologyError;
+use numerics::golden_section;
 
 /// Moduli over frequency at one temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,18 +188,3 @@ fn mean_square(fixed: &Line, moving: &Line, shift: f64) -> Option<f64> {
 const LEAST_OVERLAP: u32 = 4;
 /// Lines that are farther apart do not overlap.
 const FAR: f64 = 0.1;
-
-/// The minimum of a function with one minimum in the bracket.
-fn golden_section(cost: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    for _ in 0..60 {
-        let inner = golden * (high - low);
-        let [left, right] = [high - inner, low + inner];
-        if cost(left) <= cost(right) {
-            high = right;
-        } else {
-            low = left;
-        }
-    }
-    0.5 * (low + high)
-}

@@ -61,8 +61,8 @@ pub(crate) fn pressed(
         indentation_depth: Some(state.indentation_depth),
         error_parts: state.error_parts,
         contact_box: Some(contact_box(state.ends)),
-        unknowns: state.finest.last().map_or(0, |row| row.n_contact),
-        iterations: state.options.n_steps,
+        unknowns: state.n_contact,
+        iterations: 1,
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
     })
 }

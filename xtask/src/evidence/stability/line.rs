@@ -8,10 +8,8 @@ use friction_analytic::{
     kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse, power_sliding,
 };
 use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
-use mdr_core::{
-    IndentOptions, MdrError, SlideOptions, SteadySliding, Transient, indent_on_grid, slide_on_grid,
-    steady,
-};
+use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady};
+use numerics::Accuracy;
 use rheology::{
     KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, Viscous,
 };
@@ -147,26 +145,27 @@ pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Ro
 }
 
 /// Elements under the contact at the end of pressing.
-const PRESSED: f64 = 2000.0;
+const PRESSED: usize = 2000;
 
-/// Under a constant force 8 ∫ x h̃' dx = F J(t) in steps of any length; the same as on a dashpot of 1 Pa s after the
-/// impulse F J(t).
-pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
+/// Under a constant force 8 ∫ x h̃' dx = F J(t) at any time; the same as on a dashpot of 1 Pa s after the impulse F J(t).
+pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     let profile = PowerProfile::cone(0.1)?;
-    let duration = 3.0 * step;
-    let last = material.creep_compliance(duration)?;
-    // A force under which the last contact has the radius of about one.
+    let last = material.creep_compliance(time)?;
+    // A force under which the contact has the radius of about one.
     let force = 1.0 / last;
     let dashpot = Viscous::new(1.0)?;
     let expected = power_indentation_after_impulse(&profile, &dashpot, force * last)?;
-    let options = IndentOptions {
-        spacing: 2.0 * expected.contact_radius / PRESSED,
-        n_steps: 3,
-    };
-    let load = PressingLoad::new(Control::NormalForce(force), duration)?;
-    let rows = indent_on_grid(&EquivalentLine(&profile), material, &load, &options)?;
+    let load = PressingLoad::new(Control::NormalForce(force), time)?;
+    let got = indent(
+        &EquivalentLine(&profile),
+        material,
+        &load,
+        Accuracy::Elements(PRESSED),
+    )?;
+    let [got, depth] = [got.indentation_depth.value, expected.indentation_depth];
     // The sum over elements errs by a part of the last element at each end, of second order.
-    compare!(rows[2], expected, within 4.0 / (PRESSED * PRESSED); indentation_depth)
+    let tolerance = 4.0 / (PRESSED * PRESSED) as f64;
+    compare!(within tolerance; "indentation depth" => got, depth)
 }
 
 /// A march with so many elements along the stationary contact.
