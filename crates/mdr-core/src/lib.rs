@@ -33,7 +33,6 @@ mod contact;
 mod element_heights;
 mod error;
 mod history;
-mod indent;
 mod press;
 mod slide;
 mod steady;
@@ -42,8 +41,7 @@ pub use error::MdrError;
 pub use history::{
     CurvePoint, Follow, ForceDerivatives, HistoryPoint, force_derivatives, indent_along,
 };
-pub use indent::{Indentation, indent};
 pub use numerics::InvalidParameter;
-pub use press::{Pressed, press};
+pub use press::{Pressed, indent, press};
 pub use slide::{SlideOptions, SlideRow, Sliding, Transient, slide, slide_memory, slide_on_grid};
 pub use steady::{SteadySliding, steady};

@@ -1,17 +1,20 @@
-//! Static contact, long after pressing.
+//! Contact without sliding: after a time under a constant control, and long after pressing.
 //!
 //! ```text
-//! F_N = 4 G_∞/(2 (1 − ν)) ∫ (d − h̃)⁺ dx
+//! F_N = 4 G_∞/(2 (1 − ν)) ∫ (d − h̃)⁺ dx          at rest
+//! ∫ (d − h̃)⁺ dx = 2 (1 − ν) J(t) F_N/4           under a force that has been there for the time t
+//! F_N = 4 G(t)/(2 (1 − ν)) ∫ (d − h̃)⁺ dx         at a depth that has been there for the time t
 //! ```
+//! Until then the contact only grows, or stays as it is (Lee & Radok 1960).
 
-use indenters::{Control, RigidLine};
+use indenters::{Control, PressingLoad, RigidLine};
 use numerics::{Estimate, between_zero_and_one};
 use rheology::{Elastic, Material};
 
 use crate::MdrError;
 use crate::steady::{Problem, SteadySliding};
 
-/// A contact at rest.
+/// A contact without sliding.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
@@ -24,6 +27,8 @@ pub struct Pressed {
     pub ends: [Estimate; 2],
     /// Contact intervals `[rear, front]` by increasing position on the line, \[m]; what is between them is open.
     pub contacts: Vec<[f64; 2]>,
+    /// Number of polynomials that stand for the line.
+    pub n_pieces: usize,
 }
 
 /// Presses a line into a material and waits until that has come to rest: an elastic one at once, any other solid on its
@@ -39,23 +44,68 @@ pub fn press(
     control: Control,
     relative_error: f64,
 ) -> Result<Pressed, MdrError> {
-    let relative_error = between_zero_and_one("relative_error", relative_error)?;
     let modulus = material.relaxation().equilibrium_modulus();
     if modulus == 0.0 {
         return Err(MdrError::NoEquilibrium);
     }
-    // At rest the stress of the line is that of springs, whatever its speed was.
-    let spring = Elastic::new(modulus / material.half_space_factor())?;
+    on_springs(
+        line,
+        modulus / material.half_space_factor(),
+        control,
+        relative_error,
+    )
+}
+
+/// Presses a line into an undeformed material under a constant force, or at a constant depth, for a time.
+///
+/// Force and depth are known to `relative_error`, above 0 and below 1. At a depth a lone dashpot jumps in at once, and
+/// carries nothing from then on.
+///
+/// # Errors
+/// Like [`steady`](crate::steady()).
+pub fn indent(
+    line: &(impl RigidLine + ?Sized),
+    material: &(impl Material + ?Sized),
+    load: &PressingLoad,
+    relative_error: f64,
+) -> Result<Pressed, MdrError> {
+    let (control, time) = (load.control(), load.duration());
+    let compliance = material.creep_compliance(time)?;
+    let modulus = (material.half_space_factor() * compliance).recip();
+    let mut pressed = on_springs(line, modulus, control, relative_error)?;
+    if let Control::IndentationDepth(_) = control {
+        // The same contact on springs of another modulus.
+        let ratio = material.relaxation_modulus(time)? * compliance;
+        let force = &mut pressed.normal_force;
+        (force.value, force.error) = (ratio * force.value, ratio * force.error);
+    }
+    Ok(pressed)
+}
+
+/// At rest the stress of the line is that of springs, whatever its speed was.
+fn on_springs(
+    line: &(impl RigidLine + ?Sized),
+    modulus: f64,
+    control: Control,
+    relative_error: f64,
+) -> Result<Pressed, MdrError> {
+    let relative_error = between_zero_and_one("relative_error", relative_error)?;
+    let spring = Elastic::new(modulus)?;
     let problem = Problem::new(line, &spring, 1.0)?;
     let sought = match control {
         Control::NormalForce(_) => |state: &SteadySliding| state.indentation_depth,
         Control::IndentationDepth(_) => |state: &SteadySliding| state.normal_force,
     };
     let state = problem.refine(control, relative_error, sought)?;
+    let mut normal_force = state.normal_force;
+    if let Control::NormalForce(force) = control {
+        normal_force = Estimate::exact(force);
+    }
     Ok(Pressed {
         indentation_depth: state.indentation_depth,
-        normal_force: state.normal_force,
+        normal_force,
         ends: state.ends,
         contacts: state.contacts,
+        n_pieces: state.n_pieces,
     })
 }

@@ -42,23 +42,25 @@ pub(super) fn polished_depth(
 ) -> Result<f64, MdrError> {
     let (mut depth, at_depth) = within_reach(&load, start, target)?;
     let mut excess = (at_depth / target).ln();
-    // Force and depth are nearly a power law; one between fluid and solid for the first step.
+    // Force and depth are nearly a power law; one between fluid and solid for the first step, which teaches the exponent: on
+    // springs under a cusp x^p it is 1 + 1/p, and that step too long.
     let mut exponent = 1.5;
-    for _ in 0..MAX_STEPS {
+    for step_number in 0..MAX_STEPS {
         if excess.abs() <= f64::EPSILON {
             break;
         }
         let step = -excess / exponent;
         let (next, at_next) = within_reach(&load, depth * step.exp(), target)?;
         let next_excess = (at_next / target).ln();
-        if next_excess.abs() >= excess.abs() {
-            break;
-        }
         let slope = (next_excess - excess) / (next / depth).ln();
         if slope.is_finite() && slope > 0.5 {
             exponent = slope;
         }
-        (depth, excess) = (next, next_excess);
+        if next_excess.abs() < excess.abs() {
+            (depth, excess) = (next, next_excess);
+        } else if step_number > 0 {
+            break;
+        }
     }
     Ok(depth)
 }

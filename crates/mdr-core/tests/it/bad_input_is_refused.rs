@@ -1,15 +1,12 @@
 //! Bad input is refused with its name and value, before anything is computed (casebook EXT-01).
 
 use casebook::{NOT_POSITIVE, assert_close, assert_matches, refuses};
-use indenters::{Control, EquivalentLine, PressingLoad, RigidLine, SlidingLoad};
-use mdr_core::{
-    Indentation, MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady,
-};
-use numerics::Accuracy;
+use indenters::{EquivalentLine, RigidLine, SlidingLoad};
+use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
 use rheology::Maxwell;
 
 use crate::support::{
-    ASKED, DEPTH, Line, VISCOSITY, endless, line, load, load_for_depth, material, power,
+    ASKED, DEPTH, Line, VISCOSITY, endless, load, load_for_depth, material, power,
 };
 
 const GOOD: SlideOptions = SlideOptions {
@@ -26,16 +23,6 @@ fn slide(line: &impl RigidLine, options: &SlideOptions) -> Result<Transient, Mdr
 fn slide_steadily(line: &impl RigidLine, relative_error: f64) -> Result<SteadySliding, MdrError> {
     let load = load_for_depth(DEPTH);
     steady(line, &material(VISCOSITY), &load, relative_error)
-}
-
-fn press(line: &impl RigidLine, elements: usize) -> Result<Indentation, MdrError> {
-    let load = PressingLoad::new(Control::NormalForce(1.0), 1.0).expect("a load");
-    indent(
-        line,
-        &material(VISCOSITY),
-        &load,
-        Accuracy::Elements(elements),
-    )
 }
 
 /// Rows 16 and 21: the spacing is the grid and, through the speed, the time step.
@@ -62,20 +49,6 @@ fn numbers_are_checked() {
     let message = with(-2.0, 1e-6, 10.0).unwrap_err().to_string();
     let expected = "spacing must be finite and greater than 0, but is -2";
     assert_eq!(message, expected, "messages name numbers");
-}
-
-#[test]
-fn pressing_without_a_contact_inside_the_line_is_refused() {
-    assert_matches!(
-        press(&EquivalentLine(&power(2.0)), 1),
-        Err(MdrError::TooCoarse { needed: 3, .. })
-    );
-    // The lowest point of the ramp is the end of its domain.
-    let ramp = line([0.0, 3.0], |x| x);
-    assert_matches!(
-        press(&ramp, 16),
-        Err(MdrError::ContactReachesEdge { position, .. }) if position.abs() < 1e-12
-    );
 }
 
 #[test]

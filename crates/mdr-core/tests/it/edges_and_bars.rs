@@ -2,9 +2,8 @@
 
 use casebook::standard_solid;
 use indenters::{
-    Axisymmetric, Control, EquivalentLine, FlatCone, FlatPunch, PiecewiseLinearProfile,
-    PowerProfile, PressingLoad, RigidLine, SlidingLoad, Sphere, TruncatedParaboloid,
-    contact_radius,
+    Axisymmetric, Control, EquivalentLine, FlatPunch, PiecewiseLinearProfile, PowerProfile,
+    PressingLoad, RigidLine, SlidingLoad, Sphere, TruncatedParaboloid, contact_radius,
 };
 use mdr_core::{MdrError, indent, press, slide, steady};
 use numerics::{Accuracy, Estimate};
@@ -180,28 +179,6 @@ fn the_bar_of_a_worn_paraboloid_on_a_fast_solid_holds() {
     );
 }
 
-/// The flanks carry a little, and no element sees it: all resolutions agree, and are wrong.
-#[test]
-fn the_bar_of_a_flat_end_holds_where_no_element_sees_its_flanks() {
-    let cone = FlatCone::new(1.0, 0.4).expect("a body");
-    let line = EquivalentLine(&cone);
-    for force in [1e-3, 1e-2, 1e-1, 1.0, 10.0] {
-        let control = Control::NormalForce(force);
-        let exact = press(&line, &spring(1.0), control, 1e-10).expect("a depth");
-        let exact = Estimate::exact(exact.indentation_depth.value);
-        let load = PressingLoad::new(control, 1.0).expect("a load");
-        for elements in [16, 64, 512] {
-            let got = indent(&line, &spring(1.0), &load, Accuracy::Elements(elements));
-            let got = got.expect("a depth").indentation_depth;
-            assert_agree([got, exact], &(force, elements));
-            assert!(
-                got.error < 0.2 * exact.value,
-                "{force} N, {elements} elements: {got:?}"
-            );
-        }
-    }
-}
-
 /// F_N = 8 G d a p/(p + 1), the elastic contact of a power, and a force that relaxes to it.
 #[test]
 fn a_power_at_rest_is_an_elastic_contact() {
@@ -228,7 +205,7 @@ fn a_power_at_rest_is_an_elastic_contact() {
     assert_eq!(refused, Err(MdrError::NoEquilibrium), "a fluid at rest");
 }
 
-/// A held depth on a solid relaxes to the force at rest, and `indent` comes with a bar on the way.
+/// A held depth on a solid relaxes to the force at rest.
 #[test]
 fn a_held_depth_has_the_relaxed_force() {
     let body = PowerProfile::cone(0.5).expect("a cone");
@@ -236,10 +213,10 @@ fn a_held_depth_has_the_relaxed_force() {
     let line = EquivalentLine(&body);
     let depth = Control::IndentationDepth(0.1);
     let load = PressingLoad::new(depth, 0.6).expect("a load");
-    let got = indent(&line, &material, &load, 1e-2).expect("a force");
+    let got = indent(&line, &material, &load, 1e-8).expect("a force");
     let rest = press(&line, &material, depth, 1e-10).expect("a force");
     let expected = rest.normal_force.value * (1.0 + 2.0 * (-2.0_f64).exp());
     let got = got.normal_force;
     assert_agree([got, Estimate::exact(expected)], &rest);
-    assert!(got.error <= 1e-2 * expected, "{got:?}");
+    assert!(got.error <= 1e-8 * expected, "{got:?}");
 }

@@ -3,7 +3,6 @@
 
 use indenters::{Control, EquivalentLine, PowerProfile, PressingLoad};
 use mdr_core::{Transient, indent};
-use numerics::Accuracy;
 
 use crate::support::{assert_close, load, march, material, prony, slid};
 
@@ -75,7 +74,7 @@ fn indentation_is_the_same_over_twenty_four_decades() {
         let pressing = PressingLoad::new(Control::NormalForce(2.0 * force), 3.0 * time);
         let pressing = pressing.expect("a load");
         let line = EquivalentLine(&body);
-        let pressed = indent(&line, &dashpot, &pressing, Accuracy::Elements(48));
+        let pressed = indent(&line, &dashpot, &pressing, 1e-12);
         pressed.expect("a contact").indentation_depth.value / length
     };
     let expected = depth([1.0; 3]);

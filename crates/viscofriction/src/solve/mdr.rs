@@ -54,15 +54,15 @@ pub(crate) fn pressed(
     body: &dyn Axisymmetric,
     material: &dyn Material,
     load: &PressingLoad,
-    request: Request,
+    relative_error: f64,
 ) -> Result<Answer> {
-    let state = indent(&EquivalentLine(body), material, load, request)?;
+    let state = indent(&EquivalentLine(body), material, load, relative_error)?;
+    let error = state.indentation_depth.error.max(state.normal_force.error);
     Ok(Answer {
         indentation_depth: Some(state.indentation_depth),
-        error_parts: state.error_parts,
+        error_parts: ErrorParts::of_elements(error),
         contact_box: Some(contact_box(state.ends)),
-        unknowns: state.n_contact,
-        iterations: 1,
+        unknowns: state.n_pieces,
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
     })
 }

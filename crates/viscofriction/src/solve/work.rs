@@ -213,9 +213,10 @@ fn one_dimensional<'a>(
             ready(move |watch| mdr::transient(body, material, &load, Request { accuracy, watch }))
         }
         (_, Motion::Pressing(load)) => {
-            let under_force = "it presses with a force; analytic holds a depth";
-            require(has_force(problem), under_force)?;
-            ready(move |watch| mdr::pressed(body, material, &load, Request { accuracy, watch }))
+            let Accuracy::RelativeError(error) = accuracy else {
+                return Err("where nothing slides it has no elements; give relative_error instead");
+            };
+            ready(move |_| mdr::pressed(body, material, &load, error))
         }
     }
 }

@@ -75,7 +75,6 @@ fn pressed(random: &mut Random) -> Vec<Request> {
     let asked = [
         (Method::Analytic, CLOSED),
         (Method::MdrTransient, line),
-        (Method::MdrTransient, elements(random, &LINES)),
         (Method::BemTransient, grid),
         (Method::BemTransient, elements(random, &PRESSED)),
     ];

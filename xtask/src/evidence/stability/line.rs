@@ -9,7 +9,6 @@ use friction_analytic::{
 };
 use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
 use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady};
-use numerics::Accuracy;
 use rheology::{
     KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, Viscous,
 };
@@ -144,9 +143,6 @@ pub(super) fn cone_at_depth(material: &dyn Material, velocity: f64) -> Result<Ro
         "normal force" => got.normal_force.value, expected.normal_force)
 }
 
-/// Elements under the contact at the end of pressing.
-const PRESSED: usize = 2000;
-
 /// Under a constant force 8 ∫ x h̃' dx = F J(t) at any time; the same as on a dashpot of 1 Pa s after the impulse F J(t).
 pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     let profile = PowerProfile::cone(0.1)?;
@@ -156,16 +152,9 @@ pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     let dashpot = Viscous::new(1.0)?;
     let expected = power_indentation_after_impulse(&profile, &dashpot, force * last)?;
     let load = PressingLoad::new(Control::NormalForce(force), time)?;
-    let got = indent(
-        &EquivalentLine(&profile),
-        material,
-        &load,
-        Accuracy::Elements(PRESSED),
-    )?;
+    let got = indent(&EquivalentLine(&profile), material, &load, ASKED)?;
     let [got, depth] = [got.indentation_depth.value, expected.indentation_depth];
-    // The sum over elements errs by a part of the last element at each end, of second order.
-    let tolerance = 4.0 / (PRESSED * PRESSED) as f64;
-    compare!(within tolerance; "indentation depth" => got, depth)
+    compare!(within ASKED; "indentation depth" => got, depth)
 }
 
 /// A march with so many elements along the stationary contact.

@@ -76,7 +76,6 @@ pub(super) fn requests(presses: bool, runs: usize) -> Vec<Request> {
     if presses {
         return [
             errors(Model::HalfSpace, Method::Analytic, &[CLOSED]),
-            elements(Model::HalfSpace, Method::MdrTransient, &LINES),
             elements(Model::HalfSpace, Method::BemTransient, &PRESSED),
         ]
         .concat();
