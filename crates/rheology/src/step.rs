@@ -1,13 +1,11 @@
 //! One step in time, or over one cell of an upstream sweep, exact for any ratio of step and time constants.
 //!
 //! ```text
-//! creep:       u_new = α w_new + history    α = J(Δt)    held at w_new over the step
-//! relaxation:  w_new = β Δu + history       β = G_∞ + η₀/Δt + Σ G_k φ(Δt/τ_k)    u straight over the step
-//! φ(x) = (1 − e^(−x))/x
+//! u_new = α w_new + history    α = J(Δt)    w held at w_new over the step
 //! ```
-//! In both, history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
+//! The history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
 
-use crate::{CreepSpectrum, RelaxationSpectrum, RheologyError};
+use crate::{CreepSpectrum, RheologyError};
 use numerics::positive;
 
 /// Coefficients of a step of fixed length.
@@ -21,7 +19,7 @@ pub struct ExponentialStep {
     fields: Vec<Field>,
 }
 
-/// A decay e^(−Δt/λ), 1 for free flow and for a lone spring, and the gain per unit of input.
+/// A decay e^(−Δt/λ), 1 for free flow, and the gain per unit of input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Field {
     decay: f64,
@@ -53,38 +51,7 @@ impl ExponentialStep {
         Ok(step)
     }
 
-    /// From the increment Δu \[m] of the displacement, straight over a `time_step` \[s], to the load potential w \[Pa m]
-    /// at its end.
-    ///
-    /// One field per branch, and one for the lone spring; none for a viscous material.
-    ///
-    /// # Errors
-    /// [`RheologyError::InvalidParameter`] when the step, or its stiffness, is not finite and greater than zero.
-    pub fn relaxation(
-        spectrum: &RelaxationSpectrum,
-        time_step: f64,
-    ) -> Result<Self, RheologyError> {
-        positive("time_step", time_step)?;
-        let spring = (spectrum.equilibrium_modulus() > 0.0).then(|| Field {
-            decay: 1.0,
-            gain: spectrum.equilibrium_modulus(),
-        });
-        let branches = spectrum.branches().iter().map(|branch| {
-            let x = time_step / branch.relaxation_time;
-            Field {
-                decay: (-x).exp(),
-                gain: branch.modulus * mean_decay(x),
-            }
-        });
-        let step = Self {
-            direct: spectrum.viscosity() / time_step,
-            fields: branches.chain(spring).collect(),
-        };
-        positive("step_stiffness", step.response())?;
-        Ok(step)
-    }
-
-    /// What one unit of input adds to the output of its step: α \[1/Pa] of creep, β \[Pa] of relaxation.
+    /// What one unit of input adds to the output of its step: α \[1/Pa].
     #[must_use]
     pub fn response(&self) -> f64 {
         let gains: f64 = self.fields.iter().map(|field| field.gain).sum();
@@ -117,7 +84,7 @@ impl ExponentialStep {
         }
     }
 
-    /// Moves the state to the end of the step, given the `input` of every point: w held over the step, or Δu.
+    /// Moves the state to the end of the step, given the `input` of every point: w held over the step.
     ///
     /// Values of `state` beyond `n_fields() · input.len()` are left as they are.
     pub fn advance(&self, input: &[f64], state: &mut [f64]) {
@@ -135,12 +102,4 @@ impl ExponentialStep {
             }
         }
     }
-}
-
-/// φ(x) = (1 − e^(−x))/x for x ≥ 0.
-fn mean_decay(x: f64) -> f64 {
-    if x < f64::EPSILON {
-        return 1.0;
-    }
-    -(-x).exp_m1() / x
 }

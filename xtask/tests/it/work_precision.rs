@@ -15,7 +15,7 @@ fn key(row: &Row) -> [&str; 3] {
 }
 
 /// Line, half space, both without sliding, and contacts of one instant.
-const SERIES: [[&str; 3]; 12] = [
+const SERIES: [[&str; 3]; 11] = [
     ["paraboloid", "line", "analytic"],
     ["paraboloid", "line", "mdr-steady"],
     ["paraboloid", "line", "mdr-transient"],
@@ -24,7 +24,6 @@ const SERIES: [[&str; 3]; 12] = [
     ["paraboloid", "half-space", "bem-steady, elements"],
     ["paraboloid", "half-space", "bem-transient"],
     ["indentation", "half-space", "analytic"],
-    ["indentation", "half-space", "mdr-transient"],
     ["indentation", "half-space", "bem-transient"],
     ["Hertz", "half-space", "bem contact"],
     ["rough surface", "half-space", "bem contact"],

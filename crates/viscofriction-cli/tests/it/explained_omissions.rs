@@ -17,7 +17,7 @@ cone; viscous; normal_force = 1.0, velocity = 0.01; model = "line" | numerical s
 paraboloid; elastic; normal_force = 1.0, velocity = 0.01; method = "bem-steady", elements = 12 | mirror half, outside contact, time steps | 2 | cannot be told from 0
 scene.toml | outside contact, time steps | 1 | error bars
 IN/half-space-run-in.toml | mirror half, outside contact, rows behind | 3
-IN/hertz.toml | numerical solution, half space | 0 | error bars
+IN/hertz.toml | half space | 0 | error bars
 "#;
 
 /// The rows of the printed table of a scene, each as its cells.

@@ -71,8 +71,7 @@ impl Omission {
             (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding(_)) => {
                 Some(Method::BemSteady)
             }
-            (Self::NumericalSolution, _, Motion::Pressing(_))
-            | (Self::TimeSteps, Model::Line, _) => Some(Method::MdrTransient),
+            (Self::TimeSteps, Model::Line, _) => Some(Method::MdrTransient),
             (Self::TimeSteps, Model::HalfSpace, Motion::Sliding(_)) | (Self::HalfSpace, _, _) => {
                 Some(Method::BemTransient)
             }
@@ -104,13 +103,12 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (Method::Analytic, Motion::Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
-        (Method::Analytic, Motion::Pressing(_)) => {
-            vec![Some(Omission::NumericalSolution), Some(Omission::HalfSpace)]
-        }
         // No other method does it.
         (_, Motion::History(_)) => Vec::new(),
         (Method::MdrSteady, _) => vec![Some(Omission::TimeSteps)],
-        (Method::MdrTransient, Motion::Pressing(_)) => vec![Some(Omission::HalfSpace)],
+        (Method::Analytic | Method::MdrTransient, Motion::Pressing(_)) => {
+            vec![Some(Omission::HalfSpace)]
+        }
         (Method::BemSteady, Motion::Sliding(load)) => {
             // After a distance the friction is not yet that of the stationary state.
             let is_stationary = load.sliding_distance().is_none();

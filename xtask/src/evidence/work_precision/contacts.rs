@@ -6,9 +6,9 @@ use bem_halfspace::{
     solve_contact,
 };
 use casebook::{SquareContact, deviation};
+use indenters::rough::SelfAffine;
 use viscofriction::scene::Model;
 
-use super::rough::self_affine;
 use super::scenes::HERTZ;
 use super::series::{DEPTH, Found, Measured, Row};
 
@@ -42,7 +42,17 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
-    let body = SquareContact::rough(self_affine(edge));
+    let surface = SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 1.0,
+        longest_wavelength: 0.25,
+        shortest_wavelength: 8.0 / edge as f64,
+        roll_off_wavelength: 0.25,
+        seed: 0,
+    };
+    let heights = surface.surface()?.heights([edge; 2])?;
+    let body = SquareContact::rough(heights);
     let convolution = Convolution::periodic(&grid(edge)?);
     let (contact, exact) = solve(&convolution, &body, REFERENCE_TOLERANCE)?;
     for tolerance in TOLERANCES {

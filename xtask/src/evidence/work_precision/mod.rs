@@ -2,7 +2,6 @@
 
 mod contacts;
 mod picture;
-mod rough;
 mod scenes;
 mod series;
 
