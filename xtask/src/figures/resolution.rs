@@ -47,7 +47,9 @@ pub(super) fn chart(rows: &[Row], converged: &[factors::Row]) -> Chart {
         ("paraboloid", Shape::Circle, Colour::Red),
     ];
     for (factor, (name, shape, colour)) in converged.iter().zip(styles) {
-        let of_body = rows.iter().filter(|row| row.exponent == factor.exponent);
+        let of_body = rows
+            .iter()
+            .filter(|row| row.exponent.total_cmp(&factor.exponent).is_eq());
         let of_body: Vec<Row> = of_body.cloned().collect();
         let plain = points(&of_body, |row| f64::from(row.elements), |row| row.plain);
         let level = |value: f64, dash| {

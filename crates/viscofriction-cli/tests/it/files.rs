@@ -96,7 +96,7 @@ fn only_regular_files_and_scenes_with_an_end_are_read() {
             &format!("sweep --merge {input}"),
             &format!("fit-material {input}"),
         ] {
-            folder.ends(&line, 2, &format!("{input}: a regular file is needed"));
+            folder.ends(line, 2, &format!("{input}: a regular file is needed"));
         }
     }
     let endless = File::open("/dev/zero").expect("a device");

@@ -137,8 +137,11 @@ impl<const N: usize> Serialize for Named<'_, N> {
     }
 }
 
+/// Name, and the quantity at a point.
+type OfCurve = (&'static str, fn(&CurvePoint) -> Estimate);
+
 /// What is known at each point of a history beside its time.
-const OF_CURVE: [(&str, fn(&CurvePoint) -> Estimate); 3] = [
+const OF_CURVE: [OfCurve; 3] = [
     ("normal_force", |point| point.normal_force),
     ("indentation_depth", |point| point.indentation_depth),
     ("contact_radius", |point| point.contact_radius),
