@@ -32,7 +32,8 @@ fn a_sweep_killed_at_any_moment_keeps_its_rows_and_goes_on_to_the_same() {
     let rows = || fs::read_to_string(folder.path("out/rows.csv")).unwrap_or_default();
     // The first line has the names.
     for n_rows in [0, 1, 6, 13] {
-        folder.kill_when(&line, || rows().matches('\n').count() > n_rows);
+        let is_killed = folder.kill_when(&line, || rows().matches('\n').count() > n_rows);
+        assert!(is_killed, "the sweep ended before");
         let left = rows();
         assert!(left.matches('\n').count() > n_rows, "{left} are left");
         // Threads finish their points in any order.
