@@ -2,8 +2,8 @@
 
 use casebook::standard_solid;
 use indenters::{
-    Axisymmetric, Control, EquivalentLine, FlatPunch, PiecewiseLinearProfile, PowerProfile,
-    PressingLoad, RigidLine, SlidingLoad, Sphere, TruncatedParaboloid, contact_radius,
+    Axisymmetric, Control, EquivalentLine, FlatPunch, PiecewiseLinearProfile, PressingLoad,
+    RigidLine, SlidingLoad, Sphere, TruncatedParaboloid, contact_radius,
 };
 use mdr_core::{MdrError, indent, press, slide, steady};
 use numerics::{Accuracy, Estimate};

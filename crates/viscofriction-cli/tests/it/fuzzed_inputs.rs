@@ -15,9 +15,9 @@ use viscofriction_cli::{InputKind, check_input};
 
 use crate::support::{example, measured, npy};
 
-/// What happens to a file, as often as it is named: a bit is flipped, something put in, a number replaced by another value, a
-/// line deleted, put once more before another one (keys that are there twice, or in the table of others) or without its end,
-/// and the file without its end.
+/// What happens to a file, as often as it is named: a bit is flipped, something put in, a number replaced by another
+/// value, a line deleted, put once more before another one (keys that are there twice, or in the table of others) or
+/// without its end, and the file without its end.
 const MUTATIONS: [&str; 9] = [
     "flip", "insert", "replace", "replace", "replace", "delete", "repeat", "cut", "truncate",
 ];
