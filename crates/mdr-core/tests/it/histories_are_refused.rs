@@ -43,11 +43,8 @@ fn wrong_histories_are_refused() {
         );
     }
     let nothing = follow(&*body("cone"), "solid", &[]);
-    assert_eq!(
-        nothing,
-        Err(MdrError::Empty { list: "history" }),
-        "no points"
-    );
+    let empty = Err(MdrError::Empty { list: "history" });
+    assert_eq!(nothing, empty, "no points");
 }
 
 #[test]

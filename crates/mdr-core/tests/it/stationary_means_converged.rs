@@ -26,10 +26,9 @@ fn distance_to_the_limit_is_below_the_drift() {
             let bound = drift / ((1.0 + 1.0 / n).powf(n) - 1.0);
             // The approach is exponential to first order in the distance itself.
             let bound = bound * (1.0 + 2.0 * drift_tolerance) + 1e-12;
-            assert!(
-                drift <= drift_tolerance && depth <= bound && friction <= bound,
-                "p = {exponent}, {drift_tolerance}: off by {depth} and {friction}, bound {bound}"
-            );
+            let are_near = depth <= bound && friction <= bound;
+            let is_near = drift <= drift_tolerance && are_near;
+            assert!(is_near, "p = {exponent}, {drift}: {depth}, {friction}");
         }
     }
 }

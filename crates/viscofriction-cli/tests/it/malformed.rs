@@ -325,10 +325,8 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
         let scene = replaced(&lines, &text.replace("\\0", "\0"));
         (scene.into(), place(&named), needed)
     }));
-    let unanswered = rows(UNANSWERED);
-    cases.extend(
-        unanswered.map(|[parts, line, needed]| (scene(&parts).into(), place(&line), needed)),
-    );
+    let unanswered = rows(UNANSWERED).map(|[parts, line, needed]| (scene(&parts), line, needed));
+    cases.extend(unanswered.map(|(scene, line, needed)| (scene.into(), place(&line), needed)));
     assert!(cases.len() >= 280, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
     folder.write("scene.toml", SCENE);
@@ -433,8 +431,5 @@ fn malformed_rows_and_moduli_are_refused_with_their_line_and_leave_nothing() {
     let fit = "fit-material moduli.csv --out out";
     assert_refused(&folder, "moduli.csv", fit, wrong);
     let left = folder.names("").join(" ");
-    assert_eq!(
-        left, "moduli.csv rows.csv",
-        "what is written from wrong files"
-    );
+    assert_eq!(left, "moduli.csv rows.csv", "left of wrong files");
 }
