@@ -2,9 +2,9 @@
 
 use std::sync::OnceLock;
 
+use casebook::standard_solid;
 use friction_analytic::{ElasticContact, high_speed_friction, low_speed_friction, scaling_factor};
 use indenters::{PowerProfile, stretch};
-use rheology::{StandardSolid, StandardSolidParameters};
 
 use crate::support::{Evidence, Row, number};
 
@@ -27,11 +27,8 @@ fn curve(exponent: f64) -> Vec<Row> {
 }
 
 fn assert_within([actual, expected]: [f64; 2], allowed: f64, what: &str) {
-    let holds = (actual - expected).abs() <= allowed;
-    assert!(
-        holds,
-        "{what}: {actual} and not {expected} within {allowed:e}"
-    );
+    let off = (actual - expected).abs();
+    assert!(off <= allowed, "{what}: {actual} and not {expected}");
 }
 
 /// Exact ends (FRI-05) and the plateau. A decade and a half beyond each end of the plateau, its neighbours still move
@@ -61,12 +58,7 @@ fn friction_vanishes_at_both_ends_as_the_elastic_limits_say() {
     for exponent in [1.0, 2.0] {
         let body = PowerProfile::new(1.0 / stretch(exponent).expect("κ"), exponent);
         let body = body.expect("a body");
-        let solid = StandardSolid::new(StandardSolidParameters {
-            equilibrium_modulus: 1e-4,
-            maxwell_modulus: 1.0,
-            viscosity: 1.0,
-        });
-        let solid = solid.expect("a solid");
+        let solid = standard_solid([1e-4, 1.0, 1.0]).expect("a solid");
         let rows = curve(exponent);
         let contact = |row| ElasticContact {
             contact_radius: 1.0,

@@ -143,19 +143,14 @@ fn a_cylinder_needs_one_relaxation_time_a_length_and_a_speed() {
     let cylinder = Cylinder::new(1.0).unwrap();
     refuses("half_length", NOT_POSITIVE, |half_length| {
         let velocity = 1.0;
-        cylinder_sliding(
-            &cylinder,
-            &solid,
-            LineContact {
-                half_length,
-                velocity,
-            },
-        )
+        let contact = LineContact {
+            half_length,
+            velocity,
+        };
+        cylinder_sliding(&cylinder, &solid, contact)
     });
-    refused(
-        "equilibrium_modulus",
-        slide(&Maxwell::new(1.0, 1.0).unwrap(), 1.0),
-    );
+    let maxwell = Maxwell::new(1.0, 1.0).unwrap();
+    refused("equilibrium_modulus", slide(&maxwell, 1.0));
     let two = prony([1.0, 0.0], &[(1.0, 1.0), (1.0, 2.0)]);
     refused("number of relaxing elements", slide(&two, 1.0));
 }

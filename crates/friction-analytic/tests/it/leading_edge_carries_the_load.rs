@@ -39,11 +39,8 @@ fn leading_edge_carries_the_load() {
         let (e, line) = (case.input("eps"), case.cubic(1.0));
         let depth = case.input("D_over_eps") * e;
         if case.expected_error() == Some("NoStationaryState") {
-            let offered = if case.has_input("direction") {
-                0.0
-            } else {
-                1.5 * e
-            };
+            let is_mirrored = case.has_input("direction");
+            let offered = if is_mirrored { 0.0 } else { 1.5 * e };
             assert_matches!(
                 slide(&line, depth),
                 Err(FrictionError::NoStationaryState { needed_depth, available_depth })
@@ -56,9 +53,7 @@ fn leading_edge_carries_the_load() {
         let state = slide(&line, depth).unwrap();
         case.check("mu", state.friction_coefficient);
         assert_close!(state.indentation_depth => depth, within 1e-15);
-        let ends = case
-            .expected_list("intervals")
-            .expect("intervals are expected");
+        let ends = case.expected_list("intervals").expect("intervals");
         let length = ends.chunks(2).map(|ends| ends[1] - ends[0]).sum();
         assert_close!(state.contact_length() => length, within 1e-14; "{}", case.id());
     }
@@ -71,9 +66,7 @@ fn a_table_slides_on_the_visible_parts_of_its_pieces() {
     let case = group.find(|case| case.id() == "FRI-03/discrete/steady");
     let case = case.expect("the group has the row of the table");
     let (heights, spacing, depth) = (case.input_list("h"), case.input("dx"), case.input("D"));
-    let increments = case
-        .expected_list("increments")
-        .expect("increments are expected");
+    let increments = case.expected_list("increments").expect("increments");
     let slopes = heights.windows(2).map(|pair| (pair[1] - pair[0]) / spacing);
     let work = slopes
         .zip(&increments)

@@ -28,12 +28,8 @@ fn power_profiles_slide_in_closed_form() {
                 contact_length,
                 ..
             }) => {
-                assert_eq!(
-                    case.expected_error(),
-                    Some("FrictionDiverges"),
-                    "{}",
-                    case.id()
-                );
+                let expected = case.expected_error();
+                assert_eq!(expected, Some("FrictionDiverges"), "{}", case.id());
                 case.check("d", indentation_depth);
                 case.check("x_d", contact_length);
             }

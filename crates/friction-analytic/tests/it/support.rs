@@ -33,11 +33,8 @@ pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
 pub(crate) fn check_expected(case: &Case, numbers: &[(&str, f64)]) {
     let is_expected = |(name, _): &&(&str, f64)| case.expected(name).is_some();
     let expected: Vec<_> = numbers.iter().filter(is_expected).collect();
-    assert!(
-        !expected.is_empty(),
-        "{} expects none of {numbers:?}",
-        case.id()
-    );
+    let name = case.id();
+    assert!(!expected.is_empty(), "{name} expects none of {numbers:?}");
     for (name, value) in expected {
         case.check(name, *value);
     }

@@ -6,6 +6,8 @@ use indenters::{
     leading_edge, stretch,
 };
 
+use crate::support::out_of_domain;
+
 /// EXT-01 rows 09, 10, 11: zero, negative, NaN and infinite parameters.
 #[test]
 fn every_parameter_of_every_shape_is_checked() {
@@ -123,13 +125,8 @@ fn a_profile_table_starts_at_the_apex() {
 fn the_sphere_ends_at_its_equator() {
     let sphere = Sphere::new(1.0).unwrap();
     for x in [1.0, -1.5] {
-        let expected = IndenterError::OutOfDomain {
-            position: f64::abs(x),
-            lower: 0.0,
-            upper: 1.0,
-        };
         let height = sphere.checked_line_height(x);
-        assert_eq!(height, Err(expected), "height at {x}");
+        assert_eq!(height, Err(out_of_domain(f64::abs(x), 1.0)), "at {x}");
     }
     let nowhere = sphere.checked_line_height(f64::NAN);
     assert_matches!(nowhere, Err(IndenterError::OutOfDomain { position, .. }) if position.is_nan());

@@ -5,7 +5,7 @@ use indenters::{
     surface_of_revolution,
 };
 
-use crate::support::{all_shapes, boxed, table};
+use crate::support::{all_shapes, boxed, out_of_domain, table};
 
 #[test]
 fn heights_and_lines_agree_with_the_casebook() {
@@ -29,11 +29,7 @@ fn table_lines_agree_with_the_casebook() {
             case.check("g", height.unwrap());
             continue;
         }
-        let beyond = IndenterError::OutOfDomain {
-            position: 3.5,
-            lower: 0.0,
-            upper: 3.0,
-        };
+        let beyond = out_of_domain(3.5, 3.0);
         assert_eq!(height, Err(beyond), "{} must not extrapolate", case.id());
     }
 }
@@ -76,19 +72,12 @@ fn gradients_and_curvatures_are_derivatives() {
     let step = 1e-5;
     let check = |what: &str, actual: f64, at: &dyn Fn(f64) -> f64, size: f64| {
         let expected = (at(step) - at(-step)) / (2.0 * step);
-        assert!(
-            (actual - expected).abs() < 1e-7 * (1.0 + size),
-            "{what}: {actual}, by differences {expected}"
-        );
+        let is_close = (actual - expected).abs() < 1e-7 * (1.0 + size);
+        assert!(is_close, "{what}: {actual}, by differences {expected}");
     };
     for (name, body) in all_shapes(1.0) {
-        for [x, y] in [
-            [0.3, 0.1],
-            [-0.2, 0.25],
-            [0.0, -0.33],
-            [-0.6, -0.6],
-            [0.95, 0.1],
-        ] {
+        let across = [0.1, 0.25, -0.33, -0.6, 0.1];
+        for (x, y) in [0.3, -0.2, 0.0, -0.6, 0.95].into_iter().zip(across) {
             let [along, across] = body.gradient([x, y]);
             let size = along.hypot(across);
             let place = format!("gradient of {name} at [{x}, {y}]");
@@ -188,13 +177,8 @@ fn the_inverse_transform_recovers_the_body() {
 #[test]
 fn an_inverse_transform_that_cannot_be_is_refused() {
     let line = AnalyticLine::new(|x| x, |_| 1.0, [0.0, 1.0]).unwrap();
-    let beyond = IndenterError::OutOfDomain {
-        position: 1.5,
-        lower: 0.0,
-        upper: 1.0,
-    };
     let result = inverse_abel(&line, 1.5, 1e-9);
-    assert_eq!(result, Err(beyond), "the line ends at 1");
+    assert_eq!(result, Err(out_of_domain(1.5, 1.0)), "the line ends at 1");
     // Infinitely many waves towards x = 0, as high there as anywhere.
     let height = |x: f64| if x < 1e-300 { 0.0 } else { x.recip().sin() };
     let line = AnalyticLine::new(height, |_| 0.0, [0.0, 1.0]).unwrap();

@@ -37,18 +37,13 @@ fn heights_are_the_sum_of_the_waves_on_any_grid() {
                 wave.amplitude * (TAU * (m * x + n * y) + wave.phase).cos()
             };
             let expected: f64 = waves.iter().map(wave).sum();
-            assert!(
-                (height - expected).abs() < 1e-14,
-                "{height} instead of {expected} at {index}"
-            );
+            let off = (height - expected).abs();
+            assert!(off < 1e-14, "{height}, not {expected} at {index}");
         }
     }
-    let refused = surface.heights([6, 9]).map_err(|error| error.parameter);
-    assert_eq!(
-        refused,
-        Err("elements along x"),
-        "two elements per shortest wave"
-    );
+    // Two elements are needed per shortest wave.
+    let few = surface.heights([6, 9]).expect_err("too few elements");
+    assert_eq!(few.parameter, "elements along x", "{few}");
 }
 
 #[test]
@@ -64,11 +59,8 @@ fn the_rms_slope_is_that_of_the_surface() {
     let square = |index: usize| {
         let [row, column] = [index / (4 * n) + 8 * n, index % (4 * n) + 4 * n];
         let sum = |difference: &dyn Fn(usize) -> f64| -> f64 {
-            let terms = weights
-                .iter()
-                .enumerate()
-                .map(|(k, weight)| weight * difference(k + 1));
-            terms.sum::<f64>() / spacing
+            let terms = weights.iter().zip(1..);
+            terms.map(|(weight, k)| weight * difference(k)).sum::<f64>() / spacing
         };
         let along_x = sum(&|k| at(row + k, column) - at(row - k, column));
         let along_y = sum(&|k| at(row, column + k) - at(row, column - k));
@@ -80,42 +72,28 @@ fn the_rms_slope_is_that_of_the_surface() {
 
 #[test]
 fn amplitudes_depend_on_the_wave_vector_and_the_seed_only() {
-    let all = RANDOM.surface().expect("a surface");
-    let half = SelfAffine {
-        shortest_wavelength: 0.08,
+    let of = |asked: SelfAffine| asked.surface().expect("a surface");
+    let (all, other) = (of(RANDOM), of(SelfAffine { seed: 8, ..RANDOM }));
+    let shortest_wavelength = 0.08;
+    let half = of(SelfAffine {
+        shortest_wavelength,
         ..RANDOM
-    }
-    .surface()
-    .expect("a surface");
-    let other = SelfAffine { seed: 8, ..RANDOM }
-        .surface()
-        .expect("a surface");
+    });
     let find = |wave: &Wave| {
-        let same = all
-            .waves()
-            .iter()
-            .find(|other| other.numbers == wave.numbers);
+        let mut waves = all.waves().iter();
+        let same = waves.find(|other| other.numbers == wave.numbers);
         *same.expect("the same wave")
     };
     let ratio = find(&half.waves()[0]).amplitude / half.waves()[0].amplitude;
     for wave in half.waves() {
         let same = find(wave);
-        assert!(
-            (same.phase - wave.phase).abs() < 1e-15,
-            "{wave:?}, {same:?}"
-        );
-        let deviation = same.amplitude / wave.amplitude / ratio - 1.0;
-        assert!(deviation.abs() < 1e-13, "{wave:?}, {same:?}");
+        let [turned, scaled] = [same.phase - wave.phase, same.amplitude / wave.amplitude];
+        let is_same = turned.abs() < 1e-15 && (scaled / ratio - 1.0).abs() < 1e-13;
+        assert!(is_same, "{wave:?}, {same:?}");
     }
-    let changed = other
-        .waves()
-        .iter()
-        .filter(|wave| find(wave).phase.to_bits() != wave.phase.to_bits());
-    assert_eq!(
-        changed.count(),
-        all.waves().len(),
-        "another seed, another surface"
-    );
+    let is_changed = |wave: &Wave| find(wave).phase.to_bits() != wave.phase.to_bits();
+    assert!(other.waves().iter().all(is_changed), "another seed");
+    assert_eq!(other.waves().len(), all.waves().len(), "as many waves");
 }
 
 /// The mean squares of amplitudes fall like the spectrum, and are constant above the roll-off wave length.
@@ -145,54 +123,24 @@ fn the_spectrum_is_self_affine() {
 
 #[test]
 fn impossible_spectra_are_refused() {
-    let refused = |surface: SelfAffine| surface.surface().expect_err("refused").to_string();
-    for (surface, name) in [
-        (
-            SelfAffine {
-                hurst_exponent: 1.0,
-                ..RANDOM
-            },
-            "hurst_exponent",
-        ),
-        (
-            SelfAffine {
-                rms_slope: f64::NAN,
-                ..RANDOM
-            },
-            "rms_slope",
-        ),
-        (
-            SelfAffine {
-                period: [0.0, 1.0],
-                ..RANDOM
-            },
-            "period along x",
-        ),
-        (
-            SelfAffine {
-                shortest_wavelength: 1e-9,
-                ..RANDOM
-            },
-            "period along x",
-        ),
-        (
-            SelfAffine {
-                roll_off_wavelength: 0.6,
-                ..RANDOM
-            },
-            "roll_off_wavelength",
-        ),
-        (
-            SelfAffine {
-                longest_wavelength: 0.3,
-                shortest_wavelength: 0.2995,
-                roll_off_wavelength: 0.2997,
-                ..RANDOM
-            },
-            "shortest_wavelength",
-        ),
-    ] {
-        let message = refused(surface);
+    let bad: [(&str, fn(&mut SelfAffine)); 6] = [
+        ("hurst_exponent", |asked| asked.hurst_exponent = 1.0),
+        ("rms_slope", |asked| asked.rms_slope = f64::NAN),
+        ("period along x", |asked| asked.period = [0.0, 1.0]),
+        ("period along x", |asked| asked.shortest_wavelength = 1e-9),
+        ("roll_off_wavelength", |asked| {
+            asked.roll_off_wavelength = 0.6
+        }),
+        ("shortest_wavelength", |asked| {
+            asked.longest_wavelength = 0.3;
+            asked.roll_off_wavelength = 0.2997;
+            asked.shortest_wavelength = 0.2995;
+        }),
+    ];
+    for (name, change) in bad {
+        let mut asked = RANDOM;
+        change(&mut asked);
+        let message = asked.surface().expect_err(name).to_string();
         assert!(message.starts_with(name), "{message} instead of {name}");
     }
 }

@@ -12,6 +12,15 @@ pub(crate) fn boxed<S: Axisymmetric + 'static>(
     Box::new(shape.unwrap())
 }
 
+/// A position beyond the upper end of a domain from zero on.
+pub(crate) const fn out_of_domain(position: f64, upper: f64) -> IndenterError {
+    IndenterError::OutOfDomain {
+        position,
+        lower: 0.0,
+        upper,
+    }
+}
+
 pub(crate) fn table(radii: &[f64], heights: &[f64]) -> PiecewiseLinearProfile {
     PiecewiseLinearProfile::new(radii.to_vec(), heights.to_vec()).unwrap()
 }

@@ -122,10 +122,7 @@ fn only_mirrors_are_hidden_by_unmirrored() {
     let hidden = Unmirrored(&map);
     assert_eq!((map.mirrors(), hidden.mirrors()), ([true; 2], [false; 2]));
     assert_eq!(hidden.extent_below(0.5), map.extent_below(0.5));
-    assert!(
-        Unmirrored(&Sphere::new(1.0).unwrap())
-            .as_axisymmetric()
-            .is_none(),
-        "it has mirrors"
-    );
+    let sphere = Sphere::new(1.0).unwrap();
+    let hidden = Unmirrored(&sphere);
+    assert!(hidden.as_axisymmetric().is_none(), "it has mirrors");
 }

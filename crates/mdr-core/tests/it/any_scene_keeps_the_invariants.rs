@@ -27,20 +27,18 @@ fn scene() -> impl Strategy<Value = Scene> {
     let material = ([or_nothing(), or_nothing()], branches);
     let motion = (decades(3.0), decades(1.0));
     // No flat ends, whose friction has no limit on a dashpot, and no equator.
-    (1..4_usize, decades(0.7), material, motion)
-        .prop_map(
-            |(kind, size, (moduli, branches), (velocity, depth))| Scene {
-                kind,
-                size,
-                moduli,
-                branches,
-                velocity,
-                depth,
-            },
-        )
-        .prop_filter("a material", |scene| {
-            scene.moduli.iter().sum::<f64>() > 0.0 || !scene.branches.is_empty()
-        })
+    let parts = (1..4_usize, decades(0.7), material, motion);
+    let scene = |(kind, size, (moduli, branches), (velocity, depth))| Scene {
+        kind,
+        size,
+        moduli,
+        branches,
+        velocity,
+        depth,
+    };
+    parts.prop_map(scene).prop_filter("a material", |scene| {
+        scene.moduli.iter().sum::<f64>() > 0.0 || !scene.branches.is_empty()
+    })
 }
 
 impl Scene {
@@ -55,12 +53,8 @@ impl Scene {
     fn at_depth(&self, depth: f64, [length, stress, time]: [f64; 3]) -> SteadySliding {
         let body = body(self.kind, self.size, length);
         let motion = at_depth(depth * length, self.velocity * length / time);
-        let state = steady(
-            &EquivalentLine(&*body),
-            &self.material([stress, time]),
-            &motion,
-            1e-11,
-        );
+        let material = self.material([stress, time]);
+        let state = steady(&EquivalentLine(&*body), &material, &motion, 1e-11);
         state.expect("a stationary state")
     }
 

@@ -25,11 +25,7 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
     let branch = prony([0.0, 0.0], &[(1.0, 1.0)]);
     let mut bodies: Vec<(Box<dyn Axisymmetric>, f64)> =
         vec![(Box::new(power(0.3)), 0.0), (Box::new(power(0.5)), 0.0)];
-    for exponent in (-12..=3).step_by(3) {
-        let radius = 10_f64.powi(exponent);
-        bodies.extend(flat_ends(radius).map(|body| (body, radius)));
-    }
-    for radius in [1e4, 1e6, 1e7, 1e8] {
+    for radius in [1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e4, 1e6, 1e7, 1e8] {
         bodies.extend(flat_ends(radius).map(|body| (body, radius)));
     }
     for (body, kink) in bodies {
@@ -40,11 +36,9 @@ fn a_dashpot_under_a_cusp_or_a_kink_is_refused() {
                 panic!("{dashpot:?}, kink at {kink}: {error:?}");
             };
             // The cusp is found where no polynomial resolves it.
-            let difference = (position.abs() - kink).abs();
-            assert!(
-                difference <= if kink > 0.0 { 1e-12 * kink } else { 0.011 },
-                "{position}"
-            );
+            let allowed = if kink > 0.0 { 1e-12 * kink } else { 0.011 };
+            let off = (position.abs() - kink).abs();
+            assert!(off <= allowed, "{position}, kink at {kink}");
         }
         if kink < 1.0 {
             let friction = slid(&line, &branch, &load(4.0, 1.0)).friction_coefficient;

@@ -1,89 +1,64 @@
 //! Histories that cannot be followed are refused by name.
 
-use indenters::{Control, PowerTerm, Sphere, Superposition};
-use mdr_core::{Follow, HistoryPoint, MdrError, indent_along};
+use casebook::{assert_matches, superposition};
+use indenters::{Axisymmetric, Control, Sphere};
+use mdr_core::{CurvePoint, Follow, HistoryPoint, MdrError, indent_along};
 
 use crate::histories_match_quadrature::{body, material};
+use crate::support::history;
+
+use Control::{IndentationDepth, NormalForce};
+
+fn follow(
+    body: &dyn Axisymmetric,
+    on: &str,
+    history: &[HistoryPoint],
+) -> Result<Vec<CurvePoint>, MdrError> {
+    indent_along(body, &material(on), history, &Follow::default())
+}
 
 #[test]
 fn wrong_histories_are_refused() {
-    let depth = |time: f64, depth: f64| HistoryPoint {
-        time,
-        control: Control::IndentationDepth(depth),
-    };
-    let force = |time: f64, force: f64| HistoryPoint {
-        time,
-        control: Control::NormalForce(force),
-    };
-    let cases = [
+    let depths = |points: &[[f64; 2]]| history(points.iter().copied(), IndentationDepth);
+    let forces = |points: &[[f64; 2]]| history(points.iter().copied(), NormalForce);
+    let mixed = [depths(&[[0.0; 2]]), forces(&[[1.0; 2]])].concat();
+    for (history, parameter) in [
         (
-            vec![depth(1.0, 0.0), depth(0.5, 1e-3)],
+            depths(&[[1.0, 0.0], [0.5, 1e-3]]),
             "time between two points",
         ),
-        (vec![depth(f64::NAN, 0.0)], "time"),
-        (vec![depth(0.0, f64::INFINITY)], "indentation_depth"),
-        (vec![force(0.0, -1.0)], "normal_force"),
-        (vec![depth(0.0, 0.0), force(1.0, 1.0)], "control"),
+        (depths(&[[f64::NAN, 0.0]]), "time"),
+        (depths(&[[0.0, f64::INFINITY]]), "indentation_depth"),
+        (forces(&[[0.0, -1.0]]), "normal_force"),
+        (mixed, "control"),
         (
-            vec![depth(0.0, 1e-3), depth(1.0, 1e-3)],
+            depths(&[[0.0, 1e-3], [1.0, 1e-3]]),
             "time between two depths",
         ),
-    ];
-    for (history, parameter) in cases {
-        let result = indent_along(
-            &*body("cone"),
-            &material("kelvin-voigt"),
-            &history,
-            &Follow::default(),
+    ] {
+        assert_matches!(
+            follow(&*body("cone"), "kelvin-voigt", &history),
+            Err(MdrError::InvalidParameter(ref refused)) if refused.parameter == parameter,
+            "{parameter}"
         );
-        match result {
-            Err(MdrError::InvalidParameter(refused)) => {
-                assert_eq!(refused.parameter, parameter, "{history:?}");
-            }
-            other => panic!("{history:?}: {other:?}"),
-        }
     }
+    let nothing = follow(&*body("cone"), "solid", &[]);
+    let empty = Err(MdrError::Empty { list: "history" });
+    assert_eq!(nothing, empty, "no points");
 }
 
 #[test]
-fn no_points_and_a_line_that_turns_down_are_refused() {
-    let nothing = indent_along(&*body("cone"), &material("solid"), &[], &Follow::default());
-    assert_eq!(
-        nothing,
-        Err(MdrError::Empty { list: "history" }),
-        "no points"
-    );
-    let term = |coefficient, exponent| PowerTerm {
-        coefficient,
-        exponent,
-    };
-    let hump = Superposition::new(vec![term(1.0, 1.0), term(-1.0, 2.0)]).expect("a body");
-    let deep = [0.0, 1.0].map(|depth| HistoryPoint {
-        time: depth,
-        control: Control::IndentationDepth(depth),
-    });
-    let result = indent_along(&hump, &material("solid"), &deep, &Follow::default());
-    assert!(
-        matches!(result, Err(MdrError::Indenter(_))),
-        "the line turns down: {result:?}"
-    );
-}
-
-#[test]
-fn a_sphere_is_not_pressed_beyond_its_equator() {
+fn a_body_is_not_pressed_where_its_line_turns_down_or_beyond_its_equator() {
+    let rising = |to, control| history([[0.0, 0.0], [1.0, to]], control);
+    let hump = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);
+    let result = follow(&hump, "solid", &rising(1.0, IndentationDepth));
+    assert_matches!(result, Err(MdrError::Indenter(_)));
     let sphere = Sphere::new(5e-6).expect("a sphere");
-    for control in [Control::IndentationDepth(1e-2), Control::NormalForce(10.0)] {
-        let start = match control {
-            Control::NormalForce(_) => Control::NormalForce(0.0),
-            Control::IndentationDepth(_) => Control::IndentationDepth(0.0),
-        };
-        let history = [(0.0, start), (1.0, control)];
-        let history = history.map(|(time, control)| HistoryPoint { time, control });
-        let result = indent_along(&sphere, &material("solid"), &history, &Follow::default());
-        let refused = matches!(
+    for history in [rising(1e-2, IndentationDepth), rising(10.0, NormalForce)] {
+        let result = follow(&sphere, "solid", &history);
+        assert_matches!(
             result,
             Err(MdrError::DepthBeyondEdge { position: 5e-6, .. })
         );
-        assert!(refused, "{control:?}: {result:?}");
     }
 }

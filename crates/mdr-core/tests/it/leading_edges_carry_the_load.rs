@@ -42,10 +42,8 @@ fn friction_and_ends_of_the_cubic_agree_with_the_casebook() {
             (row.contact_length, lengths, 0.5 * intervals.len() as f64),
         ] {
             let error = 1.0001 * allowed / n;
-            assert_agree(
-                [Estimate { value, error }, Estimate::exact(expected)],
-                &case.id(),
-            );
+            let expected = Estimate::exact(expected);
+            assert_agree([Estimate { value, error }, expected], &case.id());
         }
 
         let load = load_for_depth(depth_of(&case));
@@ -66,12 +64,8 @@ fn too_low_a_leading_edge_has_no_stationary_state() {
     for case in cases {
         let (line, depth) = (case.cubic(1.0), depth_of(&case));
         // Mirrored, the leading edge is the lowest point alone.
-        let mirrored = case.has_input("direction");
-        let height = if mirrored {
-            0.0
-        } else {
-            1.5 * case.input("eps")
-        };
+        let lowest = [1.5 * case.input("eps"), 0.0];
+        let height = lowest[usize::from(case.has_input("direction"))];
         let marched = slide_to(&line, depth, 0.02, 1e-11).err();
         let directly = steady(&line, &material(VISCOSITY), &load_for_depth(depth), ASKED).err();
         for (error, tolerance) in [(marched, 1e-14), (directly, 1e-9)] {

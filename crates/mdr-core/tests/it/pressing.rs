@@ -33,6 +33,9 @@ fn held(body: &dyn Axisymmetric, material: &dyn Material, at: (f64, Control)) ->
     ] {
         assert_agree([got, expected], &at);
     }
+    for known in [pressed.indentation_depth, pressed.normal_force] {
+        assert!(known.error <= 1e-9 * known.value, "{pressed:?}");
+    }
     last
 }
 

@@ -52,11 +52,8 @@ fn every_foundation_comes_out_within_its_error() {
             };
             for (name, estimate) in named(&state) {
                 // The ends count relative to the contact: one of them may lie at the apex.
-                let scale = if name.starts_with('x') {
-                    front - rear
-                } else {
-                    0.0
-                };
+                let is_end = name.starts_with('x');
+                let scale = if is_end { front - rear } else { 0.0 };
                 if let Some(expected) = case.expected(name) {
                     let tolerance = case.relative_tolerance();
                     assert_close([estimate.value, expected], tolerance, scale, &case.id());
@@ -178,10 +175,8 @@ fn twenty_branches_keep_the_error_over_all_speeds() {
             });
             let exact = Estimate::exact(fine.value);
             assert_agree([rough, exact], &(&body, decade));
-            assert!(
-                fine.value > 0.0 && rough.error <= 1e-6 * fine.value,
-                "{rough:?}"
-            );
+            let is_kept = fine.value > 0.0 && rough.error <= 1e-6 * fine.value;
+            assert!(is_kept, "{rough:?}");
         }
     }
 }

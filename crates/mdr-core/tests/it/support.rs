@@ -6,10 +6,12 @@ use casebook::{Case, standard_solid};
 pub(crate) use casebook::{fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone, SlidingLoad,
-    Sphere, TruncatedParaboloid, stretch,
+    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
+    SlidingLoad, Sphere, TruncatedParaboloid, stretch,
 };
-use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
+use mdr_core::{
+    HistoryPoint, MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady,
+};
 use numerics::Estimate;
 use proptest::prelude::*;
 use rheology::{Material, Prony, Viscous};
@@ -52,6 +54,18 @@ pub(crate) fn power(exponent: f64) -> PowerProfile {
 pub(crate) fn line_power(coefficient: f64, exponent: f64) -> PowerProfile {
     let stretch = stretch(exponent).expect("an exponent");
     PowerProfile::new(coefficient / stretch, exponent).expect("a power profile")
+}
+
+/// A history of times and forces, or depths.
+pub(crate) fn history(
+    points: impl IntoIterator<Item = [f64; 2]>,
+    control: fn(f64) -> Control,
+) -> Vec<HistoryPoint> {
+    let point = |[time, value]: [f64; 2]| HistoryPoint {
+        time,
+        control: control(value),
+    };
+    points.into_iter().map(point).collect()
 }
 
 /// Bodies of six kinds; the last two have a flat end, and so has no other one friction without limit on a dashpot.

@@ -11,9 +11,8 @@ use crate::support::{assert_same, fractional_maxwell, solid};
 #[test]
 fn materials_refuse_moduli_viscosities_and_ratios_outside_their_range() {
     let bad = NOT_POSITIVE;
-    refuses("equilibrium_modulus", bad, |x| {
-        standard_solid([x, 1.0, 1.0])
-    });
+    let solid_of = standard_solid;
+    refuses("equilibrium_modulus", bad, |x| solid_of([x, 1.0, 1.0]));
     refuses("maxwell_modulus", bad, |x| standard_solid([1.0, x, 1.0]));
     refuses("viscosity", bad, |x| standard_solid([1.0, 1.0, x]));
     refuses("viscosity", bad, Viscous::new);
@@ -129,17 +128,14 @@ fn fractional_elements_and_their_expansions_refuse_what_has_no_series() {
 
 #[test]
 fn shifts_refuse_constants_and_temperatures_outside_their_range() {
-    refuses("c1", NOT_POSITIVE, |x| WlfShift::new([x, 1.0], 20.0));
-    refuses("c2", NOT_POSITIVE, |x| WlfShift::new([1.0, x], 20.0));
-    refuses("temperature", &[f64::NAN, f64::INFINITY], |x| {
-        WlfShift::new([1.0, 1.0], x)
-    });
-    refuses("activation_energy", NOT_POSITIVE, |x| {
-        ArrheniusShift::new(x, 300.0)
-    });
-    refuses("reference_temperature", NOT_POSITIVE, |x| {
-        ArrheniusShift::new(1.0, x)
-    });
+    let (wlf, arrhenius) = (WlfShift::new, ArrheniusShift::new);
+    refuses("c1", NOT_POSITIVE, |x| wlf([x, 1.0], 20.0));
+    refuses("c2", NOT_POSITIVE, |x| wlf([1.0, x], 20.0));
+    let infinite = &[f64::NAN, f64::INFINITY];
+    refuses("temperature", infinite, |x| wlf([1.0, 1.0], x));
+    refuses("activation_energy", NOT_POSITIVE, |x| arrhenius(x, 300.0));
+    let reference = "reference_temperature";
+    refuses(reference, NOT_POSITIVE, |x| arrhenius(1.0, x));
     let law = ArrheniusShift::new(1.0, 300.0).unwrap();
     refuses("temperature", NOT_POSITIVE, |x| law.log10_factor(x));
     let spectrum = relaxing(1.0, 0.0, [1.0, 1.0]).unwrap();

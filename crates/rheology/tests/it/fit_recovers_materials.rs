@@ -49,11 +49,8 @@ fn assert_same_branches(
     old: &RelaxationSpectrum,
     [modulus, time]: [f64; 2],
 ) {
-    assert_eq!(
-        new.branches().len(),
-        old.branches().len(),
-        "{new:?}, expected {old:?}"
-    );
+    let counts = [new, old].map(|spectrum| spectrum.branches().len());
+    assert_eq!(counts[0], counts[1], "{new:?}, expected {old:?}");
     for (new, old) in new.branches().iter().zip(old.branches()) {
         assert_close!(new.modulus => old.modulus, within modulus);
         assert_close!(new.relaxation_time => old.relaxation_time, within time);
@@ -230,13 +227,9 @@ fn curves_that_are_not_measurements_are_refused() {
     refuses("time of points[1]", not_increasing, |x| relaxing([x, 1.0]));
     let modulus = "modulus of points[1]";
     refuses(modulus, NOT_POSITIVE, |x| relaxing([2.0, x]));
-    let few = MeasuredCurve::oscillation(vec![good])
-        .unwrap_err()
-        .to_string();
-    assert_eq!(
-        few, "at least 2 points are needed, but there are 1",
-        "one point"
-    );
+    let few = MeasuredCurve::oscillation(vec![good]).unwrap_err();
+    let message = "at least 2 points are needed, but there are 1";
+    assert_eq!(few.to_string(), message, "one point");
     let curve = next([2.0, 1.0, 1.0]).unwrap();
     let identified = |control| identify(&curve, &solid(control));
     let n_branches = "n_branches";
@@ -245,10 +238,8 @@ fn curves_that_are_not_measurements_are_refused() {
     refuses("tolerance", NOT_POSITIVE, |tolerance| {
         identified(Control::Parsimony { tolerance })
     });
+    let n_branches = 3;
     refuses("weight", NEGATIVE, |weight| {
-        identified(Control::Smooth {
-            n_branches: 3,
-            weight,
-        })
+        identified(Control::Smooth { n_branches, weight })
     });
 }

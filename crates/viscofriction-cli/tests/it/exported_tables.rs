@@ -86,15 +86,10 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 
 #[test]
 fn seven_layouts_of_instruments_have_the_same_points() {
-    let utf16: Vec<u8> = ["\u{feff}", RHEOCOMPASS]
-        .concat()
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    let latin1: Vec<u8> = PROTEUS
-        .chars()
-        .map(|c| u8::try_from(c).expect("Latin-1"))
-        .collect();
+    let utf16 = ["\u{feff}", RHEOCOMPASS].concat();
+    let utf16: Vec<u8> = utf16.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let latin1 = PROTEUS.chars().map(u8::try_from);
+    let latin1: Vec<u8> = latin1.collect::<Result<_, _>>().expect("Latin-1");
     let [tension, shear] = [Deformation::Tension, Deformation::Shear].map(Some);
     for (software, contents, deformation) in [
         ("TRIOS", TRIOS.as_bytes(), shear),

@@ -143,7 +143,8 @@ fn a_run_that_is_killed_leaves_whole_files() {
     let duration = started.elapsed();
     fs::rename(folder.path("out"), folder.path("whole")).expect("a folder");
     for part in [0.5, 0.7, 0.8, 0.85, 0.9, 0.95] {
-        folder.kill(line, duration.mul_f64(part));
+        let begin = Instant::now();
+        folder.kill_when(line, || begin.elapsed() >= duration.mul_f64(part));
         for name in folder.names("out") {
             // The result has the time that it took.
             if name != "result.json" && !name.ends_with(".part") {

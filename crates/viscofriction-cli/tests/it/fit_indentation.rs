@@ -182,37 +182,39 @@ fn noiseless_curves_give_the_material_itself() {
     }
 }
 
-/// How the reasons begin.
-const REASONS: [&str; 8] = [
-    "point 71 has no number",
-    "at point 301 the time",
-    "points are missing after",
-    "the force is cut off at",
-    "the force falls while",
-    "there is no contact",
-    "the body jumps into contact",
-    "on the way back the body sticks",
+/// How the reasons begin, and what is done to a curve of 600 points and a peak that has them.
+const REASONS: [(&str, fn(&mut IndentationCurve, f64)); 8] = [
+    ("point 71 has no number", |c, _| c.force[70] = f64::NAN),
+    ("at point 301 the time", |c, _| {
+        add(&mut c.time[300..], -1.5)
+    }),
+    ("points are missing after", |c, _| {
+        add(&mut c.time[250..], 0.5)
+    }),
+    ("the force is cut off at", |c, peak| {
+        change(&mut c.force, |force| force.min(0.6 * peak));
+    }),
+    ("the force falls while", |c, _| {
+        change(&mut c.force, |force| -force)
+    }),
+    ("there is no contact", |c, _| {
+        let mut normal = Normal(5);
+        change(&mut c.force, |_| 1e-10 * normal.draw());
+    }),
+    ("the body jumps into contact", |c, peak| {
+        add(&mut c.force[45..56], -0.15 * peak);
+    }),
+    ("on the way back the body sticks", |c, peak| {
+        add(&mut c.force[500..540], -0.3 * peak);
+    }),
 ];
 
-/// Does to a curve of 600 points what has the reason of that place.
-fn damage(curve: &mut IndentationCurve, place: usize) {
-    let most = peak(&curve.force);
-    let mut normal = Normal(5);
-    let forces = curve.force.iter_mut();
-    match place {
-        0 => curve.force[70] = f64::NAN,
-        1 => curve.time[300..].iter_mut().for_each(|t| *t -= 1.5),
-        2 => curve.time[250..].iter_mut().for_each(|t| *t += 0.5),
-        3 => forces.for_each(|force| *force = force.min(0.6 * most)),
-        4 => forces.for_each(|force| *force *= -1.0),
-        5 => forces.for_each(|force| *force = 1e-10 * normal.draw()),
-        6 => curve.force[45..56]
-            .iter_mut()
-            .for_each(|f| *f -= 0.15 * most),
-        _ => curve.force[500..540]
-            .iter_mut()
-            .for_each(|f| *f -= 0.3 * most),
-    }
+fn change(numbers: &mut [f64], mut to: impl FnMut(f64) -> f64) {
+    numbers.iter_mut().for_each(|number| *number = to(*number));
+}
+
+fn add(numbers: &mut [f64], by: f64) {
+    change(numbers, |number| number + by);
 }
 
 #[test]
@@ -222,9 +224,10 @@ fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
             let flags = case.fit(&case.curve(600, 0.01, seed)).expect("a fit").flags;
             assert_eq!(flags, [], "{}, seed {seed}", case.name);
         }
-        for (place, reason) in REASONS.into_iter().enumerate() {
+        for (reason, damage) in REASONS {
             let mut curve = case.curve(600, 0.005, 7);
-            damage(&mut curve, place);
+            let peak = peak(&curve.force);
+            damage(&mut curve, peak);
             let error = case.fit(&curve).expect_err(reason);
             let is_right = error.starts_with(reason);
             assert!(is_right, "{}, {reason}: {error}", case.name);

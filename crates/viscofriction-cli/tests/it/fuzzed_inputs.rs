@@ -15,26 +15,11 @@ use viscofriction_cli::{InputKind, check_input};
 
 use crate::support::{example, measured, npy};
 
-/// What happens to a file.
-#[derive(Debug, Clone, Copy)]
-enum Mutation {
-    FlipBit,
-    Insert,
-    /// A number by another value.
-    Replace,
-    DeleteLine,
-    /// A line once more, before another one: keys that are there twice, or in the table of others.
-    RepeatLine,
-    /// A line loses its end.
-    CutLine,
-    /// The file loses its end.
-    Truncate,
-}
-use Mutation::{CutLine, DeleteLine, FlipBit, Insert, RepeatLine, Replace, Truncate};
-
-/// What happens as often as it is named.
-const MUTATIONS: [Mutation; 9] = [
-    FlipBit, Insert, Replace, Replace, Replace, DeleteLine, RepeatLine, CutLine, Truncate,
+/// What happens to a file, as often as it is named: a bit is flipped, something put in, a number replaced by another
+/// value, a line deleted, put once more before another one (keys that are there twice, or in the table of others) or
+/// without its end, and the file without its end.
+const MUTATIONS: [&str; 9] = [
+    "flip", "insert", "replace", "replace", "replace", "delete", "repeat", "cut", "truncate",
 ];
 
 /// Values in the place of a number, each between commas.
@@ -45,7 +30,7 @@ const INSERTS: &str = "[|]|[[|{|}|=|.|,|\"|'|\"\"\"|#|\n|\r|\0|\u{feff}|é| |[so
     x = [[[[[[[[1]]]]]]]]\n|nan,nan\n|1,2,3,4,5,6,7\n";
 
 /// A mutation of two places that are chosen: a part of the text is replaced by another one.
-fn mutated(text: &[u8], (mutation, at, other): (Mutation, Index, Index)) -> Vec<u8> {
+fn mutated(text: &[u8], (mutation, at, other): (&str, Index, Index)) -> Vec<u8> {
     if text.is_empty() {
         return Vec::new();
     }
@@ -60,13 +45,13 @@ fn mutated(text: &[u8], (mutation, at, other): (Mutation, Index, Index)) -> Vec<
     };
     let flipped = [text[place] ^ (1 << other.index(8))];
     let (part, by): (Range<usize>, &[u8]) = match mutation {
-        FlipBit => (place..place + 1, &flipped),
-        Insert => (place..place, one_of(INSERTS, '|')),
-        Replace => (number_at(text, place), one_of(VALUES, ',')),
-        DeleteLine => (start..end, &[]),
-        RepeatLine => (start..start, lines[other.index(lines.len())]),
-        CutLine => (start + other.index(lines[line].len())..end, &[]),
-        Truncate => (place..text.len(), &[]),
+        "flip" => (place..place + 1, &flipped),
+        "insert" => (place..place, one_of(INSERTS, '|')),
+        "replace" => (number_at(text, place), one_of(VALUES, ',')),
+        "delete" => (start..end, &[]),
+        "repeat" => (start..start, lines[other.index(lines.len())]),
+        "cut" => (start + other.index(lines[line].len())..end, &[]),
+        _ => (place..text.len(), &[]),
     };
     [&text[..part.start], by, &text[part.end..]].concat()
 }
@@ -92,9 +77,8 @@ fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
     };
     let is_array = file.extension().is_some_and(|extension| extension == "npy");
     let rest = message.strip_prefix(&file.display().to_string());
-    let named =
-        rest.is_some_and(|rest| is_array && rest.starts_with(": ") || names_line(rest).is_some());
-    named && !message.contains(['\n', '\r'])
+    let is_named = |rest: &str| is_array && rest.starts_with(": ") || names_line(rest).is_some();
+    rest.is_some_and(is_named) && !message.contains(['\n', '\r'])
 }
 
 /// Checks files with one to four mutations each, and how many of them are accepted.
@@ -160,13 +144,10 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
         .collect();
     let array = (PathBuf::from("map.npy"), npy(header, &heights));
     let rows = ("rows.csv".into(), rows.into());
+    let [profile, map] = ["profile.csv", "tread.csv"].map(|name| read(example(name)));
     for (kind, files, most) in [
-        (
-            InputKind::Profile,
-            &[read(example("profile.csv"))][..],
-            3_500,
-        ),
-        (InputKind::HeightMap, &[read(example("tread.csv"))], 3_500),
+        (InputKind::Profile, &[profile][..], 3_500),
+        (InputKind::HeightMap, &[map], 3_500),
         (InputKind::SweepRows, &[rows], 3_500),
         (InputKind::Moduli, &moduli, 3_500),
         // Whatever changes more than a bit changes the length, too.
@@ -179,15 +160,15 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
 /// Depth that a reader without limits would follow until its stack ends.
 #[test]
 fn endless_nesting_is_refused() {
-    let deep =
-        |open: &str, close: &str| format!("x = {}1{}", open.repeat(100_000), close.repeat(100_000));
-    for text in [
-        deep("[", "]"),
-        deep("{ a = ", " }"),
-        format!("{}a = 1", "a.".repeat(100_000)),
-        format!("[{}a]", "a.".repeat(100_000)),
-        "[[a]]\n".repeat(100_000),
+    for [start, open, inside, close] in [
+        ["x = ", "[", "1", "]"],
+        ["x = ", "{ a = ", "1", " }"],
+        ["", "a.", "a = 1", ""],
+        ["[", "a.", "a]", ""],
+        ["", "[[a]]\n", "", ""],
     ] {
+        let [open, close] = [open, close].map(|part| part.repeat(100_000));
+        let text = [start, &open, inside, &close].concat();
         let file = Path::new("scene.toml");
         let error = check_input(InputKind::Scene, file, text.as_bytes()).expect_err("no scene");
         let helpful = names_place(&error.to_string(), file, text.as_bytes());

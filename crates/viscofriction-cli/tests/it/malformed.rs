@@ -24,17 +24,13 @@ const SCENES: &str = r#"
 2 | coefficient = 1e400 | 2
 2 | coefficient = 2020-01-01 | 2 | indenter.power.coefficient
 2 | coefficient =  | 2
-2 | coefficient 0.5 | 2
-2 | coefficient = 0.5 0.6 | 2
 3 | coefficient = 2.0 | 3 | duplicate key
 3 | exponent = 1.5\nradius = 1.0 | 4 | indenter.power.radius: unknown field `radius`, expected `coefficient` or `exponent`
 1 | [indenter.pwoer] | 1 | indenter.pwoer: unknown variant
 1 | [indentor.power] | 1 | indentor: unknown field
 1 | [indenter] | 1 | indenter: exactly one kind is needed, as in [indenter.kind], but there are 2: coefficient, exponent
 1 | [indenter.power | 1
-1 | indenter.power] | 1
 1 | [indenter.sphere]\nradius = 1.0\n[indenter.power] | 1 | indenter: exactly one kind is needed
-5 | [material.viscos] | 5 | material.viscos: unknown variant
 6 | viscosity = 1.0e4\npoisson_ratio = 0.6 | 7 | material.viscous.poisson_ratio must be greater than -1 and at most 0.5, but is 0.6
 6 | viscosity = 1.0e4\npoisson_ratio = -1 | 7 | material.viscous.poisson_ratio
 9 | normal_force = 0.0 | 9 | load.normal_force must be finite and greater than 0, but is 0
@@ -83,7 +79,6 @@ const SCENES: &str = r#"
 13 | method = "analytic"\nelements = 32 | 13 | solve.method: analytic does not answer this scene: closed forms have no elements
 13 | method = "mdr-steady"\nsliding_distance = 1.0 | 13 | these do: mdr-transient
 13 | method = "bem-steady"\nmodel = "line" | 13 | these do: analytic, mdr-steady, mdr-transient
-1-3 | [indenter.flat_cone]\nradius = 1.0\nslope = 1 | 1 | indenter.flat_cone: unknown variant
 1-3 | [indenter.superposition]\nterms = [] | 2 | indenter.superposition.terms
 1-3 | [indenter.superposition]\nterms = [\n{ coefficient = 1.0, exponent = 1.0 },\n{ coefficient = 0.0, exponent = 2.0 },\n] | 4 | indenter.superposition.terms[1].coefficient must be finite and not 0, but is 0
 1-3 | [indenter.superposition]\nterms = [{ coefficient = 1.0 }] | 2 | missing field `exponent`
@@ -113,7 +108,6 @@ radius_m,height_m\n0,0\n | 2 | radii must have at least 2 entries, but has 1
 radius_m\n0\n1\n | 2 | missing field `height_m`
 radius_m,height_m,width_m\n0,0,0\n1,1,1\n | 2 | unknown field `width_m`
 radius_m,height_m\n0,0\n1\n | 3 | 2 values are needed, but there are 1
-radius_m,height_m\n0,0\n1,1,1\n | 3 | 2 values are needed, but there are 3
 radius_m,height_m\n0,0\n1,one\n | 3 | height_m: invalid float literal
 radius_m,height_m\n0,0\n,1\n | 3 | radius_m: cannot parse float from empty string
 radius_m;height_m\n0;0\n1;1\n | 2 | unknown field `radius_m;height_m`
@@ -121,7 +115,6 @@ radius_m;height_m\n0;0\n1;1\n | 2 | unknown field `radius_m;height_m`
 radius_m,height_m\n0,0\n1,nan\n | 3 | heights must be finite, but is NaN
 radius_m,height_m\n0,0\n1,1\ninf,2\n | 4 | radii must be finite, but is inf
 radius_m,height_m\n0,0\n2,1\n1,2\n | 4 | entry 2 is 1 after 2
-radius_m,height_m\n0,0\n1,1\n1,2\n | 4 | entry 2 is 1 after 1
 radius_m,height_m\n0.5,0\n1,1\n | 2 | first radius must be 0, but is 0.5
 radius_m,height_m\n0,0.25\n1,1\n | 2 | first height must be 0, but is 0.25
 radius_m,height_m\n0,0\n1,1\n\n2,-1\n | 5 | heights must be at least 0
@@ -135,7 +128,6 @@ const MAPS: &str = r#"
 1\n0\n1\n | 3 | columns of heights must have at least 2 entries, but has 1
 a,b,c\n1,0,1\n | 1 | column 1: a finite height in m is needed, and not 'a'
 1,1,1\n1,0,1\n1,1\n | 3 | 3 values are needed, but there are 2
-1,1,1\n1,0,1\n1,1,1,1\n | 3 | 3 values are needed, but there are 4
 1,1,1\n1,0,\n1,1,1\n | 2 | column 3: a finite height in m is needed, and not ''
 1,1,1\n\n1,nan,1\n | 3 | column 2: a finite height in m is needed, and not 'nan'
 1;1;1\n1;0;1\n1;1;1\n | 1 | column 1: a finite height in m is needed, and not '1;1;1'
@@ -153,7 +145,6 @@ const ARRAYS: &str = r#"
 {'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967296), } | 0 | 4294967296 x 4294967296 numbers of 8 bytes are needed, but there are 0 bytes
 {'descr': '<f8', 'fortran_order': False, 'shape': (6,), } | 48 | an array of 2 dimensions is needed, and not of 1
 {'descr': '>f8', 'fortran_order': False, 'shape': (2, 3), } | 48 | little-endian floats are needed, '<f8' or '<f4', and not '>f8'
-{'descr': '<i8', 'fortran_order': False, 'shape': (2, 3), } | 48 | little-endian floats are needed, '<f8' or '<f4', and not '<i8'
 {'descr': [('x', '<f8')], 'fortran_order': False, 'shape': (2, 3), } | 48 | little-endian floats are needed, '<f8' or '<f4', and not [('x'
 {'descr': '<f8', 'fortran_order': False, } | 48 | the header does not say its shape
 {'descr': '<f8', 'fortran_order': False, 'shape': (2, -3), } | 48 | the header does not say its shape
@@ -334,10 +325,8 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
         let scene = replaced(&lines, &text.replace("\\0", "\0"));
         (scene.into(), place(&named), needed)
     }));
-    let unanswered = rows(UNANSWERED);
-    cases.extend(
-        unanswered.map(|[parts, line, needed]| (scene(&parts).into(), place(&line), needed)),
-    );
+    let unanswered = rows(UNANSWERED).map(|[parts, line, needed]| (scene(&parts), line, needed));
+    cases.extend(unanswered.map(|(scene, line, needed)| (scene.into(), place(&line), needed)));
     assert!(cases.len() >= 280, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
     folder.write("scene.toml", SCENE);
@@ -442,8 +431,5 @@ fn malformed_rows_and_moduli_are_refused_with_their_line_and_leave_nothing() {
     let fit = "fit-material moduli.csv --out out";
     assert_refused(&folder, "moduli.csv", fit, wrong);
     let left = folder.names("").join(" ");
-    assert_eq!(
-        left, "moduli.csv rows.csv",
-        "what is written from wrong files"
-    );
+    assert_eq!(left, "moduli.csv rows.csv", "left of wrong files");
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::{Folder, assert_close, number};
+use crate::support::{Folder, assert_close, number, rows};
 
 const SURFACE: &str = "[indenter.self-affine]
 period = [2.0, 1.0]
@@ -63,6 +63,14 @@ fn partial_contact_has_two_frictions_within_their_bars() {
     }
 }
 
+/// Load | what is said.
+const REFUSED: &str = "
+normal_force = 1.0 | load.mean_pressure: a periodic surface takes a mean_pressure
+mean_pressure = 0.0 | load.mean_pressure must be finite and greater than 0, but is 0
+mean_pressure = 1.0 | creeps for ever, and never comes to rest
+mean_pressure = 1.0 | indenter.self-affine.
+";
+
 #[test]
 fn what_a_rough_surface_cannot_do_is_refused() {
     let folder = Folder::new("rough-refused");
@@ -71,25 +79,9 @@ fn what_a_rough_surface_cannot_do_is_refused() {
     let [shortest, longer] =
         ["0.25", "3.0"].map(|length| format!("shortest_wavelength = {length}"));
     let no_waves = SURFACE.replace(&shortest, &longer);
-    for (scene, said) in [
-        (
-            format!("{SURFACE}normal_force = 1.0\n"),
-            "load.mean_pressure: a periodic surface takes a mean_pressure",
-        ),
-        (
-            format!("{SURFACE}mean_pressure = 0.0\n"),
-            "load.mean_pressure must be finite and greater than 0, but is 0",
-        ),
-        (
-            format!("{fluid}mean_pressure = 1.0\n"),
-            "creeps for ever, and never comes to rest",
-        ),
-        (
-            format!("{no_waves}mean_pressure = 1.0\n"),
-            "indenter.self-affine.",
-        ),
-    ] {
-        folder.write("wrong.toml", scene);
-        folder.ends("run wrong.toml", 2, said);
+    let surfaces = [SURFACE, SURFACE, &fluid, &no_waves];
+    for (surface, [load, said]) in surfaces.into_iter().zip(rows(REFUSED)) {
+        folder.write("wrong.toml", format!("{surface}{load}\n"));
+        folder.ends("run wrong.toml", 2, &said);
     }
 }

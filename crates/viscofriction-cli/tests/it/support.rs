@@ -163,26 +163,18 @@ impl Folder {
         self.json("scene.toml")
     }
 
-    /// Begins to run the program, and kills it.
-    pub(crate) fn kill(&self, line: &str, delay: Duration) {
+    /// Begins to run the program, and kills it as soon as this holds; whether it had not ended before.
+    pub(crate) fn kill_when(&self, line: &str, holds: impl Fn() -> bool) -> bool {
         let child = self.command(line).stdout(Stdio::null()).spawn();
         let mut child = child.expect("the command runs");
-        std::thread::sleep(delay);
-        child.kill().ok();
-        child.wait().expect("it ends");
-    }
-
-    /// Begins to run the program, and kills it as soon as this holds.
-    pub(crate) fn kill_when(&self, line: &str, holds: impl Fn() -> bool) {
-        let child = self.command(line).stdout(Stdio::null()).spawn();
-        let mut child = child.expect("the command runs");
-        while !holds() {
-            let ended = child.try_wait().expect("a state");
-            assert!(ended.is_none(), "{line} ended before: {ended:?}");
+        let mut runs = true;
+        while runs && !holds() {
+            runs = child.try_wait().expect("a state").is_none();
             std::thread::sleep(Duration::from_millis(1));
         }
         child.kill().ok();
         child.wait().expect("it ends");
+        runs
     }
 }
 

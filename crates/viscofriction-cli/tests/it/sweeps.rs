@@ -1,7 +1,6 @@
 //! A sweep can be interrupted, taken up again, and divided.
 
 use std::fs;
-use std::time::Instant;
 
 use crate::support::{Folder, rows, said};
 
@@ -25,58 +24,27 @@ fn slow(name: &str) -> Folder {
     Folder::with(name, "cone-half-space.toml", &replaced)
 }
 
-/// Delays that are the same in every run of the tests, between 0 and 1: the fractional parts of multiples of the golden
-/// section lie everywhere and far from each other.
-fn scattered(n: usize) -> impl Iterator<Item = f64> {
-    (1..=n).map(|k| (k as f64 * 0.618_033_988_749_894_9).fract())
-}
-
 #[test]
-fn a_sweep_killed_at_any_moment_goes_on_to_the_same_rows() {
-    let folder = slow("killed-sweep");
-    let started = Instant::now();
-    let expected = swept(&folder, "whole.csv", "");
-    let duration = started.elapsed();
-    let line = format!("sweep scene.toml {VARY} --out out/rows.csv --resume");
-    let mut n_partial = 0;
-    for (round, moment) in scattered(4).enumerate() {
-        fs::remove_dir_all(folder.path("out")).ok();
-        // Twice in each round: from the beginning, and from where the first one was killed.
-        for part in [moment, 0.5 * moment] {
-            folder.kill(&line, duration.mul_f64(part));
-            let text = fs::read_to_string(folder.path("out/rows.csv")).unwrap_or_default();
-            // Threads finish their points in any order.
-            for line in text.split_inclusive('\n') {
-                assert!(expected.contains(line), "round {round} left {line}");
-            }
-            n_partial += usize::from(!text.is_empty() && text.len() < expected.len());
-        }
-        // As if it had been killed while it wrote a picture.
-        folder.write("out/.rows.png.viscofriction-0.part", "");
-        let resumed = swept(&folder, "out/rows.csv", "--resume");
-        assert_eq!(resumed, expected, "round {round}");
-        let left = folder.names("out").join(" ");
-        assert_eq!(left, "rows.csv rows.png rows.svg", "round {round}");
-    }
-    let said = "of 8 kills came between beginning and end";
-    assert!(n_partial >= 3, "only {n_partial} {said}");
-}
-
-#[test]
-fn a_sweep_killed_after_rows_were_written_keeps_them() {
+fn a_sweep_killed_at_any_moment_keeps_its_rows_and_goes_on_to_the_same() {
     let folder = slow("killed-with-rows");
     let expected = swept(&folder, "whole.csv", "");
-    let line = format!("sweep scene.toml {VARY} --out rows.csv --resume");
-    let rows = || fs::read_to_string(folder.path("rows.csv")).unwrap_or_default();
+    let line = format!("sweep scene.toml {VARY} --out out/rows.csv --resume");
+    let rows = || fs::read_to_string(folder.path("out/rows.csv")).unwrap_or_default();
     // The first line has the names.
-    for n_rows in [1, 6, 13] {
-        folder.kill_when(&line, || rows().matches('\n').count() > n_rows);
+    for n_rows in [0, 1, 6, 13] {
+        let is_killed = folder.kill_when(&line, || rows().matches('\n').count() > n_rows);
+        assert!(is_killed, "the sweep ended before");
         let left = rows();
         assert!(left.matches('\n').count() > n_rows, "{left} are left");
+        // Threads finish their points in any order.
         let whole = left.split_inclusive('\n').all(|row| expected.contains(row));
         assert!(whole, "{left} is not of {expected}");
     }
-    assert_eq!(swept(&folder, "rows.csv", "--resume"), expected);
+    // As if it had been killed while it wrote a picture.
+    folder.write("out/.rows.png.viscofriction-0.part", "");
+    assert_eq!(swept(&folder, "out/rows.csv", "--resume"), expected);
+    let left = folder.names("out").join(" ");
+    assert_eq!(left, "rows.csv rows.png rows.svg", "what is left");
 }
 
 #[test]
