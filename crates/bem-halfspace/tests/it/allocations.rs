@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use bem_halfspace::{BemError, Contact, ContactOptions, ContactState, Control, Convolution, Grid};
 
-use crate::support::Pressing;
+use crate::support::{Pressing, on_threads};
 
 /// A paraboloid with ripples, under whose load the active set changes often before it is found.
 fn body(new: fn(&Grid) -> Convolution, edge: usize, middle: [f64; 2]) -> Pressing {
@@ -20,6 +20,12 @@ fn solve(body: &Pressing, state: &mut ContactState) -> Result<Contact, BemError>
     state.pressure_mut().fill(0.0);
     state.pressure_mut()[38 * edge..edge * (edge - 38)].fill(1.0);
     body.solve_from(state, Control::NormalForce(2000.0))
+}
+
+#[test]
+fn a_solve_with_a_kept_state_does_not_allocate() {
+    // On the thread of a pool, because handing work to a pool allocates there.
+    on_threads(1, solves_without_allocation);
 }
 
 fn solves_without_allocation() {
@@ -42,18 +48,4 @@ fn solves_without_allocation() {
             }
         }
     }
-}
-
-#[cfg(not(feature = "rayon"))]
-#[test]
-fn a_solve_with_a_kept_state_does_not_allocate() {
-    solves_without_allocation();
-}
-
-/// On the thread of a pool, because handing work to a pool allocates there.
-#[cfg(feature = "rayon")]
-#[test]
-fn a_solve_with_a_kept_state_does_not_allocate() {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    pool.expect("a pool").install(solves_without_allocation);
 }

@@ -13,6 +13,7 @@ use bem_halfspace::{
 pub(crate) use casebook::prony;
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use numerics::{Estimate, Request};
+use rayon::ThreadPoolBuilder;
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
 /// Tight enough that the active set and ten digits are those of the exact discrete solution.
@@ -189,14 +190,20 @@ pub(crate) fn carried(field: &PressureField) -> f64 {
     pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
-/// A small whole number among the inputs of a case.
+/// A small count, of a whole number.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "small counts"
 )]
-pub(crate) fn count(case: &casebook::Case, name: &str) -> usize {
-    case.input(name) as usize
+pub(crate) fn count(whole: f64) -> usize {
+    whole as usize
+}
+
+/// Works on so many threads.
+pub(crate) fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("a pool").install(work)
 }
 
 pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
@@ -216,7 +223,6 @@ pub(crate) struct Formula<H, G> {
     pub(crate) height: H,
     pub(crate) gradient: G,
     pub(crate) mirrors: [bool; 2],
-    pub(crate) apex_exponent: f64,
 }
 
 impl<H, G> Formula<H, G>
@@ -230,7 +236,6 @@ where
             height,
             gradient,
             mirrors: [false; 2],
-            apex_exponent: 2.0,
         }
     }
 }
@@ -253,7 +258,7 @@ where
     }
 
     fn apex_exponent(&self) -> f64 {
-        self.apex_exponent
+        2.0
     }
 }
 
@@ -386,15 +391,26 @@ impl Scene {
     }
 }
 
-/// The depths of a body under a constant force at some times, on one grid.
+/// The steps of an indentation to times \[s], on one grid.
 pub(crate) fn pressed(
     body: &dyn Surface,
     material: &dyn Material,
-    (force, times): (f64, &[f64]),
+    path: impl IntoIterator<Item = (f64, Control)>,
     options: &GridOptions,
 ) -> Vec<IndentRow> {
-    let steps = IndentStep::constant(Control::NormalForce(force), times);
+    let step = |(time, control)| IndentStep { time, control };
+    let steps: Vec<IndentStep> = path.into_iter().map(step).collect();
     indent_history_on_grid(body, material, &steps, options).expect("an indentation")
+}
+
+/// The depths under a constant force at some times.
+pub(crate) fn pressed_by(
+    force: f64,
+    times: &[f64],
+) -> impl Iterator<Item = (f64, Control)> + use<'_> {
+    times
+        .iter()
+        .map(move |time| (*time, Control::NormalForce(force)))
 }
 
 pub(crate) fn elastic(shear_modulus: f64) -> Elastic {
