@@ -5,15 +5,6 @@ use bem_halfspace::{BemError, Contact, ContactOptions, ContactState, Control, Co
 
 use crate::support::{Pressing, on_threads};
 
-/// A paraboloid with ripples, under whose load the active set changes often before it is found.
-fn body(new: fn(&Grid) -> Convolution, edge: usize, middle: [f64; 2]) -> Pressing {
-    let grid = Grid::new([edge; 2], [1.0; 2]).expect("a valid grid");
-    Pressing::new(new(&grid), |element| {
-        let [x, y] = [0, 1].map(|axis| element[axis] - middle[axis]);
-        0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).cos() * (0.7 * y).cos()
-    })
-}
-
 /// Solves from the pressure 1 on some rows.
 fn solve(body: &Pressing, state: &mut ContactState) -> Result<Contact, BemError> {
     let edge = body.convolution.grid().shape()[1];
@@ -31,8 +22,14 @@ fn a_solve_with_a_kept_state_does_not_allocate() {
 fn solves_without_allocation() {
     // Those in the middle have mirrors, between elements or through them.
     for (edge, middle) in [(96, [45.3, 50.8]), (96, [47.5; 2]), (97, [48.0; 2])] {
+        // A paraboloid with ripples, under whose load the active set changes often before it is found.
+        let height = |element: [f64; 2]| {
+            let [x, y] = [0, 1].map(|axis| element[axis] - middle[axis]);
+            0.004 * (x * x + 1.3 * y * y) + 0.3 * (0.9 * x).cos() * (0.7 * y).cos()
+        };
+        let grid = Grid::new([edge; 2], [1.0; 2]).expect("a valid grid");
         for new in [Convolution::new, Convolution::periodic] {
-            let mut body = body(new, edge, middle);
+            let mut body = Pressing::new(new(&grid), height);
             let mut state = ContactState::new(&body.convolution);
             for max_iterations in [4, 500] {
                 body.options = ContactOptions {

@@ -232,8 +232,8 @@ fn the_contact_conditions_hold_for_displacements_integrated_directly() {
     let material = Compressible::new(&three_elements(0.1, 1.0, 1.0), 0.3).expect("a material");
     for velocity in [0.03, 0.5, 8.0] {
         let scene = Scene::new(paraboloid(1.0), &material, under_force(1.0, velocity));
-        let spacing = scene.steady_options(4.0).spacing;
-        let solution = scene.steady_on_one_grid(4.0);
+        let options = scene.steady_options(4.0);
+        let (spacing, solution) = (options.spacing, scene.steady_on(&options));
         let depth = solution.depth.reference_depth;
         let field = &solution.pressure;
         let compliance = material.complex_compliance(PI * velocity / spacing[0]);
@@ -252,10 +252,7 @@ fn the_contact_conditions_hold_for_displacements_integrated_directly() {
                 (1..=rows).contains(&row) && field.pressure[(row - 1) * columns + column] > 0.0;
             // The solver leaves 1e-10 of the depth scale, the quadrature 1e-9 of the displacement.
             let holds = gap > -1e-8 * depth && (!loaded || gap < 1e-8 * depth);
-            assert!(
-                holds,
-                "v = {velocity}, ({row}, {column}), {loaded}: {gap:e}"
-            );
+            assert!(holds, "{velocity}, {row}, {column}, {loaded}: {gap:e}");
         }
     }
 }

@@ -6,16 +6,15 @@ use bem_halfspace::slide::{
 };
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady, steady_line, steady_on_grid};
 use bem_halfspace::{
-    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution, Footprint, Grid,
-    GridOptions, indent, press, solve_contact,
+    BemError, ContactState, Control, Convolution, Footprint, Grid, GridOptions, indent, press,
 };
 use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
 use numerics::Accuracy;
 use rheology::Prony;
 
 use crate::support::{
-    Formula, Scene, after, assert_refused, at_depth, motions, paraboloid, power, prony, squares,
-    three_elements, under_force, viscous,
+    Formula, Pressing, Scene, after, assert_refused, at_depth, motions, paraboloid, power, prony,
+    squares, three_elements, under_force, viscous,
 };
 
 const BAD: [f64; 5] = [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY];
@@ -240,19 +239,15 @@ fn speeds_beyond_all_numbers_are_refused_or_answered() {
 
 #[test]
 fn contacts_out_of_range_are_refused() {
-    let convolution = Convolution::new(&Grid::new([3, 2], [1.0, 1.0]).expect("a valid grid"));
-    let solve = |separation: &[f64], compliance: f64, control: Control| {
-        let mut state = ContactState::new(&convolution);
-        let problem = ContactProblem {
-            convolution: &convolution,
-            separation,
-            compliance,
-            control,
-        };
-        solve_contact(&problem, &mut state, &ContactOptions::default())
+    let grid = Grid::new([3, 2], [1.0, 1.0]).expect("a valid grid");
+    let good = Pressing::new(Convolution::new(&grid), |_| 0.0);
+    let solve = |heights: &[f64], compliance: f64, control: Control| {
+        let mut body = good.clone();
+        (body.heights, body.compliance) = (heights.to_vec(), compliance);
+        body.solve_from(&mut ContactState::new(&good.convolution), control)
     };
     let short = format!("{:?}", solve(&[0.0; 5], 1.0, FORCE));
-    assert!(short.contains("length: 5, elements: 6"), "{short}");
+    assert!(short.contains("length: 5, elements: 6 }"), "{short}");
     assert_refused(
         "five heights",
         solve(&[0.0; 5], 1.0, FORCE),

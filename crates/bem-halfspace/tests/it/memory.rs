@@ -20,10 +20,7 @@ fn check<T>(
     let solve = || drop(solve().expect("a solution"));
     let taken = on_threads(1, || allocation_counter::measure(solve).bytes_max as f64);
     let holds = taken <= stated && stated <= 6.0 * taken;
-    assert!(
-        holds,
-        "{what:?}: {taken:e} bytes, and {stated:e} were stated"
-    );
+    assert!(holds, "{what:?}: {taken:e} bytes, {stated:e} stated");
 }
 
 #[test]

@@ -53,15 +53,6 @@ impl Pressing {
         })
     }
 
-    /// A body with the given heights on unit elements.
-    pub(crate) fn on_unit_elements(shape: [usize; 2], heights: &[f64]) -> Self {
-        let grid = Grid::new(shape, [1.0; 2]).expect("a valid grid");
-        Self {
-            heights: heights.to_vec(),
-            ..Self::new(Convolution::new(&grid), |_| 0.0)
-        }
-    }
-
     /// Solves from the pressure of a state.
     pub(crate) fn solve_from(
         &self,
@@ -343,10 +334,6 @@ impl<M: Material> Scene<M> {
     pub(crate) fn steady_on(&self, options: &SteadyOptions) -> SteadySliding {
         let solved = steady_on_grid(&self.body, &self.material, &self.load, options);
         solved.expect("a stationary state")
-    }
-
-    pub(crate) fn steady_on_one_grid(&self, elements: f64) -> SteadySliding {
-        self.steady_on(&self.steady_options(elements))
     }
 
     pub(crate) fn try_steady(
