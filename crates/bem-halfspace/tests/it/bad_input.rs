@@ -145,8 +145,8 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
     let (load, options) = (scene.load_over(1.0), scene.options(8.0));
     let steps = IndentStep::constant(FORCE, &[1.0]);
     for bad in [f64::NAN, f64::NEG_INFINITY] {
-        let height = |[x, y]: [f64; 2]| if x > 0.1 { bad } else { x * x + y * y };
-        let broken = Formula::new(height, |[x, y]| [2.0 * x, 2.0 * y]);
+        let height = |x: f64, y: f64| if x > 0.1 { bad } else { x * x + y * y };
+        let broken = Formula::new([false; 2], |[x, y]| (height(x, y), [2.0 * x, 2.0 * y]));
         let moved = slide_on_grid(&broken, &scene.material, &load, &options);
         assert_refused(bad, moved, "InvalidHeight");
         let pressed = indent_history_on_grid(&broken, &scene.material, &steps, &options);
@@ -178,16 +178,16 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
 /// Two runners on either side of the lowest point, of which the footprint holds one.
 #[test]
 fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
-    let runner = |[x, y]: [f64; 2]| x * x + (y.abs() - 3.0).powi(2);
-    let height = |[x, y]: [f64; 2]| match (y.abs() - 3.0).abs() {
-        0.0..1.0 => runner([x, y]),
-        _ => f64::INFINITY,
-    };
-    let gradient = |[x, y]: [f64; 2]| [2.0 * x, 2.0 * (y.abs() - 3.0) * y.signum()];
-    let sledge = Formula {
-        mirrors: [true; 2],
-        ..Formula::new(height, gradient)
-    };
+    let sledge = Formula::new([true; 2], |[x, y]| {
+        let aside = y.abs() - 3.0;
+        let runner = x * x + aside.powi(2);
+        let height = if aside.abs() < 1.0 {
+            runner
+        } else {
+            f64::INFINITY
+        };
+        (height, [2.0 * x, 2.0 * aside * y.signum()])
+    });
     for y in [[-1.0, 5.0], [-5.0, 1.0]] {
         let solved = steady_with(&sledge, |options| {
             options.spacing = [0.2; 2];
@@ -301,7 +301,7 @@ fn motions_out_of_range_are_refused() {
     assert_refused("a path too long", march(&far), "GridTooLarge");
     let tension = motions([(0.1, 0.1, force(-1.0))]);
     assert_refused("tension", march(&tension), "normal_force");
-    let nowhere = Formula::new(|_| f64::INFINITY, |_| [0.0; 2]);
+    let nowhere = Formula::new([false; 2], |_| (f64::INFINITY, [0.0; 2]));
     let march = March::new(&nowhere, &material, &good[..1], &options).map(|_| ());
     assert_refused("no body", march, "height of the surface");
 }

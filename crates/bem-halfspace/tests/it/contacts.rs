@@ -37,7 +37,7 @@ fn the_force_follows_from_the_flat_punch() {
     let radius = 20.0;
     let cases = group("BEM-06").into_iter();
     for case in cases.filter(|case| case.expected("F").is_some()) {
-        let Body { surface, depth } = Body::of(&case);
+        let (surface, depth) = body_of(&case);
         let body = Pressing::centred(&surface, 48, 1.0 / radius);
         let (contact, state) = body.solve(Control::IndentationDepth(depth));
         let mut punch = body.clone();
@@ -117,46 +117,38 @@ fn without_force_or_depth_nothing_is_in_contact() {
 }
 
 /// A body, and its depth at the contact radius 1.
-struct Body {
-    surface: Box<dyn Surface>,
-    depth: f64,
+type Body = (Box<dyn Surface>, f64);
+
+fn body_of(case: &Case) -> Body {
+    if case.has_input("R") {
+        let depth = 1.0 / case.input("R");
+        (Box::new(paraboloid(0.5 * depth)), depth)
+    } else if case.has_input("tan_theta") {
+        let slope = case.input("tan_theta");
+        (Box::new(cone(slope)), 0.5 * PI * slope)
+    } else {
+        flat_punch(case.input("d"))
+    }
 }
 
-impl Body {
-    fn of(case: &Case) -> Self {
-        if case.has_input("R") {
-            let depth = 1.0 / case.input("R");
-            let surface = Box::new(paraboloid(0.5 * depth));
-            Self { surface, depth }
-        } else if case.has_input("tan_theta") {
-            let slope = case.input("tan_theta");
-            let (surface, depth) = (Box::new(cone(slope)), 0.5 * PI * slope);
-            Self { surface, depth }
-        } else {
-            Self::flat_punch(case.input("d"))
-        }
-    }
+fn flat_punch(depth: f64) -> Body {
+    (Box::new(FlatPunch::new(1.0).expect("a body")), depth)
+}
 
-    fn flat_punch(depth: f64) -> Self {
-        let surface = Box::new(FlatPunch::new(1.0).expect("a body"));
-        Self { surface, depth }
-    }
-
-    /// Contact on elements of the given edge around the axis, and the element with its centre at (`offset`, 0).
-    fn contact_with(&self, offset: f64, spacing: f64) -> (Contact, ContactState, usize) {
-        let margin = (1.1 / spacing).ceil();
-        let before = margin + (offset / spacing).ceil();
-        let behind = (margin - (offset / spacing).floor()).max(0.0);
-        let columns = 2.0 * margin + 1.0;
-        let shape = [before + behind + 1.0, columns].map(count);
-        let grid = Grid::new(shape, [spacing; 2]).expect("a valid grid");
-        let body = Pressing::new(Convolution::new(&grid), |[row, column]| {
-            let x = (row - before) * spacing + offset;
-            self.surface.height([x, (column - margin) * spacing])
-        });
-        let (contact, state) = body.solve(Control::IndentationDepth(self.depth));
-        (contact, state, count(before * columns + margin))
-    }
+/// Contact on elements of the given edge around the axis, and the element with its centre at (`offset`, 0).
+fn contact_with(body: &Body, offset: f64, spacing: f64) -> (Contact, ContactState, usize) {
+    let margin = (1.1 / spacing).ceil();
+    let before = margin + (offset / spacing).ceil();
+    let behind = (margin - (offset / spacing).floor()).max(0.0);
+    let columns = 2.0 * margin + 1.0;
+    let shape = [before + behind + 1.0, columns].map(count);
+    let grid = Grid::new(shape, [spacing; 2]).expect("a valid grid");
+    let pressing = Pressing::new(Convolution::new(&grid), |[row, column]| {
+        let x = (row - before) * spacing + offset;
+        body.0.height([x, (column - margin) * spacing])
+    });
+    let (contact, state) = pressing.solve(Control::IndentationDepth(body.1));
+    (contact, state, count(before * columns + margin))
 }
 
 fn order(errors: [f64; 2], refinement: f64) -> f64 {
@@ -173,7 +165,7 @@ fn pressures_converge_to_the_exact_ones_with_second_order() {
             continue;
         };
         let errors = [16.0, 32.0].map(|elements| {
-            let (_, state, element) = Body::of(&case).contact_with(radius, 1.0 / elements);
+            let (_, state, element) = contact_with(&body_of(&case), radius, 1.0 / elements);
             state.pressure()[element] / exact - 1.0
         });
         // At the edge of the punch the pressure is infinite, and the edge consists of whole elements.
@@ -196,7 +188,7 @@ fn the_surface_outside_the_contact_moves_as_it_should() {
         if shape == "flat punch" && (1.0..1.1).contains(&radius) {
             continue;
         }
-        let (_, state, element) = Body::of(&case).contact_with(radius, 1.0 / 32.0);
+        let (_, state, element) = contact_with(&body_of(&case), radius, 1.0 / 32.0);
         // In the contact it is given by the body; outside it errs like the force.
         let largest = match shape {
             _ if radius < 1.0 => 1e-12,
@@ -215,7 +207,7 @@ fn the_pressure_on_the_apex_of_a_cone_grows_like_the_logarithm() {
     let excess = cases.filter_map(|case| {
         let mean = case.expected("p_cell_average")?;
         let spacing = 1.0 / case.input("a_over_h");
-        let (_, state, element) = Body::of(&case).contact_with(0.0, spacing);
+        let (_, state, element) = contact_with(&body_of(&case), 0.0, spacing);
         Some(state.pressure()[element] - mean)
     });
     let excess: Vec<f64> = excess.collect();
@@ -229,11 +221,11 @@ fn the_pressure_on_the_apex_of_a_cone_grows_like_the_logarithm() {
 /// The edge lies where whole elements have it; mean square over positions of the axis within an element.
 #[test]
 fn the_force_of_a_flat_punch_converges_with_first_order() {
-    let punch = Body::flat_punch(1.0);
+    let punch = flat_punch(1.0);
     let errors = [8.0, 32.0].map(|elements| {
         let squares = [0.0, 0.13, 0.29, 0.41].map(|position: f64| {
             let spacing = 1.0 / (elements + position);
-            let (contact, ..) = punch.contact_with(position * spacing, spacing);
+            let (contact, ..) = contact_with(&punch, position * spacing, spacing);
             // F = 8 G d a.
             (contact.normal_force / 8.0 - 1.0).powi(2)
         });

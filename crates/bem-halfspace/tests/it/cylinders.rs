@@ -154,14 +154,13 @@ const SPACING: f64 = WAVELENGTH / 24.0;
 
 /// Presses h = x²/2 + A cos kx between its ends.
 fn press(amplitude: f64, material: &dyn Material, velocity: f64) -> SteadySliding {
-    let wavy = |x: f64| 0.5 * x * x + amplitude * (1.0 + (WAVE_NUMBER * x).cos());
-    let is_body = |y: f64| y.abs() <= 0.5 * LENGTH;
-    let height = |[x, y]: [f64; 2]| if is_body(y) { wavy(x) } else { f64::INFINITY };
-    let slope = |x: f64| x - amplitude * WAVE_NUMBER * (WAVE_NUMBER * x).sin();
-    let wavy_cylinder = Formula {
-        mirrors: [true; 2],
-        ..Formula::new(height, |[x, _]: [f64; 2]| [slope(x), 0.0])
-    };
+    let wavy_cylinder = Formula::new([true; 2], |[x, y]| {
+        let (sine, cosine) = (WAVE_NUMBER * x).sin_cos();
+        let wavy = 0.5 * x * x + amplitude * (1.0 + cosine);
+        let is_body = y.abs() <= 0.5 * LENGTH;
+        let height = if is_body { wavy } else { f64::INFINITY };
+        (height, [x - amplitude * WAVE_NUMBER * sine, 0.0])
+    });
     let (x, y) = ([-3.0, 5.0], [-LENGTH, LENGTH]);
     let options = SteadyOptions {
         phase: [0.5, 0.0],

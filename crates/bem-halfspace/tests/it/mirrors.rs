@@ -152,13 +152,10 @@ fn one_half_tells_all_of_a_motion_and_one_quarter_all_of_an_indenter_that_stays(
     }
     let material = three_elements(0.1, 2.0, 0.5);
     // The same ahead and behind, but not right and left.
-    let keel = Formula {
-        mirrors: [true, false],
-        ..Formula::new(
-            |[x, y]: [f64; 2]| x * x + y * y + 0.3 * y * y * y,
-            |[x, y]: [f64; 2]| [2.0 * x, 2.0 * y + 0.9 * y * y],
-        )
-    };
+    let keel = Formula::new([true, false], |[x, y]| {
+        let height = x * x + y * y + 0.3 * y * y * y;
+        (height, [2.0 * x, 2.0 * y + 0.9 * y * y])
+    });
     compare(&keel, &material, (&staying, SQUARE), 2);
     compare(&keel, &material, (&moving, SQUARE), 1);
     // Both sides are followed in a footprint that is not symmetric.

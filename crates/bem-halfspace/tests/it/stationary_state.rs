@@ -106,12 +106,10 @@ impl Twice<'_> {
     fn march(&self, elements: f64, shift: [f64; 2], distance: f64) -> Transient {
         let (material, load) = material_and_load();
         let spacing = [1.0 / elements, ASPECT / elements];
-        let shifted =
-            |position: [f64; 2]| [0, 1].map(|axis| position[axis] + shift[axis] * spacing[axis]);
-        let surface = Formula::new(
-            |position| self.surface.height(shifted(position)),
-            |position| self.surface.gradient(shifted(position)),
-        );
+        let surface = Formula::new([false; 2], |position| {
+            let at = [0, 1].map(|axis| position[axis] + shift[axis] * spacing[axis]);
+            (self.surface.height(at), self.surface.gradient(at))
+        });
         let options = GridOptions::new(spacing, Footprint::square(self.half_width));
         slid(&surface, &material, &after(load, distance), &options)
     }
@@ -166,10 +164,10 @@ impl Twice<'_> {
 #[test]
 fn cones_paraboloids_and_skew_bodies_slide_alike_in_both() {
     // An elliptic paraboloid that slides along none of its axes: no symmetry is left.
-    let skew = Formula::new(
-        |[x, y]: [f64; 2]| x * x + 0.6 * x * y + 0.6 * y * y,
-        |[x, y]: [f64; 2]| [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y],
-    );
+    let skew = Formula::new([false; 2], |[x, y]| {
+        let height = x * x + 0.6 * x * y + 0.6 * y * y;
+        (height, [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y])
+    });
     let table: [(_, &dyn Surface, _, _); 3] = [
         ("cone", &cone(1.0), 1.6, 10.0),
         ("paraboloid", &paraboloid(1.0), 1.4, 7.0),

@@ -209,39 +209,25 @@ pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {
     power(coefficient, 2.0)
 }
 
-/// A surface given by functions of [x, y].
-pub(crate) struct Formula<H, G> {
-    pub(crate) height: H,
-    pub(crate) gradient: G,
-    pub(crate) mirrors: [bool; 2],
+/// A smooth surface with these mirrors, of which a function of [x, y] gives the height and its gradient.
+pub(crate) struct Formula<F> {
+    mirrors: [bool; 2],
+    surface: F,
 }
 
-impl<H, G> Formula<H, G>
-where
-    H: Fn([f64; 2]) -> f64 + Send + Sync,
-    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
-{
-    /// A smooth surface of which no mirrors are known.
-    pub(crate) fn new(height: H, gradient: G) -> Self {
-        Self {
-            height,
-            gradient,
-            mirrors: [false; 2],
-        }
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
+    pub(crate) fn new(mirrors: [bool; 2], surface: F) -> Self {
+        Self { mirrors, surface }
     }
 }
 
-impl<H, G> Surface for Formula<H, G>
-where
-    H: Fn([f64; 2]) -> f64 + Send + Sync,
-    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
-{
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
     fn height(&self, position: [f64; 2]) -> f64 {
-        (self.height)(position)
+        (self.surface)(position).0
     }
 
     fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-        (self.gradient)(position)
+        (self.surface)(position).1
     }
 
     fn mirrors(&self) -> [bool; 2] {
@@ -430,16 +416,14 @@ pub(crate) fn body_of_unit_line(case: &casebook::Case) -> PowerProfile {
 /// One material of each kind, with moduli and times of order one.
 pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)> {
     let glassy = prony([0.4, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
+    let compressible = Compressible::new(&glassy, 0.3).expect("a Poisson ratio");
     vec![
         ("elastic", Box::new(prony([1.5, 0.0], &[]))),
         ("viscous", Box::new(prony([0.0, 2.0], &[]))),
         ("Kelvin-Voigt", Box::new(prony([0.7, 1.1], &[]))),
         ("Maxwell", Box::new(prony([0.0, 0.0], &[(2.0, 0.6)]))),
         ("three elements", Box::new(prony([0.3, 0.0], &[(3.0, 0.4)]))),
-        (
-            "compressible",
-            Box::new(Compressible::new(&glassy, 0.3).expect("a Poisson ratio")),
-        ),
+        ("compressible", Box::new(compressible)),
         ("two branches", Box::new(glassy)),
     ]
 }
