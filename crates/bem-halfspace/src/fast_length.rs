@@ -24,16 +24,7 @@ mod tests {
 
     #[test]
     fn lengths_are_even_smooth_and_tight() {
-        for (minimum, expected) in [
-            (1, 2),
-            (7, 8),
-            (11, 12),
-            (13, 16),
-            (127, 128),
-            (1021, 1024),
-            (2049, 2160),
-        ] {
-            assert_eq!(fast_length(minimum), expected, "for at least {minimum}");
-        }
+        let lengths = [1, 7, 11, 13, 127, 1021, 2049].map(fast_length);
+        assert_eq!(lengths, [2, 8, 12, 16, 128, 1024, 2160]);
     }
 }

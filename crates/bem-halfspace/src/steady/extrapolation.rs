@@ -67,11 +67,8 @@ mod tests {
     /// Values whose limit is 3.
     fn sequence(orders: [f64; 2], length: i32) -> Vec<f64> {
         let spacing = |level: i32| 2.0_f64.powf(-0.5 * f64::from(level));
-        (0..length)
-            .map(|level| {
-                3.0 - spacing(level).powf(orders[0]) + 0.2 * spacing(level).powf(orders[1])
-            })
-            .collect()
+        let terms = |h: f64| 3.0 - h.powf(orders[0]) + 0.2 * h.powf(orders[1]);
+        (0..length).map(|level| terms(spacing(level))).collect()
     }
 
     #[test]
@@ -88,11 +85,8 @@ mod tests {
         for length in 1..9 {
             for orders in [[1.5, 2.0], [1.5, 2.5], [0.3, 1.4], [1.0, 1.2]] {
                 let limit = extrapolate(&sequence(orders, length), orders[0]);
-                let deviation = (limit.value - 3.0).abs();
-                assert!(
-                    deviation <= limit.error + 1e-12,
-                    "{orders:?}, {length} values: {limit:?} instead of 3"
-                );
+                let holds = (limit.value - 3.0).abs() <= limit.error + 1e-12;
+                assert!(holds, "{orders:?}, {length} values: {limit:?} instead of 3");
             }
         }
     }

@@ -44,24 +44,21 @@ fn rough() -> impl Strategy<Value = Rough> {
         (Just([rows, columns]), roughness, summit)
     });
     let load = (0.5..2.0_f64, decades(3.0), 0.0..2.0_f64, any::<bool>());
-    (surface, load).prop_map(
-        |((shape, roughness, summit), (aspect, force, rough, periodic))| {
-            let height = |(index, noise): (usize, &f64)| {
-                let place = [index / shape[1], index % shape[1]];
-                let [x, y] =
-                    [0, 1].map(|axis| place[axis] as f64 - summit[axis] * shape[axis] as f64);
-                0.05 * (x * x + y * y) + rough * noise
-            };
-            let heights = roughness.iter().enumerate().map(height).collect();
-            Rough {
-                shape,
-                aspect,
-                heights,
-                force,
-                periodic,
-            }
-        },
-    )
+    (surface, load).prop_map(|(surface, (aspect, force, rough, periodic))| {
+        let (shape, roughness, summit) = surface;
+        let height = |(index, noise): (usize, &f64)| {
+            let x = (index / shape[1]) as f64 - summit[0] * shape[0] as f64;
+            let y = (index % shape[1]) as f64 - summit[1] * shape[1] as f64;
+            0.05 * (x * x + y * y) + rough * noise
+        };
+        Rough {
+            shape,
+            aspect,
+            heights: roughness.iter().enumerate().map(height).collect(),
+            force,
+            periodic,
+        }
+    })
 }
 
 /// What a residual of 1e-13 leaves of the depth and the pressure on these small grids.
@@ -70,13 +67,9 @@ const SAME: f64 = 1e-11;
 impl Rough {
     fn body(&self, [length, stress]: Units) -> Pressing {
         let grid = Grid::new(self.shape, [length, self.aspect * length]).expect("a grid");
-        let convolution = if self.periodic {
-            Convolution::periodic(&grid)
-        } else {
-            Convolution::new(&grid)
-        };
+        let kinds = [Convolution::new, Convolution::periodic];
         Pressing {
-            convolution,
+            convolution: kinds[usize::from(self.periodic)](&grid),
             heights: self.heights.iter().map(|height| height * length).collect(),
             compliance: 1.0 / stress,
             options: TIGHT,
@@ -95,9 +88,7 @@ impl Rough {
 }
 
 fn largest(values: &[f64]) -> f64 {
-    values
-        .iter()
-        .fold(0.0, |top: f64, value| top.max(value.abs()))
+    values.iter().fold(0.0, |top, value| value.abs().max(top))
 }
 
 /// The pressure is what the control asks for, nowhere tension, and the gap is zero under it and nowhere negative.
@@ -121,12 +112,14 @@ fn assert_solved(body: &Pressing, control: Control) {
         let gap = height + displacement - depth;
         // Rounding of the three terms.
         let allowed = allowed + 8.0 * f64::EPSILON * depth.abs().max(*height);
-        assert!(*pressure >= 0.0, "{control:?}: tension {pressure}");
-        let touches = *pressure > 0.0;
-        assert!(
-            gap >= -allowed && (!touches || gap <= allowed),
-            "{control:?}: gap {gap:e} under pressure {pressure:e}, allowed {allowed:e}"
-        );
+        // Nowhere tension.
+        let highest = if *pressure == 0.0 {
+            f64::INFINITY
+        } else {
+            allowed
+        };
+        let holds = *pressure >= 0.0 && (-allowed..=highest).contains(&gap);
+        assert!(holds, "{control:?}: gap {gap:e}, {pressure:e}, {allowed:e}");
     }
 }
 
@@ -189,13 +182,11 @@ proptest! {
     #![proptest_config(fixed_cases(256))]
 
     #[test]
-    fn pressure_balances_the_force_and_excludes_a_gap(scene in rough()) {
-        assert_solved(&scene.body([1.0; 2]), Control::NormalForce(scene.force));
-    }
-
-    #[test]
-    fn more_force_is_more_depth_from_any_first_guess(scene in rough(), more in 1.01..100.0_f64) {
+    fn pressure_excludes_a_gap_and_more_force_is_more_depth_from_any_first_guess(
+        scene in rough(), more in 1.01..100.0_f64,
+    ) {
         let body = scene.body([1.0; 2]);
+        assert_solved(&body, Control::NormalForce(scene.force));
         let (contact, _) = body.solve(Control::NormalForce(scene.force));
         let (deeper, mut state) = body.solve(Control::NormalForce(more * scene.force));
         let depths = [contact, deeper].map(|contact| contact.indentation_depth);
@@ -233,8 +224,7 @@ proptest! {
 fn sliding() -> impl Strategy<Value = Scene<Compressible>> {
     let body = (0.9..3.0_f64, decades(2.0));
     let branches = prop::collection::vec((decades(1.0), decades(1.0)), 0..3);
-    let modulus = || prop_oneof![Just(0.0), decades(1.0)];
-    let moduli = [modulus(), modulus()];
+    let moduli = [(); 2].map(|()| prop_oneof![Just(0.0), decades(1.0)]);
     (body, moduli, branches, -0.5..=0.5_f64, decades(1.0))
         .prop_filter("not a spring", |(_, [_, viscosity], branches, ..)| {
             *viscosity > 0.0 || !branches.is_empty()
@@ -248,22 +238,19 @@ fn sliding() -> impl Strategy<Value = Scene<Compressible>> {
             let of_branches: f64 = branches.iter().map(in_branch).sum();
             let modulus = moduli[0] + moduli[1] * velocity + of_branches;
             let material = Compressible::new(&prony(moduli, &branches), ratio);
-            Scene::new(
-                power(slope, exponent),
-                material.expect("a Poisson ratio"),
-                under_force(slope * modulus, velocity),
-            )
+            let load = under_force(slope * modulus, velocity);
+            Scene::new(power(slope, exponent), material.expect("a ratio"), load)
         })
 }
 
 /// A few steps from first touch on, of a body without symmetry or its mirror image in y (handedness −1).
 fn transient(scene: &Scene<Compressible>, handedness: f64) -> Transient {
-    let skewed = |[x, y]: [f64; 2]| [x + 0.4 * handedness * y, 1.3 * handedness * y];
-    let gradient = |position| {
-        let [along, across] = scene.body.gradient(skewed(position));
-        [along, handedness * (0.4 * along + 1.3 * across)]
-    };
-    let body = Formula::new(|position| scene.body.height(skewed(position)), gradient);
+    let body = Formula::new([false; 2], |[x, y]| {
+        let skewed = [x + 0.4 * handedness * y, 1.3 * handedness * y];
+        let [along, across] = scene.body.gradient(skewed);
+        let gradient = [along, handedness * (0.4 * along + 1.3 * across)];
+        (scene.body.height(skewed), gradient)
+    });
     let half_width = scene.footprint().x[1];
     let mut options = squares(half_width / 8.0, 2.0 * half_width);
     options.contact.tolerance = 1e-11;
@@ -287,15 +274,12 @@ proptest! {
         let force = scene.load.normal_force().expect("a force");
         assert_close("force", carried(&state.pressure), force, 1e-12);
         // Without a rear part the two are one sum.
-        let bound = state.mean_slope * (1.0 + 1e-12);
-        prop_assert!(
-            state.friction_coefficient > 0.0 && state.friction_coefficient <= bound,
-            "{} above {}", state.friction_coefficient, state.mean_slope
-        );
+        let (friction, slope) = (state.friction_coefficient, state.mean_slope);
+        let holds = friction > 0.0 && friction <= slope * (1.0 + 1e-12);
+        prop_assert!(holds, "{friction} above {slope}");
         let columns = state.pressure.grid.shape()[1];
         for row in state.pressure.pressure.chunks(columns).filter(|_| [0.0, 0.5].contains(&y)) {
-            let mirrored = row.iter().rev();
-            prop_assert!(row.iter().eq(mirrored), "half of a symmetric scene stands for both");
+            prop_assert!(row.iter().eq(row.iter().rev()), "half stands for both");
         }
     }
 

@@ -6,7 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use friction_analytic::scaling_factor;
-use indenters::PowerProfile;
+
+use crate::support::{assert_near, power};
 
 /// Angular elements between −π/2 and π/2.
 const N: usize = 200;
@@ -35,54 +36,40 @@ fn influence(steps: usize, width: f64) -> f64 {
     rest - 2.0 * (logarithm(right) - logarithm(left))
 }
 
-/// f(θ) ≥ 0 with ∫ k f dθ' = 2π cos θ where f > 0, on the elements of the wedge that is left.
-fn wedge() -> (Vec<f64>, Vec<f64>) {
+/// θ and f(θ) ≥ 0 with ∫ k f dθ' = 2π cos θ where f > 0, on the elements of the wedge that is left.
+fn wedge() -> Vec<(f64, f64)> {
     let width = PI / N as f64;
     let angle = |element: usize| (element as f64 + 0.5) * width - FRAC_PI_2;
     let mut contact: Vec<usize> = (0..N).collect();
     loop {
         let n = contact.len();
-        let matrix = Mat::from_fn(n, n, |row, column| {
-            influence(contact[row].abs_diff(contact[column]), width)
-        });
+        let steps = |row: usize, column: usize| contact[row].abs_diff(contact[column]);
+        let matrix = Mat::from_fn(n, n, |row, column| influence(steps(row, column), width));
         let right = Mat::from_fn(n, 1, |row, _| TAU * angle(contact[row]).cos());
         let solution = matrix.partial_piv_lu().solve(&right);
-        let pulls = |row: usize| solution[(row, 0)] < 0.0;
-        if !(0..n).any(pulls) {
-            let angles = contact.iter().map(|&element| angle(element)).collect();
-            return (angles, (0..n).map(|row| solution[(row, 0)]).collect());
+        let pushes = |row: &usize| solution[(*row, 0)] >= 0.0;
+        let left: Vec<usize> = (0..n).filter(pushes).map(|row| contact[row]).collect();
+        if left.len() == n {
+            let pressed = |row: usize| (angle(contact[row]), solution[(row, 0)]);
+            return (0..n).map(pressed).collect();
         }
-        contact = (0..n)
-            .filter(|&row| !pulls(row))
-            .map(|row| contact[row])
-            .collect();
+        contact = left;
     }
 }
 
 #[test]
 fn the_scaling_factor_of_sharp_cusps_follows_from_the_apex() {
-    let (angles, pressure) = wedge();
-    let width = PI / N as f64;
-    let integral: f64 = angles
-        .iter()
-        .zip(&pressure)
-        .map(|(angle, f)| f * angle.cos())
-        .sum();
+    let (wedge, width) = (wedge(), PI / N as f64);
+    let integral: f64 = wedge.iter().map(|(angle, f)| f * angle.cos()).sum();
     // h̃ = κ c |x|^p, Eq. (9).
-    let stretch = PowerProfile::new(1.0, 0.5).expect("a profile").stretch();
+    let stretch = power(1.0, 0.5).stretch();
     let limit = integral * width / (2.0 * stretch * stretch);
-    let edge = angles.iter().fold(0.0, |edge: f64, angle| edge.max(*angle)) + 0.5 * width;
-    assert!(
-        (edge.to_degrees() - 43.0).abs() < 0.5,
-        "the wedge opens by {}°",
-        edge.to_degrees()
-    );
+    let last = wedge.iter().map(|(angle, _)| *angle).fold(0.0, f64::max);
+    let edge = (last + 0.5 * width).to_degrees();
+    assert_near("opening of the wedge", edge, 43.0, 0.5);
     // s(p) is smooth in 2p − 1: two values extrapolate to the limit.
     let [near, far] = [0.501, 0.503].map(|p| scaling_factor(p).expect("a factor"));
     let extrapolated = near.value - 0.5 * (far.value - near.value);
     let error = 1.5 * near.error + 0.5 * far.error;
-    assert!(
-        (extrapolated - limit).abs() < error + 1e-4 * limit,
-        "s(1/2) = {limit} from the apex, {extrapolated} ± {error} from the table"
-    );
+    assert_near("s(1/2)", extrapolated, limit, error + 1e-4 * limit);
 }

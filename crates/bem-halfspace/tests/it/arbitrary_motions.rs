@@ -8,7 +8,7 @@ use bem_halfspace::{Control, GridOptions};
 use rheology::Material;
 
 use crate::support::{
-    after, assert_all_close, assert_close, assert_near, every_kind_of_material, motions,
+    after, assert_all_close, assert_close, assert_near, count, every_kind_of_material, motions,
     paraboloid, prony, slid, squares, three_elements, tight, under_force,
 };
 
@@ -41,31 +41,23 @@ fn slide_moves_by_whole_elements() {
         for (row, expected) in rows.iter().zip(&expected.rows) {
             let friction = row.tangential_force / row.normal_force;
             assert_near(name, friction, expected.friction_coefficient, 1e-10);
-            let [depth, expected] = [row.indentation_depth, expected.indentation_depth];
-            assert_close(name, depth, expected, 1e-10);
+            let depth = expected.indentation_depth;
+            assert_close(name, row.indentation_depth, depth, 1e-10);
         }
     }
 }
 
 /// Friction and depth after a distance of 2 by steps of the given length, in elements of which 16 have the length 1.
 fn by_parts(part: f64) -> [f64; 2] {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "some hundreds"
-    )]
-    let [n_steps, last] = [32.0, 2.0].map(|elements: f64| (elements / part).round() as usize);
+    let [n_steps, last] = [32.0, 2.0].map(|elements: f64| count((elements / part).round()));
     let x = |k: usize| 2.0 * k as f64 / n_steps as f64;
     let path = (1..=n_steps).map(|k| (x(k) / VELOCITY, x(k)));
     let rows = moved(path, &solid(), &squares(1.0 / 16.0, 1.6));
     // The outline follows the elements, which the friction feels: mean over the last two elements.
     let rows = &rows[rows.len() - last..];
-    let mean =
-        |value: fn(&MotionRow) -> f64| rows.iter().map(value).sum::<f64>() / rows.len() as f64;
-    [
-        mean(|row| row.tangential_force / row.normal_force),
-        mean(|row| row.indentation_depth),
-    ]
+    let mean = |value: fn(&MotionRow) -> f64| rows.iter().map(value).sum::<f64>() / last as f64;
+    let friction = mean(|row| row.tangential_force / row.normal_force);
+    [friction, mean(|row| row.indentation_depth)]
 }
 
 /// Steps of half, a third or a quarter of an element, and of two: the same friction to first order in their length.
@@ -99,9 +91,8 @@ fn motion_to_the_other_side_is_the_mirror_image() {
     let path = there.chain(repeat_n(0.9, 5)).chain(back).enumerate();
     let options = tight(squares(0.1, 1.6));
     let [right, left] = [1.0, -1.0].map(|sign| {
-        let timed = path.clone();
-        let timed = timed.map(|(k, x)| (0.05 * (k + 1) as f64, sign * x));
-        moved(timed, &solid(), &options)
+        let timed = |(k, x)| (0.05 * (k + 1) as f64, sign * x);
+        moved(path.clone().map(timed), &solid(), &options)
     });
     assert_same_rows(&right, &left, -1.0, 1e-9);
     // The dent in front resists, and after the turn the one that was behind.
@@ -136,9 +127,7 @@ fn a_body_pressed_elsewhere_meets_a_fresh_surface() {
     assert_eq!(rows[1].contact_x, None, "lifted");
     // The old dent, which recovers, is felt like a point force at that distance.
     let dent = FORCE / (4.0 * PI * 0.4 * far);
-    let [first, last] = [&rows[0], &rows[2]].map(|row| row.indentation_depth);
-    assert!(
-        last > first && last < first + dent,
-        "depth {last} after {first}, the dent reaches {dent}"
-    );
+    let [first, last] = [0, 2].map(|row: usize| rows[row].indentation_depth);
+    let is_fresh = last > first && last < first + dent;
+    assert!(is_fresh, "depth {last} after {first}, a dent of {dent}");
 }

@@ -1,7 +1,7 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
-use bem_halfspace::slide::{March, MarchState, MotionRow, SlideOmission};
-use bem_halfspace::{BemError, Control, GridOptions};
+use bem_halfspace::slide::{March, MotionRow, SlideOmission};
+use bem_halfspace::{Control, GridOptions};
 use indenters::{Surface, Unmirrored};
 use rheology::Material;
 
@@ -33,16 +33,14 @@ fn march<'a>(
 
 /// Makes at most so many steps.
 fn step(march: &mut March<'_>, n_steps: usize) -> Vec<MotionRow> {
-    let rows = (0..n_steps).map_while(|_| march.step().expect("a step"));
-    rows.collect()
+    let step = |_| march.step().expect("a step");
+    (0..n_steps).map_while(step).collect()
 }
 
 #[test]
 fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
-    let (body, material) = (
-        power(0.5, 1.5),
-        prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
-    );
+    let body = power(0.5, 1.5);
+    let material = prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
     // The rows behind are in the state where they are moved all the same.
     let behind = Some(SlideOmission::RowsBehind);
     for (work, interruptions) in [
@@ -55,10 +53,14 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
         for &interruption in interruptions {
             let mut first = new();
             let mut rows = step(&mut first, interruption);
-            let state = through_text(&first.state());
-            assert_eq!(state.steps_done(), interruption, "steps in the state");
+            let state = first.state();
+            #[cfg(feature = "serde")]
+            let text = serde_json::to_string(&state).expect("a text");
+            #[cfg(feature = "serde")]
+            let state = serde_json::from_str(&text).expect("a state");
             let mut second = new();
             second.resume(&state).expect("a state of the same scene");
+            assert_eq!(state.steps_done(), interruption, "steps in the state");
             let pressures = [&first, &second].map(|march| march.pressure());
             assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
             rows.extend(step(&mut second, 33));
@@ -67,61 +69,34 @@ fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
     }
 }
 
-#[cfg(feature = "serde")]
-fn through_text(state: &MarchState) -> MarchState {
-    let text = serde_json::to_string(state).expect("a text");
-    serde_json::from_str(&text).expect("a state")
-}
-
-#[cfg(not(feature = "serde"))]
-fn through_text(state: &MarchState) -> MarchState {
-    state.clone()
-}
-
 #[test]
 fn a_state_of_another_scene_is_refused() {
     let body = power(0.5, 1.5);
     let whole = Unmirrored(&body);
-    let [one, two] = [
-        prony([0.2, 0.0], &[(2.0, 0.3)]),
-        prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]),
-    ];
+    let branches = [(2.0, 0.3), (1.0, 2.0)];
+    let [one, two] = [1, 2].map(|n| prony([0.2, 0.0], &branches[..n]));
     let mut first = march(None, (&body, &one), 32);
     step(&mut first, 3);
     let refused = march(None, (&body, &two), 32).resume(&first.state());
-    assert!(
-        matches!(
-            refused,
-            Err(BemError::LengthMismatch {
-                field: "memory",
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
+    assert!(format!("{refused:?}").contains("\"memory\""), "{refused:?}");
+    assert_refused("branches", refused, "LengthMismatch");
     let refused = march(None, (&body, &one), 2).resume(&first.state());
     assert_refused("two steps", refused, "steps done");
     // The footprint of one has both sides, that of the other one.
     let elastic = elastic(2.0);
     let mut mirrored = march(None, (&body, &elastic), 32);
     let mut all = march(None, (&whole, &elastic), 32);
-    for march in [&mut mirrored, &mut all] {
-        step(march, 1);
-    }
+    step(&mut mirrored, 1);
+    step(&mut all, 1);
     let [front, both] = [mirrored.state(), all.state()];
     for refused in [mirrored.resume(&both), all.resume(&front)] {
         assert_refused("a mirror", refused, "columns of the footprint");
     }
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn a_state_with_an_impossible_box_is_refused() {
-    let (body, elastic) = (power(0.5, 1.5), elastic(2.0));
-    let mut march = march(None, (&body, &elastic), 32);
-    step(&mut march, 1);
-    let mut state = serde_json::to_value(march.state()).expect("a value");
-    state["contact_box"][0][0] = serde_json::json!(usize::MAX);
-    let refused = march.resume(&serde_json::from_value(state).expect("a state"));
-    assert_refused("a box", refused, "start of the contact box");
+    #[cfg(feature = "serde")]
+    {
+        let mut state = serde_json::json!(both);
+        state["contact_box"][0][0] = serde_json::json!(usize::MAX);
+        let refused = all.resume(&serde_json::from_value(state).expect("a state"));
+        assert_refused("a box", refused, "start of the contact box");
+    }
 }

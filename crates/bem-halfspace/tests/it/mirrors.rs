@@ -8,14 +8,10 @@ use rheology::Material;
 
 use crate::support::{
     Formula, Pressing, assert_all_close, assert_near, cone, difference, every_kind_of_material,
-    motions, prony, three_elements, tight,
+    motions, three_elements, tight,
 };
 
-struct Scene {
-    name: &'static str,
-    body: Pressing,
-    control: Control,
-}
+type Scene = (&'static str, Pressing, Control);
 
 /// Bodies with heights over the distances (x, y) from the middle, in elements.
 fn scenes(shape: [usize; 2]) -> [Scene; 6] {
@@ -38,14 +34,8 @@ fn scenes(shape: [usize; 2]) -> [Scene; 6] {
     ];
     table.map(|(name, convolution, height, control)| {
         let from_middle = |index: f64, length: usize| index - 0.5 * (length as f64 - 1.0);
-        let height = |[row, column]: [f64; 2]| {
-            height(from_middle(row, shape[0]), from_middle(column, shape[1]))
-        };
-        Scene {
-            name,
-            body: Pressing::new(convolution.clone(), height),
-            control,
-        }
+        let height = |[x, y]: [f64; 2]| height(from_middle(x, shape[0]), from_middle(y, shape[1]));
+        (name, Pressing::new(convolution.clone(), height), control)
     })
 }
 
@@ -66,12 +56,7 @@ fn the_part_in_front_of_mirrors_has_the_contact_of_the_whole() {
     }
 }
 
-fn check_against_whole(scene: &Scene) {
-    let Scene {
-        name,
-        body,
-        control,
-    } = scene;
+fn check_against_whole((name, body, control): &Scene) {
     let columns = body.convolution.grid().shape()[1];
     let (folded, state) = body.solve(*control);
     let symmetry = mirrors(&body.heights, columns);
@@ -97,13 +82,8 @@ fn check_against_whole(scene: &Scene) {
 #[test]
 fn a_kept_state_finds_the_contact_of_a_new_one() {
     let [bowl, _, skew, _, periodic, _] = scenes([72, 88]);
-    let mut state = ContactState::new(&bowl.body.convolution);
-    for Scene {
-        name,
-        body,
-        control,
-    } in [&bowl, &skew, &bowl, &periodic, &bowl]
-    {
+    let mut state = ContactState::new(&bowl.1.convolution);
+    for (name, body, control) in [&bowl, &skew, &bowl, &periodic, &bowl] {
         let contact = body.solve_from(&mut state, *control).expect("a contact");
         let (expected, cold) = body.solve(*control);
         assert_eq!(contact.n_contact, expected.n_contact, "{name}");
@@ -123,11 +103,6 @@ const PATH: [(f64, f64, Control); 6] = [
     (0.8, 0.5, Control::IndentationDepth(0.3)),
     (0.9, 0.61, Control::NormalForce(0.2)),
 ];
-
-/// The same without moving.
-fn presses() -> Vec<Motion> {
-    motions(PATH.map(|(time, _, control)| (time, 0.0, control)))
-}
 
 /// Compares all steps with those without mirrors; of the elements that are followed, which are the numbers in front of
 /// the mirrors and without them, the first are one of so many parts: those through which a mirror passes count in each.
@@ -163,52 +138,35 @@ fn compare(
         }
     }
     let [front, all] = [front.n_elements(), all.n_elements()];
-    assert!(
-        parts * front >= all && 9 * parts * front <= 12 * all && (parts == 1) == (front == all),
-        "{front} elements of {all}, in one of {parts} parts"
-    );
+    let is_part = parts * front >= all && 9 * parts * front <= 12 * all;
+    assert!(is_part, "{front} of {all}, in one of {parts} parts");
+    assert_eq!(parts == 1, front == all, "{front} of {all}");
 }
 
 #[test]
 fn one_half_tells_all_of_a_motion_and_one_quarter_all_of_an_indenter_that_stays() {
+    let (moving, staying) = (motions(PATH), motions(PATH.map(|(t, _, c)| (t, 0.0, c))));
     for (_, material) in every_kind_of_material() {
-        compare(&cone(0.4), &*material, (&motions(PATH), SQUARE), 2);
-        compare(&cone(0.4), &*material, (&presses(), SQUARE), 4);
+        compare(&cone(0.4), &*material, (&moving, SQUARE), 2);
+        compare(&cone(0.4), &*material, (&staying, SQUARE), 4);
     }
-}
-
-/// The same ahead and behind, but not right and left.
-#[test]
-fn the_front_tells_all_of_a_keel_until_it_moves() {
-    let keel = Formula {
-        mirrors: [true, false],
-        ..Formula::new(
-            |[x, y]: [f64; 2]| x * x + y * y + 0.3 * y * y * y,
-            |[x, y]: [f64; 2]| [2.0 * x, 2.0 * y + 0.9 * y * y],
-        )
-    };
     let material = three_elements(0.1, 2.0, 0.5);
-    compare(&keel, &material, (&presses(), SQUARE), 2);
-    compare(&keel, &material, (&motions(PATH), SQUARE), 1);
-}
-
-#[test]
-fn a_height_map_has_the_mirrors_of_its_nodes() {
-    let material = prony([0.1, 0.2], &[(2.0, 0.5)]);
+    // The same ahead and behind, but not right and left.
+    let keel = Formula::new([true, false], |[x, y]| {
+        let height = x * x + y * y + 0.3 * y * y * y;
+        (height, [2.0 * x, 2.0 * y + 0.9 * y * y])
+    });
+    compare(&keel, &material, (&staying, SQUARE), 2);
+    compare(&keel, &material, (&moving, SQUARE), 1);
+    // Both sides are followed in a footprint that is not symmetric.
+    let mut footprint = SQUARE;
+    footprint.y[1] = 2.5;
+    compare(&cone(0.4), &material, (&moving, footprint), 1);
+    // A height map has the mirrors of its nodes.
     let height = |node: usize| {
         let [x, y] = [node / 33, node % 33].map(|index| (index as f64 - 16.0) * 0.125);
         0.4 * x * x + 0.7 * y * y + 0.05 * (3.0 * x).cos() * y.abs()
     };
     let map = HeightMap::new([33, 33], [0.125; 2], (0..33 * 33).map(height).collect());
-    compare(&map.expect("a map"), &material, (&motions(PATH), SQUARE), 2);
-}
-
-#[test]
-fn a_footprint_that_is_not_symmetric_is_followed_on_both_sides() {
-    let footprint = Footprint {
-        x: SQUARE.x,
-        y: [-1.5, 2.5],
-    };
-    let material = three_elements(0.1, 2.0, 0.5);
-    compare(&cone(0.4), &material, (&motions(PATH), footprint), 1);
+    compare(&map.expect("a map"), &material, (&moving, SQUARE), 2);
 }

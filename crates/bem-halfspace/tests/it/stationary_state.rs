@@ -16,8 +16,8 @@ use crate::support::{
 /// The surface ahead sinks like ln t, so the depth grows by D/π per unit of ln(distance), for ever.
 #[test]
 fn depth_drifts_like_the_logarithm_of_the_distance() {
-    let cases = group("BEM-07");
-    let case = cases.iter().find(|case| case.id().ends_with("log drift"));
+    let mut cases = group("BEM-07").into_iter();
+    let case = cases.find(|case| case.id().ends_with("log drift"));
     let scene = Scene::unit(2.0);
     let transient = scene.slide(4.0, 96.0);
     let n = transient.rows.len();
@@ -46,10 +46,8 @@ fn extrapolation_in_the_distance_agrees_with_a_longer_run() {
         let limit = long.friction_coefficient;
         let allowed = short.distance_error + long.distance_error;
         assert_near(what, short.friction_coefficient, limit, allowed);
-        assert!(
-            short.distance_error < 2e-2 * short.friction_coefficient,
-            "{what:?}: {short:?}"
-        );
+        let is_small = short.distance_error < 2e-2 * short.friction_coefficient;
+        assert!(is_small, "{what:?}: {short:?}");
         // The drift is, to leading order, the distance that is left to the limit.
         let left = 1.0 - marches[0].last().friction_coefficient / limit;
         assert_near((what, "drift"), left / short.drift, 1.0, 0.35);
@@ -79,10 +77,8 @@ fn the_mean_slope_is_far_more_accurate_than_that_at_the_end_of_a_step() {
         assert_close(exponent, fine.friction_coefficient, limit, 5e-3);
         let change = (coarse.friction_coefficient - fine.friction_coefficient).abs();
         let change_at_end = (at_end[0] - at_end[2]).abs();
-        assert!(
-            gain * change < change_at_end,
-            "p = {exponent}: changes by refinement {change}, {change_at_end} at the end"
-        );
+        let is_better = gain * change < change_at_end;
+        assert!(is_better, "p = {exponent}: {change}, {change_at_end}");
     }
 }
 
@@ -94,10 +90,10 @@ const DISTANCES: [f64; 2] = [16.0, 64.0];
 /// one grid by 1e-3; the mean over the shifts has a trend.
 const SHIFTS: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 
-/// A surface on the half space on which F_N/(4ηv) is 1, solved by both methods.
+/// A surface on the half space on which F_N/(4ηv) is 1, solved by both methods in a square footprint.
 struct Twice<'surface> {
     surface: &'surface dyn Surface,
-    footprint: Footprint,
+    half_width: f64,
     /// Elements per unit of length of the coarser of the two grids from which the march is extrapolated.
     elements: f64,
 }
@@ -110,13 +106,11 @@ impl Twice<'_> {
     fn march(&self, elements: f64, shift: [f64; 2], distance: f64) -> Transient {
         let (material, load) = material_and_load();
         let spacing = [1.0 / elements, ASPECT / elements];
-        let shifted =
-            |position: [f64; 2]| [0, 1].map(|axis| position[axis] + shift[axis] * spacing[axis]);
-        let surface = Formula::new(
-            |position| self.surface.height(shifted(position)),
-            |position| self.surface.gradient(shifted(position)),
-        );
-        let options = GridOptions::new(spacing, self.footprint);
+        let surface = Formula::new([false; 2], |position| {
+            let at = [0, 1].map(|axis| position[axis] + shift[axis] * spacing[axis]);
+            (self.surface.height(at), self.surface.gradient(at))
+        });
+        let options = GridOptions::new(spacing, Footprint::square(self.half_width));
         slid(&surface, &material, &after(load, distance), &options)
     }
 
@@ -148,21 +142,18 @@ impl Twice<'_> {
         for elements in [self.elements, 2.0 * self.elements] {
             let what = (name, elements);
             // In the march the body is half an element further at the end of a step than in its middle.
+            let (spacing, footprint) = (1.0 / elements, Footprint::square(self.half_width));
             let options = SteadyOptions {
                 phase: [0.5, 0.0],
-                ..SteadyOptions::new([1.0 / elements, ASPECT / elements], self.footprint)
+                ..SteadyOptions::new([spacing, ASPECT * spacing], footprint)
             };
             let direct = steady_on_grid(self.surface, &material, &load, &options);
             let direct = direct.expect("a stationary state");
             let march = self.march(elements, [0.0, 0.0], DISTANCES[0]);
             let last = march.last();
-            let contact_x = last.contact_x.map(|end| end + 0.5 / elements);
-            assert_ends(
-                what,
-                [contact_x, last.contact_y],
-                [direct.contact_x, direct.contact_y],
-                1.01 / elements,
-            );
+            let contact_x = last.contact_x.map(|end| end + 0.5 * spacing);
+            let expected = [direct.contact_x, direct.contact_y];
+            assert_ends(what, [contact_x, last.contact_y], expected, 1.01 * spacing);
             let depth = direct.depth.after(last.sliding_distance).expect("a depth");
             let allowed = 2.0 * direct.depth.depth_per_e_fold / last.sliding_distance;
             assert_near(what, last.indentation_depth, depth, allowed);
@@ -171,32 +162,23 @@ impl Twice<'_> {
 }
 
 #[test]
-fn the_cone_and_the_paraboloid_slide_alike_in_both() {
-    Twice {
-        surface: &cone(1.0),
-        footprint: Footprint::square(1.6),
-        elements: 10.0,
+fn cones_paraboloids_and_skew_bodies_slide_alike_in_both() {
+    // An elliptic paraboloid that slides along none of its axes: no symmetry is left.
+    let skew = Formula::new([false; 2], |[x, y]| {
+        let height = x * x + 0.6 * x * y + 0.6 * y * y;
+        (height, [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y])
+    });
+    let table: [(_, &dyn Surface, _, _); 3] = [
+        ("cone", &cone(1.0), 1.6, 10.0),
+        ("paraboloid", &paraboloid(1.0), 1.4, 7.0),
+        ("skew paraboloid", &skew, 2.2, 7.0),
+    ];
+    for (name, surface, half_width, elements) in table {
+        let twice = Twice {
+            surface,
+            half_width,
+            elements,
+        };
+        twice.check(name);
     }
-    .check("cone");
-    Twice {
-        surface: &paraboloid(1.0),
-        footprint: Footprint::square(1.4),
-        elements: 7.0,
-    }
-    .check("paraboloid");
-}
-
-/// An elliptic paraboloid that slides along none of its axes: no symmetry is left.
-#[test]
-fn a_skew_body_slides_alike_in_both() {
-    let skew = Formula::new(
-        |[x, y]: [f64; 2]| x * x + 0.6 * x * y + 0.6 * y * y,
-        |[x, y]: [f64; 2]| [2.0 * x + 0.6 * y, 0.6 * x + 1.2 * y],
-    );
-    Twice {
-        surface: &skew,
-        footprint: Footprint::square(2.2),
-        elements: 7.0,
-    }
-    .check("skew paraboloid");
 }

@@ -13,6 +13,7 @@ use bem_halfspace::{
 pub(crate) use casebook::prony;
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use numerics::{Estimate, Request};
+use rayon::ThreadPoolBuilder;
 use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
 /// Tight enough that the active set and ten digits are those of the exact discrete solution.
@@ -50,15 +51,6 @@ impl Pressing {
         Self::new(Convolution::new(&grid), |element| {
             surface.height(element.map(position))
         })
-    }
-
-    /// A body with the given heights on unit elements.
-    pub(crate) fn on_unit_elements(shape: [usize; 2], heights: &[f64]) -> Self {
-        let grid = Grid::new(shape, [1.0; 2]).expect("a valid grid");
-        Self {
-            heights: heights.to_vec(),
-            ..Self::new(Convolution::new(&grid), |_| 0.0)
-        }
     }
 
     /// Solves from the pressure of a state.
@@ -189,14 +181,20 @@ pub(crate) fn carried(field: &PressureField) -> f64 {
     pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
-/// A small whole number among the inputs of a case.
+/// A small count, of a whole number.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "small counts"
 )]
-pub(crate) fn count(case: &casebook::Case, name: &str) -> usize {
-    case.input(name) as usize
+pub(crate) fn count(whole: f64) -> usize {
+    whole as usize
+}
+
+/// Works on so many threads.
+pub(crate) fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("a pool").install(work)
 }
 
 pub(crate) fn power(coefficient: f64, exponent: f64) -> PowerProfile {
@@ -211,41 +209,25 @@ pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {
     power(coefficient, 2.0)
 }
 
-/// A surface given by functions of [x, y].
-pub(crate) struct Formula<H, G> {
-    pub(crate) height: H,
-    pub(crate) gradient: G,
-    pub(crate) mirrors: [bool; 2],
-    pub(crate) apex_exponent: f64,
+/// A smooth surface with these mirrors, of which a function of [x, y] gives the height and its gradient.
+pub(crate) struct Formula<F> {
+    mirrors: [bool; 2],
+    surface: F,
 }
 
-impl<H, G> Formula<H, G>
-where
-    H: Fn([f64; 2]) -> f64 + Send + Sync,
-    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
-{
-    /// A smooth surface of which no mirrors are known.
-    pub(crate) fn new(height: H, gradient: G) -> Self {
-        Self {
-            height,
-            gradient,
-            mirrors: [false; 2],
-            apex_exponent: 2.0,
-        }
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
+    pub(crate) fn new(mirrors: [bool; 2], surface: F) -> Self {
+        Self { mirrors, surface }
     }
 }
 
-impl<H, G> Surface for Formula<H, G>
-where
-    H: Fn([f64; 2]) -> f64 + Send + Sync,
-    G: Fn([f64; 2]) -> [f64; 2] + Send + Sync,
-{
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
     fn height(&self, position: [f64; 2]) -> f64 {
-        (self.height)(position)
+        (self.surface)(position).0
     }
 
     fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-        (self.gradient)(position)
+        (self.surface)(position).1
     }
 
     fn mirrors(&self) -> [bool; 2] {
@@ -253,7 +235,7 @@ where
     }
 
     fn apex_exponent(&self) -> f64 {
-        self.apex_exponent
+        2.0
     }
 }
 
@@ -340,10 +322,6 @@ impl<M: Material> Scene<M> {
         solved.expect("a stationary state")
     }
 
-    pub(crate) fn steady_on_one_grid(&self, elements: f64) -> SteadySliding {
-        self.steady_on(&self.steady_options(elements))
-    }
-
     pub(crate) fn try_steady(
         &self,
         accuracy: impl Into<Request<'static>>,
@@ -386,15 +364,26 @@ impl Scene {
     }
 }
 
-/// The depths of a body under a constant force at some times, on one grid.
+/// The steps of an indentation to times \[s], on one grid.
 pub(crate) fn pressed(
     body: &dyn Surface,
     material: &dyn Material,
-    (force, times): (f64, &[f64]),
+    path: impl IntoIterator<Item = (f64, Control)>,
     options: &GridOptions,
 ) -> Vec<IndentRow> {
-    let steps = IndentStep::constant(Control::NormalForce(force), times);
+    let step = |(time, control)| IndentStep { time, control };
+    let steps: Vec<IndentStep> = path.into_iter().map(step).collect();
     indent_history_on_grid(body, material, &steps, options).expect("an indentation")
+}
+
+/// The depths under a constant force at some times.
+pub(crate) fn pressed_by(
+    force: f64,
+    times: &[f64],
+) -> impl Iterator<Item = (f64, Control)> + use<'_> {
+    times
+        .iter()
+        .map(move |time| (*time, Control::NormalForce(force)))
 }
 
 pub(crate) fn elastic(shear_modulus: f64) -> Elastic {
@@ -427,16 +416,14 @@ pub(crate) fn body_of_unit_line(case: &casebook::Case) -> PowerProfile {
 /// One material of each kind, with moduli and times of order one.
 pub(crate) fn every_kind_of_material() -> Vec<(&'static str, Box<dyn Material>)> {
     let glassy = prony([0.4, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
+    let compressible = Compressible::new(&glassy, 0.3).expect("a Poisson ratio");
     vec![
         ("elastic", Box::new(prony([1.5, 0.0], &[]))),
         ("viscous", Box::new(prony([0.0, 2.0], &[]))),
         ("Kelvin-Voigt", Box::new(prony([0.7, 1.1], &[]))),
         ("Maxwell", Box::new(prony([0.0, 0.0], &[(2.0, 0.6)]))),
         ("three elements", Box::new(prony([0.3, 0.0], &[(3.0, 0.4)]))),
-        (
-            "compressible",
-            Box::new(Compressible::new(&glassy, 0.3).expect("a Poisson ratio")),
-        ),
+        ("compressible", Box::new(compressible)),
         ("two branches", Box::new(glassy)),
     ]
 }

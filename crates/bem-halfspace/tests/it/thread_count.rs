@@ -2,10 +2,9 @@
 
 use bem_halfspace::steady::SteadyOptions;
 use bem_halfspace::{ContactOptions, Control, Convolution, Grid};
-use rayon::ThreadPoolBuilder;
 
 use crate::support::{
-    Pressing, Scene, after, paraboloid, slid, squares, three_elements, under_force,
+    Pressing, Scene, after, on_threads, paraboloid, slid, squares, three_elements, under_force,
 };
 
 #[test]
@@ -13,11 +12,8 @@ fn one_to_four_threads_find_the_same_contact() {
     let grid = Grid::new([200; 2], [1.0; 2]).expect("a valid grid");
     // The second has mirrors.
     let middles = [[90.3, 110.8], [99.5; 2]];
-    let kinds = [Convolution::new, Convolution::periodic];
-    for (new, middle) in kinds
-        .into_iter()
-        .flat_map(|new| middles.map(|middle| (new, middle)))
-    {
+    let kinds = [Convolution::new, Convolution::periodic].into_iter();
+    for (new, middle) in kinds.flat_map(|new| middles.map(|middle| (new, middle))) {
         let height = |element: [f64; 2]| {
             let [x, y] = [0, 1].map(|axis| element[axis] - middle[axis]);
             0.004 * (x * x + 1.3 * y * y) + (0.3 * x).cos() * (0.2 * y).cos()
@@ -41,7 +37,7 @@ fn one_to_four_threads_find_the_same_contact() {
 }
 
 #[test]
-fn stationary_sliding_is_the_same_on_one_and_three_threads() {
+fn marches_and_stationary_states_are_the_same_on_one_and_three_threads() {
     let scene = Scene::unit(2.0);
     let options = SteadyOptions {
         phase: [0.1, 0.3],
@@ -50,10 +46,6 @@ fn stationary_sliding_is_the_same_on_one_and_three_threads() {
     };
     let [one, three] = [1, 3].map(|threads| on_threads(threads, || scene.steady_on(&options)));
     assert_eq!(one, three, "the same pressure on one and three threads");
-}
-
-#[test]
-fn a_slide_is_the_same_on_one_and_three_threads() {
     let (body, material) = (paraboloid(0.5), three_elements(0.1, 1.0, 1.0));
     // More than the 2^13 elements for which a second thread is taken.
     let load = after(under_force(1.5, 0.3), 0.4);
@@ -61,9 +53,4 @@ fn a_slide_is_the_same_on_one_and_three_threads() {
     let [one, three] = [1, 3].map(|threads| on_threads(threads, run));
     assert!(one.n_elements > 8192, "{} elements", one.n_elements);
     assert_eq!(one, three, "the same slide on one and three threads");
-}
-
-fn on_threads<T: Send>(threads: usize, work: impl Fn() -> T + Send + Sync) -> T {
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.expect("a pool").install(work)
 }
