@@ -15,6 +15,7 @@
 //!     order: 2.0,
 //!     work: 1.0,
 //!     others: 0.0,
+//!     selection: 1.0,
 //! };
 //! let pi = refine(&goal, |corners, _| half_perimeter(corners), |value| [Quantity::from(*value)], no_other_error)?;
 //! assert!((pi.value - std::f64::consts::PI).abs() < pi.error[0]);

@@ -67,6 +67,9 @@ pub struct Goal<'a> {
     pub work: f64,
     /// Work of the other errors, as a part of that on the finest resolution.
     pub others: f64,
+    /// Factor ≥ 1 on the errors of the elements where a relative error ends the refinement: where they scatter from resolution
+    /// to resolution, those that end it are the ones that are small by chance.
+    pub selection: f64,
 }
 
 /// A number that is refined.
@@ -175,8 +178,12 @@ pub fn refine<T, E: From<NotReached>, const N: usize>(
         let value = on(8, elements, &mut progress)?;
         let fine = quantities(&value);
         let is_last = || elements >= goal.largest || !watch.allows(2 * elements);
-        let mut parts =
-            parts_of_elements(goal.order, [&fine, &three_quarters, &half], three_eighths);
+        let weight = asked.map_or(1.0, |_| goal.selection);
+        let mut parts = parts_of_elements(
+            [goal.order, weight],
+            [&fine, &three_quarters, &half],
+            three_eighths,
+        );
         if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
             let work = goal.others * goal.work_on(elements as f64);
             let others = progress.during(work, |tell| others(&value, tell))?;
@@ -229,14 +236,14 @@ impl Goal<'_> {
 
 /// What the elements do to each quantity, of all elements, three quarters and a half of them, and three eighths.
 fn parts_of_elements<const N: usize>(
-    order: f64,
+    [order, weight]: [f64; 2],
     resolutions: [&[Quantity; N]; 3],
     three_eighths: Option<[Quantity; N]>,
 ) -> [ErrorParts; N] {
     std::array::from_fn(|index| {
         let values = resolutions.map(|quantities| quantities[index].value);
         let three_eighths = three_eighths.map(|quantities| quantities[index].value);
-        let error = error_of_elements(order, values, three_eighths);
+        let error = weight * error_of_elements(order, values, three_eighths);
         ErrorParts::of_elements(error.max(resolutions[0][index].least))
     })
 }
@@ -305,6 +312,7 @@ mod tests {
             order,
             work: 0.0,
             others: 0.0,
+            selection: 1.0,
         };
         let quantities = |value: &f64| {
             [Quantity {
@@ -357,6 +365,7 @@ mod tests {
             order: 1.0,
             work: 1.0,
             others: 0.5,
+            selection: 1.0,
         };
         let solve = |elements: usize, tell: &dyn Fn(f64)| {
             tell(0.5);

@@ -236,6 +236,7 @@ fn estimate(
             order: ORDER,
             work: WORK,
             others: 0.0,
+            selection: 2.0,
         },
         control,
         target: Target::Depth,

@@ -110,6 +110,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
                 order: bars::order_of_friction(self.plan.apex_exponent),
                 work: WORK,
                 others: 0.0,
+                selection: 2.0,
             },
             control: self.load.control(),
             // Nothing is dissipated in an elastic half space, where the depth stands for the friction.

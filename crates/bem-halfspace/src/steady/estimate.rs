@@ -135,6 +135,7 @@ pub(super) fn resolution(
             order: bars::order_of_friction(apex_exponent),
             work: WORK,
             others: 0.0,
+            selection: 2.0,
         },
         control,
         target: Target::Friction,

@@ -64,7 +64,8 @@ fn steady_in(body: &impl Surface, spacing: f64, end: f64) -> Result<SteadySlidin
 
 #[test]
 fn options_out_of_range_are_refused() {
-    let of_elements: [(_, fn(&mut [f64; 2], &mut Footprint, f64)); 4] = [
+    type Change = fn(&mut [f64; 2], &mut Footprint, f64);
+    let of_elements: [(_, Change); 4] = [
         ("spacing along x", |spacing, _, bad| spacing[0] = bad),
         ("spacing along y", |spacing, _, bad| spacing[1] = bad),
         ("footprint along x", |_, area, bad| area.x[1] = bad),

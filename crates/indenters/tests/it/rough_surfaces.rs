@@ -123,13 +123,14 @@ fn the_spectrum_is_self_affine() {
 
 #[test]
 fn impossible_spectra_are_refused() {
-    let bad: [(&str, fn(&mut SelfAffine)); 6] = [
+    type Change = fn(&mut SelfAffine);
+    let bad: [(&str, Change); 6] = [
         ("hurst_exponent", |asked| asked.hurst_exponent = 1.0),
         ("rms_slope", |asked| asked.rms_slope = f64::NAN),
         ("period along x", |asked| asked.period = [0.0, 1.0]),
         ("period along x", |asked| asked.shortest_wavelength = 1e-9),
         ("roll_off_wavelength", |asked| {
-            asked.roll_off_wavelength = 0.6
+            asked.roll_off_wavelength = 0.6;
         }),
         ("shortest_wavelength", |asked| {
             asked.longest_wavelength = 0.3;

@@ -77,6 +77,7 @@ pub fn slide<'w>(
         order: (2.0 * line.apex_exponent() - 1.0).clamp(ORDERS[0], ORDERS[1]),
         work: WORK,
         others: f64::from(has_memory(&material.creep())),
+        selection: 1.0,
     };
     let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
     let others = |march: &March, tell: &dyn Fn(f64)| motion.other_errors(march, tell);

@@ -182,20 +182,23 @@ fn noiseless_curves_give_the_material_itself() {
     }
 }
 
-/// How the reasons begin, and what is done to a curve of 600 points and a peak that has them.
-const REASONS: [(&str, fn(&mut IndentationCurve, f64)); 8] = [
+/// What is done to a curve of 600 points with a peak.
+type Damage = fn(&mut IndentationCurve, f64);
+
+/// How the reasons begin, and what has them.
+const REASONS: [(&str, Damage); 8] = [
     ("point 71 has no number", |c, _| c.force[70] = f64::NAN),
     ("at point 301 the time", |c, _| {
-        add(&mut c.time[300..], -1.5)
+        add(&mut c.time[300..], -1.5);
     }),
     ("points are missing after", |c, _| {
-        add(&mut c.time[250..], 0.5)
+        add(&mut c.time[250..], 0.5);
     }),
     ("the force is cut off at", |c, peak| {
         change(&mut c.force, |force| force.min(0.6 * peak));
     }),
     ("the force falls while", |c, _| {
-        change(&mut c.force, |force| -force)
+        change(&mut c.force, |force| -force);
     }),
     ("there is no contact", |c, _| {
         let mut normal = Normal(5);
