@@ -142,6 +142,8 @@ const FIRST: usize = 16;
 const FEWEST_FOR_EIGHTHS: usize = 16;
 /// Weights of the estimates by half of the elements, three quarters, and three eighths (docs/calibration.md).
 const WEIGHTS: [f64; 3] = [1.5, 0.75, 1.0];
+/// Of the first two, where there is no third one.
+const OF_TWO: f64 = 3.0;
 /// Of the many sums behind a value, relative to it.
 const ROUNDING: f64 = 1e-12;
 
@@ -258,9 +260,10 @@ fn error_of_elements(
     let gain = |ratio: f64| (order * ratio.ln()).exp_m1();
     let of_half = (fine - half).abs() / gain(2.0);
     let of_three_quarters = (fine - three_quarters).abs() / gain(4.0 / 3.0);
-    let of_three_eighths = three_eighths.map_or(0.0, |value| {
-        (half - value).abs() / gain(4.0 / 3.0) * (-order).exp2()
-    });
+    let Some(three_eighths) = three_eighths else {
+        return OF_TWO * of_half.max(of_three_quarters);
+    };
+    let of_three_eighths = (half - three_eighths).abs() / gain(4.0 / 3.0) * (-order).exp2();
     let estimates = [of_half, of_three_quarters, of_three_eighths];
     let weighted = estimates.iter().zip(WEIGHTS);
     weighted.fold(0.0, |largest, (one, weight)| (weight * one).max(largest))

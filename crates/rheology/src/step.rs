@@ -1,4 +1,4 @@
-//! One step in time, or over one cell of an upstream sweep, exact for any ratio of step and time constants.
+//! One step in time, exact for any ratio of step and time constants.
 //!
 //! ```text
 //! u_new = α w_new + history    α = J(Δt)    w held at w_new over the step

@@ -158,12 +158,14 @@ fn order(errors: [f64; 2], refinement: f64) -> f64 {
 #[test]
 fn pressures_converge_to_the_exact_ones_with_second_order() {
     for case in group("BEM-01") {
-        let (shape, radius) = (case.input_text("shape"), case.input("r"));
-        // On the apex of the cone the pressure is infinite.
-        let is_apex = shape == "cone" && radius < 0.01;
-        let Some(exact) = case.expected("p").filter(|_| !is_apex) else {
+        let Some(exact) = case.expected("p") else {
             continue;
         };
+        let (shape, radius) = (case.input_text("shape"), case.input("r"));
+        // On the apex of the cone the pressure is infinite.
+        if shape == "cone" && radius < 0.01 {
+            continue;
+        }
         let errors = [16.0, 32.0].map(|elements| {
             let (_, state, element) = contact_with(&body_of(&case), radius, 1.0 / elements);
             state.pressure()[element] / exact - 1.0
