@@ -322,8 +322,9 @@ impl Grids<'_> {
         let distance = self.problem.loading.sliding_distance;
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
+        let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
         let averages = Refinement {
-            spacing: spacing[0],
+            spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: match self.problem.loading.strip {
                 Some(_) => Average::of_halves(&states, |state| state.friction_coefficient),
                 None => average(&|state| state.friction_coefficient),
