@@ -9,39 +9,18 @@
 //! time; a contact that shrinks takes rings from the top (Ting 1966, J. Appl. Mech. 33, 845). Elements that are touched
 //! again are followed one by one, each from event to event in closed form, and summed over a ring by quadrature.
 
+mod edge;
+mod sums;
+
 use indenters::Axisymmetric;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::Measured;
-use super::edge::Edge;
-use super::element::{Elements, State};
+use super::element::{Elements, Leg, Motion, State};
 use super::path::{Instant, Path, ROUNDING};
 use super::radius::Radii;
 use crate::MdrError;
-
-/// How the edge moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Motion {
-    /// Outwards, over elements that were never touched.
-    First,
-    /// Outwards, over elements that were touched before.
-    Again,
-    /// Inwards.
-    Leaving,
-}
-
-/// A ring over which the edge moves in one direction, within one segment of the path.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Leg {
-    pub(super) motion: Motion,
-    pub(super) from: Instant,
-    pub(super) to: Instant,
-    /// Radii of the ring, \[m].
-    pub(super) inner: f64,
-    pub(super) outer: f64,
-    /// Number of legs before it.
-    pub(super) before: usize,
-}
+use edge::Edge;
 
 /// A body that follows a path, from one point to the next.
 #[derive(Clone)]

@@ -10,8 +10,31 @@
 use indenters::Axisymmetric;
 use numerics::bracketed_root;
 
-use super::contact::{Leg, Motion};
 use super::path::{Instant, Mode, Path};
+
+/// How the edge moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Motion {
+    /// Outwards, over elements that were never touched.
+    First,
+    /// Outwards, over elements that were touched before.
+    Again,
+    /// Inwards.
+    Leaving,
+}
+
+/// A ring over which the edge moves in one direction, within one segment of the path.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Leg {
+    pub(super) motion: Motion,
+    pub(super) from: Instant,
+    pub(super) to: Instant,
+    /// Radii of the ring, \[m].
+    pub(super) inner: f64,
+    pub(super) outer: f64,
+    /// Number of legs before it.
+    pub(super) before: usize,
+}
 
 /// An element in contact.
 #[derive(Debug, Clone)]

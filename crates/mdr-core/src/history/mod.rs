@@ -10,13 +10,11 @@
 mod approach;
 mod contact;
 mod derivatives;
-mod edge;
 mod element;
 mod force;
 mod memory;
 mod path;
 mod radius;
-mod sums;
 
 use indenters::{Axisymmetric, Control};
 use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};

@@ -1,12 +1,13 @@
 //! The Prony series behind a measured curve.
 
+mod swapped;
+
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use numerics::{InvalidParameter, in_range, not_negative, positive};
 
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
-use super::swapped;
 use super::system::Row;
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 

@@ -5,7 +5,6 @@ mod identify;
 mod master_curve;
 mod nnls;
 mod refine;
-mod swapped;
 mod system;
 
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};

@@ -4,17 +4,12 @@ use anyhow::Result;
 use rheology::fit::{ModulusPoint, RelaxationPoint};
 use rheology::{RelaxationSpectrum, WlfShift};
 
-use super::picture::{Comparison, figure};
+use super::picture::{Comparison, OSCILLATION, RELAXATION, figure};
 use super::{Fitted, Points};
 use crate::output::{OutputFolder, to_csv};
 
 /// All files that a fit may write.
 pub(super) const NAMES: &str = "material.toml fit.csv fit.svg fit.png shifts.csv";
-
-/// Columns of fit.csv: what was measured, the same of the series, and the relative error |G_fit/G − 1|.
-pub(super) const OSCILLATION: &str =
-    "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa relative_error";
-const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
 /// Writes material.toml, fit.csv, fit.svg and fit.png, and shifts.csv when isotherms were shifted.
 pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {

@@ -1,7 +1,11 @@
 //! Measured and fitted moduli, and the error between them.
 
-use super::output_files::OSCILLATION;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
+
+/// Columns of fit.csv: what was measured, the same of the series, and the relative error |G_fit/G − 1|.
+pub(super) const OSCILLATION: &str =
+    "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa relative_error";
+pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
 /// Measured against fitted, as rows of a table.
 pub(super) struct Comparison {

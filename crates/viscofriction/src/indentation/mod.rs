@@ -8,6 +8,7 @@
 
 mod checks;
 mod depth;
+mod flag;
 mod intervals;
 mod model;
 mod read;
@@ -19,7 +20,7 @@ use rheology::Prony;
 use serde::Serialize;
 
 use crate::mdr_core::MdrError;
-pub use checks::Flag;
+pub use flag::Flag;
 use numerics::InvalidParameter;
 pub use read::{CurveOptions, indentation_curve};
 

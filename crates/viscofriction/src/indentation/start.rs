@@ -4,7 +4,7 @@ use indenters::Axisymmetric;
 
 use super::depth::ends;
 use super::model::{Kind, Model};
-use super::{FitOptions, Flag, IndentationCurve, IndentationError, checks};
+use super::{FitOptions, Flag, IndentationCurve, IndentationError};
 use crate::mdr_core::MdrError;
 
 /// An elastic fit of the approach.
@@ -23,6 +23,8 @@ pub(super) struct Start {
     pub(super) approach_time: f64,
 }
 
+/// Points that a curve must have.
+pub(super) const FEWEST: usize = 30;
 /// Points of the approach, and contact points that are tried before the best of them is refined.
 const POINTS: usize = 100;
 const CANDIDATES: usize = 24;
@@ -39,9 +41,7 @@ pub(super) fn start(
     let range = ends(depth)[1] - depth[0];
     let is_deep = |one: &f64| *one >= depth[0] + APPROACH * range;
     let turn = depth.iter().position(is_deep).unwrap_or(depth.len() - 1);
-    let few = curve
-        .first((turn + 1).max(checks::FEWEST))
-        .decimated(POINTS);
+    let few = curve.first((turn + 1).max(FEWEST)).decimated(POINTS);
     let model = Model::new(body, &few, Kind::Branches(0), options);
     if turn == 0 {
         return Err(IndentationError::Damaged(Flag::WrongSign));

@@ -12,6 +12,7 @@ use rheology::InvalidParameter;
 use rheology::fit::{Isotherm, ModulusPoint, RelaxationPoint};
 
 use crate::WrongInput;
+pub use crate::table::Deformation;
 use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
 use isotherms::{Group, Row, insert};
@@ -34,16 +35,6 @@ pub enum Measurements {
     Oscillation(Vec<Isotherm>),
     /// Points at increasing times.
     Relaxation(Vec<RelaxationPoint>),
-}
-
-/// How a body was deformed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
-pub enum Deformation {
-    /// In tension, compression or bending: the modulus is Young's, E.
-    Tension,
-    /// In shear: the modulus is G.
-    Shear,
 }
 
 /// What a table does not say.

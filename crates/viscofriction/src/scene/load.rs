@@ -1,16 +1,13 @@
 //! `[load]`: how the body is pressed and moved.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use indenters::Control;
-use mdr_core::HistoryPoint;
-use numerics::{in_range, not_negative, positive};
+use numerics::{not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SceneError;
-use super::files::history;
-use crate::text::{ReadFile, WrongInput};
 
 /// A force or a depth, and a speed.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
@@ -106,95 +103,4 @@ impl Load {
         let velocity = self.velocity.ok_or_else(missing)?;
         Ok(not_negative("load.velocity", velocity)?)
     }
-
-    /// The points of the history; none where the load is constant. A file is in `folder` and read by `read`.
-    ///
-    /// # Errors
-    /// [`SceneError`] for the first point that is out of order or range, and for a history beside anything else.
-    pub fn checked_history(
-        &self,
-        folder: &Path,
-        read: ReadFile,
-    ) -> Result<Option<Vec<HistoryPoint>>, SceneError> {
-        let (points, of_file) = match (&self.history, &self.history_file) {
-            (None, None) => return Ok(None),
-            (Some(points), None) => (points.clone(), false),
-            (None, Some(file)) => {
-                let file = folder.join(file);
-                let points =
-                    read(&file).and_then(|table| history(&file, &table).map_err(WrongInput));
-                let wrong = |WrongInput(problem)| SceneError::at("load.history_file", problem);
-                (points.map_err(wrong)?, true)
-            }
-            (Some(_), Some(_)) => {
-                let problem = "either history or history_file is given, not both";
-                return Err(SceneError::at("load.history_file", problem));
-            }
-        };
-        let others = [
-            ("load.normal_force", self.normal_force),
-            ("load.indentation_depth", self.indentation_depth),
-            ("load.mean_pressure", self.mean_pressure),
-            ("load.velocity", self.velocity),
-        ];
-        if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
-            let problem = "a history says how the body moves, and nothing slides; leave this out";
-            return Err(SceneError::at(key, problem));
-        }
-        // Whoever wrote a file reads the number of its row, counted from 0 like an index.
-        let key = |index: usize, name: &str| match (of_file, name) {
-            (true, _) => "load.history_file".to_owned(),
-            (false, "") => format!("load.history[{index}]"),
-            (false, _) => format!("load.history[{index}].{name}"),
-        };
-        checked(&points, key).map(Some)
-    }
-}
-
-/// The points, where time does not go back, and all have a force or all a depth.
-fn checked(
-    points: &[LoadPoint],
-    key: impl Fn(usize, &str) -> String,
-) -> Result<Vec<HistoryPoint>, SceneError> {
-    if points.len() < 2 {
-        let key = key(0, "").replace("[0]", "");
-        return Err(SceneError::at(key, "at least two points are needed"));
-    }
-    let mut before = 0.0;
-    let mut checked = Vec::with_capacity(points.len());
-    for (index, point) in points.iter().enumerate() {
-        let number = |name: &'static str, value: f64, holds: bool, allowed: &'static str| {
-            let holds = holds && value.is_finite();
-            in_range(name, value, holds, allowed).map_err(|_| SceneError::Value {
-                key: key(index, name),
-                value,
-                allowed,
-            })
-        };
-        let allowed = "finite, at least 0, and not before the time of the point before";
-        before = number("time", point.time, point.time >= before, allowed)?;
-        let control = match (point.normal_force, point.indentation_depth) {
-            (Some(force), None) => {
-                let allowed = "finite and at least 0";
-                number("normal_force", force, force >= 0.0, allowed).map(Control::NormalForce)?
-            }
-            (None, Some(depth)) => {
-                let depth = number("indentation_depth", depth, true, "finite");
-                depth.map(Control::IndentationDepth)?
-            }
-            _ => {
-                let problem = "either normal_force or indentation_depth is needed";
-                return Err(SceneError::at(key(index, ""), problem));
-            }
-        };
-        if points[0].normal_force.is_some() != point.normal_force.is_some() {
-            let problem = "all points have a force, or all a depth";
-            return Err(SceneError::at(key(index, ""), problem));
-        }
-        checked.push(HistoryPoint {
-            time: point.time,
-            control,
-        });
-    }
-    Ok(checked)
 }

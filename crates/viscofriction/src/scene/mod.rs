@@ -4,6 +4,7 @@
 
 mod error;
 mod files;
+mod history;
 mod indenter;
 mod load;
 mod material;

@@ -7,8 +7,8 @@ use mdr_core::MdrError;
 use rheology::RheologyError;
 use thiserror::Error;
 
-use super::Omission;
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
+use super::omission::Omission;
 use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.

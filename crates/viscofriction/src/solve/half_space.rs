@@ -112,7 +112,7 @@ fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<Half
 
 /// The series of a fractional element.
 fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
-    match *table {
+    let (material, expansion) = match *table {
         MaterialTable::Springpot {
             coefficient,
             exponent,
@@ -122,7 +122,7 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
         } => {
             let element = Springpot::new(coefficient, exponent)?;
             let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)
+            expanded(expand, exponent, equilibrium_modulus, time_range)?
         }
         MaterialTable::FractionalMaxwell {
             shear_modulus,
@@ -138,11 +138,15 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
                 exponent,
             })?;
             let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)
+            expanded(expand, exponent, equilibrium_modulus, time_range)?
         }
         // All others have finitely many elements.
-        _ => Err(RheologyError::NoStiffness),
-    }
+        _ => return Err(RheologyError::NoStiffness),
+    };
+    Ok(HalfSpace {
+        material: Box::new(material),
+        expansion: Some(expansion),
+    })
 }
 
 fn boxed(material: impl Material + 'static) -> Box<dyn Material> {

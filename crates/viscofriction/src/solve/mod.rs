@@ -8,8 +8,10 @@ mod elements;
 mod error;
 mod expansion;
 mod half_space;
+mod left_out;
 mod mdr;
 mod memory;
+mod modulus_error;
 mod offer;
 mod omission;
 mod problem;
@@ -30,7 +32,7 @@ pub use omission::Omission;
 pub use problem::{Motion, Problem};
 pub use same_problem::solve_again;
 
-use self::omission::plan;
+use self::left_out::left_out;
 use self::validity::warnings;
 use self::work::work;
 use crate::scene::{Accuracy, Method};
@@ -73,7 +75,7 @@ fn watched(
     let limited = Limited::new(problem, method, watch);
     let answer = work(&limited).map_err(|reached| limited.or_memory(reached))?;
     let answer = problem.with_modulus_error(answer, accuracy)?;
-    let left_out = plan(problem, &answer);
+    let left_out = left_out(problem, &answer);
     // Closed forms of pressing are those of both models.
     let model = method.model().unwrap_or(problem.model);
     let answer = Answer {

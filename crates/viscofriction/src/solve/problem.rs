@@ -96,6 +96,23 @@ impl Problem {
         problem.check_control()?;
         Ok(problem)
     }
+
+    /// Whether the load can be held by what is known of the material.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a depth on the half space, which depends on times beyond every range.
+    fn check_control(&self) -> Result<(), SceneError> {
+        if self.expansion.is_some()
+            && self.model == Model::HalfSpace
+            && matches!(self.motion, Motion::Sliding(_))
+            && matches!(self.motion.control(), Control::IndentationDepth(_))
+        {
+            let problem = "on the half space the depth of a fractional element in sliding depends on times beyond \
+                           time_range; give load.normal_force";
+            return Err(SceneError::at("load.indentation_depth", problem));
+        }
+        Ok(())
+    }
 }
 
 /// A scene that names no file.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::moduli::Deformation;
+use super::Deformation;
 use Quantity::{
     Deflection, Depth, Force, Frequency, Height, Loss, LossFactor, Other, Piezo, Relaxation, Set,
     Storage, Temperature, Time,

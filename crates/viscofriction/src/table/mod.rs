@@ -8,7 +8,6 @@ use std::fmt::Display;
 use std::path::Path;
 
 use crate::WrongInput;
-use crate::moduli::Deformation;
 use Quantity::{Frequency, Loss, Storage};
 use columns::divided;
 pub(crate) use columns::{Quantity, Vocabulary};
@@ -18,6 +17,16 @@ type Result<T, E = WrongInput> = std::result::Result<T, E>;
 
 /// The text of a file.
 pub(crate) use layout::text_of;
+
+/// How a body was deformed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+pub enum Deformation {
+    /// In tension, compression or bending: the modulus is Young's, E.
+    Tension,
+    /// In shear: the modulus is G.
+    Shear,
+}
 
 /// Where a table comes from, and how it is read.
 pub(crate) struct Source<'a> {

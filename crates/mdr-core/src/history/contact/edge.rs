@@ -2,10 +2,10 @@
 
 use numerics::bracketed_root;
 
-use super::contact::{Contact, Leg, Motion, WRONG_SIGN};
-use super::element::State;
-use super::path::Instant;
+use super::{Contact, WRONG_SIGN};
 use crate::MdrError;
+use crate::history::element::{Leg, Motion, State};
+use crate::history::path::Instant;
 
 /// The edge of a contact that shrinks.
 pub(super) struct Edge {

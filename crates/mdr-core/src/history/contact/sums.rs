@@ -1,13 +1,15 @@
 //! The stresses of all elements in contact, summed.
 
-use super::contact::{Contact, Leg, Motion};
-use super::path::{Instant, Lag, moments};
-use super::radius::ORDER;
+use super::Contact;
+use crate::history::element::{Leg, Motion};
+use crate::history::path::{Instant, Lag, moments};
+use crate::history::radius::ORDER;
 
 /// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided, and how often it
 /// may be.
 const PANEL: f64 = 1e-14;
 const MAX_DIVISIONS: u32 = 12;
+
 impl Contact<'_> {
     /// Φ_k.
     pub(super) fn sums_at(&mut self, at: Instant) -> Vec<f64> {

@@ -1,8 +1,8 @@
 //! Storage and loss modulus in each other's place.
 
-use super::curve::MeasuredCurve;
-use super::identify::{Ending, IdentifyOptions, series_of};
+use super::{Ending, IdentifyOptions, series_of};
 use crate::RheologyError;
+use crate::fit::curve::MeasuredCurve;
 
 /// A larger error of the modulus than this is that of no relaxing material.
 pub(super) const BAD: f64 = 0.2;

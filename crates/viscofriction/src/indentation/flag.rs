@@ -1,0 +1,52 @@
+//! What there is to say about a curve.
+
+/// What is wrong with a curve, or doubtful about a fit; with a count or the first point, a time \[s] or a force \[N].
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Flag {
+    /// Less than 30 points.
+    #[error("{0} points are too few: at least 30 are needed")]
+    TooFew(usize),
+    /// A cell without a number.
+    #[error("point {0} has no number")]
+    NotANumber(usize),
+    /// The time does not increase, as where a second curve begins.
+    #[error("at point {0} the time does not increase: are there two curves in one?")]
+    TimeGoesBack(usize),
+    /// A step in time that is more than 20 times as long as those around it.
+    #[error("points are missing after the time {0} s")]
+    Gap(f64),
+    /// The largest force stays exactly the same while the body goes on.
+    #[error("the force is cut off at {0:.1e} N")]
+    Saturated(f64),
+    /// The force does not rise above its noise.
+    #[error("there is no contact: the force does not rise above its noise of {0:.1e} N")]
+    NoContact(f64),
+    /// The force falls while the body goes down.
+    #[error("the force falls while the body goes down: is the sign of one of them wrong?")]
+    WrongSign,
+    /// On the way in the body is drawn to the surface before it touches.
+    #[error("the body jumps into contact: the force falls {0:.1e} N below the baseline")]
+    JumpToContact(f64),
+    /// On the way back the body sticks.
+    #[error("on the way back the body sticks, up to {0:.1e} N: leave out the retraction")]
+    Sticks(f64),
+    /// Before the first point the body touched already.
+    #[error("fewer than 10 points are before the contact, which is therefore hardly known")]
+    NoBaseline,
+    /// After the contact the force is not what it was before.
+    #[error("the force drifts: without contact it is {0:.1e} N off")]
+    Drift(f64),
+    /// The residuals are larger than the noise.
+    #[error("the residuals are {0:.1} times the noise: is it another material or body?")]
+    Misfit(f64),
+    /// The body presses again, perhaps on a surface that has not recovered.
+    #[error("the body presses again, where the force of the fit need not be exact")]
+    PressedAgain,
+}
+
+/// As its sentence.
+impl serde::Serialize for Flag {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

@@ -1,0 +1,225 @@
+//! The error of a series that stands for a fractional element, as a part of all bars.
+
+use numerics::{Estimate, NotReached};
+
+use super::answer::Answer;
+use super::error::{Result, SolveError};
+use super::problem::{Motion, Problem};
+use super::validity::mean_slope;
+use crate::scene::{Accuracy, Model};
+
+/// What is asked of a method, over what is asked of the answer; the rest is for the series.
+const OF_THE_METHOD: f64 = 0.95;
+/// Change of a quantity over the relative change of the moduli, at most. A force is proportional to them; under a force
+/// depth and radius change less, area and peak pressure at most twice as much.
+const PER_MODULUS: f64 = 4.0;
+
+impl Problem {
+    /// Relative error of the moduli, 0 of a material that stands for itself.
+    pub(crate) fn modulus_error(&self) -> f64 {
+        self.expansion
+            .map_or(0.0, |expansion| expansion.relative_error)
+    }
+
+    /// What is asked of a method, so that the bars have room for the error of the moduli.
+    pub(crate) fn of_the_method(&self, accuracy: Accuracy) -> Accuracy {
+        match accuracy {
+            Accuracy::RelativeError(error) if self.expansion.is_some() => {
+                Accuracy::RelativeError(OF_THE_METHOD * error)
+            }
+            other => other,
+        }
+    }
+
+    /// The answer with the error of the moduli in its bars.
+    ///
+    /// # Errors
+    /// [`SolveError::OutsideTimeRange`] where it needs the material at other times; [`SolveError::TooCoarse`] where the bar
+    /// becomes larger than what was asked.
+    pub(crate) fn with_modulus_error(&self, answer: Answer, accuracy: Accuracy) -> Result<Answer> {
+        let Some(expansion) = self.expansion else {
+            return Ok(answer);
+        };
+        self.check_times(&answer, expansion.time_range)?;
+        if let Motion::History(_) = self.motion {
+            return Ok(answer);
+        }
+        let relative = PER_MODULUS * expansion.relative_error;
+        let slope = mean_slope(&self.body, &answer).unwrap_or(0.0);
+        let mut answer = answer.widened(relative, slope);
+        if answer.model == Model::HalfSpace && matches!(self.motion, Motion::Sliding(_)) {
+            // Far from a sliding contact the surface sinks with the creep at times that no range holds.
+            answer.indentation_depth = None;
+        }
+        let Estimate { value, error } = answer.asked();
+        match accuracy {
+            Accuracy::RelativeError(asked) if error > asked * value.abs() => {
+                Err(SolveError::TooCoarse(NotReached {
+                    quantity: 0,
+                    asked,
+                    value,
+                    error,
+                    elements: answer.unknowns,
+                }))
+            }
+            _ => Ok(answer),
+        }
+    }
+
+    fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
+        let contact = answer.contact_box.as_ref();
+        let length = contact.map(|contact| contact.x[1] - contact.x[0]);
+        let times: Vec<f64> = match self.motion {
+            Motion::Pressing(load) => vec![load.duration()],
+            Motion::Sliding(load) => {
+                let lengths = [length, load.sliding_distance()].into_iter().flatten();
+                lengths.map(|length| length / load.velocity()).collect()
+            }
+            Motion::History(_) => {
+                let between = self.history.windows(2);
+                let between = between.map(|pair| pair[1].time - pair[0].time);
+                let all = self.history.last().zip(self.history.first());
+                let all = all.map(|(last, first)| last.time - first.time);
+                between.filter(|time| *time > 0.0).chain(all).collect()
+            }
+        };
+        let is_outside = |time: &f64| !(shortest..=longest).contains(time);
+        match times.into_iter().find(is_outside) {
+            None => Ok(()),
+            Some(time) => Err(SolveError::OutsideTimeRange {
+                time,
+                shortest,
+                longest,
+            }),
+        }
+    }
+}
+
+impl Answer {
+    /// With the error that a relative error of the moduli makes; friction has that of the mean slope in contact, of which it
+    /// is a small part on an almost elastic material.
+    fn widened(mut self, relative: f64, slope: f64) -> Self {
+        let given_or_found = [
+            Some(&mut self.normal_force),
+            self.indentation_depth.as_mut(),
+        ];
+        let given_or_found = given_or_found.into_iter().flatten();
+        // What is exact was given.
+        let found = given_or_found.filter(|found| found.error > 0.0);
+        let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
+        for quantity in found.chain(others.into_iter().flatten()) {
+            quantity.error += relative * quantity.value.abs();
+        }
+        if let Some(friction) = &mut self.friction_coefficient {
+            friction.error += relative * slope.max(friction.value.abs());
+        }
+        if let Some(contact) = &mut self.contact_box {
+            contact.error += relative * (contact.x[1] - contact.x[0]);
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rheology::Springpot;
+
+    use super::*;
+    use crate::scene::Scene;
+    use crate::solve::solve;
+
+    const LOADS: [&str; 5] = [
+        "normal_force = 2.0\nvelocity = 0.01\n[solve]\nmodel = \"line\"\nrelative_error = 1e-5",
+        "indentation_depth = 1e-5\nvelocity = 0.1\n[solve]\nmodel = \"line\"\nrelative_error = 1e-5",
+        "normal_force = 2.0\nvelocity = 0.01\n[solve]\nelements = 24",
+        "normal_force = 2.0\nvelocity = 0.0\n[solve]\nduration = 100.0",
+        "indentation_depth = 1e-5\nvelocity = 0.0\n[solve]\nduration = 100.0",
+    ];
+
+    /// A series of a springpot as a material of its own, and the error that `PER_MODULUS` is multiplied with.
+    fn coarse(exponent: f64) -> (String, f64) {
+        let element = Springpot::new(1e6, exponent).expect("a springpot");
+        let series = element.expand([1e-3, 1e3], 1e-3).expect("a series");
+        let branches = series.spectrum.branches().iter().map(|branch| {
+            let (modulus, time) = (branch.modulus, branch.relaxation_time);
+            format!("{{ modulus = {modulus:e}, relaxation_time = {time:e} }}")
+        });
+        let branches = branches.collect::<Vec<_>>().join(", ");
+        let [modulus, viscosity] = [
+            series.spectrum.equilibrium_modulus(),
+            series.spectrum.viscosity(),
+        ];
+        let table = format!(
+            "prony]\nequilibrium_modulus = {modulus:e}\nviscosity = {viscosity:e}\nbranches = [{branches}]"
+        );
+        (table, 2.0 * series.relative_error / (1.0 - exponent))
+    }
+
+    /// Friction, which may be 0, and the others; the depth in sliding on the half space is left out, see above.
+    fn quantities(answer: &Answer) -> (f64, Vec<Estimate>) {
+        let slides = answer.friction_coefficient.is_some() && answer.model == Model::HalfSpace;
+        let depth = answer.indentation_depth.filter(|_| !slides);
+        let found = [
+            Some(answer.normal_force),
+            depth,
+            answer.contact_area,
+            answer.peak_pressure,
+        ];
+        let friction = answer.friction_coefficient.map_or(0.0, |mu| mu.value);
+        (friction, found.into_iter().flatten().collect())
+    }
+
+    #[test]
+    fn a_depth_in_sliding_on_the_half_space_is_refused_and_left_out() {
+        let scene = |load: &str| {
+            let text = format!(
+                "[indenter.sphere]\nradius = 5e-3\n[material.springpot]\ncoefficient = 1e6\nexponent = 0.3\n\
+                 time_range = [1e-3, 1e3]\n[load]\n{load}\nvelocity = 0.01\n[solve]\nelements = 24"
+            );
+            let scene: Scene = text.parse().expect("a scene");
+            Problem::try_from(&scene)
+        };
+        let refused = scene("indentation_depth = 1e-5").expect_err("no depth");
+        assert!(refused.to_string().contains("time_range"), "{refused}");
+        let answer = solve(&scene("normal_force = 2.0").expect("a problem")).expect("friction");
+        assert_eq!(answer.indentation_depth, None, "{answer:?}");
+    }
+
+    /// A series with an error that is seen changes no answer by more than the bars would have.
+    #[test]
+    fn bars_hold_the_error_of_a_series() {
+        for (exponent, load) in [0.05, 0.4, 0.9]
+            .into_iter()
+            .flat_map(|a| LOADS.map(|load| (a, load)))
+        {
+            let answer = |material: &str| {
+                let text = format!(
+                    "[indenter.sphere]\nradius = 5e-3\n[material.{material}\n[load]\n{load}"
+                );
+                let scene: Scene = text.parse().expect("a scene");
+                let problem = Problem::try_from(&scene).expect("a problem");
+                let answer = solve(&problem).expect("an answer");
+                let slope = mean_slope(&problem.body, &answer).expect("a slope");
+                (quantities(&answer), slope)
+            };
+            let pot = format!(
+                "springpot]\ncoefficient = 1e6\nexponent = {exponent}\ntime_range = [1e-3, 1e3]"
+            );
+            let (table, error) = coarse(exponent);
+            let ((friction, exact), slope) = answer(&pot);
+            let ((changed, other), _) = answer(&table);
+            let mut changes = vec![(changed - friction).abs() / slope];
+            changes.extend(
+                exact
+                    .iter()
+                    .zip(&other)
+                    .map(|(a, b)| (b.value / a.value - 1.0).abs()),
+            );
+            let largest = changes.iter().copied().fold(0.0, f64::max) / error;
+            assert!(
+                largest < PER_MODULUS && largest > 1e-4,
+                "exponent {exponent}, {load}: changes by {largest} times {error:e}; friction first {changes:?}"
+            );
+        }
+    }
+}
