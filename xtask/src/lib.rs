@@ -24,7 +24,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 
 // Only for their features: see Cargo.toml.
-use {approx as _, either as _, matrixmultiply as _, memchr as _, once_cell as _, zerocopy as _};
+use {approx as _, either as _, matrixmultiply as _, zerocopy as _};
 
 pub use output::WrongInput;
 

@@ -6,8 +6,7 @@
 //!
 //! The second equation is the control of force or depth. Small contacts are factorised, large ones solved by iteration.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
+use nalgebra::{DMatrix, DVector};
 
 use crate::conjugate_residuals::{minimise, norm};
 use crate::reductions::add;
@@ -82,12 +81,13 @@ fn factorise(mesh: &Mesh, contact: &[usize]) -> EquationSolution {
     }
 }
 
-/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation.
+/// The solution of linear equations with the entries of a matrix and the right sides, by factorisation; not a number where
+/// they are singular.
 pub(super) fn solve_dense(entry: impl FnMut(usize, usize) -> f64, right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
-    let right = Mat::from_fn(n, 1, |row, _| right[row]);
-    let solution = Mat::from_fn(n, n, entry).partial_piv_lu().solve(&right);
-    (0..n).map(|row| solution[(row, 0)]).collect()
+    let factors = DMatrix::from_fn(n, n, entry).lu();
+    let solution = factors.solve(&DVector::from_vec(right));
+    solution.map_or_else(|| vec![f64::NAN; n], |solution| solution.data.into())
 }
 
 /// The equations of one contact, for iteration.

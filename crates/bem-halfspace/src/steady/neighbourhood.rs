@@ -4,7 +4,7 @@
 //! sides for ever. Both concern few elements: the problem is solved for those near the violations, while the other loads
 //! and the depth stay.
 
-use faer::Mat;
+use nalgebra::DMatrix;
 
 use crate::steady::contact_equations::solve_dense;
 use crate::steady::mesh::Mesh;
@@ -39,7 +39,7 @@ pub(super) fn solve_neighbourhood(
 /// x ≥ 0, g + K x ≥ 0, x (g + K x) = 0.
 struct Neighbourhood {
     elements: Vec<usize>,
-    influence: Mat<f64>,
+    influence: DMatrix<f64>,
     /// Gaps without the loads of these elements.
     gaps: Vec<f64>,
 }
@@ -47,7 +47,7 @@ struct Neighbourhood {
 impl Neighbourhood {
     fn new(mesh: &Mesh, gaps: &[f64], loads: &[f64], elements: Vec<usize>) -> Self {
         let n = elements.len();
-        let influence = Mat::from_fn(n, n, |to, from| {
+        let influence = DMatrix::from_fn(n, n, |to, from| {
             mesh.influence(elements[to], elements[from])
         });
         let without = |to: usize| {

@@ -3,9 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
 use friction_analytic::scaling_factor;
+use nalgebra::{DMatrix, DVector};
 
 use crate::support::{assert_near, power};
 
@@ -44,13 +43,13 @@ fn wedge() -> Vec<(f64, f64)> {
     loop {
         let n = contact.len();
         let steps = |row: usize, column: usize| contact[row].abs_diff(contact[column]);
-        let matrix = Mat::from_fn(n, n, |row, column| influence(steps(row, column), width));
-        let right = Mat::from_fn(n, 1, |row, _| TAU * angle(contact[row]).cos());
-        let solution = matrix.partial_piv_lu().solve(&right);
-        let pushes = |row: &usize| solution[(*row, 0)] >= 0.0;
+        let matrix = DMatrix::from_fn(n, n, |row, column| influence(steps(row, column), width));
+        let right = DVector::from_fn(n, |row, _| TAU * angle(contact[row]).cos());
+        let solution = matrix.lu().solve(&right).expect("regular equations");
+        let pushes = |row: &usize| solution[*row] >= 0.0;
         let left: Vec<usize> = (0..n).filter(pushes).map(|row| contact[row]).collect();
         if left.len() == n {
-            let pressed = |row: usize| (angle(contact[row]), solution[(row, 0)]);
+            let pressed = |row: usize| (angle(contact[row]), solution[row]);
             return (0..n).map(pressed).collect();
         }
         contact = left;
