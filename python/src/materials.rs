@@ -7,8 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::RheologyError;
 use rheology::fit::{
-    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint,
-    identify,
+    Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
 };
 use viscofriction::friction_analytic;
 use viscofriction::scene::MaterialTable;
@@ -110,7 +109,6 @@ pub(crate) fn fit_oscillation<'py>(
     loss: PyReadonlyArray1<'py, f64>,
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let options = options.checked()?;
     let (storage, loss) = (storage.as_array(), loss.as_array());
     let moduli = storage.iter().zip(loss.iter());
     let frequencies = angular_frequency.as_array();
@@ -120,8 +118,7 @@ pub(crate) fn fit_oscillation<'py>(
         loss,
     };
     let points = frequencies.iter().zip(moduli).map(point).collect();
-    let curve = MeasuredCurve::oscillation(points).map_err(wrong)?;
-    fitted(py, py.detach(|| identify(&curve, &options)))
+    fitted(py, MeasuredCurve::oscillation(points), &options)
 }
 
 /// The Prony series of relaxation moduli over time, as [`fit_oscillation`].
@@ -132,19 +129,20 @@ pub(crate) fn fit_relaxation<'py>(
     modulus: PyReadonlyArray1<'py, f64>,
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let options = options.checked()?;
     let (times, moduli) = (time.as_array(), modulus.as_array());
     let point = |(&time, &modulus)| RelaxationPoint { time, modulus };
     let points = times.iter().zip(moduli.iter()).map(point).collect();
-    let curve = MeasuredCurve::relaxation(points).map_err(wrong)?;
-    fitted(py, py.detach(|| identify(&curve, &options)))
+    fitted(py, MeasuredCurve::relaxation(points), &options)
 }
 
-fn fitted(
-    py: Python<'_>,
-    found: Result<Identification, RheologyError>,
-) -> PyResult<Bound<'_, PyDict>> {
-    let found = found.map_err(wrong)?;
+fn fitted<'py>(
+    py: Python<'py>,
+    curve: Result<MeasuredCurve, RheologyError>,
+    options: &Options,
+) -> PyResult<Bound<'py, PyDict>> {
+    let options = options.checked()?;
+    let curve = curve.map_err(wrong)?;
+    let found = py.detach(|| identify(&curve, &options)).map_err(wrong)?;
     let branches = found.spectrum.branches().iter();
     let branches: Vec<[f64; 2]> = branches
         .map(|branch| [branch.modulus, branch.relaxation_time])

@@ -59,14 +59,11 @@ fn columns<const N: usize>(py: Python<'_>, columns: [Vec<f64>; N]) -> Vec<Column
 }
 
 fn moduli<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
-    let column = |number: fn(&ModulusPoint) -> f64| points.iter().map(number).collect();
+    let numbers: [fn(&ModulusPoint) -> f64; 3] =
+        [|p| p.angular_frequency, |p| p.storage, |p| p.loss];
     columns(
         py,
-        [
-            column(|point| point.angular_frequency),
-            column(|point| point.storage),
-            column(|point| point.loss),
-        ],
+        numbers.map(|number| points.iter().map(number).collect()),
     )
 }
 

@@ -39,10 +39,8 @@ fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
         let element = |(index, element): (usize, PyResult<Bound<'_, PyAny>>)| {
             value(&element?, &format!("{path}[{index}]"))
         };
-        return elements
-            .map(element)
-            .collect::<PyResult<_>>()
-            .map(Value::Array);
+        let elements: PyResult<_> = elements.map(element).collect();
+        return elements.map(Value::Array);
     }
     if object.is_instance_of::<PyString>() {
         return Ok(Value::String(object.extract()?));

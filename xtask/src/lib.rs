@@ -21,7 +21,7 @@ mod tasks;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 // Only for their features: see Cargo.toml.
 use {approx as _, either as _, matrixmultiply as _, zerocopy as _};
@@ -41,11 +41,33 @@ struct CommandLine {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Recompute every figure of the paper and the table of scaling factors: CSV, SVG, PNG and report.html.
-    ReproduceFigures(ReproduceFigures),
+    ReproduceFigures {
+        /// Where the files are written.
+        #[arg(long, default_value = "target/figures", conflicts_with = "check")]
+        out: PathBuf,
+        /// Write nothing; recompute a part of the data and compare it with docs/figures.
+        #[arg(long)]
+        check: bool,
+    },
     /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
-    ScalingFactors(ScalingFactors),
+    ScalingFactors {
+        /// Exponent p > 1/2 of the profile c r^p; may be given several times [default: 1 and 2].
+        #[arg(long = "exponent", value_name = "P")]
+        exponents: Vec<f64>,
+        /// Relative error asked for, between 1e-6 and 0.1; where 100 000 unknown pressures do not reach it, the command
+        /// says how far it came.
+        #[arg(long, default_value_t = 1e-3, value_name = "E")]
+        relative_error: f64,
+        /// How the result is printed.
+        #[arg(long, value_enum, default_value_t = Format::Table)]
+        format: Format,
+    },
     /// Compute the function s(p) that friction-analytic interpolates; takes long, and goes on where it was interrupted.
-    ScalingTable(ScalingTable),
+    ScalingTable {
+        /// Where the source file is written; what is there already is not computed again.
+        #[arg(long, default_value = "target/scaling-table")]
+        out: PathBuf,
+    },
     /// Measure anew how stable, accurate and expensive the methods are: CSV, SVG, PNG and Markdown.
     Evidence(evidence::Evidence),
     /// Count what each library crate pulls in when it is built alone, and measure what building it takes. Markdown.
@@ -54,47 +76,18 @@ enum Command {
     Ci,
 }
 
-#[derive(Debug, Args)]
-struct ReproduceFigures {
-    /// Where the files are written.
-    #[arg(long, default_value = "target/figures", conflicts_with = "check")]
-    out: PathBuf,
-    /// Write nothing; recompute a part of the data and compare it with docs/figures.
-    #[arg(long)]
-    check: bool,
-}
-
-#[derive(Debug, Args)]
-struct ScalingFactors {
-    /// Exponent p > 1/2 of the profile c r^p; may be given several times [default: 1 and 2].
-    #[arg(long = "exponent", value_name = "P")]
-    exponents: Vec<f64>,
-    /// Relative error asked for, between 1e-6 and 0.1; where 100 000 unknown pressures do not reach it, the command says
-    /// how far it came.
-    #[arg(long, default_value_t = 1e-3, value_name = "E")]
-    relative_error: f64,
-    /// How the result is printed.
-    #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
-}
-
-#[derive(Debug, Args)]
-struct ScalingTable {
-    /// Where the source file is written; what is there already is not computed again.
-    #[arg(long, default_value = "target/scaling-table")]
-    out: PathBuf,
-}
-
 /// Does what the command line asks for.
 #[must_use]
 pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
-        Command::ReproduceFigures(options) if options.check => figures::check(),
-        Command::ReproduceFigures(options) => figures::reproduce(&options.out),
-        Command::ScalingFactors(options) => {
-            scaling::print(&options.exponents, options.relative_error, options.format)
-        }
-        Command::ScalingTable(options) => scaling::generate_table(&options.out),
+        Command::ReproduceFigures { check: true, .. } => figures::check(),
+        Command::ReproduceFigures { out, .. } => figures::reproduce(&out),
+        Command::ScalingFactors {
+            exponents,
+            relative_error,
+            format,
+        } => scaling::print(&exponents, relative_error, format),
+        Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
         Command::Dependencies(options) => ci::measure(&options),
         Command::Ci => ci::run(),

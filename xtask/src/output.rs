@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use comfy_table::{Row, Table};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use viscofriction_plot::{Drawing, Figure, PNG_WIDTH, draw, render_png};
+use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
 pub use viscofriction::WrongInput;
 
@@ -52,18 +52,14 @@ pub(crate) fn write_atomically(path: &Path, contents: &[u8]) -> Result<()> {
     write().with_context(|| format!("writing {}", path.display()))
 }
 
-/// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`.
-pub(crate) fn write_figure(folder: &Path, name: &str, figure: &Figure) -> Result<()> {
+/// Draws a figure and writes it beside other files, as `NAME.svg` and `NAME.png`; returns the SVG.
+pub(crate) fn write_figure(folder: &Path, name: &str, figure: &Figure) -> Result<String> {
     let drawing = draw(figure).with_context(|| format!("drawing {name}"))?;
-    write_drawing(folder, name, &drawing)
-}
-
-/// Writes a drawing as `NAME.svg` and `NAME.png`.
-pub(crate) fn write_drawing(folder: &Path, name: &str, drawing: &Drawing) -> Result<()> {
-    let png = render_png(drawing, PNG_WIDTH).with_context(|| format!("drawing {name}"))?;
+    let png = render_png(&drawing, PNG_WIDTH).with_context(|| format!("drawing {name}"))?;
     let path = |extension: &str| folder.join(format!("{name}.{extension}"));
     write_atomically(&path("svg"), drawing.svg.as_bytes())?;
-    write_atomically(&path("png"), &png)
+    write_atomically(&path("png"), &png)?;
+    Ok(drawing.svg)
 }
 
 /// Points of a curve, one for each row of a table.

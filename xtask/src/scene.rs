@@ -6,11 +6,12 @@ use bem_halfspace::steady::{
     RefinementOptions, SteadyEstimate, SteadyOptions, SteadySliding, steady_on_grid, steady_refined,
 };
 use bem_halfspace::{BemError, Footprint, GridOptions};
+use casebook::standard_solid;
 use friction_analytic::{StationarySliding, power_sliding};
 use indenters::{EquivalentLine, PowerProfile, SlidingLoad};
 use mdr_core::slide_on_grid as slide_line;
 use numerics::Estimate;
-use rheology::{StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{StandardSolid, Viscous};
 
 /// A profile h = c r^p, pressed and slid.
 #[derive(Debug, Clone, Copy)]
@@ -90,11 +91,7 @@ pub(crate) fn refined_to(relative_error: f64, aspect: f64) -> RefinementOptions 
 
 /// The three-element solid of the paper's Fig. 1 with γ = G₁/G₂, G₂ = 1 Pa and τ = 1 s.
 pub(crate) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
-    Ok(StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: stiffness_ratio,
-        maxwell_modulus: 1.0,
-        viscosity: 1.0,
-    })?)
+    Ok(standard_solid([stiffness_ratio, 1.0, 1.0])?)
 }
 
 /// Friction of the half space as far as it was computed.

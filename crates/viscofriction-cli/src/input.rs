@@ -1,7 +1,7 @@
 //! What the commands read: files and the standard input, none of them without end.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use viscofriction::WrongInput;
@@ -14,22 +14,21 @@ const LARGEST_SCENE: u64 = 1 << 24;
 
 /// Reads a whole file that the command line or a scene names.
 pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
-    let wrong =
-        |problem: &dyn std::fmt::Display| WrongInput(format!("{}: {problem}", path.display()));
-    let file = path.metadata().map_err(|error| wrong(&error))?;
-    if !file.is_file() {
-        let needed = "a regular file is needed, and not a folder, a device or a pipe";
-        return Err(wrong(&needed));
-    }
-    let file = File::open(path).map_err(|error| wrong(&error))?;
-    read_at_most(LARGEST_FILE, file).map_err(|problem| wrong(&problem))
+    let read = || {
+        if !path.metadata()?.is_file() {
+            let needed = "a regular file is needed, and not a folder, a device or a pipe";
+            return Err(io::Error::other(needed));
+        }
+        read_at_most(LARGEST_FILE, File::open(path)?)
+    };
+    read().map_err(|error| WrongInput(format!("{}: {error}", path.display())))
 }
 
 /// The scene in a file, or on the standard input.
 pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     let contents = if path == Path::new("-") {
-        read_at_most(LARGEST_SCENE, std::io::stdin())
-            .map_err(|problem| WrongInput(format!("-: {problem}")))?
+        let contents = read_at_most(LARGEST_SCENE, io::stdin());
+        contents.map_err(|error| WrongInput(format!("-: {error}")))?
     } else {
         read_input(path)?
     };
@@ -46,12 +45,12 @@ pub(crate) fn half_of_free_memory() -> Option<u64> {
     Some(512 * kilobytes)
 }
 
-fn read_at_most(most: u64, file: impl Read) -> Result<Vec<u8>, String> {
+fn read_at_most(most: u64, file: impl Read) -> io::Result<Vec<u8>> {
     let mut contents = Vec::new();
-    let read = file.take(most + 1).read_to_end(&mut contents);
-    read.map_err(|error| error.to_string())?;
+    file.take(most + 1).read_to_end(&mut contents)?;
     if contents.len() as u64 > most {
-        return Err(format!("there are more than {most} bytes"));
+        let problem = format!("there are more than {most} bytes");
+        return Err(io::Error::other(problem));
     }
     Ok(contents)
 }

@@ -76,11 +76,8 @@ pub(crate) fn label(axis: &Axis) -> String {
         return axis.label.clone();
     }
     let power = power_of_ten(exponent);
-    match axis
-        .label
-        .strip_suffix(']')
-        .and_then(|label| label.rsplit_once('['))
-    {
+    let bare = axis.label.strip_suffix(']');
+    match bare.and_then(|label| label.rsplit_once('[')) {
         Some((name, unit)) => format!("{name}[{power} {unit}]"),
         None => format!("{} [{power}]", axis.label),
     }
@@ -197,10 +194,7 @@ mod tests {
     fn each_decade_has_eight_minor_ticks() {
         let got = ticks(&Axis::log10("Ω", [1e-4, 1e2]));
         let minor = got.iter().filter(|tick| !tick.major).count();
-        assert_eq!(
-            [minor, got.len()],
-            [48, 55],
-            "minor and all ticks on six decades"
-        );
+        let what = "minor and all ticks on six decades";
+        assert_eq!([minor, got.len()], [48, 55], "{what}");
     }
 }

@@ -1,9 +1,9 @@
 //! A scene file, solved by one method after the other, and the reference that they are compared with.
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use viscofriction::Estimate;
 use viscofriction::scene::{Accuracy, Method, Model, Scene};
-use viscofriction::solve::{Problem, choose, solve};
+use viscofriction::solve::{Answer, Problem, choose, solve};
 
 /// A method of one model, and how accurate its result is to be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,14 +11,6 @@ pub(super) struct Request {
     pub(super) model: Model,
     pub(super) method: Method,
     pub(super) accuracy: Accuracy,
-}
-
-/// What a method finds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Solved {
-    /// Friction, or the depth where nothing slides.
-    pub(super) known: Estimate,
-    pub(super) unknowns: usize,
 }
 
 /// What a result is compared with.
@@ -87,22 +79,13 @@ impl Request {
         Ok(choose(&self.problem(scene)?).is_ok())
     }
 
-    pub(super) fn solve(&self, scene: &Scene) -> Result<Solved> {
-        let answer = solve(&self.problem(scene)?)?;
-        let known = if presses(scene) {
-            answer.indentation_depth
-        } else {
-            answer.friction_coefficient
-        };
-        Ok(Solved {
-            known: known.context("the result has no friction, or no depth")?,
-            unknowns: answer.unknowns,
-        })
+    pub(super) fn solve(&self, scene: &Scene) -> Result<Answer> {
+        Ok(solve(&self.problem(scene)?)?)
     }
 
     /// The result as a reference; `rounding` is the smallest relative error of a closed form.
     pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
-        let Estimate { value, error } = self.solve(scene)?.known;
+        let Estimate { value, error } = self.solve(scene)?.asked();
         let source = match self.method {
             Method::Analytic => "closed form".to_owned(),
             method => format!("{} to {:.1e}", method.name(), self.number()),

@@ -117,9 +117,8 @@ fn committed_factors() -> Result<Vec<Row>> {
 }
 
 fn of_exponent(factors: &[Row], exponent: f64) -> Option<&Row> {
-    factors
-        .iter()
-        .find(|row| row.exponent.total_cmp(&exponent).is_eq())
+    let mut factors = factors.iter();
+    factors.find(|row| row.exponent.total_cmp(&exponent).is_eq())
 }
 
 /// The whole table: the simulation, its biases, which are differences of numbers of the order of one, and the converged

@@ -1,7 +1,8 @@
 //! Fig. 1: loss tangent of the three-element solid, and its moduli for γ = 1/100.
 
 use anyhow::Result;
-use rheology::{Material, StandardSolid, StandardSolidParameters};
+use casebook::standard_solid;
+use rheology::{Material, StandardSolid};
 use serde::{Deserialize, Serialize};
 
 pub(super) const FILE: &str = "fig1_loss_tangent.csv";
@@ -26,12 +27,9 @@ pub(super) struct Row {
 }
 
 pub(super) fn solid(ratio: f64) -> Result<StandardSolid> {
-    Ok(StandardSolid::new(StandardSolidParameters {
-        equilibrium_modulus: ratio * MAXWELL_MODULUS,
-        maxwell_modulus: MAXWELL_MODULUS,
-        // A relaxation time of 1 s makes Ω equal to ω.
-        viscosity: MAXWELL_MODULUS,
-    })?)
+    let modulus = MAXWELL_MODULUS;
+    // A relaxation time of 1 s makes Ω equal to ω.
+    Ok(standard_solid([ratio * modulus, modulus, modulus])?)
 }
 
 /// Forty frequencies per decade from 10⁻⁴ to 10².

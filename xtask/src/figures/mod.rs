@@ -16,7 +16,7 @@ use std::path::Path;
 
 use anyhow::Result;
 
-use crate::output::{make_folder, to_csv, write_atomically, write_drawing};
+use crate::output::{make_folder, to_csv, write_atomically, write_figure};
 use crate::scaling::Node;
 use friction_over_speed::{CONE, PARABOLOID};
 
@@ -57,9 +57,9 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
     for (name, table) in &tables {
         write_atomically(&out.join(name), table.as_bytes())?;
     }
-    let pictures = pictures::all(&data)?;
-    for (name, drawing) in &pictures {
-        write_drawing(out, name, drawing)?;
+    let mut pictures = Vec::new();
+    for (name, figure) in pictures::all(&data) {
+        pictures.push((name, write_figure(out, name, &figure)?));
     }
     let page = out.join("report.html");
     write_atomically(&page, report::html(&data, &tables, &pictures)?.as_bytes())?;

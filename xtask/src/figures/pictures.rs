@@ -1,47 +1,36 @@
 //! The figures as charts, in the roles of lines and markers that they have in the paper.
 
-use anyhow::Result;
-
 use crate::figures::approach::{self, Approach, LENGTHS};
 use crate::figures::friction_over_speed::Row;
 use crate::figures::{Data, contact_maps, loss_tangent, resolution, scaling_function};
 use crate::output::points;
 use viscofriction_plot::{
-    Axis, Chart, Colour, Dash, Drawing, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
-    draw,
+    Axis, Chart, Colour, Dash, Field, Figure, LegendPlace, Line, Marker, Series, Shape,
 };
 
 /// Names and pictures.
-pub(super) fn all(data: &Data) -> Result<[(&'static str, Drawing); 9]> {
-    let single = |chart: Chart| draw(&Figure::single(chart));
-    let friction =
-        |rows: &[Row], body: usize, y| single(friction_chart(rows, data.factors[body].paper, y));
+pub(super) fn all(data: &Data) -> [(&'static str, Figure); 9] {
+    let [cone, paraboloid] = [0, 1].map(|body: usize| data.factors[body].paper);
     let linear = |highest| Axis::linear(FRICTION, [0.0, highest]);
+    let logarithmic = Axis::log10(FRICTION, [0.01, 1.0]);
+    let moduli = loss_tangent_chart(&data.loss_tangent);
+    let fig7 = friction_chart(&data.cone, cone, linear(0.2));
+    let fig8 = friction_chart(&data.paraboloid, paraboloid, linear(0.35));
+    let fig8_log = friction_chart(&data.paraboloid, paraboloid, logarithmic);
+    let resolution = resolution::chart(&data.resolution, &data.factors);
+    let approach = approach_chart(&data.approach);
     let function = scaling_function::figure(&data.scaling_function);
-    let contacts = contact_maps::figure(&data.contacts);
-    Ok([
-        (
-            "fig1_loss_tangent",
-            single(loss_tangent_chart(&data.loss_tangent))?,
-        ),
-        ("fig7_cone", friction(&data.cone, 0, linear(0.2))?),
-        (
-            "fig8_paraboloid",
-            friction(&data.paraboloid, 1, linear(0.35))?,
-        ),
-        (
-            "fig8_paraboloid_log",
-            friction(&data.paraboloid, 1, Axis::log10(FRICTION, [0.01, 1.0]))?,
-        ),
-        (
-            "plain_resolution",
-            single(resolution::chart(&data.resolution, &data.factors))?,
-        ),
-        ("approach", single(approach_chart(&data.approach))?),
-        ("scaling_function", draw(&function)?),
-        ("pressure", draw(&pressure_maps(&data.approach))?),
-        ("stationary_contact", draw(&contacts)?),
-    ])
+    [
+        ("fig1_loss_tangent", Figure::single(moduli)),
+        ("fig7_cone", Figure::single(fig7)),
+        ("fig8_paraboloid", Figure::single(fig8)),
+        ("fig8_paraboloid_log", Figure::single(fig8_log)),
+        ("plain_resolution", Figure::single(resolution)),
+        ("approach", Figure::single(approach)),
+        ("scaling_function", function),
+        ("pressure", pressure_maps(&data.approach)),
+        ("stationary_contact", contact_maps::figure(&data.contacts)),
+    ]
 }
 
 fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
@@ -70,11 +59,9 @@ fn loss_tangent_chart(rows: &[loss_tangent::Row]) -> Chart {
         storage.labelled("10 G′/G₂, γ = 1/100"),
         loss.labelled("10 G″/G₂, γ = 1/100"),
     ];
-    Chart::new(
-        Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]),
-        Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]),
-        series,
-    )
+    let x = Axis::log10("dimensionless frequency Ω = ωη/G₂", [1e-4, 1e2]);
+    let y = Axis::linear("tan δ,  10 G′/G₂,  10 G″/G₂", [0.0, 16.0]);
+    Chart::new(x, y, series)
 }
 
 const FRICTION: &str = "coefficient of friction μ";

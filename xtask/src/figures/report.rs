@@ -6,7 +6,6 @@ use crate::figures::friction_over_speed::{
     CONE_SLOPE, CURVATURE, NORMAL_FORCE, Row, SLIDING_LENGTHS, VISCOSITY,
 };
 use crate::figures::{Data, contact_maps, factors, scaling_function};
-use viscofriction_plot::Drawing;
 
 /// The page, with the names of what is filled in.
 const TEMPLATE: &str = include_str!("report.html");
@@ -17,7 +16,7 @@ const WORK_PRECISION: &str = include_str!("../../../docs/figures/work_precision_
 pub(super) fn html(
     data: &Data,
     tables: &[(&str, String)],
-    pictures: &[(&str, Drawing)],
+    pictures: &[(&str, String)],
 ) -> Result<String> {
     let [cone, paraboloid] = &data.factors[..] else {
         anyhow::bail!("two scaling factors");
@@ -56,13 +55,11 @@ pub(super) fn html(
     for (file, table) in tables {
         fill(&format!("data of {file}"), &folded(table));
     }
-    for (name, drawing) in pictures {
-        fill(name, &closely(&drawing.svg));
+    for (name, svg) in pictures {
+        fill(name, &closely(svg));
     }
-    ensure!(
-        !page.contains("{{"),
-        "a part of report.html is not filled in"
-    );
+    let is_filled = !page.contains("{{");
+    ensure!(is_filled, "a part of report.html is not filled in");
     Ok(page)
 }
 

@@ -47,10 +47,8 @@ pub(super) fn chart(rows: &[Row], converged: &[factors::Row]) -> Chart {
         ("paraboloid", Shape::Circle, Colour::Red),
     ];
     for (factor, (name, shape, colour)) in converged.iter().zip(styles) {
-        let of_body = rows
-            .iter()
-            .filter(|row| row.exponent.total_cmp(&factor.exponent).is_eq());
-        let of_body: Vec<Row> = of_body.cloned().collect();
+        let is_of_body = |row: &&Row| row.exponent.total_cmp(&factor.exponent).is_eq();
+        let of_body: Vec<&Row> = rows.iter().filter(is_of_body).collect();
         let plain = points(&of_body, |row| f64::from(row.elements), |row| row.plain);
         let level = |value: f64, dash| {
             let ends = range.map(|elements| [elements, value]).to_vec();

@@ -74,9 +74,8 @@ pub(super) fn figure(rows: &[Node]) -> Figure {
 
 /// How the function rises and falls.
 pub(super) fn course(rows: &[Node]) -> String {
-    let highest = rows
-        .iter()
-        .max_by(|one, other| one.scaling_factor.total_cmp(&other.scaling_factor));
+    let order = |one: &&Node, other: &&Node| one.scaling_factor.total_cmp(&other.scaling_factor);
+    let highest = rows.iter().max_by(order);
     let ends = [rows.first(), highest, rows.last()]
         .map(|row| row.map_or([0.0; 2], |row| [row.exponent, row.scaling_factor]));
     format!(

@@ -20,10 +20,8 @@ pub(crate) fn xtask(line: &str) -> Output {
 
 /// The command, run.
 pub(crate) fn run<'a>(arguments: impl IntoIterator<Item = &'a str>) -> Output {
-    let output = Command::new(env!("CARGO_BIN_EXE_xtask"))
-        .args(arguments)
-        .output();
-    output.expect("the command runs")
+    let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
+    command.args(arguments).output().expect("the command runs")
 }
 
 pub(crate) fn text(bytes: &[u8]) -> String {

@@ -99,9 +99,8 @@ fn figure(table: &RowTable) -> Result<Figure> {
     };
     let values = |name: &str| place(name).map(&column).unwrap_or_default();
     let is_known = |name: &str| values(name).iter().any(Option::is_some);
-    let keys: Vec<(&str, Vec<Option<f64>>)> = (before + 1..behind)
-        .map(|place| (&*table.header[place], column(place)))
-        .collect();
+    let key = |place: usize| (&*table.header[place], column(place));
+    let keys: Vec<(&str, Vec<Option<f64>>)> = (before + 1..behind).map(key).collect();
     let is_drawn = |name: &str| match name {
         "indentation_depth" => {
             let forces = sorted(values("normal_force").into_iter().flatten());
@@ -170,18 +169,15 @@ fn map([one, other]: [Column<'_>; 2], (label, values): Column<'_>) -> Result<Fig
     let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
     let mut found = HashMap::new();
     for ((x, y), value) in one.1.iter().zip(other.1).zip(values) {
-        found.extend(
-            x.zip(*y)
-                .zip(*value)
-                .map(|((x, y), value)| (place(x, y), value)),
-        );
+        if let (Some(x), Some(y), Some(value)) = (x, y, value) {
+            found.insert(place(*x, *y), *value);
+        }
     }
     let colours = Axis::linear(label, ends_of(&sorted(found.values().copied())));
     let shape = [places[0].len(), places[1].len()];
     let field = Field::new(shape, colours, |column, row| {
-        found
-            .get(&place(places[0][column], places[1][row]))
-            .copied()
+        let place = place(places[0][column], places[1][row]);
+        found.get(&place).copied()
     });
     let [x, y] = [cells(one.0, &places[0])?, cells(other.0, &places[1])?];
     Ok(Figure::single(Chart::map(x, y, field.stretched())))

@@ -117,20 +117,16 @@ fn of_two_that_write_the_same_the_second_is_refused() {
         ("run scene.toml --out out", "--overwrite"),
     ] {
         let folder = Folder::with("two", "cone-half-space.toml", &slow);
-        let first = folder.command(line).stdout(Stdio::null()).spawn();
-        let mut first = first.expect("the command runs");
-        let started = Instant::now();
-        while !folder.path("out").exists() {
-            let waited = started.elapsed().as_secs();
-            assert!(waited < 20, "{line} does not begin");
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        // From the name of the file to the lock on it.
-        std::thread::sleep(Duration::from_millis(200));
-        let second = format!("{line} {again}");
-        folder.ends(&second, 2, "another viscofriction is writing it");
-        first.kill().expect("a kill");
-        first.wait().expect("an end");
+        let begins = || folder.path("out").exists();
+        let is_refused = || {
+            // From the name of the file to the lock on it.
+            std::thread::sleep(Duration::from_millis(200));
+            let second = format!("{line} {again}");
+            folder.ends(&second, 2, "another viscofriction is writing it");
+            true
+        };
+        let runs = folder.kill_when(line, || begins() && is_refused());
+        assert!(runs, "{line} does not begin");
     }
 }
 

@@ -8,10 +8,8 @@ use crate::support::{Folder, assert_close, measured, rows};
 
 /// The table `[material.prony]` that a fit has written.
 fn prony(folder: &Folder) -> Table {
-    let file: Table = folder
-        .text("out/material.toml")
-        .parse()
-        .expect("valid TOML");
+    let file = folder.text("out/material.toml").parse::<Table>();
+    let file = file.expect("valid TOML");
     let prony = file["material"]["prony"].as_table();
     prony.expect("a table [material.prony]").clone()
 }

@@ -139,9 +139,8 @@ fn mutilated_tables_are_accepted_or_refused_with_file_and_line() {
         (path, lines.collect::<Vec<_>>().concat())
     });
     let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (12, 16), }";
-    let heights: Vec<u8> = (0..192)
-        .flat_map(|index| f64::from(index).to_le_bytes())
-        .collect();
+    let heights = (0..192).flat_map(|index| f64::from(index).to_le_bytes());
+    let heights: Vec<u8> = heights.collect();
     let array = (PathBuf::from("map.npy"), npy(header, &heights));
     let rows = ("rows.csv".into(), rows.into());
     let [profile, map] = ["profile.csv", "tread.csv"].map(|name| read(example(name)));

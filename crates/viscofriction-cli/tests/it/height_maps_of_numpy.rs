@@ -45,10 +45,8 @@ fn arrays_of_either_precision_and_order_have_the_answer_of_the_text() {
     for height in heights.iter_mut().flatten() {
         *height = f64::from(*height as f32);
     }
-    let singles = by_column
-        .iter()
-        .map(|height| (*height as f32).to_le_bytes());
-    let singles: Vec<[u8; 4]> = singles.collect();
+    let single = |height: &f64| (*height as f32).to_le_bytes();
+    let singles: Vec<[u8; 4]> = by_column.iter().map(single).collect();
     assert_same(&heights, "<f4", "True", singles.as_flattened());
 }
 

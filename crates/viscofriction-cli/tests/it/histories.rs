@@ -15,9 +15,7 @@ fn scene(load: &str, more: &str) -> String {
 /// One quantity at all points.
 fn column(result: &Value, name: &str) -> Vec<f64> {
     let rows = result["history"].as_array().expect("a history");
-    rows.iter()
-        .map(|row| row[name].as_f64().expect("a number"))
-        .collect()
+    rows.iter().map(|row| number(row, name)).collect()
 }
 
 const TABLE: &str = "time_s,indentation_depth_m\n0,0\n1,0.01\n1.15,0.0085\n1.3,0.007\n1.5,0.009\n2.1,0.015\n2.3,0.013\n";

@@ -294,17 +294,17 @@ fn numbers() -> Vec<Case> {
         let (place, first) = if is_body { ("1-3", 1) } else { ("5-6", 5) };
         let keys: Vec<&str> = keys.split(' ').collect();
         for (index, key) in keys.iter().enumerate() {
-            let wrong =
-                rows(NO_NUMBERS).map(|[value, why]| (format!("{key} = {value}"), 1 + index, why));
+            let wrong = rows(NO_NUMBERS).map(|[value, why]| (format!("{key} = {value}"), why));
             let unknown = (
                 format!("{key}s = 0.5"),
-                1 + index,
                 format!("s: unknown field `{key}s`"),
             );
-            let missing = (String::new(), 0, format!(": missing field `{key}`"));
-            for (line, named, why) in wrong.chain([unknown, missing]) {
-                let mut lines: Vec<String> =
-                    keys.iter().map(|key| format!("{key} = 0.5")).collect();
+            let missing = (String::new(), format!(": missing field `{key}`"));
+            for (line, why) in wrong.chain([unknown, missing]) {
+                // A key that is missing is missing in its table.
+                let named = if line.is_empty() { 0 } else { 1 + index };
+                let right = |key: &&str| format!("{key} = 0.5");
+                let mut lines: Vec<String> = keys.iter().map(right).collect();
                 lines[index] = line;
                 let scene = replaced(place, &format!("[{table}]\n{}", lines.join("\n")));
                 let named = format!("scene.toml:{}", first + named);

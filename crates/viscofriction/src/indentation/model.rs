@@ -178,12 +178,10 @@ impl<'a> Model<'a> {
             });
             return Ok([spring].into_iter().chain(rows).map(scaled).collect());
         }
-        let moduli = branches
-            .iter()
-            .map(|branch| branch.modulus)
-            .zip(&found.moduli);
+        let modulus = |branch: &RelaxationBranch| branch.modulus;
+        let moduli = branches.iter().map(modulus).zip(&found.moduli);
         let other = self.power_law(parameters[0].exp(), parameters[1] + DELTA)?;
-        let others = other.branches().iter().map(|branch| branch.modulus);
+        let others = other.branches().iter().map(modulus);
         let ends = [spring, (spectrum.viscosity(), &found.viscosity)];
         let others = others.chain([other.equilibrium_modulus(), other.viscosity()]);
         let mut by_beta = vec![0.0; found.normal_force.len()];

@@ -149,9 +149,8 @@ fn measurements(
         let problem = "relaxation at several temperatures is not shifted: give a master curve";
         return Err(source.wrong_line(second.line, &problem));
     }
-    let rows = groups
-        .into_iter()
-        .flat_map(|group| group.rows.into_values());
+    let groups = groups.into_iter();
+    let rows = groups.flat_map(|group| group.rows.into_values());
     let point = |Row { at, moduli, .. }: Row| RelaxationPoint {
         time: at,
         modulus: moduli[0],

@@ -150,10 +150,8 @@ fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
             let names: Vec<&str> = kinds.keys().map(String::as_str).collect();
             let found = format!("{}: {}", kinds.len(), names.join(", "));
             let needed = format!("exactly one kind is needed, as in [{key}.kind]");
-            Err(SceneError::at(
-                key,
-                format!("{needed}, but there are {found}"),
-            ))
+            let problem = format!("{needed}, but there are {found}");
+            Err(SceneError::at(key, problem))
         }
         _ => Ok(()),
     }

@@ -242,13 +242,11 @@ impl Answer {
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
         let theory = self.rough.map(|rough| rough.persson);
+        let friction = theory.map(|one| one.friction_coefficient);
         let others = [
             ("contact_box_error", contact.map(|contact| contact.error)),
             ("persson_area_fraction", theory.map(|one| one.area_fraction)),
-            (
-                "persson_friction_coefficient",
-                theory.map(|one| one.friction_coefficient),
-            ),
+            ("persson_friction_coefficient", friction),
         ];
         let others = EDGES.into_iter().zip(edges).chain(others);
         numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));

@@ -96,15 +96,16 @@ impl Revolution {
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
 pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, SceneError> {
-    let of = Revolution::Power;
-    let shape = match indenter {
+    let power = |profile| Body::Revolution(Revolution::Power(profile));
+    let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
+    let body = match indenter {
         &Indenter::Power {
             coefficient,
             exponent,
-        } => PowerProfile::new(coefficient, exponent).map(of),
-        &Indenter::Cone { slope } => PowerProfile::cone(slope).map(of),
-        &Indenter::Paraboloid { curvature } => PowerProfile::paraboloid(curvature).map(of),
-        &Indenter::Sphere { radius } => Sphere::new(radius).map(Revolution::Sphere),
+        } => PowerProfile::new(coefficient, exponent).map(power),
+        &Indenter::Cone { slope } => PowerProfile::cone(slope).map(power),
+        &Indenter::Paraboloid { curvature } => PowerProfile::paraboloid(curvature).map(power),
+        &Indenter::Sphere { radius } => Sphere::new(radius).map(sphere),
         &Indenter::FlatPunch { radius } => FlatPunch::new(radius).map(other),
         &Indenter::FlatCone { radius, slope } => FlatCone::new(radius, slope).map(other),
         &Indenter::RoundTippedCone { radius, slope } => {
@@ -114,12 +115,9 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, 
         &Indenter::TruncatedParaboloid { radius, curvature } => {
             TruncatedParaboloid::new(radius, curvature).map(other)
         }
-        Indenter::Superposition { terms } => Ok(Revolution::Sum(sum(terms)?)),
+        Indenter::Superposition { terms } => Ok(Body::Revolution(Revolution::Sum(sum(terms)?))),
         Indenter::Table { file } => Ok(table_profile(&folder.join(file), read)?),
-        &Indenter::Cylinder { radius } => {
-            let cylinder = Cylinder::new(radius).map(Body::Cylinder);
-            return cylinder.map_err(|error| refused(&indenter.key(), error));
-        }
+        &Indenter::Cylinder { radius } => Cylinder::new(radius).map(Body::Cylinder),
         Indenter::HeightMap {
             file,
             spacing,
@@ -129,13 +127,9 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, 
             let change = [*fill_missing, *level];
             return map(&folder.join(file), *spacing, change, read).map(Body::HeightMap);
         }
-        Indenter::SelfAffine(surface) => {
-            let surface = self_affine(surface).surface().map(Body::Periodic);
-            return surface.map_err(|error| refused(&indenter.key(), error));
-        }
+        Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
     };
-    let shape = shape.map_err(|error| refused(&indenter.key(), error))?;
-    Ok(Body::Revolution(shape))
+    body.map_err(|error| refused(&indenter.key(), error))
 }
 
 fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
@@ -151,8 +145,8 @@ fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
     }
 }
 
-fn other(shape: impl Axisymmetric + 'static) -> Revolution {
-    Revolution::Other(Box::new(shape))
+fn other(shape: impl Axisymmetric + 'static) -> Body {
+    Body::Revolution(Revolution::Other(Box::new(shape)))
 }
 
 fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
@@ -172,7 +166,7 @@ fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
         .map_err(|error| SceneError::at(table, error.to_string()))
 }
 
-fn table_profile(file: &Path, read: ReadFile) -> Result<Revolution, SceneError> {
+fn table_profile(file: &Path, read: ReadFile) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
     let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
     profile(file, &contents).map(other).map_err(wrong)

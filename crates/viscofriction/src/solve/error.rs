@@ -107,28 +107,20 @@ pub enum SolveError {
 }
 
 // Not by the attribute `from`, which would say the cause a second time.
-impl From<BemError> for SolveError {
-    fn from(error: BemError) -> Self {
-        Self::HalfSpace(error)
-    }
+macro_rules! causes {
+    ($($cause:ty => $variant:ident,)*) => {
+        $(impl From<$cause> for SolveError {
+            fn from(error: $cause) -> Self {
+                Self::$variant(error)
+            }
+        })*
+    };
 }
-
-impl From<MdrError> for SolveError {
-    fn from(error: MdrError) -> Self {
-        Self::Line(error)
-    }
-}
-
-impl From<FrictionError> for SolveError {
-    fn from(error: FrictionError) -> Self {
-        Self::Analytic(error)
-    }
-}
-
-impl From<IndenterError> for SolveError {
-    fn from(error: IndenterError) -> Self {
-        Self::Indenter(error)
-    }
+causes! {
+    BemError => HalfSpace,
+    MdrError => Line,
+    FrictionError => Analytic,
+    IndenterError => Indenter,
 }
 
 /// An answer or why there is none.

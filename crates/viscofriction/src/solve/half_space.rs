@@ -30,17 +30,12 @@ pub fn half_space(
     folder: &Path,
     read: ReadFile,
 ) -> Result<HalfSpace, SceneError> {
-    let HalfSpace {
-        material,
-        expansion,
-    } = in_shear(table, folder, read)?;
+    let mut found = in_shear(table, folder, read)?;
     let ratio = table.poisson_ratio();
-    let ratio = ratio.unwrap_or_else(|| material.poisson_ratio());
-    let material = Compressible::new(&*material, ratio).map(boxed);
-    Ok(HalfSpace {
-        material: material.map_err(|error| refused(&table.key(), error))?,
-        expansion,
-    })
+    let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
+    let material = Compressible::new(&*found.material, ratio).map(boxed);
+    found.material = material.map_err(|error| refused(&table.key(), error))?;
+    Ok(found)
 }
 
 /// The material that another file holds.
@@ -163,11 +158,9 @@ fn refused(table: &str, error: RheologyError) -> SceneError {
             list,
             index,
             refused,
-        } if KEYS.contains(&refused.parameter) => SceneError::Value {
-            key: format!("{table}.{list}[{index}].{}", refused.parameter),
-            value: refused.value,
-            allowed: refused.allowed,
-        },
+        } if KEYS.contains(&refused.parameter) => {
+            SceneError::within(&format!("{table}.{list}[{index}]"), refused)
+        }
         other => SceneError::at(table, other.to_string()),
     }
 }

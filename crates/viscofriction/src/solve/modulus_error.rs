@@ -145,10 +145,8 @@ mod tests {
             format!("{{ modulus = {modulus:e}, relaxation_time = {time:e} }}")
         });
         let branches = branches.collect::<Vec<_>>().join(", ");
-        let [modulus, viscosity] = [
-            series.spectrum.equilibrium_modulus(),
-            series.spectrum.viscosity(),
-        ];
+        let modulus = series.spectrum.equilibrium_modulus();
+        let viscosity = series.spectrum.viscosity();
         let table = format!(
             "prony]\nequilibrium_modulus = {modulus:e}\nviscosity = {viscosity:e}\nbranches = [{branches}]"
         );
@@ -188,10 +186,8 @@ mod tests {
     /// A series with an error that is seen changes no answer by more than the bars would have.
     #[test]
     fn bars_hold_the_error_of_a_series() {
-        for (exponent, load) in [0.05, 0.4, 0.9]
-            .into_iter()
-            .flat_map(|a| LOADS.map(|load| (a, load)))
-        {
+        let cases = [0.05, 0.4, 0.9].map(|exponent| LOADS.map(|load| (exponent, load)));
+        for (exponent, load) in cases.concat() {
             let answer = |material: &str| {
                 let text = format!(
                     "[indenter.sphere]\nradius = 5e-3\n[material.{material}\n[load]\n{load}"
@@ -209,12 +205,8 @@ mod tests {
             let ((friction, exact), slope) = answer(&pot);
             let ((changed, other), _) = answer(&table);
             let mut changes = vec![(changed - friction).abs() / slope];
-            changes.extend(
-                exact
-                    .iter()
-                    .zip(&other)
-                    .map(|(a, b)| (b.value / a.value - 1.0).abs()),
-            );
+            let others = exact.iter().zip(&other);
+            changes.extend(others.map(|(a, b)| (b.value / a.value - 1.0).abs()));
             let largest = changes.iter().copied().fold(0.0, f64::max) / error;
             assert!(
                 largest < PER_MODULUS && largest > 1e-4,

@@ -36,13 +36,11 @@ impl Plan {
                 return Err(source.locate(&SceneError::at(&one.key, problem)));
             }
         }
-        let points = vary
-            .iter()
-            .try_fold(1_usize, |n, vary| n.checked_mul(vary.values.len()));
+        let mut counts = vary.iter().map(|vary| vary.values.len());
+        let points = counts.try_fold(1_usize, usize::checked_mul);
         if points.is_none_or(|points| points > MOST_POINTS) {
-            return Err(WrongInput(format!(
-                "--vary gives more than {MOST_POINTS} points"
-            )));
+            let problem = format!("--vary gives more than {MOST_POINTS} points");
+            return Err(WrongInput(problem));
         }
         let mut scene = table.clone();
         // On how many threads a point is computed, and how much memory it may take, does not change it.

@@ -103,7 +103,7 @@ fn judged(scene: &Scene, request: &Request, reference: &Result<Reference>) -> Re
 }
 
 fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
-    let (got, expected) = (request.solve(&scene.file)?.known, reference.known);
+    let (got, expected) = (request.solve(&scene.file)?.asked(), reference.known);
     let deviation = (got.value - expected.value).abs();
     Ok(Bar {
         method: name(request, scene),

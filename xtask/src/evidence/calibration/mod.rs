@@ -7,7 +7,7 @@ mod scenes;
 
 use std::collections::BTreeMap;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::Args;
 use viscofriction::scene::Method;
 use viscofriction_plot::{
@@ -46,10 +46,8 @@ pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
         (SCENES, FULL)
     };
     let count = options.scenes.unwrap_or(usual);
-    if !(1..=MOST_SCENES).contains(&count) {
-        let problem = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
-        return Err(WrongInput(problem).into());
-    }
+    let wrong = format!("--scenes {count} is not from 1 to {MOST_SCENES}");
+    ensure!((1..=MOST_SCENES).contains(&count), WrongInput(wrong));
     let mut random = Random::new(options.seed.unwrap_or(SEED));
     let mut scenes = Vec::new();
     for number in 1..=count {

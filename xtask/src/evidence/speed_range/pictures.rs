@@ -48,11 +48,8 @@ struct Curve<'a> {
 
 impl Curve<'_> {
     fn values(&self, value: fn(&Friction) -> f64) -> Vec<[f64; 2]> {
-        points(
-            &self.points,
-            |(at, _)| at.speed,
-            |(_, friction)| value(friction),
-        )
+        let speed = |(at, _): &&Point| at.speed;
+        points(&self.points, speed, |(_, friction)| value(friction))
     }
 
     /// Circles with error bars.

@@ -57,12 +57,12 @@ fn on_the_line() -> Vec<Family> {
         Cheap "line, paraboloid on Kelvin–Voigt", "vλ/x_r", ratios() => move |ratio| line::kelvin_voigt(&paraboloid()?, ratio);
         Cheap "line, cone on Maxwell", "vτ/x_r", ratios() => move |ratio| line::maxwell(&cone()?, ratio);
         Cheap "line, paraboloid on Maxwell", "vτ/x_r", ratios() => move |ratio| line::maxwell(&paraboloid()?, ratio);
-        Cheap "line, cone on 16 branches over 15 decades", "v/x_r", ratios() => |speed| line::cone_at_depth(&sixteen_branches()?, speed);
+        Cheap "line, cone on 16 branches over 15 decades", "v/x_r", ratios() => |speed| line::cone_at_depth(&sixteen_branches(), speed);
         Cheap "line, cone on three elements, vτ = x_r", "γ", gammas() => |gamma| line::cone_at_depth(&solid(gamma)?, 1.0);
         Cheap "line, cone on three elements, slow", "γ", gammas() => |gamma| line::cone_at_depth(&solid(gamma)?, 1e-3 * gamma);
         Cheap "line, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| line::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
         Cheap "line, pressed, Maxwell", "Δt/τ", ratios() => |ratio| line::pressed(&Maxwell::new(1.0, 1.0)?, ratio);
-        Cheap "line, pressed, 16 branches", "Δt", ratios() => |ratio| line::pressed(&sixteen_branches()?, ratio);
+        Cheap "line, pressed, 16 branches", "Δt", ratios() => |ratio| line::pressed(&sixteen_branches(), ratio);
         Cheap "line, march, cone on Maxwell", "vτ/x_r", ratios().step_by(2) => line::march;
         Cheap "line, march, cone on dashpot", "elements", ELEMENTS => line::coarse_march;
     }
@@ -80,7 +80,7 @@ fn on_the_half_space() -> Vec<Family> {
         Costly "half space, slender paraboloid", "width/length", WIDTHS => half_space::slender;
         Cheap "half space, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| half_space::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
         Cheap "half space, pressed, Maxwell", "Δt/τ", ratios() => |ratio| half_space::pressed(&Maxwell::new(1.0, 1.0)?, ratio);
-        Cheap "half space, pressed, 16 branches", "Δt", ratios() => |ratio| half_space::pressed(&sixteen_branches()?, ratio);
+        Cheap "half space, pressed, 16 branches", "Δt", ratios() => |ratio| half_space::pressed(&sixteen_branches(), ratio);
         Cheap "half space, march on Maxwell", "Δt/τ", limits() => half_space::march_on_maxwell;
         Cheap "half space, march on three elements", "Δt/τ", limits() => half_space::march_on_solid;
     }

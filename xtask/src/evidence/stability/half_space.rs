@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use anyhow::Result;
 use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
 use bem_halfspace::slide::{SlideRow, slide_on_grid};
-use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
+use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions};
 use friction_analytic::{
     ElasticContact, ElasticLimitFriction, FrictionError, half_space_power_friction,
@@ -16,8 +16,8 @@ use numerics::{Estimate, InvalidParameter};
 use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
 use super::case::{Row, compare, refused};
-use super::line::{Dashpot, dashpot, sixteen_branches, unit_dashpot};
-use crate::scene::solid;
+use super::line::{on_dashpot, sixteen_branches};
+use crate::scene::{Scene, solid};
 
 /// Enough unknowns for all of these cases, and seconds at most.
 pub(super) const OPTIONS: RefinementOptions = RefinementOptions {
@@ -39,33 +39,19 @@ fn judged(
     compare!(within tolerance; "friction coefficient" => got.friction_coefficient.value, expected.value)
 }
 
-/// A body beside the table of s(p) for the power profile that it is nearly, from which its shape differs by `part`.
-pub(super) fn beside_table(
-    body: &dyn Surface,
-    profile: &PowerProfile,
-    Dashpot { material, load }: &Dashpot,
-    part: f64,
-) -> Result<Row> {
-    let expected = half_space_power_friction(profile, material, load)?;
-    judged(body, material, load, expected, part)
-}
-
-/// The stationary state on a dashpot.
-pub(super) fn refined(
-    body: &dyn Surface,
-    on: &Dashpot,
-    options: &RefinementOptions,
-) -> Result<SteadyEstimate, BemError> {
-    steady_refined(body, &on.material, &on.load, options)
+/// A body beside the table of s(p) for the scene of the profile that it is nearly, from which its shape differs by `part`.
+pub(super) fn beside_table(body: &dyn Surface, scene: &Scene, part: f64) -> Result<Row> {
+    let expected = half_space_power_friction(&scene.body, &scene.material, &scene.load)?;
+    judged(body, &scene.material, &scene.load, expected, part)
 }
 
 /// The table of s(p), whose errors are far below what is asked here.
 ///
 /// Friction diverges at p = 1/2; for p = 100 and more the rise at the rim is narrower than the elements allowed.
 pub(super) fn power_profile(exponent: f64) -> Result<Row> {
-    let (profile, on) = (PowerProfile::new(0.4, exponent)?, dashpot()?);
+    let scene = on_dashpot(PowerProfile::new(0.4, exponent)?)?;
     if exponent < 0.55 {
-        let got = refined(&profile, &on, &OPTIONS);
+        let got = scene.friction(&OPTIONS);
         return refused!(got => BemError::InvalidParameter(InvalidParameter { parameter: "apex exponent", .. }));
     }
     if exponent > 99.0 {
@@ -74,22 +60,26 @@ pub(super) fn power_profile(exponent: f64) -> Result<Row> {
             max_unknowns,
             ..OPTIONS
         };
-        let got = refined(&profile, &on, &options);
-        return refused!(got => BemError::GridTooLarge { .. });
+        return refused!(scene.friction(&options) => BemError::GridTooLarge { .. });
     }
-    beside_table(&profile, &profile, &on, 0.0)
+    beside_table(&scene.body, &scene, 0.0)
+}
+
+/// A profile on a dashpot, where the depth (12) is 1 m.
+fn on_unit_dashpot(body: PowerProfile) -> Result<Scene> {
+    let unit = Scene::unit(1.0)?;
+    Ok(Scene { body, ..unit })
 }
 
 pub(super) fn any_slope(slope: f64) -> Result<Row> {
-    let cone = PowerProfile::cone(slope)?;
-    beside_table(&cone, &cone, &unit_dashpot()?, 0.0)
+    let scene = on_unit_dashpot(PowerProfile::cone(slope)?)?;
+    beside_table(&scene.body, &scene, 0.0)
 }
 
 /// Of the cone a part is missing that is as large as the end.
 pub(super) fn flat_end(end: f64) -> Result<Row> {
-    let cone = PowerProfile::cone(1.0)?;
-    let body = FlatCone::new(end, 1.0)?;
-    beside_table(&body, &cone, &unit_dashpot()?, 10.0 * end)
+    let cone = on_unit_dashpot(PowerProfile::cone(1.0)?)?;
+    beside_table(&FlatCone::new(end, 1.0)?, &cone, 10.0 * end)
 }
 
 /// A cone whose tip is much smaller than the contact, or a paraboloid whose cone begins far outside it.
@@ -100,7 +90,7 @@ pub(super) fn round_tip(tip: f64) -> Result<Row> {
         (PowerProfile::paraboloid(0.5 / tip)?, 0.0)
     };
     let body = RoundTippedCone::new(tip, 1.0)?;
-    beside_table(&body, &profile, &unit_dashpot()?, part)
+    beside_table(&body, &on_unit_dashpot(profile)?, part)
 }
 
 type Limit = fn(
@@ -165,7 +155,7 @@ fn agreeing(
 pub(super) fn branches(velocity: f64) -> Result<Row> {
     let body = PowerProfile::paraboloid(0.1)?;
     let load = SlidingLoad::new(1.0, velocity)?;
-    agreeing(&body, &sixteen_branches()?, &load, 1.0)
+    agreeing(&body, &sixteen_branches(), &load, 1.0)
 }
 
 /// h = x² + (y/r)² on the elements of a grid that is as slender as the body.

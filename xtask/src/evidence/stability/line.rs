@@ -3,49 +3,38 @@
 use std::f64::consts::FRAC_2_PI;
 
 use anyhow::Result;
+use casebook::prony;
 use friction_analytic::{
     FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
-    kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse, power_sliding,
+    kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse,
 };
 use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
 use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady};
-use rheology::{
-    KelvinVoigt, Material, Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, Viscous,
-};
+use rheology::{KelvinVoigt, Material, Maxwell, Prony, Viscous};
 
 use super::case::{Row, compare, refused};
 use super::cone_on_solid::cone_on_solid;
+use crate::scene::Scene;
 
 /// What the stationary solver is asked for by default.
 pub(super) const ASKED: f64 = 1e-8;
 
-/// A dashpot, and the load that slides over it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Dashpot {
-    pub(super) material: Viscous,
-    pub(super) load: SlidingLoad,
-}
-
-/// The depth (12) is 1 m.
-pub(super) fn unit_dashpot() -> Result<Dashpot> {
-    let (material, load) = (Viscous::new(1.0)?, SlidingLoad::new(4.0, 1.0)?);
-    Ok(Dashpot { material, load })
-}
-
-/// The depth (12) is 0.1 m.
-pub(super) fn dashpot() -> Result<Dashpot> {
+/// A profile on a dashpot, where the depth (12) is 0.1 m.
+pub(super) fn on_dashpot(body: PowerProfile) -> Result<Scene> {
     let (material, load) = (Viscous::new(50.0)?, SlidingLoad::new(2.0, 0.1)?);
-    Ok(Dashpot { material, load })
+    Ok(Scene {
+        body,
+        material,
+        load,
+    })
 }
 
 /// Sixteen branches of different moduli, over fifteen decades of time constants around 1 s.
-pub(super) fn sixteen_branches() -> Result<Prony> {
-    let branch = |index: i32| RelaxationBranch {
-        modulus: 1.0 + 0.5 * f64::from(index).sin(),
-        relaxation_time: 10_f64.powf(15.0 * (f64::from(index) / 15.0 - 0.5)),
-    };
-    let branches = (0..16).map(branch).collect();
-    Ok(Prony::new(RelaxationSpectrum::new(0.1, 0.0, branches)?)?)
+pub(super) fn sixteen_branches() -> Prony {
+    let modulus = |index: i32| 1.0 + 0.5 * f64::from(index).sin();
+    let time = |index: i32| 10_f64.powf(15.0 * (f64::from(index) / 15.0 - 0.5));
+    let branches: Vec<_> = (0..16).map(|index| (modulus(index), time(index))).collect();
+    prony([0.1, 0.0], &branches)
 }
 
 /// The stationary state.
@@ -69,7 +58,7 @@ fn beside_theorem(got: &SteadySliding, theorem: &StationarySliding) -> Result<Ro
 
 /// The stationary solver beside the quadrature of (16): two methods that share only the line itself.
 pub(super) fn both(body: &dyn Axisymmetric) -> Result<Row> {
-    let Dashpot { material, load } = unit_dashpot()?;
+    let Scene { material, load, .. } = Scene::unit(1.0)?;
     let expected = axisymmetric_sliding(body, &material, &load)?;
     beside_theorem(&state(body, &material, &load)?, &expected)
 }
@@ -78,7 +67,7 @@ pub(super) fn both(body: &dyn Axisymmetric) -> Result<Row> {
 ///
 /// Around larger ends the contact is narrower than the rounding of its position.
 pub(super) fn diverges(body: &dyn Axisymmetric) -> Result<Row> {
-    let Dashpot { material, load } = unit_dashpot()?;
+    let Scene { material, load, .. } = Scene::unit(1.0)?;
     let by_line = state(body, &material, &load);
     if let Err(MdrError::FrictionDiverges { .. }) = by_line {
         let theorem = axisymmetric_sliding(body, &material, &load);
@@ -91,13 +80,12 @@ pub(super) fn diverges(body: &dyn Axisymmetric) -> Result<Row> {
 ///
 /// The friction integral diverges up to p = 1/2, and close above it converges too slowly to be summed.
 pub(super) fn power_profile(exponent: f64) -> Result<Row> {
-    let profile = PowerProfile::new(0.4, exponent)?;
-    let Dashpot { material, load } = dashpot()?;
-    let got = state(&profile, &material, &load);
+    let scene = on_dashpot(PowerProfile::new(0.4, exponent)?)?;
+    let got = state(&scene.body, &scene.material, &scene.load);
     if exponent < 0.55 {
         return refused!(got => MdrError::FrictionDiverges { .. });
     }
-    beside_theorem(&got?, &power_sliding(&profile, &material, &load)?)
+    beside_theorem(&got?, &scene.theory()?)
 }
 
 /// The front is 1 m ahead.
@@ -186,15 +174,15 @@ pub(super) fn march(velocity: f64) -> Result<Row> {
 
 /// On a dashpot the cone has its friction (21) at any spacing that has three elements.
 pub(super) fn coarse_march(elements: f64) -> Result<Row> {
-    let profile = PowerProfile::cone(0.1)?;
-    let Dashpot { material, load } = dashpot()?;
-    let expected = power_sliding(&profile, &material, &load)?;
+    let scene = on_dashpot(PowerProfile::cone(0.1)?)?;
+    let expected = scene.theory()?;
     let options = SlideOptions {
         spacing: expected.contact_length() / elements,
         drift_tolerance: 1e-9,
         max_sliding_distance: 100.0 * expected.contact_length(),
     };
-    let got = slide_on_grid(&EquivalentLine(&profile), &material, &load, &options);
+    let line = EquivalentLine(&scene.body);
+    let got = slide_on_grid(&line, &scene.material, &scene.load, &options);
     if elements < 3.0 {
         return refused!(got => MdrError::TooCoarse { .. });
     }

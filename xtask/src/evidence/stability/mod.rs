@@ -8,7 +8,7 @@ mod half_space;
 mod line;
 mod range;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::Args;
 use viscofriction_plot::{
     Axis, Chart, Colour, Dash, Figure, LegendPlace, Line, Marker, Series, Shape,
@@ -72,16 +72,14 @@ fn chosen(options: &Options, quick: bool) -> Result<Vec<Family>> {
         family.values = family.values.iter().copied().step_by(step).collect();
         if let Some(text) = &options.only {
             let names = [family.name, family.parameter];
-            family
-                .values
-                .retain(|value| name(names, *value).contains(text));
+            let values = &mut family.values;
+            values.retain(|value| name(names, *value).contains(text));
         }
     }
     families.retain(|family| !family.values.is_empty());
-    if families.is_empty() {
-        let text = options.only.as_deref().unwrap_or_default();
-        return Err(WrongInput(format!("--only {text:?} is in no case")).into());
-    }
+    let text = options.only.as_deref().unwrap_or_default();
+    let wrong = format!("--only {text:?} is in no case");
+    ensure!(!families.is_empty(), WrongInput(wrong));
     Ok(families)
 }
 
@@ -132,11 +130,8 @@ fn panel(rows: &[&Row], end: f64) -> Chart {
         ("refused by the right error", Shape::Plus, Colour::Magenta),
         ("wrong", Shape::Diamond, Colour::Red),
     ];
-    let tolerance = Series::line(
-        vec![[-end, 1.0], [end, 1.0]],
-        Line::thin(Dash::Dashed),
-        Colour::Black,
-    );
+    let ends = vec![[-end, 1.0], [end, 1.0]];
+    let tolerance = Series::line(ends, Line::thin(Dash::Dashed), Colour::Black);
     let mut series = vec![tolerance];
     for (kind, shape, colour) in kinds {
         let of_kind = rows.iter().filter(|row| match row.verdict {
@@ -182,10 +177,7 @@ mod tests {
         let report = report_of(&families).expect("a report");
         let expected = "1 of 2 cases are wrong\nline, test, p = 2e0: expected 1e0, got 2e0";
         assert_eq!(report.failure.as_deref(), Some(expected), "{report:?}");
-        assert_eq!(
-            report_of(&families[..0]).expect("a report").failure,
-            None,
-            "nothing is wrong"
-        );
+        let report = report_of(&families[..0]).expect("a report");
+        assert_eq!(report.failure, None, "nothing is wrong");
     }
 }

@@ -8,37 +8,38 @@ use mdr_core::MdrError;
 use rheology::Viscous;
 
 use super::case::{Family, Row, compare, decades, families, refused};
-use super::half_space::{OPTIONS, beside_table, refined};
-use super::line::{self, Dashpot, marched, state};
+use super::half_space::{OPTIONS, beside_table};
+use super::line::{self, marched, state};
+use crate::scene::Scene;
 
 /// A paraboloid on a dashpot; all four numbers are one unless a case changes one of them.
 #[derive(Debug, Clone, Copy)]
-struct Scene {
+struct Numbers {
     force: f64,
     velocity: f64,
     viscosity: f64,
     curvature: f64,
 }
 
-const UNIT: Scene = Scene {
+const UNIT: Numbers = Numbers {
     force: 1.0,
     velocity: 1.0,
     viscosity: 1.0,
     curvature: 1.0,
 };
 
-/// The scene that belongs to the value of a parameter.
-type Change = fn(f64) -> Scene;
+/// The numbers that belong to the value of a parameter.
+type Change = fn(f64) -> Numbers;
 
 /// The parameters that are changed one at a time.
 const PARAMETERS: [(&str, Change); 4] = [
-    ("force / N", |force| Scene { force, ..UNIT }),
-    ("speed / (m/s)", |velocity| Scene { velocity, ..UNIT }),
-    ("viscosity / (Pa s)", |viscosity| Scene {
+    ("force / N", |force| Numbers { force, ..UNIT }),
+    ("speed / (m/s)", |velocity| Numbers { velocity, ..UNIT }),
+    ("viscosity / (Pa s)", |viscosity| Numbers {
         viscosity,
         ..UNIT
     }),
-    ("curvature · m", |curvature| Scene { curvature, ..UNIT }),
+    ("curvature · m", |curvature| Numbers { curvature, ..UNIT }),
 ];
 /// Forces up to the ends of floating-point numbers; the smallest leaves no depth.
 const FORCES: [f64; 9] = [
@@ -48,30 +49,27 @@ const FORCES: [f64; 9] = [
 pub(super) fn families() -> Vec<Family> {
     let scale = |step| decades(-12, 12, step);
     let mut families = Vec::new();
-    for (parameter, scene) in PARAMETERS {
+    for (parameter, numbers) in PARAMETERS {
         families.extend(families! {
-            Cheap "line, stationary, paraboloid", parameter, scale(1) => move |value| line(scene(value));
-            Cheap "line, march, paraboloid", parameter, scale(3) => move |value| march(scene(value));
-            Costly "half space, stationary, paraboloid", parameter, scale(3) => move |value| half_space(scene(value));
+            Cheap "line, stationary, paraboloid", parameter, scale(1) => move |value| line(numbers(value));
+            Cheap "line, march, paraboloid", parameter, scale(3) => move |value| march(numbers(value));
+            Costly "half space, stationary, paraboloid", parameter, scale(3) => move |value| half_space(numbers(value));
         });
     }
-    let (parameter, scene) = PARAMETERS[0];
+    let (parameter, numbers) = PARAMETERS[0];
     families.extend(families! {
-        Cheap "theorem, ends of numbers", parameter, FORCES => move |force| theorem(scene(force));
-        Cheap "line, ends of numbers", parameter, FORCES => move |force| line(scene(force));
-        Cheap "line, march, ends of numbers", parameter, FORCES => move |force| march(scene(force));
-        Cheap "half space, ends of numbers", parameter, FORCES => move |force| half_space(scene(force));
+        Cheap "theorem, ends of numbers", parameter, FORCES => move |force| theorem(numbers(force));
+        Cheap "line, ends of numbers", parameter, FORCES => move |force| line(numbers(force));
+        Cheap "line, march, ends of numbers", parameter, FORCES => move |force| march(numbers(force));
+        Cheap "half space, ends of numbers", parameter, FORCES => move |force| half_space(numbers(force));
     });
     families
 }
 
-impl Scene {
-    fn profile(self) -> Result<PowerProfile> {
-        Ok(PowerProfile::paraboloid(self.curvature)?)
-    }
-
-    fn dashpot(self) -> Result<Dashpot> {
-        Ok(Dashpot {
+impl Numbers {
+    fn scene(self) -> Result<Scene> {
+        Ok(Scene {
+            body: PowerProfile::paraboloid(self.curvature)?,
             material: Viscous::new(self.viscosity)?,
             load: SlidingLoad::new(self.force, self.velocity)?,
         })
@@ -89,48 +87,47 @@ impl Scene {
 }
 
 /// The smallest force leaves no depth.
-fn theorem(scene: Scene) -> Result<Row> {
-    let Dashpot { material, load } = scene.dashpot()?;
-    let got = power_sliding(&scene.profile()?, &material, &load);
-    if scene.force < 1e-320 {
+fn theorem(numbers: Numbers) -> Result<Row> {
+    let scene = numbers.scene()?;
+    let got = power_sliding(&scene.body, &scene.material, &scene.load);
+    if numbers.force < 1e-320 {
         return refused!(got => FrictionError::OutOfRange { .. });
     }
     let got = got?;
-    scene.compared(got.indentation_depth, got.friction_coefficient, 1e-12)
+    numbers.compared(got.indentation_depth, got.friction_coefficient, 1e-12)
 }
 
 /// Small forces leave a depth with fewer digits than others have.
-fn line(scene: Scene) -> Result<Row> {
-    let Dashpot { material, load } = scene.dashpot()?;
-    let got = state(&scene.profile()?, &material, &load);
-    if scene.force < 1e-300 {
+fn line(numbers: Numbers) -> Result<Row> {
+    let scene = numbers.scene()?;
+    let got = state(&scene.body, &scene.material, &scene.load);
+    if numbers.force < 1e-300 {
         return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?;
     let [depth, friction] = [got.indentation_depth, got.friction_coefficient];
-    scene.compared(depth.value, friction.value, line::ASKED)
+    numbers.compared(depth.value, friction.value, line::ASKED)
 }
 
 const ELEMENTS: usize = 100;
 
 /// At the largest force the march has no room.
-fn march(scene: Scene) -> Result<Row> {
-    let Dashpot { material, load } = scene.dashpot()?;
-    let got = marched(&scene.profile()?, &material, &load, ELEMENTS);
-    if !(1e-300..1e308).contains(&scene.force) {
+fn march(numbers: Numbers) -> Result<Row> {
+    let scene = numbers.scene()?;
+    let got = marched(&scene.body, &scene.material, &scene.load, ELEMENTS);
+    if !(1e-300..1e308).contains(&numbers.force) {
         return refused!(got => MdrError::InvalidParameter(_) | MdrError::NonFinite { .. });
     }
     let got = got?.last;
     // Second order in the spacing: the mean slope over a step beside the slope.
     let tolerance = 1.0 / (ELEMENTS * ELEMENTS) as f64;
-    scene.compared(got.indentation_depth, got.friction_coefficient, tolerance)
+    numbers.compared(got.indentation_depth, got.friction_coefficient, tolerance)
 }
 
-fn half_space(scene: Scene) -> Result<Row> {
-    let (profile, dashpot) = (scene.profile()?, scene.dashpot()?);
-    if scene.force < 1e-320 {
-        let got = refined(&profile, &dashpot, &OPTIONS);
-        return refused!(got => BemError::InvalidParameter(_));
+fn half_space(numbers: Numbers) -> Result<Row> {
+    let scene = numbers.scene()?;
+    if numbers.force < 1e-320 {
+        return refused!(scene.friction(&OPTIONS) => BemError::InvalidParameter(_));
     }
-    beside_table(&profile, &profile, &dashpot, 0.0)
+    beside_table(&scene.body, &scene, 0.0)
 }

@@ -3,7 +3,7 @@
 mod error_bars;
 mod growth;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 
 use super::{Report, Table};
@@ -37,10 +37,8 @@ const QUICK_LARGEST: f64 = 4e3;
 pub(super) fn report(options: &Options, quick: bool) -> Result<Report> {
     let usual = if quick { QUICK_LARGEST } else { LARGEST };
     let largest = options.largest.unwrap_or(usual);
-    if !(2e3..=1e7).contains(&largest) {
-        let problem = format!("--largest must be between 2e3 and 1e7, but is {largest}");
-        return Err(WrongInput(problem).into());
-    }
+    let wrong = format!("--largest must be between 2e3 and 1e7, but is {largest}");
+    ensure!((2e3..=1e7).contains(&largest), WrongInput(wrong));
     let (mut tables, mut summaries) = (Vec::new(), Vec::new());
     // Growth comes first, because the memory that it reports is the largest that the process has had.
     for part in [Part::Growth, Part::ErrorBars] {

@@ -116,11 +116,8 @@ impl Fit {
         let errors = resolved.filter_map(|row| Some([row.fineness()?, row.error]));
         let errors: Vec<[f64; 2]> = errors.collect();
         let numerical: Vec<&Row> = rows.iter().filter(|row| row.unknowns > 0).collect();
-        let costs = points(
-            &numerical,
-            |row| row.unknowns as f64,
-            |row| row.processor_seconds,
-        );
+        let unknowns = |row: &&Row| row.unknowns as f64;
+        let costs = points(&numerical, unknowns, |row| row.processor_seconds);
         let [order, cost] = [clear_exponent(&errors), clear_exponent(&costs)];
         Self {
             scene: first.scene,

@@ -63,15 +63,12 @@ const PRESSED: [usize; 5] = [16, 32, 64, 128, 256];
 /// all results are of the half space.
 pub(super) fn requests(presses: bool, runs: usize) -> Vec<Request> {
     let errors = |model, method, values: &[f64]| {
-        series(runs, values, |error| {
-            Request::to_error(model, method, error)
-        })
+        let request = |error: &f64| Request::to_error(model, method, *error);
+        values.iter().take(runs).map(request).collect::<Vec<_>>()
     };
     let elements = |model, method, values: &[usize]| {
-        let accuracy = Accuracy::Elements;
-        series(runs, values, |count| {
-            Request::new(model, method, accuracy(count))
-        })
+        let request = |count: &usize| Request::new(model, method, Accuracy::Elements(*count));
+        values.iter().take(runs).map(request).collect()
     };
     if presses {
         return [
@@ -90,8 +87,4 @@ pub(super) fn requests(presses: bool, runs: usize) -> Vec<Request> {
         elements(Model::HalfSpace, Method::BemTransient, &MARCHES),
     ]
     .concat()
-}
-
-fn series<T: Copy>(runs: usize, values: &[T], request: impl Fn(T) -> Request) -> Vec<Request> {
-    values.iter().take(runs).copied().map(request).collect()
 }

@@ -138,12 +138,8 @@ impl Measured {
             let reference = match reference(&file, &of_model[0]) {
                 Ok(reference) => reference,
                 Err(error) => {
-                    let what = format!(
-                        "{}, reference of the {}",
-                        scene.name,
-                        of_model[0].model.name()
-                    );
-                    self.refuse(&what, &error);
+                    let (name, model) = (scene.name, of_model[0].model.name());
+                    self.refuse(&format!("{name}, reference of the {model}"), &error);
                     continue;
                 }
             };
@@ -201,11 +197,11 @@ fn row(request: &Request, scene: &scene::Scene, reference: &Reference) -> Row {
 }
 
 fn found(request: &Request, scene: &scene::Scene, reference: &Reference) -> Result<Found> {
-    let solved = request.solve(scene)?;
-    let Estimate { value, error } = solved.known;
+    let answer = request.solve(scene)?;
+    let Estimate { value, error } = answer.asked();
     Ok(Found {
         error: deviation(&[value], &[reference.known.value]),
         error_bar: Some(error / value.abs()),
-        unknowns: solved.unknowns,
+        unknowns: answer.unknowns,
     })
 }
