@@ -117,10 +117,8 @@ pub(crate) fn resize<T: Copy + Send + Sync>(values: &mut Vec<T>, value: T, count
         IndexedParallelIterator, IntoParallelIterator, ParallelExtend, ParallelIterator,
     };
     values.truncate(count);
-    let missing = (values.len()..count)
-        .into_par_iter()
-        .with_min_len(MIN_ELEMENTS);
-    values.par_extend(missing.map(|_| value));
+    let missing = (values.len()..count).into_par_iter();
+    values.par_extend(missing.with_min_len(MIN_ELEMENTS).map(|_| value));
 }
 
 /// Removes values from the end, or adds copies of a value.

@@ -29,9 +29,8 @@ impl Bounds {
 
     /// The smallest box that holds all elements; none without any.
     pub(crate) fn of(elements: impl Iterator<Item = [usize; 2]>) -> Option<Self> {
-        elements
-            .map(Self::around)
-            .reduce(|bounds, element| bounds.union(&element))
+        let boxes = elements.map(Self::around);
+        boxes.reduce(|bounds, element| bounds.union(&element))
     }
 
     /// The smallest box that holds the elements of a field, as [row, column], for which `is` is true.
@@ -107,11 +106,8 @@ impl Bounds {
     pub(crate) fn with_margin(&self, field: [usize; 2], mirrors: [Mirror; 2]) -> Self {
         let mut grown = *self;
         for (axis, &available) in field.iter().enumerate() {
-            let rear = if mirrors[axis].is_none() {
-                self.lower[axis]
-            } else {
-                0
-            };
+            let is_free = mirrors[axis].is_none();
+            let rear = if is_free { self.lower[axis] } else { 0 };
             let needed = self.upper[axis] - rear;
             let wanted = needed + (needed / 16).max(2) * 2;
             let length = (fast_length(2 * wanted) / 2).min(available);

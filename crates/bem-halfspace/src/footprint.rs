@@ -87,10 +87,7 @@ impl Footprint {
     }
 
     pub(crate) const fn boundary_reached(&self, sliding_distance: f64) -> BemError {
-        let Self {
-            x: [x_min, x_max],
-            y: [y_min, y_max],
-        } = *self;
+        let ([x_min, x_max], [y_min, y_max]) = (self.x, self.y);
         BemError::ContactReachesBoundary {
             sliding_distance,
             x_min,
@@ -106,10 +103,8 @@ impl Footprint {
     /// [`BemError::InvalidParameter`] for one that is not finite and greater than 0.
     pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
         let mut sides = [self.x, self.y];
-        for (ends, name) in sides
-            .iter_mut()
-            .zip(["footprint along x", "footprint along y"])
-        {
+        let names = ["footprint along x", "footprint along y"];
+        for (ends, name) in sides.iter_mut().zip(names) {
             *ends = [positive(name, -ends[0])?, positive(name, ends[1])?];
         }
         Ok(sides)

@@ -28,15 +28,6 @@ pub(crate) fn sum<const N: usize>(lists: [&[f64]; N], term: impl Fn([f64; N]) ->
     reduce(lists, 0.0, term, |sum, term| sum + term)
 }
 
-/// The largest term of all numbers of equally long lists, but at least `start`; none may be NaN.
-pub(crate) fn largest<const N: usize>(
-    lists: [&[f64]; N],
-    start: f64,
-    term: impl Fn([f64; N]) -> f64,
-) -> f64 {
-    reduce(lists, start, term, larger)
-}
-
 /// The larger of two numbers of which none is NaN; faster than `f64::max`.
 pub(crate) fn larger(left: f64, right: f64) -> f64 {
     if left > right { left } else { right }

@@ -16,9 +16,6 @@ pub const NOT_POSITIVE: &[f64] = &[
 ];
 
 /// Asserts that each of the numbers is refused by an error that names the parameter and the number.
-///
-/// # Panics
-/// When one is not.
 pub fn refuses<T: Debug, E: Display>(
     parameter: &str,
     numbers: &[f64],
@@ -32,9 +29,6 @@ pub fn refuses<T: Debug, E: Display>(
 }
 
 /// Asserts that a result is an error that names the parameter and what it must be.
-///
-/// # Panics
-/// When it is not.
 pub fn refused<T: Debug, E: Display>(parameter: &str, result: Result<T, E>) {
     refusal(parameter, result);
 }

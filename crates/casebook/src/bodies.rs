@@ -53,9 +53,6 @@ impl Axisymmetric for GaussianDip {
 }
 
 /// The body of revolution Σ c r^p of pairs of coefficient and exponent.
-///
-/// # Panics
-/// When they make none.
 #[must_use]
 pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
     let terms = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
@@ -67,9 +64,6 @@ pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
 
 impl Case {
     /// The body of revolution that the input `shape` of the row names.
-    ///
-    /// # Panics
-    /// When it names none.
     #[must_use]
     pub fn body(&self) -> Box<dyn Axisymmetric> {
         let input = |name| self.input(name);
@@ -92,9 +86,6 @@ impl Case {
     }
 
     /// The cubic line ε (x³/3 − 3x²/2 + 2x) of group FRI-03 on [0, 3], or the same run through backwards, in a `unit` \[m].
-    ///
-    /// # Panics
-    /// When the row has no `eps`.
     #[must_use]
     pub fn cubic(&self, unit: f64) -> impl RigidLine + use<> {
         let (epsilon, reversed) = (self.input("eps"), self.has_input("direction"));

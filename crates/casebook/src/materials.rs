@@ -8,18 +8,14 @@ use rheology::{
 use crate::{Case, group};
 
 /// The material of a lone spring \[Pa], a lone dashpot \[Pa s], and branches of modulus \[Pa] and relaxation time \[s].
-///
-/// # Panics
-/// When a number is out of its range.
 #[must_use]
 pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
-    let branches = branches
-        .iter()
-        .map(|&(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
-    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches.collect());
+    let branch = |&(modulus, relaxation_time)| RelaxationBranch {
+        modulus,
+        relaxation_time,
+    };
+    let branches = branches.iter().map(branch).collect();
+    let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches);
     Prony::new(relaxation.expect("moduli")).expect("a material")
 }
 
@@ -38,9 +34,6 @@ pub fn standard_solid(
 }
 
 /// A model that rows name, `"P3"` or `"P10"`, by its numbers in group RHE-05.
-///
-/// # Panics
-/// When there is none of this name.
 #[must_use]
 pub fn model(name: &str) -> Prony {
     let rows = group("RHE-05").into_iter();
@@ -51,9 +44,6 @@ pub fn model(name: &str) -> Prony {
 
 impl Case {
     /// The material whose moduli the row gives, or else that of the model that it names.
-    ///
-    /// # Panics
-    /// When it has neither.
     #[must_use]
     pub fn material(&self) -> Prony {
         if !self.has_input("Ge") {

@@ -25,9 +25,6 @@ pub struct RoughCase {
 }
 
 /// All cases of `"cases"`, in partial contact, or of `"full_contact"`.
-///
-/// # Panics
-/// When there are none.
 #[must_use]
 pub fn rough_cases(group: &str) -> Vec<RoughCase> {
     let book: Value = serde_json::from_str(include_str!("../rough.json")).expect("a valid table");
@@ -47,12 +44,10 @@ fn case(book: &Value, row: &Value) -> RoughCase {
     // E* = 2 G/(1 − ν).
     let branch = |branch: &Value| (0.25 * number(&branch["E"]), number(&branch["tau"]));
     let branches: Vec<_> = list(&moduli["branches"]).iter().map(branch).collect();
+    let waves = list(&book["surfaces"][name("surface")]);
     RoughCase {
         id: name("id").to_owned(),
-        waves: list(&book["surfaces"][name("surface")])
-            .iter()
-            .map(wave)
-            .collect(),
+        waves: waves.iter().map(wave).collect(),
         material: prony([0.25 * number(&moduli["E0"]), 0.0], &branches),
         velocity: number(&row["v"]),
         mean_pressure: number(&row["p0"]),

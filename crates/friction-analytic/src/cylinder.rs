@@ -84,16 +84,11 @@ pub fn cylinder_sliding(
     let modulus = positive("equilibrium_modulus", spectrum.equilibrium_modulus())?;
     let (branches, dashpot) = (spectrum.branches(), spectrum.viscosity());
     let relaxing = branches.len() + usize::from(dashpot > 0.0);
-    in_range(
-        "number of relaxing elements",
-        relaxing as f64,
-        relaxing < 2,
-        "0 or 1",
-    )?;
+    let parameter = "number of relaxing elements";
+    in_range(parameter, relaxing as f64, relaxing < 2, "0 or 1")?;
     // In units of l; both are zero on an elastic solid.
-    let time = branches
-        .first()
-        .map_or(0.0, |branch| branch.relaxation_time);
+    let branch = branches.first();
+    let time = branch.map_or(0.0, |branch| branch.relaxation_time);
     let relaxation = velocity * time / half_length;
     let difference = velocity * (spectrum.zero_shear_viscosity() / modulus) / half_length;
     let [a, a2] = ratios_of_i(relaxation.recip());
@@ -181,10 +176,7 @@ fn ratio_of_k(k: f64) -> f64 {
 fn trapezoid(end: f64, integrand: impl Fn(f64) -> f64) -> f64 {
     let intervals = (INTERVALS + INTERVALS_PER_LENGTH * end).ceil();
     let step = end / intervals;
-    let inner: f64 = (1_u32..)
-        .map(f64::from)
-        .take_while(|k| *k < intervals)
-        .map(|k| integrand(k * step))
-        .sum();
+    let inner = (1_u32..).map(f64::from).take_while(|k| *k < intervals);
+    let inner: f64 = inner.map(|k| integrand(k * step)).sum();
     step * (inner + 0.5 * (integrand(0.0) + integrand(end)))
 }

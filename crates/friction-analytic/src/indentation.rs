@@ -153,12 +153,8 @@ pub fn indentation_pressure(
     let contact = contact_radius(body, depth)?;
     let blunt = radius > 0.0 || body.profile_exponent() > 1.0;
     let inside = (0.0..contact).contains(&radius) && blunt;
-    in_range(
-        "radius",
-        radius,
-        inside,
-        "inside the contact, and not at a tip",
-    )?;
+    let allowed = "inside the contact, and not at a tip";
+    in_range("radius", radius, inside, allowed)?;
     let leg = |x: f64| ((x - radius) * (x + radius)).sqrt();
     let ends = ends_outside_apex(body, contact).into_iter();
     let ends = [radius].into_iter().chain(ends.filter(|end| *end > radius));

@@ -29,17 +29,9 @@ pub fn line_sliding(
     let depth = checked_depth(material, load)?;
     let contact = contact_line(line, depth).map_err(no_stationary_state)?;
     let energy = slope_energy(line, &contact.intervals)?;
-    let ends = contact
-        .intervals
-        .iter()
-        .map(|[_, end]| end_term(line, *end));
-    let ends = ends.sum();
-    Ok(StationarySliding::of_energy(
-        depth,
-        contact.intervals,
-        energy,
-        ends,
-    ))
+    let intervals = contact.intervals;
+    let ends = intervals.iter().map(|[_, end]| end_term(line, *end)).sum();
+    Ok(StationarySliding::of_energy(depth, intervals, energy, ends))
 }
 
 /// What the rounding of a contact end, which is that of its position and of its height, is multiplied with.

@@ -124,10 +124,8 @@ pub fn persson_of_spectrum(
             ("friction coefficient", result.friction_coefficient),
             ("friction coefficient", result.friction_coefficient_2006),
         ];
-        let missed = bars
-            .into_iter()
-            .find(|(_, bar)| !bar.is_within(relative_error));
-        match missed {
+        let is_missed = |(_, bar): &(_, Estimate)| !bar.is_within(relative_error);
+        match bars.into_iter().find(is_missed) {
             None => return Ok(result),
             Some((quantity, Estimate { value, error })) if steps >= MOST_STEPS => {
                 return Err(FrictionError::NotConverged {

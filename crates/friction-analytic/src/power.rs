@@ -34,10 +34,8 @@ pub fn power_sliding(
     representable("contact length", contact_length)?;
     // p − 1/2 is exact where it is small, and no product overflows for the largest p.
     let shape_factor = 0.5 * p * (p / (p - 0.5));
-    let friction_coefficient = representable(
-        "friction coefficient",
-        shape_factor * (depth / contact_length),
-    )?;
+    let friction = shape_factor * (depth / contact_length);
+    let friction_coefficient = representable("friction coefficient", friction)?;
     // The contact length is the exponential of a sum of logarithms, whose rounding becomes a relative error.
     let logarithms = depth.ln().abs() + profile.coefficient().ln().abs() + profile.stretch().ln();
     let rounding = f64::EPSILON * (4.0 + logarithms / p);

@@ -46,10 +46,8 @@ impl StationarySliding {
     /// Length of the contact line, \[m].
     #[must_use]
     pub fn contact_length(&self) -> f64 {
-        self.contact_line
-            .iter()
-            .map(|[start, end]| end - start)
-            .sum()
+        let intervals = self.contact_line.iter();
+        intervals.map(|[start, end]| end - start).sum()
     }
 }
 

@@ -224,9 +224,6 @@ fn missing_logarithm(q: f64) -> f64 {
         return -q - (-q).ln_1p();
     }
     // q²/2 + q³/3 + …; at q = 0.1 the first term left out is below 1e-17 of the first.
-    (2..=18_u32)
-        .rev()
-        .fold(0.0, |sum, k| sum * q + f64::from(k).recip())
-        * q
-        * q
+    let terms = (2..=18_u32).rev().map(|k| f64::from(k).recip());
+    terms.fold(0.0, |sum, term| sum * q + term) * q * q
 }

@@ -111,10 +111,8 @@ fn maxwell_cone(ratio: f64) -> [f64; 3] {
     };
     let work = if q < SMALL {
         // 2 (q³/3 + q⁵/5 + …)
-        2.0 * q.powi(3)
-            * (1..20)
-                .rev()
-                .fold(0.0, |s, k| s * q * q + f64::from(2 * k + 1).recip())
+        let terms = (1..20).rev().map(|k| f64::from(2 * k + 1).recip());
+        2.0 * q.powi(3) * terms.fold(0.0, |s, term| s * q * q + term)
     } else {
         ratio + q.ln_1p() - 2.0 * q
     };

@@ -149,12 +149,8 @@ fn refuse_repeated(waves: &[SurfaceWave]) -> Result<(), FrictionError> {
     let mut seen = std::collections::BTreeSet::new();
     for wave in waves {
         let allowed = "different from that of every other wave, and not its opposite: such waves add up to one";
-        in_range(
-            "wave vector",
-            wave.wave_vector[0],
-            seen.insert(direction(wave)),
-            allowed,
-        )?;
+        let (along_x, is_new) = (wave.wave_vector[0], seen.insert(direction(wave)));
+        in_range("wave vector", along_x, is_new, allowed)?;
     }
     Ok(())
 }

@@ -171,15 +171,13 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
 
 /// (r h')' = h' + r h''.
 fn slope_of_moment(body: &(impl Axisymmetric + ?Sized), r: f64) -> f64 {
-    let ProfilePoint {
-        slope, curvature, ..
-    } = body.profile(r);
-    let change = r * curvature;
+    let point = body.profile(r);
+    let change = r * point.curvature;
     if change.is_finite() {
-        return slope + change;
+        return point.slope + change;
     }
     // Close to a sharp apex h'' overflows before r h'' does; there h' ∼ r^(p−1).
-    slope * body.profile_exponent()
+    point.slope * body.profile_exponent()
 }
 
 /// h̃'(+0), from the leading exponent.

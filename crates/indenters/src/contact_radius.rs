@@ -34,11 +34,9 @@ pub fn contact_radius(
     let depth = positive("depth", depth)?;
     let search = Search { body, depth };
     // Where the slope jumps downwards; just outside the line falls.
-    let falling = body
-        .kinks()
-        .into_iter()
-        .filter(|kink| kink.slope_jump < 0.0);
-    let edges: Vec<f64> = falling.map(|kink| kink.radius).collect();
+    let mut falling = body.kinks();
+    falling.retain(|kink| kink.slope_jump < 0.0);
+    let edges: Vec<f64> = falling.iter().map(|kink| kink.radius).collect();
     let mut inner = search.apex_side()?;
     loop {
         if edges.contains(&inner) {

@@ -81,8 +81,6 @@ fn average(
 
 /// ∫ |f| dφ, roughly.
 fn magnitude(function: impl Fn(f64) -> f64, intervals: &[[f64; 2]]) -> f64 {
-    intervals
-        .iter()
-        .map(|ends| integrate(|phi| function(phi).abs(), *ends, 0.01).value)
-        .sum()
+    let part = |ends: &[f64; 2]| integrate(|phi| function(phi).abs(), *ends, 0.01).value;
+    intervals.iter().map(part).sum()
 }

@@ -72,10 +72,7 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
     fn kinks(&self) -> Vec<f64> {
         let radii: Vec<f64> = self.0.kinks().iter().map(|kink| kink.radius).collect();
         let mirrored = radii.iter().rev().map(|radius| -radius);
-        mirrored
-            .chain(std::iter::once(0.0))
-            .chain(radii.iter().copied())
-            .collect()
+        mirrored.chain([0.0]).chain(radii.iter().copied()).collect()
     }
 }
 
@@ -85,12 +82,9 @@ impl<P: Axisymmetric + ?Sized> RigidLine for EquivalentLine<'_, P> {
 /// turning points inside one of them are not seen.
 fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     let [lower, upper] = line.domain();
-    let mut breaks = vec![lower];
-    breaks.extend(
-        line.kinks()
-            .into_iter()
-            .filter(|x| *x > lower && *x < upper),
-    );
+    let mut breaks = line.kinks();
+    breaks.retain(|x| *x > lower && *x < upper);
+    breaks.insert(0, lower);
     breaks.push(upper);
     let spacing = (upper - lower) / as_float(samples.max(1));
     let stations = stations(&breaks, spacing);

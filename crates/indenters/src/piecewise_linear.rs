@@ -39,11 +39,8 @@ impl PiecewiseLinearProfile {
             let allowed = "at least 0, the height of the lowest point";
             in_range("heights", height, height >= 0.0, allowed)?;
         }
-        let slopes: Vec<f64> = radii
-            .windows(2)
-            .zip(heights.windows(2))
-            .map(|(r, h)| (h[1] - h[0]) / (r[1] - r[0]))
-            .collect();
+        let slope = |i: usize| (heights[i] - heights[i - 1]) / (radii[i] - radii[i - 1]);
+        let slopes: Vec<f64> = (1..radii.len()).map(slope).collect();
         let kinks = find_kinks(&radii, &heights, &slopes);
         Ok(Self {
             radii,
@@ -73,12 +70,10 @@ impl PiecewiseLinearProfile {
 
     /// Σ m_i × angle of piece i, as seen from x.
     fn turned_slope(&self, x: f64) -> f64 {
-        self.radii
-            .windows(2)
-            .zip(&self.slopes)
-            .take_while(|(ends, _)| ends[0] < x)
-            .map(|(ends, slope)| slope * arc_sine_difference([ends[0], ends[1].min(x)], x))
-            .sum()
+        let pieces = self.radii.windows(2).zip(&self.slopes);
+        let pieces = pieces.take_while(|(ends, _)| ends[0] < x);
+        let turn = |ends: &[f64]| arc_sine_difference([ends[0], ends[1].min(x)], x);
+        pieces.map(|(ends, slope)| slope * turn(ends)).sum()
     }
 }
 
@@ -90,13 +85,11 @@ fn find_kinks(radii: &[f64], heights: &[f64], slopes: &[f64]) -> Vec<Kink> {
         let high = heights[i - 1].max(heights[*i]).max(heights[i + 1]);
         jump.abs() > ROUNDING * high / narrow
     };
-    (1..slopes.len())
-        .filter(is_kink)
-        .map(|i| Kink {
-            radius: radii[i],
-            slope_jump: slopes[i] - slopes[i - 1],
-        })
-        .collect()
+    let kink = |i| Kink {
+        radius: radii[i],
+        slope_jump: slopes[i] - slopes[i - 1],
+    };
+    (1..slopes.len()).filter(is_kink).map(kink).collect()
 }
 
 /// Two slopes with one rounding of each height, of the difference and of the quotient.
@@ -135,12 +128,8 @@ impl Axisymmetric for PiecewiseLinearProfile {
         if x > self.max_radius() {
             return Some(LinePoint::ENDED);
         }
-        let singular: f64 = self
-            .kinks
-            .iter()
-            .take_while(|kink| kink.radius < x)
-            .map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)))
-            .sum();
+        let kinks = self.kinks.iter().take_while(|kink| kink.radius < x);
+        let singular = kinks.map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)));
         let smooth = if x == 0.0 {
             self.slopes[0] * std::f64::consts::FRAC_PI_2
         } else {
@@ -148,7 +137,7 @@ impl Axisymmetric for PiecewiseLinearProfile {
         };
         Some(LinePoint {
             height: x * smooth,
-            slope: smooth + singular,
+            slope: smooth + singular.sum::<f64>(),
         })
     }
 }

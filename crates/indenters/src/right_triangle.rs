@@ -19,10 +19,7 @@ pub(crate) fn arc_sine_difference([inner, outer]: [f64; 2], hypotenuse: f64) -> 
         return 0.0;
     }
     let (u1, u2) = (inner / hypotenuse, outer / hypotenuse);
-    let (c1, c2) = (
-        leg(hypotenuse, inner) / hypotenuse,
-        leg(hypotenuse, outer) / hypotenuse,
-    );
+    let [c1, c2] = [inner, outer].map(|side| leg(hypotenuse, side) / hypotenuse);
     let difference = (outer - inner) / hypotenuse * (u1 + u2);
     (difference / (u2 * c1 + u1 * c2)).atan2(c1 * c2 + u1 * u2)
 }

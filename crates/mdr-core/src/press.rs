@@ -48,12 +48,8 @@ pub fn press(
     if modulus == 0.0 {
         return Err(MdrError::NoEquilibrium);
     }
-    on_springs(
-        line,
-        modulus / material.half_space_factor(),
-        control,
-        relative_error,
-    )
+    let modulus = modulus / material.half_space_factor();
+    on_springs(line, modulus, control, relative_error)
 }
 
 /// Presses a line into an undeformed material under a constant force, or at a constant depth, for a time.
@@ -97,13 +93,12 @@ fn on_springs(
         Control::IndentationDepth(_) => |state: &SteadySliding| state.normal_force,
     };
     let state = problem.refine(control, relative_error, sought)?;
-    let mut normal_force = state.normal_force;
-    if let Control::NormalForce(force) = control {
-        normal_force = Estimate::exact(force);
-    }
     Ok(Pressed {
         indentation_depth: state.indentation_depth,
-        normal_force,
+        normal_force: match control {
+            Control::NormalForce(force) => Estimate::exact(force),
+            Control::IndentationDepth(_) => state.normal_force,
+        },
         ends: state.ends,
         contacts: state.contacts,
         n_pieces: state.n_pieces,

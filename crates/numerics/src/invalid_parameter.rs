@@ -91,9 +91,8 @@ mod tests {
                 assert_eq!(check("length", value), Ok(value), "accepted");
             }
             for value in [refused, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]].concat() {
-                let error = check("length", value)
-                    .expect_err("out of range")
-                    .to_string();
+                let error = check("length", value).expect_err("out of range");
+                let error = error.to_string();
                 let said = error.starts_with("length must be ");
                 assert!(
                     said && error.ends_with(&format!(", but is {value}")),

@@ -94,18 +94,14 @@ fn step(
         damping * linearised.matrix[free[row] * n + free[column]]
     };
     let matrix = DMatrix::from_fn(free.len(), free.len(), entry);
-    let descent = DVector::from_iterator(
-        free.len(),
-        free.iter().map(|&place| linearised.descent[place]),
-    );
+    let descent = free.iter().map(|&place| linearised.descent[place]);
+    let descent = DVector::from_iterator(free.len(), descent);
     let step = matrix.cholesky()?.solve(&descent);
     let mut moved = parameters.to_vec();
     for (&place, step) in free.iter().zip(step.iter()) {
-        let Range {
-            bounds: [lowest, highest],
-            largest_step,
-        } = ranges[place];
-        let step = step.clamp(-largest_step, largest_step);
+        let range = &ranges[place];
+        let [lowest, highest] = range.bounds;
+        let step = step.clamp(-range.largest_step, range.largest_step);
         moved[place] = (moved[place] + step).clamp(lowest, highest);
     }
     Some(moved)
@@ -120,10 +116,8 @@ pub fn inverse(matrix: &[f64], n: usize) -> Option<Vec<f64>> {
     let inverse = DMatrix::from_fn(n, n, scaled).cholesky()?.inverse();
     let entry = |(at, value): (usize, &f64)| scale[at / n] * value * scale[at % n];
     let entries: Vec<f64> = inverse.iter().enumerate().map(entry).collect();
-    entries
-        .iter()
-        .all(|entry| entry.is_finite())
-        .then_some(entries)
+    let is_known = entries.iter().all(|entry| entry.is_finite());
+    is_known.then_some(entries)
 }
 
 #[cfg(test)]
@@ -135,13 +129,8 @@ mod tests {
         let residuals = [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]];
         let slopes = [[-20.0 * p[0], 10.0], [-1.0, 0.0]];
         let product = |j: usize, k: usize| slopes.iter().map(|row| row[j] * row[k]).sum();
-        let descent = |k: usize| {
-            residuals
-                .iter()
-                .zip(slopes)
-                .map(|(r, row)| -r * row[k])
-                .sum()
-        };
+        let pairs = residuals.iter().zip(slopes);
+        let descent = |k: usize| pairs.clone().map(|(r, row)| -r * row[k]).sum();
         Some(Linearised {
             sum: residuals.iter().map(|r| r * r).sum(),
             matrix: vec![product(0, 0), product(0, 1), product(1, 0), product(1, 1)],

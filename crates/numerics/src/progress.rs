@@ -50,11 +50,7 @@ impl<'a> Progress<'a> {
 
     /// Does a piece of work that tells which part of it is done.
     pub fn during<T>(&mut self, work: f64, task: impl FnOnce(&dyn Fn(f64)) -> T) -> T {
-        let Self {
-            watch,
-            done,
-            expected,
-        } = *self;
+        let (watch, done, expected) = (self.watch, self.done, self.expected);
         let tell = |part: f64| watch.done(((done + part * work) / expected).min(1.0));
         let value = task(&tell);
         self.add(work);

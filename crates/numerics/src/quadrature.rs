@@ -57,11 +57,8 @@ pub fn integrate(
     interval: [f64; 2],
     relative_tolerance: f64,
 ) -> Estimate {
-    integrate_from_ends(
-        |end, distance| integrand(end + distance),
-        interval,
-        relative_tolerance,
-    )
+    let from_end = |end, distance| integrand(end + distance);
+    integrate_from_ends(from_end, interval, relative_tolerance)
 }
 
 #[derive(Debug, Clone, Copy, Default)]

@@ -181,11 +181,8 @@ pub fn refine<T, E: From<NotReached>, const N: usize>(
         let fine = quantities(&value);
         let is_last = || elements >= goal.largest || !watch.allows(2 * elements);
         let weight = asked.map_or(1.0, |_| goal.selection);
-        let mut parts = parts_of_elements(
-            [goal.order, weight],
-            [&fine, &three_quarters, &half],
-            three_eighths,
-        );
+        let grids = [&fine, &three_quarters, &half];
+        let mut parts = parts_of_elements([goal.order, weight], grids, three_eighths);
         if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
             let work = goal.others * goal.work_on(elements as f64);
             let others = progress.during(work, |tell| others(&value, tell))?;

@@ -57,11 +57,8 @@ pub fn try_bracketed_root<E>(
         let interpolated =
             fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb);
         let safe = phi * phi < position && (1.0 - phi) * (1.0 - phi) < 1.0 - position;
-        fraction = if safe && interpolated.is_finite() {
-            interpolated
-        } else {
-            0.5
-        };
+        let safe = safe && interpolated.is_finite();
+        fraction = if safe { interpolated } else { 0.5 };
         fraction = fraction.clamp(tolerance, 1.0 - tolerance);
     }
     Ok(Some(if fa.abs() < fb.abs() { a } else { b }))

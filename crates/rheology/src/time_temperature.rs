@@ -81,9 +81,8 @@ impl WlfShift {
     /// [`RheologyError::TooFewPoints`] with fewer than two temperatures besides the reference;
     /// [`RheologyError::InvalidParameter`] when no positive constants describe the pairs.
     pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
-        let pairs = shifts
-            .iter()
-            .map(|[t, log]| [t - reference_temperature, *log]);
+        let shifts = shifts.iter();
+        let pairs = shifts.map(|[t, log]| [t - reference_temperature, *log]);
         let pairs: Vec<[f64; 2]> = pairs.filter(|[difference, _]| *difference != 0.0).collect();
         if pairs.len() < 2 {
             return Err(RheologyError::TooFewPoints {

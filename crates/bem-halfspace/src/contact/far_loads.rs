@@ -80,13 +80,12 @@ impl FarLoads {
 
     /// Takes the list of the `loads` that the inverse finds for the gap one.
     pub(super) fn weigh(&mut self, contact: &ActiveSet, loads: &[f64]) {
-        contact
-            .bands
-            .for_each_part([contact.list(&mut self.weights)], |band, [weights]| {
-                for (weight, value) in weights.iter_mut().zip(&loads[contact.places(band)]) {
-                    *weight = value.max(0.0);
-                }
-            });
+        let weights = [contact.list(&mut self.weights)];
+        contact.bands.for_each_part(weights, |band, [weights]| {
+            for (weight, value) in weights.iter_mut().zip(&loads[contact.places(band)]) {
+                *weight = value.max(0.0);
+            }
+        });
         self.find_sums(contact);
     }
 

@@ -80,10 +80,9 @@ impl Listed {
     /// Mean height of the deformed surface above a level; there is contact.
     pub(super) fn mean_height_above(&self, contact: &ActiveSet, level: f64) -> f64 {
         let sum_in = |places: Range<usize>| {
-            let (separation, displacement) =
-                (&self.separation[places.clone()], &self.displacement[places]);
-            sum([separation, displacement], |[separation, displacement]| {
-                separation + displacement - level
+            let lists = [&self.separation, &self.displacement].map(|list| &list[places.clone()]);
+            sum(lists, |[height, displacement]| {
+                height + displacement - level
             })
         };
         contact.sum(sum_in) / contact.len() as f64

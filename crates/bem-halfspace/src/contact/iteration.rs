@@ -168,14 +168,13 @@ impl<'a> Iteration<'a> {
         };
         let sum = self.total_load();
         let (contact, listed) = (&mut self.fields.contact, &mut self.fields.listed);
-        contact
-            .bands
-            .for_each_part([contact.list(&mut listed.load)], |_, [load]| {
-                for load in load {
-                    // Multiplied last, because the quotient of extreme forces may overflow.
-                    *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
-                }
-            });
+        let load = [contact.list(&mut listed.load)];
+        contact.bands.for_each_part(load, |_, [load]| {
+            for load in load {
+                // Multiplied last, because the quotient of extreme forces may overflow.
+                *load = if sum > 0.0 { *load / sum * total } else { 0.0 };
+            }
+        });
     }
 
     fn total_load(&self) -> f64 {

@@ -61,9 +61,6 @@ impl MirrorWeights {
 }
 
 fn weight(mirror: Mirror, is_first: bool) -> f64 {
-    if is_first && mirror == Mirror::Centre {
-        0.5
-    } else {
-        1.0
-    }
+    let is_half = is_first && mirror == Mirror::Centre;
+    if is_half { 0.5 } else { 1.0 }
 }

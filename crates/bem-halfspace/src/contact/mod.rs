@@ -157,15 +157,12 @@ fn validate(problem: &ContactProblem, state: &ContactState) -> Result<(), BemErr
     check_length("pressure", state.pressure().len(), grid.n_elements())?;
     check_heights("separation", (heights, grid.shape()[1]), [0; 2])?;
     check_control(problem.control)?;
-    match problem.control {
-        Control::IndentationDepth(value)
-            if problem.convolution.surroundings == Surroundings::Periodic =>
-        {
-            let is_allowed = value < heights.iter().sum::<f64>() / heights.len() as f64;
-            let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
-            in_range("indentation_depth", value, is_allowed, allowed)?;
-        }
-        _ => {}
+    if let Control::IndentationDepth(value) = problem.control
+        && problem.convolution.surroundings == Surroundings::Periodic
+    {
+        let is_allowed = value < heights.iter().sum::<f64>() / heights.len() as f64;
+        let allowed = "below the mean height, at which a periodic contact is full and its pressure is not determined";
+        in_range("indentation_depth", value, is_allowed, allowed)?;
     }
     Ok(())
 }

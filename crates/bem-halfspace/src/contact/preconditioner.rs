@@ -106,16 +106,15 @@ impl Preconditioner {
             .apply_to_all(&mut self.workspace, &self.means, &mut self.images);
         self.far_loads.move_blocks();
         let (this, field) = (&*self, &*field);
-        contact
-            .bands
-            .for_each_part([contact.list(result)], |band, [result]| {
-                let residual = &residual[contact.places(band)];
-                this.take_blocks((contact, band), result);
-                for run in contact.runs(band) {
-                    let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
-                    this.add_differences((run, residual, field), result);
-                }
-            });
+        let result = [contact.list(result)];
+        contact.bands.for_each_part(result, |band, [result]| {
+            let residual = &residual[contact.places(band)];
+            this.take_blocks((contact, band), result);
+            for run in contact.runs(band) {
+                let (residual, result) = (&residual[run.places()], &mut result[run.places()]);
+                this.add_differences((run, residual, field), result);
+            }
+        });
     }
 
     /// Spreads a residual over the field, the blocks of long waves and those of far loads.
@@ -127,25 +126,23 @@ impl Preconditioner {
             contact.blocks(BLOCK, &mut self.means),
             contact.blocks(SMALLEST, loads),
         ];
-        contact
-            .bands
-            .for_each_part(fields, |band, [field, means, loads]| {
-                let [residual, weights] =
-                    [residual, weights].map(|list| &list[contact.places(band)]);
-                contact.scatter_in(band, residual, field);
-                sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
-                let first = contact.bands.elements(band).start;
-                for run in contact.runs(band) {
-                    for (index, weight) in mirror_weights.in_line(run.elements()) {
-                        let element = run.elements_from(first).start + index;
-                        let [row, column] = [element / columns, element % columns];
-                        means[row / BLOCK * columns.div_ceil(BLOCK) + column / BLOCK] -=
-                            0.25 * (1.0 - weight) * residual[run.places().start + index];
-                    }
+        let bands = contact.bands;
+        bands.for_each_part(fields, |band, [field, means, loads]| {
+            let [residual, weights] = [residual, weights].map(|list| &list[contact.places(band)]);
+            contact.scatter_in(band, residual, field);
+            sum_blocks::<BLOCK>(contact, band, |place| 0.25 * residual[place], means);
+            let first = bands.elements(band).start;
+            for run in contact.runs(band) {
+                for (index, weight) in mirror_weights.in_line(run.elements()) {
+                    let element = run.elements_from(first).start + index;
+                    let [row, column] = [element / columns, element % columns];
+                    means[row / BLOCK * columns.div_ceil(BLOCK) + column / BLOCK] -=
+                        0.25 * (1.0 - weight) * residual[run.places().start + index];
                 }
-                let load = |place: usize| weights[place] * residual[place];
-                sum_blocks::<SMALLEST>(contact, band, load, loads);
-            });
+            }
+            let load = |place: usize| weights[place] * residual[place];
+            sum_blocks::<SMALLEST>(contact, band, load, loads);
+        });
     }
 
     /// Writes the part of long waves, less that of far loads.

@@ -79,11 +79,9 @@ fn check_around(
 ) -> Result<Solved, BemError> {
     let convolution = problem.convolution;
     let [rows, columns] = convolution.grid().shape();
-    let workspace = state
-        .workspace
-        .get_or_insert_with(|| convolution.workspace());
+    let workspace = &mut state.workspace;
     convolution.apply(
-        workspace,
+        workspace.get_or_insert_with(|| convolution.workspace()),
         (&state.load, bounds.rows()),
         (&mut state.displacement, 0..rows),
     );

@@ -56,11 +56,8 @@ impl Convolution {
         let length = self.transform.padded[0] / 2 + 1;
         let [twice_x, twice_y] = self.transform.padded.map(|n| n.div_ceil(2));
         let weight = |index: usize, twice: usize| {
-            if (1..twice).contains(&index) {
-                2.0
-            } else {
-                1.0
-            }
+            let is_twice = (1..twice).contains(&index);
+            if is_twice { 2.0 } else { 1.0 }
         };
         let column = |(column, values): (usize, &[f64])| {
             let values = values.iter().enumerate();

@@ -158,9 +158,8 @@ fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, Bem
 fn difference(before: &[IndentRow], rows: &[IndentRow]) -> f64 {
     let of = |value: fn(&IndentRow) -> f64| {
         let pairs = before.iter().zip(rows);
-        let change = pairs
-            .map(|(a, b)| (value(a) - value(b)).abs())
-            .fold(0.0, f64::max);
+        let changes = pairs.map(|(a, b)| (value(a) - value(b)).abs());
+        let change = changes.fold(0.0, f64::max);
         let largest = rows.iter().map(|row| value(row).abs()).fold(0.0, f64::max);
         if change > 0.0 { change / largest } else { 0.0 }
     };

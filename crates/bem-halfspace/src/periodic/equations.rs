@@ -8,8 +8,6 @@
 //! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
 //! unnecessary. Lists hold the elements in contact and their neighbours, of which the gap shows whether they penetrate.
 
-use std::ops::Range;
-
 use crate::bands::copies;
 use crate::conjugate_residuals::minimise;
 use crate::contact::active_set::ActiveSet;
@@ -76,13 +74,8 @@ impl Equations {
             products: 0,
         };
         equations.spread[0] = 1.0;
-        let Self {
-            kernel,
-            spread,
-            image,
-            ..
-        } = &mut equations;
-        kernel.displace(spread, image);
+        let (spread, image) = (&equations.spread, &mut equations.image);
+        equations.kernel.displace(spread, image);
         equations.own_displacement = equations.image[0];
         Ok(equations)
     }
@@ -142,16 +135,14 @@ impl Equations {
             let lists = [&self.inside[places.clone()], &gap[places]];
             sum(lists, |[inside, gap]| inside * gap * gap)
         });
-        let largest = |places: Range<usize>| {
+        let largest = |band: usize| {
+            let places = self.near.places(band);
             let pairs = self.inside[places.clone()].iter().zip(&gap[places]);
             pairs.fold(0.0, |top, (inside, gap)| larger(top, inside * gap.abs()))
         };
         Residual {
             root_mean_square: (square / self.n_contact).sqrt(),
-            largest: self
-                .near
-                .bands
-                .gather(|band| largest(self.near.places(band)), larger),
+            largest: self.near.bands.gather(largest, larger),
         }
     }
 

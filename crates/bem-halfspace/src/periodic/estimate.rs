@@ -45,9 +45,8 @@ pub fn steady_periodic(
     max_elements: usize,
 ) -> Result<PeriodicEstimate, BemError> {
     between_zero_and_one("relative_error", relative_error)?;
-    let mut shape = surface
-        .largest_numbers()
-        .map(|number| (FIRST * number).next_power_of_two().max(FEWEST));
+    let first = |number: usize| (FIRST * number).next_power_of_two().max(FEWEST);
+    let mut shape = surface.largest_numbers().map(first);
     let mut states = Vec::new();
     loop {
         let elements = shape[0] as f64 * shape[1] as f64;
@@ -57,9 +56,8 @@ pub fn steady_periodic(
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
         let options = PeriodicOptions::default();
-        states.push(steady_periodic_on_grid(
-            &grid, &heights, material, load, &options,
-        )?);
+        let state = steady_periodic_on_grid(&grid, &heights, material, load, &options)?;
+        states.push(state);
         if let Some(estimate) = estimate(&states)
             && missed(&estimate, relative_error).is_none()
         {
@@ -71,13 +69,12 @@ pub fn steady_periodic(
 
 /// The first quantity without the error asked for.
 fn missed(estimate: &PeriodicEstimate, relative_error: f64) -> Option<(&'static str, Estimate)> {
-    let quantities = [
+    let mut quantities = [
         ("friction coefficient", estimate.friction_coefficient),
         ("area fraction", estimate.area_fraction),
-    ];
-    quantities
-        .into_iter()
-        .find(|(_, quantity)| !quantity.is_within(relative_error))
+    ]
+    .into_iter();
+    quantities.find(|(_, quantity)| !quantity.is_within(relative_error))
 }
 
 fn too_large(
@@ -86,8 +83,7 @@ fn too_large(
     relative_error: f64,
     max_elements: usize,
 ) -> BemError {
-    let missed = estimate(states).and_then(|estimate| missed(&estimate, relative_error));
-    match missed {
+    match estimate(states).and_then(|estimate| missed(&estimate, relative_error)) {
         Some((quantity, Estimate { value, error })) => BemError::NotReached {
             quantity,
             value,

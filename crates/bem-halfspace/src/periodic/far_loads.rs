@@ -87,16 +87,16 @@ impl FarLoads {
         let columns = self.columns;
         let mut means = copies(0.0, self.weights.len());
         let starts = Starts::Every(near.bands.rows(0).len() / BLOCK * columns);
-        near.bands
-            .for_each_part([(&mut means[..], starts)], |band, [means]| {
-                let first_row = near.bands.rows(band).start;
-                let list = &list[near.places(band)];
-                for run in near.runs(band) {
-                    let first = run.elements().start;
-                    let block = (first / columns - first_row) / BLOCK * columns + first % columns;
-                    add(&mut means[block..], 1.0 / BLOCK as f64, &list[run.places()]);
-                }
-            });
+        let parts = [(&mut means[..], starts)];
+        near.bands.for_each_part(parts, |band, [means]| {
+            let first_row = near.bands.rows(band).start;
+            let list = &list[near.places(band)];
+            for run in near.runs(band) {
+                let first = run.elements().start;
+                let block = (first / columns - first_row) / BLOCK * columns + first % columns;
+                add(&mut means[block..], 1.0 / BLOCK as f64, &list[run.places()]);
+            }
+        });
         means
     }
 

@@ -187,10 +187,8 @@ fn area_fractions(columns: usize, pressure: &[f64]) -> [f64; 2] {
         let row = element / columns * columns;
         let neighbours = [(element + columns) % n, row + (element + 1 - row) % columns];
         count += usize::from(inside(element));
-        edges += neighbours
-            .into_iter()
-            .filter(|other| inside(*other) != inside(element))
-            .count();
+        let differs = |other: &usize| inside(*other) != inside(element);
+        edges += neighbours.into_iter().filter(differs).count();
     }
     let corrected = count as f64 - EXCESS_PER_EDGE * edges as f64;
     [count as f64, corrected.max(0.0)].map(|part| part / n as f64)
@@ -216,9 +214,7 @@ fn check_surface(grid: &Grid, heights: &[f64]) -> Result<(), BemError> {
             value: heights[index],
         });
     }
-    let is_flat = heights
-        .iter()
-        .all(|height| height.total_cmp(&heights[0]).is_eq());
+    let is_flat = heights.iter().all(|h| h.total_cmp(&heights[0]).is_eq());
     let allowed = "not the same everywhere: a flat surface has no friction";
     in_range("height", heights[0], !is_flat, allowed)?;
     Ok(())

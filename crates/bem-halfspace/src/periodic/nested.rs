@@ -27,25 +27,17 @@ pub(super) fn solve(
     }
     start(&problem, pressure)?;
     let solved = search::solve(problem, equations, pressure);
-    pressure
-        .iter_mut()
-        .for_each(|pressure| *pressure = pressure.max(0.0));
+    pressure.iter_mut().for_each(|p| *p = p.max(0.0));
     solved
 }
 
 /// Starts from the solution on elements of twice the edges, if they can be so long.
 fn start(problem: &Problem, pressure: &mut Vec<f64>) -> Result<(), BemError> {
-    let shape = problem.grid.shape();
-    if !shape
-        .iter()
-        .all(|n| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE)
-    {
+    let can_be_halved = |n: &usize| n.is_multiple_of(2) && *n >= 2 * SMALLEST_EDGE;
+    if !problem.grid.shape().iter().all(can_be_halved) {
         return Ok(());
     }
-    let grid = Grid::new(
-        shape.map(|n| n / 2),
-        problem.grid.spacing().map(|edge| 2.0 * edge),
-    )?;
+    let grid = problem.grid.blocks();
     let heights = halved(problem.grid, problem.heights);
     let coarse = Problem {
         grid: &grid,

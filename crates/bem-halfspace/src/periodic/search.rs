@@ -102,14 +102,9 @@ impl<'a> Search<'a> {
         equations.kernel.shifted(problem.heights, &mut heights);
         if pressure.iter().all(|pressure| *pressure <= 0.0) {
             let mean = heights.iter().sum::<f64>() / n as f64;
-            pressure = heights
-                .iter()
-                .map(|height| f64::from(*height <= mean))
-                .collect();
+            pressure = heights.iter().map(|h| f64::from(*h <= mean)).collect();
         }
-        pressure
-            .iter_mut()
-            .for_each(|pressure| *pressure = pressure.max(0.0));
+        pressure.iter_mut().for_each(|p| *p = p.max(0.0));
         Self {
             contact: pressure.iter().map(|pressure| *pressure > 0.0).collect(),
             gap: vec![0.0; n],
@@ -124,11 +119,7 @@ impl<'a> Search<'a> {
     }
 
     fn run(&mut self) -> Result<Solved, BemError> {
-        let Problem {
-            tolerance,
-            max_products,
-            ..
-        } = self.problem;
+        let (tolerance, max_products) = (self.problem.tolerance, self.problem.max_products);
         self.balance();
         self.renew_gaps();
         let (mut fewest, mut vain) = (usize::MAX, 0);
@@ -176,18 +167,11 @@ impl<'a> Search<'a> {
     fn change(&mut self, noise: f64, least: Least) -> (usize, bool) {
         let tolerance = self.problem.tolerance;
         self.equations.give(&mut self.pressure, &mut self.gap);
-        let tension = -self
-            .pressure
-            .iter()
-            .map(|pressure| pressure.min(0.0))
-            .sum::<f64>();
+        let tension = -self.pressure.iter().map(|p| p.min(0.0)).sum::<f64>();
         let is_slight = tension <= tolerance * self.total();
         // Without much tension the gaps far away are hardly changed by what is taken from it.
-        let hidden = if tension <= SMALL_TENSION * self.total() {
-            HIDDEN
-        } else {
-            1.0
-        };
+        let is_small = tension <= SMALL_TENSION * self.total();
+        let hidden = if is_small { HIDDEN } else { 1.0 };
         let allowed = (NOISE * noise).max(tolerance * self.scale);
         let mut changed = self.exchange(allowed, least, true);
         for (pressure, inside) in self.pressure.iter_mut().zip(&self.contact) {
@@ -208,25 +192,21 @@ impl<'a> Search<'a> {
     /// Exchanges elements that are listed by the equations, or others, and counts those that should be.
     fn exchange(&mut self, allowed: f64, least: Least, is_near: bool) -> usize {
         let own = self.equations.own_displacement;
-        let size = |element: usize| {
+        let violation = |element: usize| {
             if self.equations.near.contains(element) != is_near {
                 return None;
             }
             let [pressure, gap] = [self.pressure[element], self.gap[element]];
-            let size = if self.contact[element] {
-                -pressure * own
+            let (size, least) = if self.contact[element] {
+                (-pressure * own, 0.0)
             } else {
-                -gap
+                (-gap, allowed)
             };
-            let least = if self.contact[element] { 0.0 } else { allowed };
-            (size >= least).then_some(size)
+            (size >= least).then_some((element, size))
         };
-        let violations: Vec<(usize, f64)> = (0..self.contact.len())
-            .filter_map(|element| Some((element, size(element)?)))
-            .collect();
-        let largest = violations
-            .iter()
-            .fold(0.0, |top, (_, size)| larger(top, *size));
+        let violations: Vec<_> = (0..self.contact.len()).filter_map(violation).collect();
+        let sizes = violations.iter().map(|(_, size)| *size);
+        let largest = sizes.fold(0.0, larger);
         for (place, (element, size)) in violations.iter().enumerate() {
             let is_last = place + 1 == violations.len();
             self.contact[*element] ^= least.map_or(is_last, |part| *size >= part * largest);
@@ -242,9 +222,7 @@ impl<'a> Search<'a> {
     /// Gives the pressure its mean.
     fn balance(&mut self) {
         let factor = self.total() / self.pressure.iter().sum::<f64>();
-        self.pressure
-            .iter_mut()
-            .for_each(|pressure| *pressure *= factor);
+        self.pressure.iter_mut().for_each(|p| *p *= factor);
     }
 
     /// The gaps under the pressure, less their mean in the contact, and the largest residual there.

@@ -68,13 +68,8 @@ impl Cosines {
 
     /// Replaces f_0 … f_L by F_0 … F_L in the row of the buffers.
     pub(super) fn apply(&self, buffers: &mut Buffers) {
-        let Buffers {
-            row: numbers,
-            folded: reals,
-            half_row: coefficients,
-            scratch,
-            ..
-        } = buffers;
+        let (numbers, reals) = (&mut buffers.row, &mut buffers.folded);
+        let (coefficients, scratch) = (&mut buffers.half_row, &mut buffers.scratch);
         if let Some(sines) = &self.sines {
             let mean = numbers[0] - numbers[reals.len()];
             fold(sines, numbers, reals);

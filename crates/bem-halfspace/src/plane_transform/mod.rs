@@ -109,9 +109,7 @@ impl PlaneTransform {
     /// Takes the rows `loaded` of a field, row-major with the shape of the workspace; the other rows count as zero.
     pub(crate) fn load(&self, workspace: &mut Workspace, field: &[f64], loaded: &Range<usize>) {
         let width = workspace.shape[1];
-        let Workspace {
-            strips, buffers, ..
-        } = workspace;
+        let (strips, buffers) = (&mut workspace.strips, &mut workspace.buffers);
         let unit = self.n_tiles() * STRIP;
         let used = loaded.start / STRIP..loaded.end.div_ceil(STRIP);
         let strips = &mut strips[used.start * unit..used.end * unit];
@@ -142,12 +140,8 @@ impl PlaneTransform {
         multiply: impl Fn(usize, &mut [Complex<f64>]) + Sync,
     ) {
         let stride = workspace.tile_stride();
-        let Workspace {
-            strips,
-            tiles,
-            buffers,
-            ..
-        } = workspace;
+        let (strips, tiles) = (&workspace.strips, &mut workspace.tiles[..]);
+        let buffers = &mut workspace.buffers;
         for_each_chunk(buffers, (tiles, stride), |first, buffers, tiles| {
             for (tile, pieces) in (first..).zip(tiles.chunks_exact_mut(stride)) {
                 let columns = tile * TILE..((tile + 1) * TILE).min(self.n_columns());

@@ -33,12 +33,10 @@ pub(super) struct Buffers {
 impl Workspace {
     /// For fields of `shape`, which the period of the transform holds.
     pub(crate) fn new(transform: &PlaneTransform, shape: [usize; 2]) -> Self {
+        let n_in_strips = shape[0].next_multiple_of(STRIP) * transform.n_tiles();
         Self {
             shape,
-            strips: copies(
-                [ZERO; TILE],
-                shape[0].next_multiple_of(STRIP) * transform.n_tiles(),
-            ),
+            strips: copies([ZERO; TILE], n_in_strips),
             tiles: copies([ZERO; TILE], (shape[0] + 1) * transform.n_tiles()),
             buffers: PerThread::new(shape[0] * shape[1], || Buffers::new(transform)),
         }

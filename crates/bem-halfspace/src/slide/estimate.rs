@@ -59,9 +59,8 @@ pub fn slide_memory(
 ) -> Result<f64, BemError> {
     let surface: &dyn Surface = &surface;
     let problem = Problem::new(surface, material, load, Accuracy::Elements(elements).into())?;
-    let GridOptions {
-        spacing, footprint, ..
-    } = problem.options(problem.plan.length() / elements as f64);
+    let options = problem.options(problem.plan.length() / elements as f64);
+    let (spacing, footprint) = (options.spacing, options.footprint);
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
     let steps = problem.distance() / spacing[0];
     // A material without memory needs no more elements than the footprint has.
@@ -202,11 +201,8 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             return Ok(end);
         }
         let state = end.0.stationary(DRIFT)?;
-        Ok((
-            end.0,
-            state.friction_coefficient,
-            Some(state.distance_error),
-        ))
+        let (friction, error) = (state.friction_coefficient, state.distance_error);
+        Ok((end.0, friction, Some(error)))
     }
 
     /// Slides until a material that recovers has forgotten the first touch.

@@ -104,14 +104,10 @@ fn halvings(rows: &[SlideRow]) -> [(f64, f64); 3] {
 /// Value at zero of the polynomial through the points (Lagrange).
 fn value_at_zero(points: &[(f64, f64)]) -> f64 {
     let term = |&(position, value): &(f64, f64)| {
-        let others = points
-            .iter()
-            .map(|&(other, _)| other)
-            .filter(|other| other.total_cmp(&position).is_ne());
-        value
-            * others
-                .map(|other| other / (other - position))
-                .product::<f64>()
+        let others = points.iter().map(|&(other, _)| other);
+        let others = others.filter(|other| other.total_cmp(&position).is_ne());
+        let factors = others.map(|other| other / (other - position));
+        value * factors.product::<f64>()
     };
     points.iter().map(term).sum()
 }
@@ -207,10 +203,9 @@ impl Limits {
         let Some(last) = rows.last() else {
             return;
         };
-        let limit = if !flows || rows.len() < 4 {
-            last.friction_coefficient
-        } else {
-            value_at_zero(&halvings(rows))
+        let limit = match rows.len() {
+            4.. if flows => value_at_zero(&halvings(rows)),
+            _ => last.friction_coefficient,
         };
         self.0.push([last.sliding_distance, limit]);
     }
@@ -231,9 +226,8 @@ impl Limits {
             return 1.0;
         }
         let recent = self.0.iter().rev().take_while(|[then, _]| *then >= start);
-        let largest = recent
-            .map(|[_, then]| (then - limit).abs())
-            .fold(0.0, f64::max);
+        let changes = recent.map(|[_, then]| (then - limit).abs());
+        let largest = changes.fold(0.0, f64::max);
         if largest <= noise {
             return 0.0;
         }

@@ -40,15 +40,13 @@ impl March<'_> {
     #[must_use]
     pub fn state(&self) -> MarchState {
         let Bounds { lower, upper } = self.contact_box.bounds;
+        let rows = self.rows_needed(self.steps_done);
         MarchState {
             steps_done: self.steps_done,
             footprint: self.layout.followed(),
             contact_box: [lower, upper],
             load: self.contact_box.state.pressure().to_vec(),
-            memory: self
-                .window
-                .memory(self.rows_needed(self.steps_done))
-                .to_vec(),
+            memory: self.window.memory(rows).to_vec(),
         }
     }
 
@@ -58,15 +56,12 @@ impl March<'_> {
     /// [`BemError::InvalidParameter`] or [`BemError::LengthMismatch`] for a state that does not fit this march.
     pub fn resume(&mut self, state: &MarchState) -> Result<(), BemError> {
         let (mut contact_box, memory) = self.check(state)?;
-        contact_box
-            .state
-            .pressure_mut()
-            .copy_from_slice(&state.load);
+        let load = contact_box.state.pressure_mut();
+        load.copy_from_slice(&state.load);
         self.contact_box = contact_box;
         self.steps_done = state.steps_done;
-        self.window
-            .memory_mut(memory)
-            .copy_from_slice(&state.memory);
+        let memory = self.window.memory_mut(memory);
+        memory.copy_from_slice(&state.memory);
         let Some(last) = self.steps_done.checked_sub(1) else {
             return Ok(());
         };
@@ -81,18 +76,13 @@ impl March<'_> {
         let [lower, upper] = state.contact_box;
         let (shape, mirrors) = (self.layout.followed(), self.layout.mirrors);
         within("steps done", state.steps_done, ..=self.route.legs.len())?;
-        for (axis, parameter) in ["rows of the footprint", "columns of the footprint"]
-            .into_iter()
-            .enumerate()
-        {
+        let parameters = ["rows of the footprint", "columns of the footprint"];
+        for (axis, parameter) in parameters.into_iter().enumerate() {
             within(parameter, state.footprint[axis], shape[axis]..=shape[axis])?;
             within("end of the contact box", upper[axis], ..=shape[axis])?;
             // The box begins at a mirror.
-            let last = if mirrors[axis].is_none() {
-                upper[axis]
-            } else {
-                1
-            };
+            let is_free = mirrors[axis].is_none();
+            let last = if is_free { upper[axis] } else { 1 };
             within("start of the contact box", lower[axis], ..last)?;
         }
         let bounds = Bounds { lower, upper };

@@ -139,11 +139,8 @@ impl<'a> March<'a> {
 
     /// The box around the loaded elements in front of the mirrors, counted from there.
     fn loaded_bounds(&self) -> Option<Bounds> {
-        Bounds::of(
-            self.contact_box
-                .loaded_elements()
-                .map(|(element, _)| element),
-        )
+        let loaded = self.contact_box.loaded_elements();
+        Bounds::of(loaded.map(|(element, _)| element))
     }
 
     /// Pressure in the last step; a single element without pressure where there is no contact.
@@ -221,9 +218,8 @@ impl<'a> March<'a> {
     fn row(&self, leg: &Leg) -> MotionRow {
         let [dx, dy] = self.options.spacing;
         let loaded = self.loaded_elements();
-        let n_contact = loaded
-            .map(|(element, _)| self.layout.n_images_of(element))
-            .sum();
+        let images = loaded.map(|(element, _)| self.layout.n_images_of(element));
+        let n_contact = images.sum();
         let edges = (n_contact > 0).then(|| self.contact_edges());
         MotionRow {
             time: leg.end.time,

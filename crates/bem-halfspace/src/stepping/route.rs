@@ -72,9 +72,8 @@ impl Route {
 
     /// Whether the indenter never moves.
     pub(crate) fn rests(&self) -> bool {
-        self.legs
-            .iter()
-            .all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
+        let mut legs = self.legs.iter();
+        legs.all(|leg| leg.advance == 0.0 && leg.offset == 0.0)
     }
 
     /// The same path over a half space without memory, so that the elements may move with the indenter.
@@ -111,12 +110,6 @@ fn place(position: f64, spacing: f64) -> Result<[f64; 2], BemError> {
     let offset = elements - cell;
     // A whole number must not become a fraction by rounding, or results would depend on the unit of length.
     let rounding = 4.0 * f64::EPSILON * elements.abs();
-    Ok([
-        cell,
-        if offset.abs() <= rounding {
-            0.0
-        } else {
-            offset
-        },
-    ])
+    let is_rounding = offset.abs() <= rounding;
+    Ok([cell, if is_rounding { 0.0 } else { offset }])
 }

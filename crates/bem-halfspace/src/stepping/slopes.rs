@@ -81,10 +81,7 @@ fn slopes_at(
 
 /// E G' at the frequency with which the contact passes: 1 on an elastic half space, 0 on a dashpot.
 fn elastic_share(march: &March<'_>, leg: &Leg) -> Result<f64, BemError> {
-    let creep = &march.creep;
-    let Leg {
-        advance, time_step, ..
-    } = *leg;
+    let (creep, advance, time_step) = (&march.creep, leg.advance, leg.time_step);
     let mut elastic = creep.instantaneous_compliance();
     let n_rows = march.contact_bounds().shape()[0];
     let frequency = 2.0 * PI * (advance.abs() / time_step / n_rows as f64);

@@ -89,11 +89,8 @@ impl Window {
         for ([row, column], load) in loaded {
             self.load[(row + first_row) * columns + column] = load;
         }
-        self.convolution.apply(
-            &mut self.workspace,
-            (&self.load, rows),
-            (&mut self.increment, wanted),
-        );
+        let (load, increment) = ((&self.load[..], rows), (&mut self.increment[..], wanted));
+        self.convolution.apply(&mut self.workspace, load, increment);
     }
 
     /// A step without load.

@@ -115,11 +115,8 @@ fn a_contact_that_does_not_fit_is_refused() {
     assert_refused("slide", beyond, "ContactReachesBoundary");
     let beyond = steady_in(&body, length / 6.0, 0.8 * length);
     assert_refused("steady", beyond, "ContactReachesBoundary");
-    let (load, options) = (
-        under_force(1.0, 1.0),
-        SteadyOptions::new([0.02; 2], Footprint::square(0.3)),
-    );
-    let beyond = steady_on_grid(&paraboloid(1.0), &solid(), &load, &options);
+    let options = SteadyOptions::new([0.02; 2], Footprint::square(0.3));
+    let beyond = steady_on_grid(&paraboloid(1.0), &solid(), &under_force(1.0, 1.0), &options);
     assert_refused("a solid", beyond, "ContactReachesBoundary");
 }
 
@@ -182,11 +179,8 @@ fn a_footprint_that_misses_the_image_of_the_body_is_refused() {
     let sledge = Formula::new([true; 2], |[x, y]| {
         let aside = y.abs() - 3.0;
         let runner = x * x + aside.powi(2);
-        let height = if aside.abs() < 1.0 {
-            runner
-        } else {
-            f64::INFINITY
-        };
+        let is_there = aside.abs() < 1.0;
+        let height = if is_there { runner } else { f64::INFINITY };
         (height, [2.0 * x, 2.0 * aside * y.signum()])
     });
     for y in [[-1.0, 5.0], [-5.0, 1.0]] {
@@ -227,9 +221,8 @@ fn what_never_comes_to_rest_is_refused() {
 fn speeds_beyond_all_numbers_are_refused_or_answered() {
     for velocity in [1e-300, 1e-200, 1e-100, 1e100, 1e200, 1e300] {
         let scene = Scene::new(paraboloid(1.0), solid(), under_force(1.0, velocity));
-        let friction = scene
-            .try_steady(1e-2)
-            .map(|state| state.friction_coefficient);
+        let state = scene.try_steady(1e-2);
+        let friction = state.map(|state| state.friction_coefficient);
         let holds = match &friction {
             Ok(friction) => friction.value.abs().max(friction.error) < 1e-8,
             Err(error) => matches!(error, BemError::InvalidParameter(_)),
@@ -249,11 +242,8 @@ fn contacts_out_of_range_are_refused() {
     };
     let short = format!("{:?}", solve(&[0.0; 5], 1.0, FORCE));
     assert!(short.contains("length: 5, elements: 6 }"), "{short}");
-    assert_refused(
-        "five heights",
-        solve(&[0.0; 5], 1.0, FORCE),
-        "LengthMismatch",
-    );
+    let short = solve(&[0.0; 5], 1.0, FORCE);
+    assert_refused("five heights", short, "LengthMismatch");
     let nowhere = solve(&[f64::INFINITY; 6], 1.0, FORCE);
     assert_refused("no body", nowhere, "separation");
     for bad in [f64::NAN, f64::NEG_INFINITY] {

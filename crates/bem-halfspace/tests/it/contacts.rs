@@ -88,13 +88,10 @@ fn the_smallest_contacts_are_those_of_the_casebook() {
     let (two, state) = contact([6, 1], &heights, deep);
     assert_eq!(state.contact(), [0, 5], "only elements with a body");
     let cases = group("EXT-02");
+    let twin = "EXT-02/two equal isolated cells at distance 5h, h=1 G=1 d=1";
     for (id, name, contact) in [
         ("EXT-02/BEM single cell h=1 G=1 d=1", "F", one),
-        (
-            "EXT-02/two equal isolated cells at distance 5h, h=1 G=1 d=1",
-            "F_total",
-            two,
-        ),
+        (twin, "F_total", two),
     ] {
         let case = cases.iter().find(|case| case.id() == id);
         let case = case.expect("a case of this name");

@@ -54,10 +54,8 @@ impl Scene {
     }
 
     fn check(&self, what: impl Debug, relative_error: f64, expected: f64) {
-        let friction = self
-            .solve(relative_error)
-            .expect("a state")
-            .friction_coefficient;
+        let state = self.solve(relative_error).expect("a state");
+        let friction = state.friction_coefficient;
         assert_bar(what, friction, expected, relative_error);
     }
 }

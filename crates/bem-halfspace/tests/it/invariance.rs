@@ -20,9 +20,8 @@ fn friction_collapses_under_the_similarity_law() {
     let cases = group("BEM-07");
     for exponent in [1.0, 2.0, 3.0] {
         let is_alike = |p: f64| (p - exponent).abs() < 0.1;
-        let rows = cases
-            .iter()
-            .filter(|case| case.has_input("p") && is_alike(case.input("p")));
+        let rows = cases.iter().filter(|case| case.has_input("p"));
+        let rows = rows.filter(|case| is_alike(case.input("p")));
         let collapsed = rows.map(|case| {
             let [c, eta, force, velocity] = ["c", "eta", "F", "v"].map(|name| case.input(name));
             let load = under_force(force, velocity);
@@ -98,12 +97,8 @@ fn press<M: Material>(scene: &Scene<M>, [length, stress, time]: Units) -> Vec<f6
     let times = [0.1, 1.0, 10.0].map(|moment| moment * time);
     let force = 0.5 * stress * length * length;
     let options = tight(squares(0.1 * length, 2.0 * length));
-    let rows = pressed(
-        &scene.body,
-        &scene.material,
-        pressed_by(force, &times),
-        &options,
-    );
+    let steps = pressed_by(force, &times);
+    let rows = pressed(&scene.body, &scene.material, steps, &options);
     let [depth, area] = [rows[2].indentation_depth, rows[2].contact_area / length];
     vec![depth / length, area / length]
 }
@@ -162,10 +157,8 @@ fn neither_half_a_scene_nor_a_factorisation_changes_the_contact() {
     for (material, load, exponent, elements) in scenes {
         let scene = Scene::new(power(0.3, exponent), material, load);
         let options = scene.steady_options(elements);
-        for y in [0.0, 0.5]
-            .into_iter()
-            .filter(|y| *y == 0.0 || elements > 5.0)
-        {
+        let phases = [0.0, 0.5].into_iter();
+        for y in phases.filter(|y| *y == 0.0 || elements > 5.0) {
             let options = SteadyOptions {
                 phase: [0.0, y],
                 ..options

@@ -134,11 +134,8 @@ fn convolution_equals_the_sum_over_pairs() {
         let pressure = pressure(grid.n_elements());
         let mut actual = vec![0.0; grid.n_elements()];
         let (mut workspace, rows) = (convolution.workspace(), 0..shape[0]);
-        convolution.apply(
-            &mut workspace,
-            (&pressure, rows.clone()),
-            (&mut actual, rows),
-        );
+        let (pressed, moved) = ((&pressure[..], rows.clone()), (&mut actual[..], rows));
+        convolution.apply(&mut workspace, pressed, moved);
         // Rounding of transforms of a few hundred values.
         let error = difference(&actual, &sum_over_pairs(&grid, &pressure));
         assert!(error < 1e-14, "{shape:?}: off by {error:e}");

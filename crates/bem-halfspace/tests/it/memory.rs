@@ -34,21 +34,17 @@ fn stated_memory_is_what_a_solution_takes() {
     for (name, material) in materials.filter(|(name, _)| name.starts_with(['e', 'v', 't'])) {
         let material = &*material;
         let stated = steady_memory(&body, material, &load, 40);
-        check(("steady", name), stated, || {
-            steady(&body, material, &load, forty)
-        });
+        let solve = || steady(&body, material, &load, forty);
+        check(("steady", name), stated, solve);
         let stated = steady_memory(&whole, material, &load, 40);
-        check(("whole", name), stated, || {
-            steady(&whole, material, &load, forty)
-        });
+        let solve = || steady(&whole, material, &load, forty);
+        check(("whole", name), stated, solve);
         let stated = indent_memory(&body, material, &pressing, 160);
-        check(("indent", name), stated, || {
-            indent(&body, material, &pressing, more)
-        });
+        let solve = || indent(&body, material, &pressing, more);
+        check(("indent", name), stated, solve);
         let load = after(load, 30.0);
         let stated = slide_memory(&sharp, material, &load, 12);
-        check(("slide", name), stated, || {
-            slide(&sharp, material, &load, few)
-        });
+        let solve = || slide(&sharp, material, &load, few);
+        check(("slide", name), stated, solve);
     }
 }

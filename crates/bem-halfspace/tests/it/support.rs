@@ -381,9 +381,8 @@ pub(crate) fn pressed_by(
     force: f64,
     times: &[f64],
 ) -> impl Iterator<Item = (f64, Control)> + use<'_> {
-    times
-        .iter()
-        .map(move |time| (*time, Control::NormalForce(force)))
+    let control = Control::NormalForce(force);
+    times.iter().map(move |time| (*time, control))
 }
 
 pub(crate) fn elastic(shear_modulus: f64) -> Elastic {

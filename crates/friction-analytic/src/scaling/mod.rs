@@ -67,14 +67,10 @@ fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> Estimate {
     let place = |exponent: f64| (2.0 * exponent - 1.0).ln();
     let at = place(exponent);
     let term = |(index, &[node, value, error]): (usize, &[f64; 3])| {
-        let others = nodes
-            .iter()
-            .enumerate()
-            .filter(|(other, _)| *other != index);
-        let weight: f64 = others
-            .map(|(_, [other, ..])| (at - place(*other)) / (place(node) - place(*other)))
-            .product();
-        Estimate { value, error } * weight
+        let others = nodes[..index].iter().chain(&nodes[index + 1..]);
+        let factors =
+            others.map(|[other, ..]| (at - place(*other)) / (place(node) - place(*other)));
+        Estimate { value, error } * factors.product::<f64>()
     };
     nodes.iter().enumerate().map(term).sum()
 }

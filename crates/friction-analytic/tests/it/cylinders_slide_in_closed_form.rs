@@ -64,10 +64,8 @@ fn cylinders_match_the_casebook_and_twelve_decades_of_speed() {
         }
         let slope = 2.0 * larger.friction_coefficient;
         assert_close!(slope => state.friction_coefficient, within 1e-14; "half as steep");
-        for (name, value) in ["P", "x0_over_l", "muR_over_l"]
-            .into_iter()
-            .zip(numbers(&state, gamma))
-        {
+        let names = ["P", "x0_over_l", "muR_over_l"].into_iter();
+        for (name, value) in names.zip(numbers(&state, gamma)) {
             case.check_within(name, value, 1e-13);
         }
     }

@@ -32,10 +32,8 @@ fn impulse_decides_indentation() {
         } else {
             Box::new(Sphere::new(case.input("R")).unwrap())
         };
-        check(
-            &case,
-            indentation_after_impulse(&body, &material, impulse).unwrap(),
-        );
+        let state = indentation_after_impulse(&body, &material, impulse);
+        check(&case, state.unwrap());
     }
 }
 

@@ -68,9 +68,8 @@ fn a_table_slides_on_the_visible_parts_of_its_pieces() {
     let (heights, spacing, depth) = (case.input_list("h"), case.input("dx"), case.input("D"));
     let increments = case.expected_list("increments").expect("increments");
     let slopes = heights.windows(2).map(|pair| (pair[1] - pair[0]) / spacing);
-    let work = slopes
-        .zip(&increments)
-        .map(|(slope, gained)| slope * gained);
+    let pairs = slopes.zip(&increments);
+    let work = pairs.map(|(slope, gained)| slope * gained);
     let expected = work.sum::<f64>() / depth;
     let positions = (0..heights.len()).map(|i| i as f64 * spacing).collect();
     let line = SampledLine::new(positions, heights).unwrap();

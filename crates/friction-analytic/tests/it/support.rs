@@ -10,10 +10,8 @@ pub(crate) fn sliding(case: &Case) -> (Viscous, SlidingLoad) {
 }
 
 pub(crate) fn material_and_load([force, eta, v]: [f64; 3]) -> (Viscous, SlidingLoad) {
-    (
-        viscous(eta),
-        SlidingLoad::new(force, v).expect("the load is legal"),
-    )
+    let load = SlidingLoad::new(force, v).expect("the load is legal");
+    (viscous(eta), load)
 }
 
 /// Material and load with 4 η v = 1, whose stationary depth is the force, to the last bit.

@@ -77,10 +77,8 @@ impl PeriodicSurface {
     #[must_use]
     pub fn largest_numbers(&self) -> [usize; 2] {
         [0, 1].map(|axis| {
-            let numbers = self
-                .waves
-                .iter()
-                .map(|wave| wave.numbers[axis].unsigned_abs());
+            let waves = self.waves.iter();
+            let numbers = waves.map(|wave| wave.numbers[axis].unsigned_abs());
             numbers.fold(0, u32::max) as usize
         })
     }
@@ -109,13 +107,9 @@ impl PeriodicSurface {
     pub fn heights(&self, [rows, columns]: [usize; 2]) -> Result<Vec<f64>, InvalidParameter> {
         let [along_x, along_y] = self.largest_numbers();
         let allowed = "more than two for each of the shortest waves";
-        in_range("elements along x", rows as f64, rows > 2 * along_x, allowed)?;
-        in_range(
-            "elements along y",
-            columns as f64,
-            columns > 2 * along_y,
-            allowed,
-        )?;
+        let (enough_x, enough_y) = (rows > 2 * along_x, columns > 2 * along_y);
+        in_range("elements along x", rows as f64, enough_x, allowed)?;
+        in_range("elements along y", columns as f64, enough_y, allowed)?;
         let n_columns = columns / 2 + 1;
         let mut spectrum = vec![Complex::default(); n_columns * rows];
         for wave in &self.waves {

@@ -50,12 +50,8 @@ impl SelfAffine {
         let numbers = numbers.filter(|[m, n]| *m > 0 || *n > 0);
         let waves: Vec<Wave> = numbers.filter_map(|numbers| self.draw(numbers)).collect();
         let allowed = "such that the periods have a wave not shorter than this and not longer than the longest";
-        in_range(
-            "shortest_wavelength",
-            self.shortest_wavelength,
-            !waves.is_empty(),
-            allowed,
-        )?;
+        let (shortest, holds) = (self.shortest_wavelength, !waves.is_empty());
+        in_range("shortest_wavelength", shortest, holds, allowed)?;
         let mut surface = PeriodicSurface::new(self.period, waves)?;
         let factor = positive("rms slope", self.rms_slope / surface.rms_slope())?;
         for wave in &mut surface.waves {
@@ -71,12 +67,8 @@ impl SelfAffine {
         for (axis, name) in ["period along x", "period along y"].into_iter().enumerate() {
             let period = positive(name, self.period[axis])?;
             let holds = period / shortest < f64::from(LARGEST_NUMBER);
-            in_range(
-                name,
-                period,
-                holds,
-                "below 32768 of the shortest wave lengths",
-            )?;
+            let allowed = "below 32768 of the shortest wave lengths";
+            in_range(name, period, holds, allowed)?;
         }
         let longest = positive("longest_wavelength", self.longest_wavelength)?;
         let roll_off = self.roll_off_wavelength;

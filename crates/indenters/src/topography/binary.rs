@@ -12,10 +12,9 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
         return Err("another beginning".to_owned());
     }
     let found = |key: &str, otherwise: &'static str| {
-        let pairs = head.lines().filter_map(|line| line.split_once('='));
-        let mut found = pairs.filter(|(name, _)| name.trim() == key);
+        let mut pairs = head.lines().filter_map(|line| line.split_once('='));
+        let found = pairs.find(|(name, _)| name.trim() == key);
         found
-            .next()
             .map_or(otherwise, |(_, value)| value.trim())
             .to_owned()
     };
@@ -29,10 +28,8 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
         count.ok_or_else(|| format!("{key} = {given}"))
     };
     let shape = [count("XRes")?, count("YRes")?];
-    let (unit, height) = (
-        metres(&found("XYUnits", "m"))?,
-        metres(&found("ZUnits", "m"))?,
-    );
+    let unit = metres(&found("XYUnits", "m"))?;
+    let height = metres(&found("ZUnits", "m"))?;
     let spacing = [
         unit * number("XReal")? / shape[0] as f64,
         unit * number("YReal")? / shape[1] as f64,
@@ -67,9 +64,8 @@ pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
     };
     let shape = [count(108), count(112)];
     let begin = 512 + short(334) + short(336);
-    let needed = shape[0]
-        .checked_mul(shape[1])
-        .and_then(|points| points.checked_mul(bytes));
+    let points = shape[0].checked_mul(shape[1]);
+    let needed = points.and_then(|points| points.checked_mul(bytes));
     let given = contents.len().saturating_sub(begin);
     if short(18) != 2 || needed.is_none_or(|needed| needed == 0 || needed > given) {
         return Err(format!("kind {}, {given} bytes for {shape:?}", short(18)));

@@ -43,9 +43,8 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         let bytes = heights.data.len();
         return Err(format!("{bytes} bytes of type '{kind}' for {shape:?}"));
     }
-    Ok(Topography::of_rows(shape, spacing, false, |index| {
-        heights.at(index)
-    }))
+    let height = |index| heights.at(index);
+    Ok(Topography::of_rows(shape, spacing, false, height))
 }
 
 /// The description.
@@ -84,14 +83,9 @@ impl Heights<'_> {
     }
 
     fn are(&self, points: usize) -> bool {
-        let enough = self
-            .bytes()
-            .is_some_and(|bytes| points <= self.data.len() / bytes);
-        enough
-            && self
-                .valid
-                .as_ref()
-                .is_none_or(|bits| points.div_ceil(8) <= bits.len())
+        let are_there = |bytes| points <= self.data.len() / bytes;
+        let have_bits = |bits: &Vec<u8>| points.div_ceil(8) <= bits.len();
+        self.bytes().is_some_and(are_there) && self.valid.as_ref().is_none_or(have_bits)
     }
 
     fn at(&self, index: usize) -> f64 {

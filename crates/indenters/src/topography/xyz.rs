@@ -11,10 +11,8 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         let cells = line.split(|c: char| c.is_whitespace() || c == ';' || c == ',');
         let cells = cells.filter(|cell| !cell.is_empty()).map(str::parse);
         if !line.starts_with('#') && !line.trim().is_empty() {
-            let row: Option<[f64; 3]> = cells
-                .collect::<Result<Vec<f64>, _>>()
-                .ok()
-                .and_then(|row| row.try_into().ok());
+            let row: Result<Vec<f64>, _> = cells.collect();
+            let row: Option<[f64; 3]> = row.ok().and_then(|row| row.try_into().ok());
             points.push(row.ok_or_else(|| format!("line {}: '{line:.40}'", index + 1))?);
         }
     }
@@ -54,9 +52,8 @@ fn axis(mut values: Vec<f64>) -> Result<(f64, f64, usize), String> {
     let (first, last) = ends.ok_or("no points")?;
     let range = last - first;
     let steps = values.windows(2).map(|pair| pair[1] - pair[0]);
-    let smallest = steps
-        .filter(|step| *step > 1e-6 * range)
-        .fold(range, f64::min);
+    let steps = steps.filter(|step| *step > 1e-6 * range);
+    let smallest = steps.fold(range, f64::min);
     let count = (range / smallest).round();
     if !(range > 0.0 && count.is_finite()) {
         return Err(format!("coordinates from {first} to {last}"));

@@ -74,9 +74,8 @@ fn grids_that_do_not_fit_are_refused() {
     assert_matches!(many, Err(IndenterError::LengthMismatch { first_length, .. }) if first_length == 6);
     let heights = [[0.0, f64::NAN], [0.0, f64::INFINITY], [-1e308, 1e308]];
     let heights = heights.map(|[low, high]| ([1.0; 2], [low, high, 0.5, 0.5]));
-    let spacings = NOT_POSITIVE
-        .iter()
-        .flat_map(|bad| [[*bad, 1.0], [1.0, *bad]]);
+    let bad = NOT_POSITIVE.iter();
+    let spacings = bad.flat_map(|bad| [[*bad, 1.0], [1.0, *bad]]);
     for (spacing, heights) in spacings.map(|spacing| (spacing, square)).chain(heights) {
         let result = new([2, 2], spacing, &heights);
         let invalid = matches!(result, Err(IndenterError::InvalidParameter(_)));

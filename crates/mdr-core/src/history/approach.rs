@@ -83,10 +83,8 @@ impl Approach {
         differentiates: bool,
     ) -> Self {
         let branches = spectrum.branches().iter();
-        let rates = branches
-            .clone()
-            .map(|branch| branch.relaxation_time.recip());
-        let moduli = branches.map(|branch| branch.modulus);
+        let moduli = branches.clone().map(|branch| branch.modulus);
+        let rates = branches.map(|branch| branch.relaxation_time.recip());
         let rates: Vec<f64> = rates.chain([0.0]).collect();
         let n = rates.len();
         let now = Memory {
@@ -161,9 +159,8 @@ impl Approach {
 
     /// D.
     fn deepest(&self) -> f64 {
-        self.rings
-            .last()
-            .map_or(0.0, |ring| ring.start[1] + ring.rise)
+        let last = self.rings.last();
+        last.map_or(0.0, |ring| ring.start[1] + ring.rise)
     }
 
     /// Σ G_k q_k and so on: sizes of the terms that cancel in w, and in its rate.
@@ -255,11 +252,8 @@ impl Approach {
         if self.viscosity > 0.0 && load.abs() > LEFT * scales[0] {
             return load;
         }
-        if rate.abs() > ROUNDING * scales[1] {
-            rate
-        } else {
-            0.0
-        }
+        let has_rate = rate.abs() > ROUNDING * scales[1];
+        if has_rate { rate } else { 0.0 }
     }
 
     /// Over elements that were touched before: only q goes on, the rest follows from the front.
@@ -320,12 +314,8 @@ impl Approach {
         self.touched.extend_from_slice(&self.now.load);
         self.touched_late.extend_from_slice(&self.now.late);
         let n_moments = terms.len() + usize::from(!self.now.late.is_empty());
-        self.step.set(
-            &self.rates,
-            ring.step,
-            n_moments,
-            rounding(to[0], ring.step),
-        );
+        let rounding = rounding(to[0], ring.step);
+        self.step.set(&self.rates, ring.step, n_moments, rounding);
         self.step.grow(&mut self.now, &ring, terms);
         self.front.copy_from(&self.now);
     }
@@ -333,10 +323,8 @@ impl Approach {
     /// a, a' and D at θ of a ring.
     fn place(&self, ring: usize, theta: f64) -> [f64; 3] {
         let ring = &self.rings[ring];
-        let terms = self.coefficients[ring.first..ring.first + ring.n_terms]
-            .iter()
-            .rev();
-        let [radius, slope] = terms.fold([0.0; 2], |[value, slope], term| {
+        let terms = &self.coefficients[ring.first..ring.first + ring.n_terms];
+        let [radius, slope] = terms.iter().rev().fold([0.0; 2], |[value, slope], term| {
             [term + theta * value, value + theta * slope]
         });
         [radius, slope / ring.rise, ring.start[1] + theta * ring.rise]
@@ -358,11 +346,10 @@ impl Approach {
 
     /// The element of a ring that was touched at a depth: how much deeper the edge is by Halley's method, and by how much the
     /// modulus changes on the way there; where that is much, by Newton's.
-    fn load_at(&mut self, ring: usize, depth: f64) -> [f64; 2] {
+    fn load_at(&mut self, index: usize, depth: f64) -> [f64; 2] {
         let n = self.rates.len();
-        let touched = &self.touched[2 * ring * n..(2 * ring + 1) * n];
-        let index = ring;
-        let ring = &self.rings[ring];
+        let touched = &self.touched[2 * index * n..(2 * index + 1) * n];
+        let ring = &self.rings[index];
         let theta = ((depth - ring.start[1]) / ring.rise).clamp(0.0, 1.0);
         let (step, rise) = (theta * ring.step, theta * ring.rise);
         let edge = &mut self.edge;
@@ -462,10 +449,8 @@ impl Approach {
         let mut ring = self.rings[ring];
         let mut terms = [0.0; ORDER];
         let mut power = 1.0;
-        for (part, term) in terms
-            .iter_mut()
-            .zip(&self.coefficients[ring.first..ring.first + ring.n_terms])
-        {
+        let whole = &self.coefficients[ring.first..ring.first + ring.n_terms];
+        for (part, term) in terms.iter_mut().zip(whole) {
             *part = power * term;
             power *= theta;
         }

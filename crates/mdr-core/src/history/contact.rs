@@ -93,7 +93,6 @@ impl<'a> Contact<'a> {
     }
 
     pub(super) fn measured(&self) -> Measured {
-        let (time, depth) = self.path.last();
         let [load, terms] = self.load();
         let at_edge = self.rings.last().zip(self.edge_modulus);
         let edge = at_edge.map(|(ring, modulus)| {
@@ -101,7 +100,7 @@ impl<'a> Contact<'a> {
             self.radii.at(depths)[1].abs() / modulus * self.path.scale(self.path.end())
         });
         Measured {
-            point: [time, depth],
+            point: self.path.last(),
             load,
             terms,
             load_error: self.quadrature_error + self.path.glass_modulus() * self.radii.area_error,
@@ -123,10 +122,8 @@ impl<'a> Contact<'a> {
     /// [`MdrError::NotADisc`].
     pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
         self.path.push(time, depth);
-        let mut at = Instant {
-            part: 0.0,
-            ..self.path.end()
-        };
+        let mut at = self.path.end();
+        at.part = 0.0;
         while at.part < 1.0 {
             at = self.move_on(at)?;
         }

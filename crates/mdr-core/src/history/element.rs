@@ -105,9 +105,8 @@ impl Elements<'_> {
         let lag = self.path.lag(touched.since, at);
         let held = touched.stresses.iter().zip(&lag.decays);
         let held = held.map(|(stress, decay)| stress * decay);
-        held.zip(lag.stresses)
-            .map(|(held, gained)| held + gained)
-            .collect()
+        let both = held.zip(lag.stresses);
+        both.map(|(held, gained)| held + gained).collect()
     }
 
     /// w of an element in contact, \[Pa m].
@@ -165,12 +164,9 @@ impl Elements<'_> {
 fn within(leg: &Leg, falling: impl Fn(Instant) -> f64) -> Instant {
     let at = |part| Instant { part, ..leg.from };
     let ends = [leg.from.part, leg.to.part];
-    let root = bracketed_root(|part| falling(at(part)), ends);
-    at(root.unwrap_or_else(|| {
-        if falling(leg.from) <= 0.0 {
-            ends[0]
-        } else {
-            ends[1]
-        }
-    }))
+    let end = || {
+        let is_past = falling(leg.from) <= 0.0;
+        if is_past { ends[0] } else { ends[1] }
+    };
+    at(bracketed_root(|part| falling(at(part)), ends).unwrap_or_else(end))
 }

@@ -33,11 +33,8 @@ impl Pressed<'_> {
     pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, MdrError> {
         let factor = 8.0 / self.material.half_space_factor();
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
-        let largest = self
-            .points
-            .iter()
-            .map(|[_, force]| *force)
-            .fold(0.0, f64::max);
+        let forces = self.points.iter().map(|[_, force]| *force);
+        let largest = forces.fold(0.0, f64::max);
         let area = largest * self.material.creep_compliance(duration)? / factor;
         let radii = reaching(self.body, area)?;
         let grown = self.grown(&self.points, &radii, factor);
@@ -138,13 +135,13 @@ impl Pressed<'_> {
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
             if let Some(point) = grown.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
-            } else if time > contact.path.last().0 || contact.path.viscosity == 0.0 {
+            } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
                 press(&mut contact, time, force / factor, radii.deepest())?;
             }
             if is_asked {
                 curve.push(CurvePoint {
                     time,
-                    indentation_depth: Estimate::exact(contact.path.last().1),
+                    indentation_depth: Estimate::exact(contact.path.last()[1]),
                     normal_force: Estimate::exact(force),
                     contact_radius: Estimate::exact(contact.radius()),
                 });
@@ -159,12 +156,8 @@ fn press(contact: &mut Contact<'_>, time: f64, needed: f64, deepest: f64) -> Res
     let excess = |depth: f64| {
         let mut trial = contact.clone();
         trial.follow(time, depth)?;
-        let [load, _] = trial.load();
-        Ok::<f64, MdrError>(if trial.radius() > 0.0 {
-            load - needed
-        } else {
-            -deepest
-        })
+        let (excess, has_contact) = (trial.load()[0] - needed, trial.radius() > 0.0);
+        Ok::<f64, MdrError>(if has_contact { excess } else { -deepest })
     };
     let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)
@@ -211,7 +204,6 @@ fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint]) -> Vec<CurvePoint> {
 /// Largest change of a quantity.
 fn changes(coarse: &[CurvePoint], fine: &[CurvePoint], of: impl Fn(&CurvePoint) -> f64) -> f64 {
     let pairs = coarse.iter().zip(fine);
-    pairs
-        .map(|(one, other)| (of(one) - of(other)).abs())
-        .fold(0.0, f64::max)
+    let changes = pairs.map(|(one, other)| (of(one) - of(other)).abs());
+    changes.fold(0.0, f64::max)
 }

@@ -113,12 +113,9 @@ pub fn indent_along(
         .curve()?,
     };
     for point in &curve {
-        error::finite("normal force", point.normal_force.value, point.time)?;
-        error::finite(
-            "indentation depth",
-            point.indentation_depth.value,
-            point.time,
-        )?;
+        let (force, depth) = (point.normal_force, point.indentation_depth);
+        error::finite("normal force", force.value, point.time)?;
+        error::finite("indentation depth", depth.value, point.time)?;
     }
     Ok(curve)
 }

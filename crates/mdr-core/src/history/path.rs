@@ -36,8 +36,8 @@ pub(super) struct Path {
     /// Viscosity η₀ of the lone dashpot.
     pub(super) viscosity: f64,
     pub(super) modes: Vec<Mode>,
-    pub(super) times: Vec<f64>,
-    pub(super) depths: Vec<f64>,
+    /// Times and depths.
+    points: Vec<[f64; 2]>,
     /// q_k at the points, branch by branch within a point.
     memory: Vec<f64>,
 }
@@ -64,22 +64,19 @@ impl Path {
             rates: branches.iter().map(|[_, rate]| *rate).collect(),
             viscosity: relaxation.viscosity(),
             modes: delayed.chain(flow).collect(),
-            times: Vec::new(),
-            depths: Vec::new(),
+            points: Vec::new(),
             memory: Vec::new(),
         }
     }
 
     /// Goes on to a point, at a later time or at once.
     pub(super) fn push(&mut self, time: f64, depth: f64) {
-        let before = self.times.last().copied().zip(self.depths.last().copied());
-        self.times.push(time);
-        self.depths.push(depth);
-        let Some((time_before, depth_before)) = before else {
+        self.points.push([time, depth]);
+        let [.., before, _] = self.points[..] else {
             self.memory = vec![0.0; self.n_branches()];
             return;
         };
-        let (step, rise) = (time - time_before, depth - depth_before);
+        let (step, rise) = (time - before[0], depth - before[1]);
         let start = self.memory.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
             let mean = mean_exponential(-rate * step);
@@ -89,15 +86,14 @@ impl Path {
     }
 
     /// Time and depth of the last point.
-    pub(super) fn last(&self) -> (f64, f64) {
-        let last = self.times.len() - 1;
-        (self.times[last], self.depths[last])
+    pub(super) fn last(&self) -> [f64; 2] {
+        self.points[self.points.len() - 1]
     }
 
     /// The end of the last segment.
     pub(super) fn end(&self) -> Instant {
         Instant {
-            segment: self.times.len() - 2,
+            segment: self.points.len() - 2,
             part: 1.0,
         }
     }
@@ -112,11 +108,11 @@ impl Path {
     }
 
     pub(super) fn step(&self, segment: usize) -> f64 {
-        self.times[segment + 1] - self.times[segment]
+        self.points[segment + 1][0] - self.points[segment][0]
     }
 
     pub(super) fn rise(&self, segment: usize) -> f64 {
-        self.depths[segment + 1] - self.depths[segment]
+        self.points[segment + 1][1] - self.points[segment][1]
     }
 
     /// Speed ḋ in a segment; of a jump, its height instead, which has the same sign.
@@ -128,16 +124,16 @@ impl Path {
     }
 
     pub(super) fn time(&self, at: Instant) -> f64 {
-        self.times[at.segment] + at.part * self.step(at.segment)
+        self.points[at.segment][0] + at.part * self.step(at.segment)
     }
 
     pub(super) fn depth(&self, at: Instant) -> f64 {
-        self.depths[at.segment] + at.part * self.rise(at.segment)
+        self.points[at.segment][1] + at.part * self.rise(at.segment)
     }
 
     /// The instant of a segment at which the body has a depth; its beginning or end where that is outside.
     pub(super) fn passes(&self, segment: usize, depth: f64) -> Instant {
-        let part = (depth - self.depths[segment]) / self.rise(segment);
+        let part = (depth - self.points[segment][1]) / self.rise(segment);
         Instant {
             segment,
             part: part.clamp(0.0, 1.0),
@@ -155,10 +151,8 @@ impl Path {
         if at.part >= 1.0 {
             return Cow::Borrowed(&here[n..2 * n]);
         }
-        let (step, rise) = (
-            at.part * self.step(at.segment),
-            at.part * self.rise(at.segment),
-        );
+        let [step, rise] =
+            [self.step(at.segment), self.rise(at.segment)].map(|change| at.part * change);
         let later = self.rates.iter().zip(here).map(|(rate, before)| {
             let mean = mean_exponential(-rate * step);
             (1.0 - rate * step * mean) * before + rise * mean
@@ -239,11 +233,8 @@ pub(super) fn mean_exponential(x: f64) -> f64 {
     if x.abs() > SERIES_UP_TO {
         return (x.exp() - 1.0) / x;
     }
-    let n_terms = if x.abs() < SHORT_UP_TO {
-        N_SHORT
-    } else {
-        N_TERMS
-    };
+    let is_short = x.abs() < SHORT_UP_TO;
+    let n_terms = if is_short { N_SHORT } else { N_TERMS };
     let terms = FACTORS[..n_terms].iter().rev();
     terms.fold(0.0, |sum, factor| sum * x + factor)
 }

@@ -130,10 +130,8 @@ impl Radii {
     pub(super) fn along(&self, [from, to]: [f64; 2]) -> Polynomial {
         // By its middle, because rounding may put the ends into the pieces next to it.
         let piece = self.from(0.5 * (from + to));
-        let (start, length) = (
-            piece.position(from),
-            piece.position(to) - piece.position(from),
-        );
+        let start = piece.position(from);
+        let length = piece.position(to) - start;
         // What a piece stands for is smooth in a circle of radius 2 around any of its points, or it would be divided.
         let fourth = (0.5 * length).powi(4);
         let enough = |quarters: &i32| fourth.powi(*quarters) < 0.1 * f64::EPSILON;

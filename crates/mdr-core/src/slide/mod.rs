@@ -6,7 +6,7 @@ mod on_grid;
 mod row;
 
 use indenters::{RigidLine, SlidingLoad};
-use numerics::{ErrorParts, Estimate, Goal, Quantity, Refined, Request, refine};
+use numerics::{ErrorParts, Estimate, Goal, Quantity, Request, refine};
 use rheology::Material;
 
 use crate::MdrError;
@@ -82,12 +82,8 @@ pub fn slide<'w>(
     let solve = |elements, tell: &dyn Fn(f64)| motion.march(elements, tell);
     let others = |march: &March, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
-    let Refined {
-        value: march,
-        mut error,
-        parts: [error_parts, of_depth, ..],
-        ..
-    } = refined;
+    let (march, mut error) = (refined.value, refined.error);
+    let [error_parts, of_depth, ..] = refined.parts;
     if has_steep_kinks(line) {
         let elements = of_depth.discretisation.into_iter().sum::<f64>();
         error[1] += (KINKED - 1.0) * elements;
@@ -175,13 +171,10 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             let above = last.indentation_depth - (self.line.height(front.value) - self.lowest);
             outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
         }
+        let is_elastic = is_elastic(&self.material.creep());
         [
             Quantity {
-                rounding: if is_elastic(&self.material.creep()) {
-                    0.0
-                } else {
-                    ROUNDING * slope
-                },
+                rounding: if is_elastic { 0.0 } else { ROUNDING * slope },
                 ..friction
             },
             Quantity {
@@ -235,9 +228,8 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             return None;
         };
         let remainder = |value: fn(&SlideRow) -> f64| {
-            let back = |lengths: usize| {
-                value(&rows[(rows.len() - 1).saturating_sub(lengths * last.n_contact)])
-            };
+            let end = rows.len() - 1;
+            let back = |lengths: usize| value(&rows[end.saturating_sub(lengths * last.n_contact)]);
             let [now, before, earlier] = [0, 1, 2].map(back);
             let [change, change_before] = [now - before, before - earlier].map(f64::abs);
             let ratio = (change / change_before).min(SLOWEST_RATIO);

@@ -167,9 +167,8 @@ fn march_on(
     let mut drift = 1.0;
     // Half a step more than the distance, so that rounding does not lose the last one.
     let given = load.sliding_distance();
-    let farthest = given.map_or(options.max_sliding_distance, |distance| {
-        distance + 0.5 * options.spacing
-    });
+    let beyond = given.map(|distance| distance + 0.5 * options.spacing);
+    let farthest = beyond.unwrap_or(options.max_sliding_distance);
     while march.next_sliding_distance() <= farthest {
         let Some(step) = march.advance()? else {
             return Ok(None);
@@ -212,12 +211,8 @@ fn first_elements(
     let creep = material.creep();
     let quarter = 0.25 * load.require_normal_force()? * material.half_space_factor();
     if creep.fluidity() > 0.0 {
-        let depth = finite(
-            "stationary depth",
-            quarter * creep.fluidity() / load.velocity(),
-            0.0,
-        )?;
-        let depth = positive("stationary depth", depth)?;
+        let depth = quarter * creep.fluidity() / load.velocity();
+        let depth = positive("stationary depth", finite("stationary depth", depth, 0.0)?)?;
         let sampled = ElementHeights::below(line, spacing, depth)?;
         check_leading_edge(line, sampled.lowest_height, depth, load)?;
         return Ok(sampled);

@@ -112,11 +112,8 @@ fn within_reach(
         other => return Ok((depth, other?)),
     };
     // A line whose lowest point is its front end has no leading edge.
-    let carried = if available > 0.0 {
-        load(available)?
-    } else {
-        0.0
-    };
+    let has_edge = available > 0.0;
+    let carried = if has_edge { load(available)? } else { 0.0 };
     if carried < target {
         return Err(MdrError::ForceBeyondEdge {
             position,

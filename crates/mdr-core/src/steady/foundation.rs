@@ -158,9 +158,8 @@ impl Foundation {
     /// works over its own distance, and what hardly relaxes gives back what it takes.
     pub(super) fn resistance(&self, rate: f64, length: f64) -> [f64; 2] {
         let part = |b: &Branch| {
-            (b.length * rate.abs())
-                .min(4.0 * length / b.length)
-                .min(1.0)
+            let own = b.length * rate.abs();
+            own.min(4.0 * length / b.length).min(1.0)
         };
         let moduli: f64 = self.branches.iter().map(|b| b.modulus * part(b)).sum();
         [self.stiffness(length), self.damping(rate)[1] + moduli]
@@ -211,10 +210,8 @@ impl Foundation {
     pub(super) fn release(&self, displacement: f64, stresses: &[f64]) -> Recovery {
         let amplitude = |mode: &Mode| {
             let pulls = self.branches.iter().zip(stresses);
-            let branches: f64 = pulls
-                .map(|(b, e)| e * (b.length / (mode.length - b.length)))
-                .sum();
-            mode.compliance * (branches - self.spring * displacement)
+            let pulls = pulls.map(|(b, e)| e * (b.length / (mode.length - b.length)));
+            mode.compliance * (pulls.sum::<f64>() - self.spring * displacement)
         };
         Recovery {
             displacement,
@@ -227,24 +224,20 @@ impl Foundation {
     pub(super) fn free_displacement(&self, recovery: &Recovery, distance: f64) -> f64 {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
-        let recovered: f64 = modes
-            .map(|(mode, beta)| -beta * (-xi / mode.length).exp_m1())
-            .sum();
-        recovery.displacement + recovered
+        let recovered = modes.map(|(mode, beta)| -beta * (-xi / mode.length).exp_m1());
+        recovery.displacement + recovered.sum::<f64>()
     }
 
     /// Stresses in the branches of a free surface, a distance after where it is now.
     pub(super) fn free_stresses(&self, recovery: &Recovery, distance: f64) -> Vec<f64> {
         let xi = recovery.distance + distance;
         let modes = self.modes.iter().zip(&recovery.amplitudes);
-        let left: Vec<(f64, f64)> = modes
-            .map(|(mode, beta)| (mode.length, beta * (-xi / mode.length).exp()))
-            .collect();
+        let left = modes.map(|(mode, beta)| (mode.length, beta * (-xi / mode.length).exp()));
+        let left: Vec<(f64, f64)> = left.collect();
         let stress = |branch: &Branch| {
-            let parts = left
-                .iter()
-                .map(|(length, beta)| beta * (branch.length / (length - branch.length)));
-            branch.modulus * parts.sum::<f64>()
+            let part =
+                |(length, beta): &(f64, f64)| beta * (branch.length / (length - branch.length));
+            branch.modulus * left.iter().map(part).sum::<f64>()
         };
         self.branches.iter().map(stress).collect()
     }
@@ -268,10 +261,8 @@ impl Passage {
     /// Load potential w at −1 ≤ t ≤ 1.
     pub(super) fn potential(&self, t: f64) -> f64 {
         let layers = self.layers.iter();
-        let decaying: f64 = layers
-            .map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp())
-            .sum();
-        value(&self.smooth[..self.n_terms], t) + decaying
+        let decaying = layers.map(|layer| layer.amplitude * (-layer.ratio * (1.0 + t)).exp());
+        value(&self.smooth[..self.n_terms], t) + decaying.sum::<f64>()
     }
 }
 

@@ -74,19 +74,14 @@ pub(super) fn derivative<const N: usize>(coefficients: &[f64; N]) -> [f64; N] {
 
 /// ∫ p(t)² dt over [−1, 1].
 pub(super) fn square_integral(coefficients: &[f64]) -> f64 {
-    let squares = coefficients
-        .iter()
-        .enumerate()
-        .map(|(k, c)| c * c / (k as f64 + 0.5));
-    squares.sum()
+    let terms = coefficients.iter().enumerate();
+    terms.map(|(k, c)| c * c / (k as f64 + 0.5)).sum()
 }
 
 /// p(−1).
 pub(super) fn start_value(coefficients: &[f64]) -> f64 {
-    let signed = coefficients
-        .iter()
-        .enumerate()
-        .map(|(k, c)| if k % 2 == 0 { *c } else { -c });
+    let terms = coefficients.iter().enumerate();
+    let signed = terms.map(|(k, c)| if k % 2 == 0 { *c } else { -c });
     signed.sum()
 }
 

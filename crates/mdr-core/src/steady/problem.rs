@@ -174,6 +174,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         let [load_error, work_error] = errors.map(|error| SAFETY * error);
         // A larger force at the same depth is a smaller depth at the same force, which moves the friction again.
         let friction_error = depth * (work_error / load) + 2.0 * friction * (load_error / load);
+        let friction_error = friction_error.abs() + ROUNDING * friction.abs();
         // The force grows with the depth at least in proportion.
         let relative_error = load_error / load + ROUNDING;
         let [depth_error, force_error] = match control {
@@ -182,10 +183,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         };
         let estimate = |value, error| Estimate { value, error };
         Ok(SteadySliding {
-            friction_coefficient: estimate(
-                friction,
-                friction_error.abs() + ROUNDING * friction.abs(),
-            ),
+            friction_coefficient: estimate(friction, friction_error),
             indentation_depth: estimate(depth, depth_error),
             normal_force: estimate(force, force_error),
             ends: ends.map(|end| estimate(end, 0.0)),

@@ -127,10 +127,8 @@ impl Piece {
     /// Where the line turns inside the piece.
     fn turning_point(&self) -> Option<f64> {
         let (terms, degree) = (self.terms(), self.segment.degree);
-        let monotone: f64 = (2..=degree)
-            .map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs())
-            .sum();
-        if terms[1].abs() >= monotone {
+        let bound = (2..=degree).map(|k| (k * (k + 1) / 2) as f64 * terms[k].abs());
+        if terms[1].abs() >= bound.sum::<f64>() {
             return None;
         }
         let slopes = derivative(terms);
@@ -155,16 +153,12 @@ impl Piece {
 
     /// Drops the terms that are rounding.
     fn trim(&mut self) {
-        let Segment {
-            displacements,
-            degree,
-            ..
-        } = &mut self.segment;
-        let largest = displacements.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        let noise = 2.0 * f64::EPSILON * largest;
-        while *degree > 0 && displacements[*degree].abs() <= noise {
-            displacements[*degree] = 0.0;
-            *degree -= 1;
+        let segment = &mut self.segment;
+        let sizes = segment.displacements.iter().map(|c| c.abs());
+        let noise = 2.0 * f64::EPSILON * sizes.fold(0.0, f64::max);
+        while segment.degree > 0 && segment.displacements[segment.degree].abs() <= noise {
+            segment.displacements[segment.degree] = 0.0;
+            segment.degree -= 1;
         }
     }
 }

@@ -172,11 +172,8 @@ impl March<'_> {
 
     /// A spring that is touched or let go is not strained; rounding must not count as friction.
     fn strain(&self, displacement: f64) -> f64 {
-        if self.foundation.is_elastic() {
-            0.0
-        } else {
-            displacement
-        }
+        let is_elastic = self.foundation.is_elastic();
+        if is_elastic { 0.0 } else { displacement }
     }
 
     /// Counts a touch that comes too late by a compression, because positions are rounded, as an error; a dashpot does not
@@ -265,9 +262,8 @@ fn release(passage: &Passage, may_jump: bool) -> Option<f64> {
 fn layer_samples(passage: &Passage) -> Vec<f64> {
     let first = samples().next().unwrap_or(1.0);
     let thin = passage.layers.iter().rev().map(|layer| layer.ratio.recip());
-    let mut widths: Vec<f64> = thin
-        .filter(|width| *width > THINNEST && width - 1.0 < first)
-        .collect();
-    widths.sort_by(f64::total_cmp);
-    widths.into_iter().map(|width| width - 1.0).collect()
+    let thin = thin.filter(|width| *width > THINNEST && width - 1.0 < first);
+    let mut samples: Vec<f64> = thin.map(|width| width - 1.0).collect();
+    samples.sort_by(f64::total_cmp);
+    samples
 }

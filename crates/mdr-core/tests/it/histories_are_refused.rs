@@ -22,19 +22,14 @@ fn wrong_histories_are_refused() {
     let depths = |points: &[[f64; 2]]| history(points.iter().copied(), IndentationDepth);
     let forces = |points: &[[f64; 2]]| history(points.iter().copied(), NormalForce);
     let mixed = [depths(&[[0.0; 2]]), forces(&[[1.0; 2]])].concat();
+    let (back, jump) = ([[1.0, 0.0], [0.5, 1e-3]], [[0.0, 1e-3], [1.0, 1e-3]]);
     for (history, parameter) in [
-        (
-            depths(&[[1.0, 0.0], [0.5, 1e-3]]),
-            "time between two points",
-        ),
+        (depths(&back), "time between two points"),
         (depths(&[[f64::NAN, 0.0]]), "time"),
         (depths(&[[0.0, f64::INFINITY]]), "indentation_depth"),
         (forces(&[[0.0, -1.0]]), "normal_force"),
         (mixed, "control"),
-        (
-            depths(&[[0.0, 1e-3], [1.0, 1e-3]]),
-            "time between two depths",
-        ),
+        (depths(&jump), "time between two depths"),
     ] {
         assert_matches!(
             follow(&*body("cone"), "kelvin-voigt", &history),

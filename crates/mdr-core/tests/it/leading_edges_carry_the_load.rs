@@ -30,9 +30,8 @@ fn friction_and_ends_of_the_cubic_agree_with_the_casebook() {
     let n = 200.0;
     for case in cubic_cases(false) {
         let line = case.cubic(1.0);
-        let row = slide_to(&line, depth_of(&case), 1.0 / n, 1e-11)
-            .expect("a state")
-            .last;
+        let state = slide_to(&line, depth_of(&case), 1.0 / n, 1e-11);
+        let row = state.expect("a state").last;
         case.check_within("mu", row.friction_coefficient, n.powi(-2));
         let intervals = case.expected_list("intervals").expect("intervals");
         let lengths: f64 = intervals.chunks(2).map(|ends| ends[1] - ends[0]).sum();
@@ -107,15 +106,13 @@ fn discrete_friction(line: &SampledLine, depth: f64) -> (usize, f64) {
 #[test]
 fn casebook_discrete_line_is_in_balance() {
     let cases = casebook::group("FRI-03");
-    let case = cases
-        .iter()
-        .find(|case| case.id().ends_with("discrete/steady"));
+    let mut cases = cases.iter();
+    let case = cases.find(|case| case.id().ends_with("discrete/steady"));
     let case = case.expect("the discrete row");
     let (depth, spacing) = (case.input("D"), case.input("dx"));
     let line = table(case.input_list("h"), spacing);
-    let row = slide_to(&line, depth, spacing, 1e-12)
-        .expect("a state")
-        .last;
+    let state = slide_to(&line, depth, spacing, 1e-12);
+    let row = state.expect("a state").last;
     case.check("sum_increments", row.indentation_depth);
     let increments = case.expected_list("increments").expect("increments");
     let loaded = increments.iter().filter(|one| **one > 0.0).count();

@@ -95,9 +95,8 @@ fn contact_reaches_the_last_element() {
 fn the_lowest_point_of_a_smooth_line_is_found() {
     let parabola = endless(|x| 2.5 + 10.0 * (x - 0.377) * (x - 0.377));
     // D = 0.1, x_d = 0.1, n = 20: the mean slope gives (4/3) (D/x_d) (1 - 1/(4 n^2)) when an element is at the apex.
-    let row = slide_to(&parabola, DEPTH, 0.005, 1e-11)
-        .expect("a state")
-        .last;
+    let state = slide_to(&parabola, DEPTH, 0.005, 1e-11);
+    let row = state.expect("a state").last;
     let expected = 4.0 / 3.0 * (1.0 - 1.0 / 1600.0);
     // The lowest point of a smooth line is known to the square root of rounding, half of the digits.
     assert_close([row.friction_coefficient, expected], 1e-7, 0.0, &row);

@@ -131,9 +131,8 @@ impl Problem<'_> {
             return vec![(shortest * longest).sqrt()];
         }
         let log_ratio = (longest / shortest).ln() / (n_branches - 1) as f64;
-        (0..n_branches)
-            .map(|k| shortest * (log_ratio * k as f64).exp())
-            .collect()
+        let time = |k| shortest * (log_ratio * k as f64).exp();
+        (0..n_branches).map(time).collect()
     }
 
     /// The best moduli at given times; `smoothing` weighs their second differences.
@@ -151,9 +150,8 @@ impl Problem<'_> {
         if smoothing > 0.0 && n_branches > 2 {
             let differences = second_differences(&matrix.columns(0, n_branches)) * smoothing;
             matrix = matrix.resize_vertically(n_rows + n_branches - 2, 0.0);
-            matrix
-                .view_mut((n_rows, 0), differences.shape())
-                .copy_from(&differences);
+            let mut below = matrix.view_mut((n_rows, 0), differences.shape());
+            below.copy_from(&differences);
             target = target.resize_vertically(matrix.nrows(), 0.0);
         }
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();

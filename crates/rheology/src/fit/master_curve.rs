@@ -127,9 +127,8 @@ fn shift_onto(fixed: &Isotherm, moving: &Isotherm) -> Result<f64, RheologyError>
     let mismatch = |shift: f64| mean_square(&fixed_line, &moving_line, shift);
     let step = (highest - lowest) / f64::from(N_TRIALS);
     let trials = (1..N_TRIALS).map(|k| lowest + step * f64::from(k));
-    let best = trials
-        .filter_map(|shift| Some((shift, mismatch(shift)?)))
-        .min_by(|a, b| a.1.total_cmp(&b.1));
+    let tried = trials.filter_map(|shift| Some((shift, mismatch(shift)?)));
+    let best = tried.min_by(|a, b| a.1.total_cmp(&b.1));
     let Some((coarse, _)) = best.filter(|(_, best)| *best <= FAR * FAR) else {
         return Err(RheologyError::NoOverlap {
             first: fixed.temperature,
@@ -150,10 +149,8 @@ impl Line {
         let points = isotherm.points.iter();
         let logs = points.map(|point| [point.angular_frequency, point.storage].map(f64::log10));
         // A modulus of zero has no logarithm.
-        Self(
-            logs.filter(|point| point.iter().all(|x| x.is_finite()))
-                .collect(),
-        )
+        let logs = logs.filter(|point| point.iter().all(|x| x.is_finite()));
+        Self(logs.collect())
     }
 
     fn ends(&self) -> [f64; 2] {

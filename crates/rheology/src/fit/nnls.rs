@@ -55,9 +55,8 @@ struct ActiveSet {
 impl ActiveSet {
     /// The unknown at zero whose growth lowers the residual most.
     fn steepest(&self, refused: &[usize], tolerance: f64) -> Option<usize> {
-        let gradients = self
-            .matrix
-            .tr_mul(&(&self.target - &self.matrix * &self.solution));
+        let residuals = &self.target - &self.matrix * &self.solution;
+        let gradients = self.matrix.tr_mul(&residuals);
         let best = (0..gradients.len())
             .filter(|index| !self.passive.contains(index) && !refused.contains(index))
             .max_by(|&a, &b| gradients[a].total_cmp(&gradients[b]))?;

@@ -40,11 +40,8 @@ impl Series {
     fn logarithms(&self) -> Vec<f64> {
         let branches = self.branches.iter();
         let branches = branches.flat_map(|branch| [branch.modulus, branch.relaxation_time]);
-        self.spring
-            .into_iter()
-            .chain(branches)
-            .map(f64::ln)
-            .collect()
+        let parameters = self.spring.into_iter().chain(branches);
+        parameters.map(f64::ln).collect()
     }
 
     /// A series of the same form.

@@ -49,13 +49,9 @@ impl FractionalMaxwell {
     /// [`RheologyError::InvalidParameter`] when the frequency is not finite or below zero.
     pub fn complex_modulus(&self, angular_frequency: f64) -> Result<ComplexModulus, RheologyError> {
         let omega = not_negative("angular_frequency", angular_frequency)?;
-        let FractionalMaxwellParameters {
-            shear_modulus,
-            relaxation_time,
-            exponent,
-        } = self.parameters;
-        let (sine, cosine) = (0.5 * PI * exponent).sin_cos();
-        let magnitude = (omega * relaxation_time).powf(exponent);
+        let given = self.parameters;
+        let (sine, cosine) = (0.5 * PI * given.exponent).sin_cos();
+        let magnitude = (omega * given.relaxation_time).powf(given.exponent);
         // z/(1 + z) with |z| ≤ 1, or 1/(1 + 1/z).
         let small = magnitude.min(magnitude.recip());
         let square = 1.0 + small * (2.0 * cosine + small);
@@ -65,8 +61,8 @@ impl FractionalMaxwell {
             1.0 + small * cosine
         };
         Ok(ComplexModulus {
-            storage: shear_modulus * real / square,
-            loss: shear_modulus * small * sine / square,
+            storage: given.shear_modulus * real / square,
+            loss: given.shear_modulus * small * sine / square,
         })
     }
 
@@ -95,15 +91,11 @@ impl FractionalMaxwell {
     }
 
     fn log_density(&self, log_rate: f64) -> f64 {
-        let FractionalMaxwellParameters {
-            shear_modulus,
-            relaxation_time,
-            exponent,
-        } = self.parameters;
+        let given = self.parameters;
         // r^a + r^(−a) + 2 cos(π a) without the cancellation at r = 1, a = 1.
-        let half = (0.5 * exponent * (log_rate + relaxation_time.ln())).sinh();
-        let cosine = (0.5 * PI * exponent).cos();
+        let half = (0.5 * given.exponent * (log_rate + given.relaxation_time.ln())).sinh();
+        let cosine = (0.5 * PI * given.exponent).cos();
         let denominator = 4.0 * (half * half + cosine * cosine);
-        (shear_modulus * (PI * exponent).sin() / PI / denominator).ln()
+        (given.shear_modulus * (PI * given.exponent).sin() / PI / denominator).ln()
     }
 }

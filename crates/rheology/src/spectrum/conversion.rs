@@ -65,8 +65,7 @@ impl CreepSpectrum {
 /// The poles of a spectrum; `at_zero` is the weight of the one at zero, if there is one.
 fn poles(at_zero: f64, decays: impl Iterator<Item = (f64, f64)>) -> Vec<Pole> {
     let lone = (at_zero > 0.0).then_some((0.0, at_zero));
-    lone.into_iter()
-        .chain(decays)
-        .map(|(position, weight)| Pole { position, weight })
-        .collect()
+    let poles = lone.into_iter().chain(decays);
+    let poles = poles.map(|(position, weight)| Pole { position, weight });
+    poles.collect()
 }

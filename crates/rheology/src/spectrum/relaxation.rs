@@ -174,11 +174,8 @@ impl RelaxationSpectrum {
             let viscous = over_branches(|[in_phase, _]| 1.0 - in_phase);
             return (self.viscosity + viscous) / (self.equilibrium_modulus / omega + per_omega);
         }
-        if self.equilibrium_modulus > 0.0 {
-            0.0
-        } else {
-            f64::INFINITY
-        }
+        let is_solid = self.equilibrium_modulus > 0.0;
+        if is_solid { 0.0 } else { f64::INFINITY }
     }
 
     /// Both materials side by side, under the same strain.

@@ -42,9 +42,8 @@ fn smallest_gap(material: &RelaxationSpectrum) -> f64 {
     let creep = material.to_creep().unwrap();
     let retardation = creep.elements().iter().map(|e| e.retardation_time);
     let lists: [Vec<f64>; 2] = [relaxation.collect(), retardation.collect()];
-    let gaps = lists
-        .iter()
-        .flat_map(|times| times.windows(2).map(|pair| pair[1] / pair[0] - 1.0));
+    let pairs = lists.iter().flat_map(|times| times.windows(2));
+    let gaps = pairs.map(|pair| pair[1] / pair[0] - 1.0);
     gaps.fold(1.0, f64::min)
 }
 
@@ -53,12 +52,9 @@ fn scaled(material: &RelaxationSpectrum, modulus: f64, time: f64) -> RelaxationS
         modulus: b.modulus * modulus,
         relaxation_time: b.relaxation_time * time,
     });
-    RelaxationSpectrum::new(
-        material.equilibrium_modulus() * modulus,
-        material.viscosity() * modulus * time,
-        branches.collect(),
-    )
-    .unwrap()
+    let spring = material.equilibrium_modulus() * modulus;
+    let dashpot = material.viscosity() * modulus * time;
+    RelaxationSpectrum::new(spring, dashpot, branches.collect()).unwrap()
 }
 
 proptest! {

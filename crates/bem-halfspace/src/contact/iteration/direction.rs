@@ -1,7 +1,6 @@
 //! Directions of the conjugate gradients.
 
 use crate::contact::Control;
-use crate::contact::fields::{Fields, Listed};
 use crate::contact::iteration::Iteration;
 use crate::reductions::sum;
 
@@ -32,25 +31,17 @@ impl Iteration<'_> {
     }
 
     fn find_direction(&mut self) {
-        let Fields {
-            preconditioner,
-            contact,
-            listed,
-            spread,
-            ..
-        } = &mut *self.fields;
-        let Listed {
-            residual,
-            direction,
-            image: preconditioned,
-            ..
-        } = listed;
+        let fields = &mut *self.fields;
+        let (contact, preconditioner) = (&fields.contact, &mut fields.preconditioner);
+        let (spread, listed) = (&mut fields.spread, &mut fields.listed);
+        let (direction, preconditioned) = (&mut listed.direction, &mut listed.image);
+        let residual = &listed.residual;
         if !self.improved {
             // The first direction on a contact is not conjugate to any before.
             preconditioner.prepare(contact, spread, [direction, preconditioned]);
         }
         preconditioner.apply(contact, (residual, spread), preconditioned);
-        let (residual, preconditioned) = (&*residual, &*preconditioned);
+        let preconditioned = &*preconditioned;
         let by_band = |band| {
             let [r, z] = [residual, preconditioned].map(|list| &list[contact.places(band)]);
             [
@@ -73,15 +64,14 @@ impl Iteration<'_> {
             0.0
         };
         let fields = [contact.field(spread), contact.list(direction)];
-        contact
-            .bands
-            .for_each_part(fields, |band, [spread, direction]| {
-                let values = &preconditioned[contact.places(band)];
-                for (direction, value) in direction.iter_mut().zip(values) {
-                    *direction = value - mean + conjugation * *direction;
-                }
-                contact.scatter_in(band, direction, spread);
-            });
+        let bands = contact.bands;
+        bands.for_each_part(fields, |band, [spread, direction]| {
+            let values = &preconditioned[contact.places(band)];
+            for (direction, value) in direction.iter_mut().zip(values) {
+                *direction = value - mean + conjugation * *direction;
+            }
+            contact.scatter_in(band, direction, spread);
+        });
         self.previous_product = product;
     }
 }

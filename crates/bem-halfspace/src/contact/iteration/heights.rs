@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::contact::Control;
 use crate::contact::active_set::ActiveSet;
 use crate::contact::iteration::Iteration;
-use crate::reductions::{add, larger, largest, lower, reduce, sum};
+use crate::reductions::{add, larger, lower, reduce, sum};
 
 /// Heights of the deformed surface.
 #[derive(Debug, Clone, Copy, Default)]
@@ -190,12 +190,12 @@ impl Violations {
         // Zero where all numbers are finite, else NaN; the extremes do not matter then.
         let spoiled = sum([residual], |[residual]| 0.0 * residual);
         let lowest_load = reduce([load], 0.0, |[load]| load, lower);
-        let largest_load = largest([load], 0.0, |[load]| load);
+        let own = own_influence * reduce([load], 0.0, |[load]| load, larger);
         Self {
-            gap: spoiled + largest([residual], 0.0, |[residual]| residual.abs()),
+            gap: spoiled + reduce([residual], 0.0, |[residual]| residual.abs(), larger),
             tension: -own_influence * lowest_load,
             penetration: 0.0,
-            deflection: largest([displacement], own_influence * largest_load, |[own]| own),
+            deflection: reduce([displacement], own, |[displaced]| displaced, larger),
         }
     }
 }

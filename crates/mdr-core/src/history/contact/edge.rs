@@ -21,14 +21,12 @@ pub(super) struct Edge {
 impl Contact<'_> {
     /// Refuses a tension half way between the beginning of a ring of elements touched again and the edge in it.
     pub(super) fn check_load(&self, at: Instant) -> Result<(), MdrError> {
-        let ring = self
-            .rings
-            .last()
-            .filter(|ring| ring.motion == Motion::Again);
-        let middle = ring.map(|ring| self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at));
-        let pulls =
-            |stresses: Vec<f64>| self.path.load(&stresses, at) < -WRONG_SIGN * self.path.scale(at);
-        if middle.is_some_and(pulls) {
+        let last = self.rings.last();
+        let pulls = |ring: &Leg| {
+            let stresses = self.stresses_in(ring, 0.5 * (ring.inner + ring.outer), at);
+            self.path.load(&stresses, at) < -WRONG_SIGN * self.path.scale(at)
+        };
+        if last.is_some_and(|ring| ring.motion == Motion::Again && pulls(ring)) {
             return Err(MdrError::NotADisc {
                 time: self.path.time(at),
             });

@@ -32,9 +32,8 @@ impl Contact<'_> {
         held(&mut sums, ring.inner, &lag);
         self.edge_modulus = Some(self.path.modulus(&lag));
         let around = self.ring_sums(&ring, at);
-        sums.iter_mut()
-            .zip(around)
-            .for_each(|(sum, around)| *sum += around);
+        let pairs = sums.iter_mut().zip(around);
+        pairs.for_each(|(sum, around)| *sum += around);
         sums
     }
 
@@ -65,24 +64,19 @@ impl Contact<'_> {
         let mut sums = vec![0.0; self.path.n_branches()];
         let tolerance = PANEL * self.path.scale(at) * ring.outer;
         let whole = |ends: [f64; 2]| (ends, self.panel(ring, ends, at), 0);
-        let mut open: Vec<([f64; 2], Vec<f64>, u32)> = radii
-            .windows(2)
-            .map(|ends| whole([ends[0], ends[1]]))
-            .collect();
+        let panels = radii.windows(2).map(|ends| whole([ends[0], ends[1]]));
+        let mut open: Vec<([f64; 2], Vec<f64>, u32)> = panels.collect();
         while let Some((ends, whole, divisions)) = open.pop() {
             let middle = 0.5 * (ends[0] + ends[1]);
             let halves = [[ends[0], middle], [middle, ends[1]]];
             let parts = halves.map(|ends| self.panel(ring, ends, at));
-            let fine = parts[0]
-                .iter()
-                .zip(&parts[1])
-                .map(|(one, other)| one + other);
+            let pairs = parts[0].iter().zip(&parts[1]);
+            let fine = pairs.map(|(one, other)| one + other);
             let change: f64 = fine.clone().zip(&whole).map(|(a, b)| (a - b).abs()).sum();
             if change <= tolerance || divisions == MAX_DIVISIONS {
                 self.quadrature_error += change;
-                sums.iter_mut()
-                    .zip(fine)
-                    .for_each(|(sum, part)| *sum += part);
+                let pairs = sums.iter_mut().zip(fine);
+                pairs.for_each(|(sum, part)| *sum += part);
             } else {
                 let divided = halves.into_iter().zip(parts);
                 open.extend(divided.map(|(ends, part)| (ends, part, divisions + 1)));
