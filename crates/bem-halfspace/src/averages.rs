@@ -48,6 +48,9 @@ pub struct Refinement {
     pub spacing: f64,
     /// Friction coefficient.
     pub friction_coefficient: Average,
+    /// Friction coefficient [from dissipation](crate::steady::SteadySliding::friction_from_dissipation), with what the
+    /// elements are too long for as a part of the scatter.
+    pub friction_from_dissipation: Average,
     /// Normal force, \[N].
     pub normal_force: Average,
     /// Depth after the sliding distance of the load, or the

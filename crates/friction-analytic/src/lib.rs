@@ -9,7 +9,8 @@
 //!   its [pressure](indentation_pressure), and the force of a [ramp of the depth](ramp_force) on any material.
 //! - Other materials: cone and paraboloid on a [Kelvin–Voigt](kelvin_voigt_sliding) and a [Maxwell](maxwell_sliding)
 //!   foundation, a [wavy line](wavy_sliding) in full contact on any; for any solid the friction at
-//!   [low](low_speed_friction) and [high](high_speed_friction) speed.
+//!   [low](low_speed_friction) and [high](high_speed_friction) speed, on the half space at low speed to
+//!   [second order](slow_sliding) with an error bar.
 //! - In plane strain: a [cylinder](cylinder_sliding) on a three-element or Kelvin–Voigt solid (Hunter 1961).
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
@@ -52,6 +53,7 @@ mod power;
 mod ramp;
 mod scaling;
 mod sinking;
+mod slow_sliding;
 mod stationary;
 mod superposition;
 mod transient;
@@ -77,6 +79,7 @@ pub use power::power_sliding;
 pub use ramp::{DepthRamp, ramp_force};
 pub use scaling::{half_space_power_friction, scaling_factor};
 pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
+pub use slow_sliding::{SlowSliding, slow_sliding};
 pub use stationary::{StationarySliding, stationary_depth};
 pub use superposition::superposition_sliding;
 pub use transient::{

@@ -315,6 +315,24 @@ impl Mesh {
         sum / normal
     }
 
+    /// Mean of half the difference of the gaps ahead and behind, weighted with the load.
+    pub(super) fn opening(&self, loads: &[f64], gaps: &[f64]) -> f64 {
+        let gap = |row: usize, column: usize| {
+            let beside = self.in_row(row, column..=column).next();
+            beside
+                .filter(|one| loads[*one] <= 0.0)
+                .map_or(0.0, |one| gaps[one])
+        };
+        let (mut sum, mut normal) = (0.0, 0.0);
+        for (index, load) in loads.iter().enumerate().filter(|(_, load)| **load > 0.0) {
+            let Element { row, column, .. } = self.elements[index];
+            let weighted = self.weight(index) * load;
+            sum += 0.5 * weighted * (gap(row + 1, column) - gap(row.wrapping_sub(1), column));
+            normal += weighted;
+        }
+        sum / normal
+    }
+
     /// Row, column and load of every loaded element of the whole.
     pub(super) fn loaded(&self, loads: &[(usize, f64)]) -> Vec<([usize; 2], f64)> {
         let with_image = |&(element, load): &(usize, f64)| {

@@ -44,6 +44,8 @@ pub(super) struct Solution {
     pub(super) factorised: bool,
     /// Largest residual |h + u − d| in the contact, in units of the depth scale.
     pub(super) residual: f64,
+    /// Mean under the load of what the gaps beside the contact add to the slope, in elements and units of the depth scale.
+    pub(super) opening: f64,
 }
 
 /// Solves the complementarity problem from a first guess of the elements in contact and their loads.
@@ -66,7 +68,8 @@ pub(super) fn solve(
         (residual, made) = (sizes.fold(state.residual, f64::max), iterations);
         if state.violations.is_empty() {
             if residual <= target {
-                return Ok(search.finish(residual, iterations));
+                let opening = mesh.opening(&search.loads, &state.gaps);
+                return Ok(search.finish(residual, iterations, opening));
             }
             // Only the residual is left to improve; far below the target that is hopeless.
             if search.tolerance < HOPELESS * target {
@@ -286,7 +289,7 @@ impl<'mesh> Search<'mesh> {
         }
     }
 
-    fn finish(self, residual: f64, iterations: usize) -> Solution {
+    fn finish(self, residual: f64, iterations: usize, opening: f64) -> Solution {
         let loads = self
             .loads
             .into_iter()
@@ -298,6 +301,7 @@ impl<'mesh> Search<'mesh> {
             iterations,
             factorised: self.factorised,
             residual,
+            opening,
         }
     }
 }

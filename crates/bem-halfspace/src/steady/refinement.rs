@@ -21,7 +21,7 @@ use crate::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::steady::{Reuse, SteadyOptions, solve};
 
 /// Shifts of the grid along x and y that keep the mirror symmetry in y; the first of them along x only.
-const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+const PHASES: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.5], [0.5, 0.0], [0.0, 0.5]];
 /// Shifts in plane strain. The means over the first two and over the last two differ by the second harmonic of how the
 /// friction varies with the shift, which all four average out.
 const PHASES_OF_STRIP: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.0], [0.25, 0.0], [-0.25, 0.0]];
@@ -190,8 +190,22 @@ impl Grids<'_> {
         self.progress.expect(work_of(index + 1..index + 1 + ahead));
     }
 
-    /// On a dashpot the scatter falls as fast as the rest of the error.
+    /// Of the pressure under the slopes or of the dissipated power, whichever is known better.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
+        let of_slopes = self.friction_of_slopes(refinements);
+        if self.problem.loading.creep.only_flows() {
+            return of_slopes;
+        }
+        let dissipated = limit(refinements, self.order, |r| r.friction_from_dissipation);
+        if dissipated.error < of_slopes.error {
+            dissipated
+        } else {
+            of_slopes
+        }
+    }
+
+    /// On a dashpot the scatter falls as fast as the rest of the error.
+    fn friction_of_slopes(&self, refinements: &[Refinement]) -> Estimate {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let counted = match strip {
             _ if creep.only_flows() => 0,
@@ -323,12 +337,22 @@ impl Grids<'_> {
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
+        let dissipated = Average::of_halves(&states, |state| state.friction_from_dissipation);
+        let unresolved = states.iter().map(|state| {
+            let [rear, front] = state.contact_x;
+            self.problem
+                .loading
+                .creep
+                .unresolved(spacing[0], 0.5 * (front - rear))
+        });
+        let unresolved = unresolved.fold(0.0, f64::max);
         let averages = Refinement {
-            spacing: spacings.sum::<f64>() / states.len() as f64,
-            friction_coefficient: match self.problem.loading.strip {
-                Some(_) => Average::of_halves(&states, |state| state.friction_coefficient),
-                None => average(&|state| state.friction_coefficient),
+            friction_from_dissipation: Average {
+                scatter: dissipated.scatter + unresolved * dissipated.value.abs(),
+                ..dissipated
             },
+            spacing: spacings.sum::<f64>() / states.len() as f64,
+            friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at(distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),

@@ -7,12 +7,15 @@
 //! u(ξ) = J₀ w(ξ) + (1/v) ∫_ξ^∞ J'((s − ξ)/v) w(s) ds
 //! ```
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, PI};
 
 use numerics::positive;
 use rheology::{CreepSpectrum, Material};
 
 use crate::BemError;
+
+/// Elements within the length in which a material forgets, from which on it is resolved.
+const RESOLVED: f64 = 4.0;
 
 /// A material at a sliding speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -127,6 +130,26 @@ impl SlidingCreep {
             flow: self.spectrum.fluidity() * time,
             delays: delays.collect::<Result<_, BemError>>()?,
         })
+    }
+
+    /// Part of the friction that elements of the length Δx may miss at a contact of half the length a: of a retardation element
+    /// that forgets within an element, slow friction falls by up to (4/π) λv/a of itself, because the rear of the contact
+    /// moves and its front stays.
+    pub(super) fn unresolved(&self, spacing: f64, half_length: f64) -> f64 {
+        let (mut sum, mut missed) = (0.0, 0.0);
+        for element in self.spectrum.elements() {
+            let length = self.velocity * element.retardation_time;
+            let ratio = length / half_length;
+            // Friction is greatest where both lengths are alike.
+            let friction = element.compliance * ratio.min(ratio.recip());
+            sum += friction;
+            missed += friction * ratio * (1.0 - length / (RESOLVED * spacing)).max(0.0);
+        }
+        if missed > 0.0 {
+            2.0 * FRAC_2_PI * missed / sum
+        } else {
+            0.0
+        }
     }
 
     /// −δ/π with the loss angle δ at the wave number π/Δx, the shortest of the grid: moving the point by that part of an

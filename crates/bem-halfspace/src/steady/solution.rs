@@ -22,6 +22,8 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
+    /// The friction coefficient from the displacements beside the contact too, as the dissipated power has it.
+    pub friction_from_dissipation: f64,
     /// Mean of |∂h/∂x| under the load: what the friction coefficient is the difference of, and its upper bound.
     pub mean_slope: f64,
     /// Normal force F_N, \[N].
@@ -116,6 +118,8 @@ impl SteadySliding {
         let total_load = mesh.total_load(solution.loads.iter().copied());
         Ok(Self {
             friction_coefficient: mesh.mean(&solution.loads, |slope| slope),
+            friction_from_dissipation: mesh.mean(&solution.loads, |slope| slope)
+                - solution.opening * mesh.loading.depth_scale / spacing[0],
             mean_slope: mesh.mean(&solution.loads, f64::abs),
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),

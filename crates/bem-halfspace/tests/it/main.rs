@@ -8,6 +8,7 @@ mod arbitrary_motions;
 mod bad_input;
 mod contacts;
 mod cylinders;
+mod ends_of_the_speed_range;
 mod error_bars;
 mod indentation_follows_lee_radok_and_ting;
 mod interrupted_marches;

@@ -239,7 +239,7 @@ paraboloid; prony; normal_force = 1.0, velocity = 1.0; method = "bem-transient",
 cylinder; solid; normal_force = 1.0, velocity = 0.01; relative_error = 1e-7 | give a larger solve.relative_error, or another solve.method
 paraboloid; viscous; normal_force = 1.0, velocity = 0.01; method = "mdr-transient", elements = 8, sliding_distance = 1e-9 | give fewer solve.elements, or a longer solve.sliding_distance
 paraboloid; maxwell; normal_force = 1.0, velocity = 0.05; method = "mdr-transient", relative_error = 1e-5, max_memory = "10 MB" | another solve.method; solve.max_memory: mdr-transient needs up to 11.9 MiB of memory for 256 elements along the contact, and max_memory allows 9.5 MiB
-cone; solid; normal_force = 1.0, velocity = 1.0; method = "bem-steady", relative_error = 2e-4, max_memory = "16 MB" | another solve.method; solve.max_memory: bem-steady needs up to 17.0 MiB of memory for 29 elements
+cone; solid; normal_force = 1.0, velocity = 1.0; method = "bem-steady", relative_error = 2e-5, max_memory = "16 MB" | another solve.method; solve.max_memory: bem-steady needs up to 17.0 MiB of memory for 29 elements
 "#;
 
 /// Contents of a file, the place in it that is named, and what is said.

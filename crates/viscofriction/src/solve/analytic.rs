@@ -3,13 +3,14 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use friction_analytic::{
-    FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
-    cylinder_half_width_after_impulse, half_space_power_friction, impulse_to_depth,
-    indentation_after_impulse, power_sliding, superposition_sliding, transient_sliding,
+    ElasticContact, FrictionError, SlidingContact, SlowSliding, StationarySliding,
+    ViscoelasticSliding, axisymmetric_sliding, cylinder_half_width_after_impulse,
+    half_space_power_friction, impulse_to_depth, indentation_after_impulse, power_sliding,
+    slow_sliding, superposition_sliding, transient_sliding,
 };
 use indenters::{Axisymmetric as _, Control, Cylinder, PowerProfile, SlidingLoad, contact_radius};
 use numerics::{Estimate, bracketed_root};
-use rheology::{Material, Viscous};
+use rheology::{Compressible, Elastic, Material, Viscous};
 
 use super::answer::{Answer, ContactBox, within};
 use super::body::Revolution;
@@ -109,6 +110,48 @@ pub(crate) fn viscous_half_space(
     Ok(Answer {
         friction_coefficient: Some(friction),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
+    })
+}
+
+/// A body that slides slowly over a solid half space, from its elastic contact; none where the terms that are left out are
+/// more than the part `asked` of the friction.
+pub(crate) fn slow_half_space(
+    body: &Revolution,
+    material: &dyn Material,
+    load: &SlidingLoad,
+    asked: f64,
+) -> Option<Answer> {
+    let modulus = material.relaxation().equilibrium_modulus();
+    let spring = Compressible::new(&Elastic::new(modulus).ok()?, material.poisson_ratio());
+    let elastic = pressed(body, &spring.ok()?, load.control(), 1.0).ok()?;
+    let [_, front] = elastic.contact_box.as_ref()?.x;
+    let contact = ElasticContact {
+        contact_radius: front,
+        velocity: load.velocity(),
+    };
+    let SlowSliding {
+        friction_coefficient,
+        elastic_error,
+        contact_area,
+        rear,
+        ..
+    } = slow_sliding(&**body, material, contact).ok()?;
+    let widened = |found: Estimate| match found.error {
+        0.0 => found,
+        error => within(found.value, elastic_error + error / found.value),
+    };
+    friction_coefficient.is_within(asked).then(|| Answer {
+        friction_coefficient: Some(friction_coefficient),
+        normal_force: widened(elastic.normal_force),
+        indentation_depth: elastic.indentation_depth.map(widened),
+        contact_area: Some(contact_area),
+        contact_box: Some(ContactBox::around(
+            [rear.value, front],
+            [-front, front],
+            rear.error,
+        )),
+        peak_pressure: None,
+        ..elastic
     })
 }
 

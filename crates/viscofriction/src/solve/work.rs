@@ -283,7 +283,13 @@ fn closed_half_space<'a>(
 ) -> Work<'a> {
     let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, &problem.simple)
     else {
-        return Err("on the half space the friction of powers on a viscous material is tabulated");
+        require(load.sliding_distance().is_none(), STATIONARY)?;
+        let slow = analytic::slow_half_space(body, &*problem.material, &load, asked);
+        let slow = slow.ok_or(
+            "on the half space the friction of powers on a viscous material is tabulated, and that of smooth bodies \
+             that slide slowly over a solid is known; this is faster, or neither",
+        )?;
+        return ready(move |_| Ok(slow));
     };
     let tabulated = scaling_factor(profile.exponent()).map(|s| s.error / s.value);
     require(

@@ -1,0 +1,149 @@
+//! Slow sliding over a solid half space, to second order in the speed.
+//!
+//! ```text
+//! F_h = E* v [m₁ ∫₀^a h̃'² dx − (2/3π) Λ v h̃'(a)² − (8/3π) n₂ v h̃'(0)²]        E* = 4 G_∞/(2 (1 − ν))
+//! m₁ = η_0/G_∞      n_k = Σ (G_i/G_∞) τ_i^k      Λ = m₁² + 2 n₂
+//! ```
+//!
+//! The load that an elastic half space would need for the same displacements, p* = Φ p with Φ = G_∞/G, looks ahead only:
+//! it ends at the front where p does, and inside the contact it is the elastic one. The first term is the friction of the
+//! pressure shifted by x_s = m₁ v. The second is what the rear edge loses, which moves by x_s while the front stays: near
+//! an edge p* = k √d, and by ln Φ = −m₁ s + Λ s²/2 + … the loss is (π/4) (Λ v²/E*) ∮ k² cos³θ ds over the front half. In
+//! plane strain the same term follows from Hunter's cylinder (1961). The third is that of the tip of a cone, from the
+//! spectrum of h = κ r.
+
+use std::f64::consts::{FRAC_1_PI, PI};
+
+use indenters::Axisymmetric;
+use numerics::{Estimate, in_range, positive};
+use rheology::Material;
+
+use crate::FrictionError;
+use crate::elastic_limit::{ElasticContact, ElasticLimitFriction, low_speed_friction};
+use crate::indentation::known_moment;
+
+/// A body of revolution that slides slowly over a solid half space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct SlowSliding {
+    /// Coefficient of friction, with what terms of higher order may be.
+    pub friction_coefficient: Estimate,
+    /// Normal force \[N] of the elastic contact.
+    pub normal_force: f64,
+    /// Relative difference that sliding makes at most to the force at a given depth, or to the depth under a given force.
+    pub elastic_error: f64,
+    /// Contact area, \[m²].
+    pub contact_area: Estimate,
+    /// Rear end of the contact relative to the lowest point, \[m]; the front and the sides stay at a.
+    pub rear: Estimate,
+}
+
+/// Terms of the third order relative to the first, over their scale Λ₃ v²/(m₁ a²) and over the square of the second order;
+/// and the next term of an apex between cone and paraboloid, over (Λ v/(m₁ a))^(2p − 1). Boundary elements find up to 0.19,
+/// 0.81 and 0.45.
+const THIRD: f64 = 0.3;
+const SQUARE: f64 = 1.0;
+const APEX: f64 = 0.6;
+/// The next terms of area and ends over Λ v² and Λ v²/a, and of the depth over Λ v² h̃'(a)/(a d). Boundary elements find
+/// up to 1.3, 1 and 0.13.
+const AREA: f64 = 2.5;
+const REAR: f64 = 2.0;
+const DEPTH: f64 = 0.25;
+
+/// A body that slides slowly over a solid half space, from the elastic contact of the same radius.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, and a body with kinks; and the errors of
+/// [`low_speed_friction`].
+pub fn slow_sliding(
+    body: &(impl Axisymmetric + ?Sized),
+    solid: &(impl Material + ?Sized),
+    contact: ElasticContact,
+) -> Result<SlowSliding, FrictionError> {
+    let exponent = body.profile_exponent();
+    in_range("apex exponent", exponent, exponent >= 1.0, "at least 1")?;
+    let n_kinks = body.kinks().len();
+    in_range("number of kinks", n_kinks as f64, n_kinks == 0, "0")?;
+    let first: ElasticLimitFriction = low_speed_friction(body, solid, contact)?;
+    let radius = contact.contact_radius;
+    let Moments {
+        shift,
+        second,
+        third,
+        branches,
+    } = Moments::of(solid, contact.velocity)?;
+    // Over F_N = 2 E* ∫ x h̃' dx.
+    let per_square = FRAC_1_PI / (3.0 * known_moment(body, radius)?);
+    let slope = body.line_slope(radius);
+    let of_rear = per_square * second * slope * slope;
+    let tip = if exponent > 1.0 {
+        0.0
+    } else {
+        body.line_slope(0.0)
+    };
+    let of_tip = 4.0 * per_square * branches * tip * tip;
+    let mu = first.half_space;
+    let small = second / (shift * radius);
+    let apex = if exponent > 1.0 && exponent < 2.0 {
+        APEX * small.powf(2.0 * exponent - 1.0)
+    } else {
+        0.0
+    };
+    let square = (of_rear / mu).powi(2);
+    let error = QUADRATURE + THIRD * third / (shift * radius * radius) + SQUARE * square + apex;
+    let steepness = slope * radius / body.line_height(radius);
+    Ok(SlowSliding {
+        friction_coefficient: Estimate {
+            value: mu - of_rear - of_tip,
+            error: error * mu,
+        },
+        normal_force: first.normal_force,
+        elastic_error: DEPTH * steepness * second / (radius * radius),
+        // The disc, less where the disc does not reach that is shifted by x_s.
+        contact_area: Estimate {
+            value: PI * radius * radius - 2.0 * radius * shift,
+            error: AREA * second,
+        },
+        rear: Estimate {
+            value: shift - radius,
+            error: REAR * second / radius,
+        },
+    })
+}
+
+/// Relative error of the integrals of the first term, at most.
+const QUADRATURE: f64 = 1e-10;
+
+/// What the surface remembers, as lengths and their powers.
+struct Moments {
+    /// x_s = m₁ v.
+    shift: f64,
+    /// Λ v² and Λ₃ v³, the sums of λ² − τ² and λ³ − τ³ over retardation and relaxation times.
+    second: f64,
+    third: f64,
+    /// n₂ v².
+    branches: f64,
+}
+
+impl Moments {
+    fn of(solid: &(impl Material + ?Sized), velocity: f64) -> Result<Self, FrictionError> {
+        let relaxation = solid.relaxation();
+        let modulus = positive("equilibrium_modulus", relaxation.equilibrium_modulus())?;
+        let moment = |power: i32| {
+            let branches = relaxation.branches().iter();
+            let lengths = branches.map(|branch| {
+                branch.modulus / modulus * (velocity * branch.relaxation_time).powi(power)
+            });
+            lengths.sum::<f64>()
+        };
+        let shift = relaxation.zero_shear_viscosity() / modulus * velocity;
+        let branches = moment(2);
+        Ok(Self {
+            shift,
+            second: shift * shift + 2.0 * branches,
+            third: 3.0 * moment(3) + 3.0 * shift * branches + shift.powi(3),
+            branches,
+        })
+    }
+}
