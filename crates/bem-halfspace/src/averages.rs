@@ -6,8 +6,7 @@
 pub struct Average {
     /// Mean.
     pub value: f64,
-    /// Standard deviation; of the friction coefficient in plane strain half the difference between the means over every
-    /// other shift.
+    /// Standard deviation; of friction half the difference between the means over two halves of the shifts.
     pub scatter: f64,
 }
 
@@ -48,9 +47,10 @@ pub struct Refinement {
     pub spacing: f64,
     /// Friction coefficient.
     pub friction_coefficient: Average,
-    /// Friction coefficient [from dissipation](crate::steady::SteadySliding::friction_from_dissipation), with what the
-    /// elements are too long for as a part of the scatter.
+    /// Friction coefficient [from dissipation](crate::steady::SteadySliding::friction_from_dissipation).
     pub friction_from_dissipation: Average,
+    /// Part of the friction that elements may miss because the surface forgets within them.
+    pub unresolved: f64,
     /// Normal force, \[N].
     pub normal_force: Average,
     /// Depth after the sliding distance of the load, or the

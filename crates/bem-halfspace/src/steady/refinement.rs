@@ -190,18 +190,18 @@ impl Grids<'_> {
         self.progress.expect(work_of(index + 1..index + 1 + ahead));
     }
 
-    /// Of the pressure under the slopes or of the dissipated power, whichever is known better.
+    /// Of the pressure under the slopes or of the dissipated power, whichever is known better, with what no grid shows.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
-        let of_slopes = self.friction_of_slopes(refinements);
-        if self.problem.loading.creep.only_flows() {
-            return of_slopes;
+        let mut friction = self.friction_of_slopes(refinements);
+        if !self.problem.loading.creep.only_flows() {
+            let dissipated = limit(refinements, self.order, |r| r.friction_from_dissipation);
+            if dissipated.error < friction.error {
+                friction = dissipated;
+            }
         }
-        let dissipated = limit(refinements, self.order, |r| r.friction_from_dissipation);
-        if dissipated.error < of_slopes.error {
-            dissipated
-        } else {
-            of_slopes
-        }
+        let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
+        friction.error += unresolved * friction.value.abs();
+        friction
     }
 
     /// On a dashpot the scatter falls as fast as the rest of the error.
@@ -337,22 +337,17 @@ impl Grids<'_> {
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
-        let dissipated = Average::of_halves(&states, |state| state.friction_from_dissipation);
-        let unresolved = states.iter().map(|state| {
-            let [rear, front] = state.contact_x;
-            self.problem
-                .loading
-                .creep
-                .unresolved(spacing[0], 0.5 * (front - rear))
-        });
-        let unresolved = unresolved.fold(0.0, f64::max);
+        let lengths = states
+            .iter()
+            .map(|state| state.contact_x[1] - state.contact_x[0]);
+        let half_length = 0.5 * lengths.fold(f64::INFINITY, f64::min);
         let averages = Refinement {
-            friction_from_dissipation: Average {
-                scatter: dissipated.scatter + unresolved * dissipated.value.abs(),
-                ..dissipated
-            },
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
+            friction_from_dissipation: Average::of_halves(&states, |state| {
+                state.friction_from_dissipation
+            }),
+            unresolved: (self.problem.loading.creep).unresolved(spacing[0], half_length),
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at(distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),

@@ -14,9 +14,6 @@ use rheology::{CreepSpectrum, Material};
 
 use crate::BemError;
 
-/// Elements within the length in which a material forgets, from which on it is resolved.
-const RESOLVED: f64 = 4.0;
-
 /// A material at a sliding speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlidingCreep {
@@ -133,8 +130,8 @@ impl SlidingCreep {
     }
 
     /// Part of the friction that elements of the length Δx may miss at a contact of half the length a: of a retardation element
-    /// that forgets within an element, slow friction falls by up to (4/π) λv/a of itself, because the rear of the contact
-    /// moves and its front stays.
+    /// that forgets within an element, slow friction falls by up to (4/π) λv/a of itself under a paraboloid, because the rear
+    /// of the contact moves and its front stays.
     pub(super) fn unresolved(&self, spacing: f64, half_length: f64) -> f64 {
         let (mut sum, mut missed) = (0.0, 0.0);
         for element in self.spectrum.elements() {
@@ -143,7 +140,7 @@ impl SlidingCreep {
             // Friction is greatest where both lengths are alike.
             let friction = element.compliance * ratio.min(ratio.recip());
             sum += friction;
-            missed += friction * ratio * (1.0 - length / (RESOLVED * spacing)).max(0.0);
+            missed += friction * ratio * (1.0 - length / spacing).max(0.0);
         }
         if missed > 0.0 {
             2.0 * FRAC_2_PI * missed / sum

@@ -93,3 +93,17 @@ fn the_ends_of_the_speed_range_are_reached_to_the_error_asked_for() {
         }
     }
 }
+
+/// Elements that are longer than the surface remembers do not see that the rear moves and the front stays.
+#[test]
+fn what_elements_are_too_long_for_is_in_the_bar() {
+    for exponent in [1.0, 2.0, 3.0] {
+        for memory in [1e-3, 3e-3, 1e-2] {
+            let (scene, contact) = scene(exponent, 0.1, memory);
+            let what = format!("h = 0.1 r^{exponent}, λv/a = {memory}");
+            let slow = slow_sliding(&scene.body, &scene.material, contact).expect("friction");
+            let found = scene.steady(1e-2).friction_coefficient;
+            assert_bars_agree(&what, found, slow.friction_coefficient);
+        }
+    }
+}
