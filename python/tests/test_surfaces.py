@@ -60,7 +60,14 @@ def xyz(heights: Any) -> bytes:
     return "\n".join(f"{x!r};{y!r};{float(z)!r}" for x, y, z in reversed(points) if np.isfinite(z)).encode()
 
 
+def asc(heights: Any) -> bytes:
+    head = f"ncols 25\nnrows 21\nxllcorner 0\nyllcorner 0\ndx {SPACING[0]!r}\ndy {SPACING[1]!r}\nNODATA_value -1\n"
+    rows = np.where(np.isnan(heights), -1, heights).T[::-1].tolist()
+    return (head + "\n".join(" ".join(map(repr, row)) for row in rows)).encode()
+
+
 FILES = {
+    "asc": asc(HEIGHTS),
     "gsf": gsf(HEIGHTS),
     "sur": sur(COUNTS),
     "SUR": sur(COUNTS, 16),
@@ -90,12 +97,13 @@ def test_every_format_is_the_same_surface(extension: str, expected: dict[str, An
     assert len(set(map(abs, expected["contact_box"].values()))) == 4
 
 
-@pytest.mark.parametrize("extension", ["gsf", "sur", "x3p", "xyz"])
+@pytest.mark.parametrize("extension", ["asc", "gsf", "sur", "x3p", "xyz"])
 def test_holes_are_refused_or_filled_with_the_mean_of_their_neighbours(extension: str, tmp_path: Path) -> None:
     known = np.ones(HEIGHTS.shape, bool)
     known[11, 7:9] = known[0, 0] = False
     holes = np.where(known, HEIGHTS, np.nan)
     contents = {
+        "asc": asc(holes),
         "gsf": gsf(holes),
         "sur": sur(np.where(known, COUNTS, -1)),
         "x3p": x3p(COUNTS.astype("<i2"), "I", known),
@@ -125,6 +133,8 @@ def test_a_tilt_is_taken_out_when_asked(tmp_path: Path) -> None:
 
 
 WRONG = [
+    ("asc", b"ncols 2\nnrows 2\ncellsize 1\n1 2 3", "3 heights for 2 × 2 points"),
+    ("asc", b"ncols 2\nnrows 2\n1 2 3 4", "no cellsize"),
     ("gsf", b"Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 3\n\0" + b"\0" * 8, "heights for"),
     ("gsf", b"nothing", "another beginning"),
     ("sur", FILES["sur"][:900], "bytes for"),

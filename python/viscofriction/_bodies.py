@@ -174,8 +174,8 @@ class Superposition(Body):
 class HeightMapFile(Body):
     """A measured surface from a file, whose highest points touch first; it has its own units and spacing.
 
-    The extension says the format: gsf (Gwyddion Simple Field), sur (Digital Surf), x3p (ISO 25178-72), xyz (points of a
-    grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
+    The extension says the format: asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
+    (ISO 25178-72), xyz (points of a grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
     neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out.
     """
 

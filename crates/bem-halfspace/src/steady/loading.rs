@@ -178,12 +178,12 @@ pub(super) struct GridLoading {
 impl GridLoading {
     /// Normal force of the loads, \[N].
     pub(super) fn force_of(&self, total_load: f64) -> f64 {
-        PI * self.force_scale * (self.spacing[1] / self.spacing[0]) * total_load
+        self.force_scale * (PI * (self.spacing[1] / self.spacing[0]) * total_load)
     }
 
     /// Pressure of the unit load, \[Pa].
     pub(super) fn pressure_unit(&self) -> f64 {
-        PI * self.force_scale / self.spacing[0] / self.spacing[0]
+        PI * (self.force_scale / self.spacing[0] / self.spacing[0])
     }
 }
 

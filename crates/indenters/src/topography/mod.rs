@@ -3,6 +3,7 @@
 //! Heights point out of the body. Along x they follow one another as in the rows of the file, along y from the first row up,
 //! or from the last where the first is the upper one of a picture. Heights that were not measured are NaN until they are filled.
 
+mod asc;
 mod binary;
 mod x3p;
 mod xyz;
@@ -49,14 +50,15 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// The surface in the contents of a file with the extension gsf (Gwyddion Simple Field), sur (Digital Surf), x3p (ISO
-    /// 25178-72) or xyz (rows of x, y and z \[m]).
+    /// The surface in the contents of a file with the extension asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple
+    /// Field), sur (Digital Surf), x3p (ISO 25178-72) or xyz (rows of x, y and z \[m]).
     ///
     /// # Errors
     /// [`TopographyError::Format`] where the contents are not of that format.
     pub fn read(extension: &str, contents: &[u8]) -> Result<Self, TopographyError> {
         let extension = extension.to_ascii_lowercase();
         let found = match &extension[..] {
+            "asc" => asc::read(contents),
             "gsf" => binary::simple_field(contents),
             "sur" => binary::digital_surf(contents),
             "x3p" => x3p::read(contents),
@@ -64,11 +66,12 @@ impl Topography {
             other => Err(other.to_owned()),
         };
         let format = match &extension[..] {
+            "asc" => "an ASCII grid with ncols, nrows, cellsize and heights",
             "gsf" => "a Gwyddion Simple Field 1.0",
             "sur" => "a surface of Digital Surf that is not compressed",
             "x3p" => "a surface of ISO 25178-72 with equally spaced points",
             "xyz" => "x, y and z of points of a grid in each line",
-            _ => "one of the extensions gsf, sur, x3p, xyz",
+            _ => "one of the extensions asc, gsf, sur, x3p, xyz",
         };
         found.map_err(|found| TopographyError::Format { format, found })
     }

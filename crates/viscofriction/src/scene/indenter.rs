@@ -85,7 +85,7 @@ pub enum Indenter {
     HeightMap {
         /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column
         /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x. With the
-        /// extensions gsf, sur, x3p and xyz a measured surface, whose highest points touch first.
+        /// extensions asc, gsf, sur, x3p and xyz a measured surface, whose highest points touch first.
         file: PathBuf,
         /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own.
         #[serde(skip_serializing_if = "Option::is_none")]

@@ -210,7 +210,7 @@ fn map(
 /// The extension, where it is that of a measured surface.
 fn measured(file: &Path) -> Option<&str> {
     let extension = file.extension()?.to_str()?;
-    let mut known = ["gsf", "sur", "x3p", "xyz"].iter();
+    let mut known = ["asc", "gsf", "sur", "x3p", "xyz"].iter();
     let is_known = known.any(|known| known.eq_ignore_ascii_case(extension));
     is_known.then_some(extension)
 }
