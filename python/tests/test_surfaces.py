@@ -178,3 +178,10 @@ def test_a_topography_is_pressed_with_its_tops(expected: dict[str, Any]) -> None
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
     with pytest.raises(ValueError, match="missing"):
         vf.HeightMap.from_topography(Topography(np.ma.masked_greater(HEIGHTS, 2e-4)))
+
+
+def test_a_topography_of_the_real_package_is_the_same(expected: dict[str, Any]) -> None:
+    package = pytest.importorskip("SurfaceTopography")
+    sizes = tuple(1e6 * step * count for step, count in zip(SPACING, HEIGHTS.shape, strict=True))
+    found = pressed(vf.HeightMap.from_topography(package.Topography(1e6 * HEIGHTS, sizes, unit="µm")))
+    assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)

@@ -32,6 +32,9 @@ const SCATTERING: usize = 4;
 const FRONT_ORDER: f64 = 1.5;
 /// Order in which the area of the elements in contact approaches that of the contact.
 const AREA_ORDER: f64 = 1.0;
+/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
+/// lesser of two bars holds less often than either.
+const BETTER: f64 = 0.5;
 /// Refinements of which an error bar can come, at least.
 const FEWEST: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
@@ -190,12 +193,12 @@ impl Grids<'_> {
         self.progress.expect(work_of(index + 1..index + 1 + ahead));
     }
 
-    /// Of the pressure under the slopes or of the dissipated power, whichever is known better, with what no grid shows.
+    /// Of the pressure under the slopes, or of the dissipated power where that is known much better, with what no grid shows.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let mut friction = self.friction_of_slopes(refinements);
         if !self.problem.loading.creep.only_flows() {
             let dissipated = limit(refinements, self.order, |r| r.friction_from_dissipation);
-            if dissipated.error < friction.error {
+            if dissipated.error < BETTER * friction.error {
                 friction = dissipated;
             }
         }

@@ -80,7 +80,9 @@ fn curves<'a>(points: &'a [Point], exponent: f64, extent: &Extent) -> Vec<Curve<
 pub(super) fn friction(points: &[Point], extent: &Extent) -> Figure {
     let panel = |exponent: f64| {
         let of_profile = points.iter().filter(|(at, _)| same(at.exponent, exponent));
-        let lowest = of_profile.map(|(_, friction)| friction.half_space.min(friction.line));
+        let lowest = of_profile.map(|(_, friction)| {
+            (friction.half_space - friction.half_space_error).min(friction.line)
+        });
         let lowest = 10_f64.powf(lowest.fold(1.0, f64::min).log10().floor());
         let y = Axis::log10("friction μ / mean slope", [lowest, 10.0]);
         let mut series = Vec::new();
