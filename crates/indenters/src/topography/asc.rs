@@ -26,7 +26,7 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         .collect();
     let heights = heights?;
     if [columns, rows].iter().any(|count| count.fract() != 0.0)
-        || columns * rows != heights.len() as f64
+        || columns * rows - heights.len() as f64 != 0.0
     {
         let count = heights.len();
         return Err(format!("{count} heights for {columns} × {rows} points"));
