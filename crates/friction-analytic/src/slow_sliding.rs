@@ -54,8 +54,8 @@ const DEPTH: f64 = 0.25;
 /// A body that slides slowly over a solid half space, from the elastic contact of the same radius.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, and a body with kinks; and the errors of
-/// [`low_speed_friction`].
+/// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, a body with kinks, and an elastic solid;
+/// and the errors of [`low_speed_friction`].
 pub fn slow_sliding(
     body: &(impl Axisymmetric + ?Sized),
     solid: &(impl Material + ?Sized),
@@ -137,7 +137,12 @@ impl Moments {
             });
             lengths.sum::<f64>()
         };
+        // A spring remembers nothing, and there is no friction to expand.
         let shift = relaxation.zero_shear_viscosity() / modulus * velocity;
+        let shift = positive(
+            "zero_shear_viscosity × velocity / equilibrium_modulus",
+            shift,
+        )?;
         let branches = moment(2);
         Ok(Self {
             shift,
