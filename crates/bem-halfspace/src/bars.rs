@@ -2,9 +2,10 @@
 
 use indenters::{Control, Surface};
 use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
-use rheology::Material;
 
-use crate::BemError;
+use crate::{BemError, Elastomer};
+use rheology::Material as _;
+
 use crate::averages::Refinement;
 
 /// Slowest and fastest order in which friction is assumed to converge: smooth bodies are better than the first, which is
@@ -99,18 +100,18 @@ pub(crate) fn of_box(spacing: f64) -> f64 {
 }
 
 /// Whether a material has an instantaneous modulus. Without one the pressure is singular at the front.
-pub(crate) fn reacts_at_once(material: &(impl Material + ?Sized)) -> bool {
-    material.creep().instantaneous_compliance() > 0.0
+pub(crate) fn reacts_at_once(elastomer: &(impl Elastomer + ?Sized)) -> bool {
+    elastomer.material().creep().instantaneous_compliance() > 0.0
 }
 
 /// Whether the largest pressure is known to have a limit: under a smooth body of revolution on a material that reacts at
 /// once.
-pub(crate) fn peak_has_limit(surface: &dyn Surface, material: &(impl Material + ?Sized)) -> bool {
+pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &(impl Elastomer + ?Sized)) -> bool {
     let smooth = surface.as_axisymmetric().is_some_and(|body| {
         let exponent = body.profile_exponent();
         body.kinks().is_empty() && exponent >= 2.0 && exponent.is_finite()
     });
-    smooth && reacts_at_once(material)
+    smooth && reacts_at_once(elastomer)
 }
 
 /// Solves with the number of elements asked for, or with more and more until normal force and target have the error asked

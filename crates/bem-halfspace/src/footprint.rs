@@ -2,11 +2,11 @@
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{InvalidParameter, positive};
-use rheology::Material;
 
-use crate::BemError;
 use crate::grid::elements_along;
+use crate::layer::Base;
 use crate::steady::depth_scale_of_surface;
+use crate::{BemError, Elastomer};
 
 /// Heights up to this many depth scales may touch, as under a cusp.
 pub(crate) const HIGHEST: f64 = 2.0;
@@ -42,24 +42,37 @@ impl Footprint {
     /// [`BemError::InvalidParameter`] for a surface that is low everywhere.
     pub fn sliding(
         surface: &(impl Surface + ?Sized),
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
+        let reached = |height| Self::reached(surface, elastomer, height);
         let depth = match load.control() {
-            Control::IndentationDepth(depth) => return Self::below(surface, depth),
-            Control::NormalForce(_) => depth_scale_of_surface(&surface, material, load)?,
+            Control::IndentationDepth(depth) => return reached(depth),
+            Control::NormalForce(_) => depth_scale_of_surface(&surface, elastomer, load)?,
         };
         let Some(body) = surface.as_axisymmetric() else {
-            return Self::below(surface, HIGHEST * depth);
+            return reached(HIGHEST * depth);
         };
         let sharp = body.profile_exponent() < 0.75;
         let height = if sharp { HIGHEST } else { 1.5 } * depth;
-        let footprint = Self::below(surface, height)?;
+        let footprint = reached(height)?;
         let [_, radius] = footprint.x;
         if radius < body.max_radius() || body.profile_height(radius) >= height {
             return Ok(footprint);
         }
         Err(nowhere_as_high(height).into())
+    }
+
+    /// The rectangle that holds every point of a surface that is met where a half space meets those below a height.
+    pub(crate) fn reached(
+        surface: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        height: f64,
+    ) -> Result<Self, BemError> {
+        let footprint = Self::below(surface, height)?;
+        let half_length = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
+        let rise = Base::of(elastomer).rise(half_length);
+        Self::below(surface, rise * height)
     }
 
     /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends

@@ -9,11 +9,10 @@ mod history;
 mod press;
 
 use indenters::{Control, Surface};
-use rheology::Material;
 
 use crate::error::check_contact_elements;
 use crate::stepping::{March, Motion};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub use press::{
     PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,
@@ -62,7 +61,7 @@ pub struct IndentRow {
 /// [`BemError::Material`].
 pub fn indent_history_on_grid(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     steps: &[IndentStep],
     options: &GridOptions,
 ) -> Result<Vec<IndentRow>, BemError> {
@@ -72,7 +71,7 @@ pub fn indent_history_on_grid(
         control: step.control,
     };
     let motions: Vec<Motion> = steps.iter().map(motion).collect();
-    let mut march = March::new(&surface, material, &motions, options)?;
+    let mut march = March::new(&surface, elastomer, &motions, options)?;
     let mut rows = Vec::with_capacity(steps.len());
     let mut largest = 0;
     while let Some(row) = march.advance()? {

@@ -41,6 +41,7 @@ mod footprint;
 mod grid;
 pub mod indent;
 mod influence;
+mod layer;
 mod mirror;
 pub mod periodic;
 mod plan;
@@ -62,6 +63,7 @@ pub use grid::Grid;
 pub use indent::{indent, indent_on_grid, press, press_on_grid};
 pub use indenters::{Control, PressingLoad, SlidingLoad};
 pub use influence::influence;
+pub use layer::{Elastomer, Layer, layer_factor};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
 pub use periodic::{PeriodicEstimate, steady_periodic};

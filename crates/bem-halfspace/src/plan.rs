@@ -1,12 +1,11 @@
 //! Where contact may occur and how long it will be about, from surface, material and load: what a refinement starts from.
 
 use indenters::{Axisymmetric, Control, SlidingLoad, Surface, contact_radius};
-use rheology::{Elastic, Material};
 
-use crate::BemError;
 use crate::footprint::{Footprint, HIGHEST};
 use crate::grid::whole;
 use crate::steady::depth_scale_of_surface;
+use crate::{BemError, Elastomer};
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids.
 const COARSEST: f64 = 5.0;
@@ -31,31 +30,35 @@ impl GridPlan {
     /// For a body that slides.
     pub(crate) fn sliding(
         surface: &dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         load: &SlidingLoad,
     ) -> Result<Self, BemError> {
         let depth = match load.control() {
-            Control::NormalForce(_) => depth_scale_of_surface(surface, material, load)?,
+            Control::NormalForce(_) => depth_scale_of_surface(surface, elastomer, load)?,
             Control::IndentationDepth(depth) => depth,
         };
-        let footprint = Footprint::sliding(surface, material, load)?;
+        let footprint = Footprint::sliding(surface, elastomer, load)?;
         match surface.as_axisymmetric() {
             Some(body) => Self::of_body(body, footprint, depth),
             None => Ok(Self::of_surface(surface, footprint, depth)),
         }
     }
 
-    /// For a body that is pressed into an elastic half space of unit shear modulus, incompressible.
-    pub(crate) fn pressed(surface: &dyn Surface, control: Control) -> Result<Self, BemError> {
+    /// For a body that is pressed into an elastic material.
+    pub(crate) fn pressed(
+        surface: &dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        control: Control,
+    ) -> Result<Self, BemError> {
         let [depth, highest] = match control {
             Control::NormalForce(force) => {
                 let load = SlidingLoad::new(force, 1.0)?;
-                let depth = depth_scale_of_surface(surface, &Elastic::new(1.0)?, &load)?;
+                let depth = depth_scale_of_surface(surface, elastomer, &load)?;
                 [depth, HIGHEST * depth]
             }
             Control::IndentationDepth(depth) => [depth; 2],
         };
-        let footprint = Footprint::below(surface, highest)?;
+        let footprint = Footprint::reached(surface, elastomer, highest)?;
         Ok(Self::of_surface(surface, footprint, depth))
     }
 

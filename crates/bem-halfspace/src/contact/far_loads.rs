@@ -27,7 +27,7 @@ use std::f64::consts::PI;
 
 use crate::bands::{Bands, for_each_row, resize};
 use crate::contact::active_set::{ActiveSet, sum_blocks};
-use crate::{Grid, influence};
+use crate::{Convolution, Grid};
 
 /// Edge of the smallest blocks in elements; in smaller ones the inverse is right without their neighbours.
 pub(super) const SMALLEST: usize = Bands::LARGEST_BLOCK;
@@ -56,13 +56,14 @@ struct Level {
 
 impl FarLoads {
     /// With k as the part `weight` of the displacement of a block under its own load.
-    pub(super) fn new(grid: &Grid, weight: f64) -> Self {
+    pub(super) fn new(convolution: &Convolution, weight: f64) -> Self {
         let mut levels = Vec::new();
+        let grid = convolution.grid();
         let (mut blocks, mut edge) = (*grid, 1);
         while edge < SMALLEST || blocks.n_elements() > 1 {
             (blocks, edge) = (blocks.blocks(), 2 * edge);
             if edge >= SMALLEST {
-                levels.push(Level::new(&blocks, edge, (grid, weight)));
+                levels.push(Level::new(&blocks, edge, (convolution, weight)));
             }
         }
         Self {
@@ -141,13 +142,15 @@ fn for_each_larger(levels: &mut [Level], work: impl Fn(&Level, &mut Level)) {
 }
 
 impl Level {
-    fn new(blocks: &Grid, edge: usize, (elements, weight): (&Grid, f64)) -> Self {
-        let n = blocks.n_elements();
+    fn new(blocks: &Grid, edge: usize, (convolution, weight): (&Convolution, f64)) -> Self {
+        let (n, elements) = (blocks.n_elements(), convolution.grid());
         let edges = [0, 1].map(|axis| {
             let length = edge.min(elements.shape()[axis]) as f64;
             length * elements.spacing()[axis]
         });
-        let of_own = influence([0.0; 2], edges) / (edges[0] * edges[1]);
+        // A layer may rise in the middle of a large block.
+        let of_own = convolution.base.influence([0.0; 2], edges).max(0.0);
+        let of_own = of_own / (edges[0] * edges[1]);
         Self {
             shape: blocks.shape(),
             // The inverse multiplies waves by |q|, and the influence by 2π/|q|.

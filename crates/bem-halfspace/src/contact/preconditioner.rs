@@ -65,7 +65,7 @@ impl Preconditioner {
         let blocks = convolution.on_blocks(|q| {
             let difference =
                 |axis: usize| weights[axis] * (2.0 - 2.0 * (q[axis] * grid.spacing()[axis]).cos());
-            q[0].hypot(q[1]) - difference(0) - difference(1)
+            convolution.base.local_stiffness(q[0].hypot(q[1])) - difference(0) - difference(1)
         });
         let n_blocks = blocks.grid().n_elements();
         Self {
@@ -77,7 +77,7 @@ impl Preconditioner {
             blocks,
             means: vec![0.0; n_blocks],
             images: vec![0.0; n_blocks],
-            far_loads: FarLoads::new(grid, of.blocks),
+            far_loads: FarLoads::new(convolution, of.blocks),
         }
     }
 

@@ -11,10 +11,11 @@ mod spectrum;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::Grid;
 use crate::fast_length::fast_length;
+use crate::layer::Base;
 use crate::mirror::{Mirror, NO_MIRRORS};
 use crate::plane_transform::{PlaneTransform, Workspace};
+use crate::{Elastomer, Grid};
 
 /// What surrounds the elements of the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +34,8 @@ pub struct Convolution {
     /// About which pressure and result are their own images along x and y, at the rear of the grid.
     pub(crate) mirrors: [Mirror; 2],
     pub(crate) surroundings: Surroundings,
+    /// What the elements lie on.
+    pub(crate) base: Base,
     transform: PlaneTransform,
     /// Real spectrum of the whole period, [column][0..=padded_x / 2], with the normalisation of the transforms folded
     /// in; not a slice, into which it would have to be copied.
@@ -51,10 +54,21 @@ impl Convolution {
     /// Zero padding to at least 2n − 1 makes the circular convolution of the Fourier transform the free one.
     #[must_use]
     pub fn new(grid: &Grid) -> Self {
+        Self::free(grid, Base::default())
+    }
+
+    /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
+    /// grid.
+    #[must_use]
+    pub fn on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
+        Self::free(grid, Base::of(elastomer))
+    }
+
+    pub(crate) fn free(grid: &Grid, base: Base) -> Self {
         let padded = grid.shape().map(|n| fast_length(2 * n - 1));
-        let mut convolution = Self::planned(grid, Surroundings::Free, padded);
+        let mut convolution = Self::planned(grid, (Surroundings::Free, base), padded);
         convolution.spectrum = Arc::new(convolution.free_spectrum());
-        convolution.self_influence = crate::influence([0.0, 0.0], grid.spacing());
+        convolution.self_influence = convolution.base.influence([0.0, 0.0], grid.spacing());
         convolution
     }
 
@@ -65,7 +79,18 @@ impl Convolution {
     /// are measured from their own mean instead.
     #[must_use]
     pub fn periodic(grid: &Grid) -> Self {
-        let mut convolution = Self::planned(grid, Surroundings::Periodic, grid.shape());
+        Self::repeated(grid, Base::default())
+    }
+
+    /// The same on what is given, see [`on`](Self::on). A layer gives way to the mean pressure too, and its displacements are
+    /// those from the surface at rest.
+    #[must_use]
+    pub fn periodic_on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
+        Self::repeated(grid, Base::of(elastomer))
+    }
+
+    fn repeated(grid: &Grid, base: Base) -> Self {
+        let mut convolution = Self::planned(grid, (Surroundings::Periodic, base), grid.shape());
         convolution.spectrum = Arc::new(convolution.periodic_spectrum());
         convolution.self_influence = convolution.sum_of_spectrum();
         convolution
@@ -77,7 +102,8 @@ impl Convolution {
         let mirrors = self.mirrors.map(Mirror::of_blocks);
         let blocks = self.grid.blocks().unfolded(mirrors);
         let padded = blocks.shape().map(fast_length);
-        let mut convolution = Self::planned(&blocks, Surroundings::Periodic, padded);
+        let around = (Surroundings::Periodic, self.base.clone());
+        let mut convolution = Self::planned(&blocks, around, padded);
         convolution.spectrum = Arc::new(convolution.positive_spectrum(symbol));
         convolution.folded(mirrors)
     }
@@ -95,8 +121,8 @@ impl Convolution {
     fn in_front_of(&self, mirrors: [Mirror; 2], grid: &Grid) -> Self {
         let whole = grid.unfolded(mirrors);
         let convolution = match self.surroundings {
-            Surroundings::Free => Self::new(&whole),
-            Surroundings::Periodic => Self::periodic(&whole),
+            Surroundings::Free => Self::free(&whole, self.base.clone()),
+            Surroundings::Periodic => Self::repeated(&whole, self.base.clone()),
         };
         convolution.folded(mirrors)
     }
@@ -113,13 +139,17 @@ impl Convolution {
             grid: self.grid.folded(mirrors),
             mirrors,
             transform: PlaneTransform::folded(self.transform.padded, mirrors),
-            spectrum: Arc::clone(&self.spectrum),
-            ..*self
+            ..self.clone()
         }
     }
 
-    fn planned(grid: &Grid, surroundings: Surroundings, padded: [usize; 2]) -> Self {
+    fn planned(
+        grid: &Grid,
+        (surroundings, base): (Surroundings, Base),
+        padded: [usize; 2],
+    ) -> Self {
         Self {
+            base,
             grid: *grid,
             mirrors: NO_MIRRORS,
             surroundings,

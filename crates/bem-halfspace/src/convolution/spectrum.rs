@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::Convolution;
 use crate::bands::{copies, for_each_row};
 use crate::plane_transform::ZERO;
-use crate::{Convolution, influence};
 
 impl Convolution {
     fn spectrum_of(&self, symbol: impl Fn([f64; 2]) -> f64 + Sync) -> Vec<f64> {
@@ -29,11 +29,16 @@ impl Convolution {
             .map(|axis| 2.0 * PI / (self.transform.padded[axis] as f64 * self.grid.spacing()[axis]))
     }
 
-    /// Spectrum of waves on an infinite half space, without their mean.
+    /// Spectrum of waves, on a half space without their mean.
     pub(super) fn periodic_spectrum(&self) -> Vec<f64> {
         self.spectrum_of(|[q_x, q_y]| {
             let q = q_x.hypot(q_y);
-            if q > 0.0 { 2.0 * PI / q } else { 0.0 }
+            2.0 * PI
+                * if q > 0.0 {
+                    self.base.stiffness(q).recip()
+                } else {
+                    self.base.mean()
+                }
         })
     }
 
@@ -69,7 +74,7 @@ impl Convolution {
         self.spectrum.chunks(length).enumerate().map(column).sum()
     }
 
-    /// Spectrum of Love's influence coefficients.
+    /// Spectrum of the influence coefficients.
     ///
     /// The kernel is even and its transform real, so that two columns pass as the real and the imaginary part of one.
     pub(super) fn free_spectrum(&self) -> Vec<f64> {
@@ -128,7 +133,8 @@ impl Convolution {
         let period = self.transform.padded[1];
         let mut values = vec![0.0; period];
         for column in 0..self.grid.shape()[1] {
-            let coefficient = influence([row as f64 * dx, column as f64 * dy], [dx, dy]);
+            let offset = [row as f64 * dx, column as f64 * dy];
+            let coefficient = self.base.influence(offset, [dx, dy]);
             values[column] = coefficient;
             values[(period - column) % period] = coefficient;
         }

@@ -4,10 +4,10 @@
 
 use indenters::{Control, Surface};
 use numerics::between_zero_and_one;
-use rheology::{CreepSpectrum, Material};
+use rheology::{CreepSpectrum, Material as _};
 
 use super::{IndentRow, IndentStep, indent_history_on_grid};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions};
 
 /// How exactly a history is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,7 +55,7 @@ pub struct IndentHistory {
 /// [`indent_history_on_grid`].
 pub fn indent_history(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     control: impl Fn(f64) -> Control,
     times: &[f64],
     options: &HistoryOptions,
@@ -63,10 +63,10 @@ pub fn indent_history(
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
     let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
         let steps = subdivided(&control, times, n);
-        let rows = indent_history_on_grid(surface, material, &steps, &options.grid)?;
+        let rows = indent_history_on_grid(surface, elastomer, &steps, &options.grid)?;
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
-    let creep = material.creep();
+    let creep = elastomer.material().creep();
     let (mut coarse, mut before): (Option<Vec<IndentRow>>, Option<Vec<IndentRow>>) = (None, None);
     let (mut n, mut error) = (1, 1.0);
     loop {

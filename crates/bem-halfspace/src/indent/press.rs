@@ -6,14 +6,14 @@
 
 use indenters::{Control, PressingLoad, Surface, contact_radius};
 use numerics::{ErrorParts, Goal, Request, positive};
-use rheology::{Elastic, Material};
+use rheology::{Compressible, Elastic, Material as _};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target};
 use crate::error::check_contact_elements;
 use crate::plan::GridPlan;
 use crate::pressure_field::PressureField;
 use crate::stepping::{March, Motion};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions, Layer};
 
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
@@ -60,11 +60,11 @@ pub type PressEstimate = ContactEstimate<PressSolution, GridOptions>;
 /// with what was reached on the finest grid allowed; otherwise like [`press_on_grid`].
 pub fn press<'w>(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     control: Control,
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
-    let spring = Spring::at_rest(material)?;
+    let spring = Spring::at_rest(elastomer)?;
     estimate(&surface, &spring, control, request.into())
 }
 
@@ -75,11 +75,11 @@ pub fn press<'w>(
 /// [`BemError::InvalidParameter`] where a depth was held for so long that no force is left; otherwise like [`press`].
 pub fn indent<'w>(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &PressingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<PressEstimate, BemError> {
-    let spring = Spring::after(material, load)?;
+    let spring = Spring::after(elastomer, load)?;
     estimate(&surface, &spring, load.control(), request.into())
 }
 
@@ -89,12 +89,12 @@ pub fn indent<'w>(
 /// As for [`indent`], before anything is solved.
 pub fn indent_memory(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &PressingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let control = Spring::after(material, load)?.scaled(load.control())?;
-    let options = grid(&GridPlan::pressed(&surface, control)?, elements);
+    let plan = Spring::after(elastomer, load)?.plan(&surface, load.control())?;
+    let options = grid(&plan, elements);
     let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
     let followed: f64 = mirrored.map(|_| 0.5).product();
     Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
@@ -114,11 +114,11 @@ fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
 /// [`BemError::Material`].
 pub fn press_on_grid(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     control: Control,
     options: &GridOptions,
 ) -> Result<PressSolution, BemError> {
-    Spring::at_rest(material)?.solve(&surface, control, options)
+    Spring::at_rest(elastomer)?.solve(&surface, control, options)
 }
 
 /// Like [`indent`], on one grid.
@@ -127,15 +127,18 @@ pub fn press_on_grid(
 /// As for [`press_on_grid`], and [`BemError::InvalidParameter`] where a depth was held for so long that no force is left.
 pub fn indent_on_grid(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &PressingLoad,
     options: &GridOptions,
 ) -> Result<PressSolution, BemError> {
-    Spring::after(material, load)?.solve(&surface, load.control(), options)
+    Spring::after(elastomer, load)?.solve(&surface, load.control(), options)
 }
 
 /// The spring that stands for a material under a constant control.
 struct Spring {
+    /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
+    unit: Compressible,
+    thickness: f64,
     /// 2 (1 − ν) J, or its inverse where the depth is given, \[1/Pa].
     compliance: f64,
     /// Whether its pressure is that of the material too.
@@ -143,35 +146,55 @@ struct Spring {
 }
 
 impl Spring {
-    fn at_rest(material: &(impl Material + ?Sized)) -> Result<Self, BemError> {
+    fn at_rest(elastomer: &(impl Elastomer + ?Sized)) -> Result<Self, BemError> {
+        let material = elastomer.material();
         let modulus = material.relaxation().equilibrium_modulus();
         if modulus == 0.0 {
             return Err(BemError::NoEquilibrium);
         }
+        let compliance = positive("2 (1 - ν) / G", material.half_space_factor() / modulus)?;
+        Self::new(elastomer, compliance, true)
+    }
+
+    fn new(
+        elastomer: &(impl Elastomer + ?Sized),
+        compliance: f64,
+        has_pressure: bool,
+    ) -> Result<Self, BemError> {
+        let material = elastomer.material();
+        let spring = Elastic::new(material.half_space_factor())?;
         Ok(Self {
-            compliance: positive("2 (1 - ν) / G", material.half_space_factor() / modulus)?,
-            has_pressure: true,
+            unit: Compressible::new(&spring, material.poisson_ratio())?,
+            thickness: elastomer.thickness(),
+            compliance,
+            has_pressure,
         })
     }
 
-    fn after(material: &(impl Material + ?Sized), load: &PressingLoad) -> Result<Self, BemError> {
+    fn layer(&self) -> Result<Layer<'_, Compressible>, BemError> {
+        Ok(Layer::new(&self.unit, self.thickness)?)
+    }
+
+    fn plan(&self, surface: &dyn Surface, control: Control) -> Result<GridPlan, BemError> {
+        GridPlan::pressed(surface, &self.layer()?, self.scaled(control)?)
+    }
+
+    fn after(elastomer: &(impl Elastomer + ?Sized), load: &PressingLoad) -> Result<Self, BemError> {
+        let material = elastomer.material();
         let (factor, duration) = (material.half_space_factor(), load.duration());
         let creep = material.creep();
         let is_elastic = creep.elements().is_empty() && creep.fluidity() == 0.0;
-        Ok(match load.control() {
-            Control::NormalForce(_) => Self {
-                compliance: factor * material.creep_compliance(duration)?,
-                has_pressure: is_elastic,
-            },
+        match load.control() {
+            Control::NormalForce(_) => {
+                let compliance = factor * material.creep_compliance(duration)?;
+                Self::new(elastomer, compliance, is_elastic)
+            }
             Control::IndentationDepth(_) => {
                 let stiffness = material.relaxation_modulus(duration)? / factor;
-                Self {
-                    compliance: positive("relaxation modulus of a depth held so long", stiffness)?
-                        .recip(),
-                    has_pressure: true,
-                }
+                let stiffness = positive("relaxation modulus of a depth held so long", stiffness)?;
+                Self::new(elastomer, stiffness.recip(), true)
             }
-        })
+        }
     }
 
     /// The control of the spring of unit modulus.
@@ -198,7 +221,7 @@ impl Spring {
             position: 0.0,
             control: self.scaled(control)?,
         };
-        let mut march = March::new(surface, &Elastic::new(1.0)?, &[motion], options)?;
+        let mut march = March::new(surface, &self.layer()?, &[motion], options)?;
         let row = march.first()?;
         check_contact_elements(march.elements_across())?;
         let [contact_x, contact_y] = march.contact_edges();
@@ -228,7 +251,7 @@ fn estimate(
     control: Control,
     request: Request,
 ) -> Result<PressEstimate, BemError> {
-    let plan = GridPlan::pressed(surface, spring.scaled(control)?)?;
+    let plan = spring.plan(surface, control)?;
     let resolution = Resolution {
         goal: Goal {
             request,
@@ -240,7 +263,7 @@ fn estimate(
         },
         control,
         target: Target::Depth,
-        has_peak: spring.has_pressure && bars::peak_has_limit(surface, &Elastic::new(1.0)?),
+        has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
     };
     let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);

@@ -2,10 +2,9 @@
 
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, between_zero_and_one};
-use rheology::Material;
 
 use crate::periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid};
-use crate::{BemError, Grid};
+use crate::{BemError, Elastomer, Grid};
 
 /// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge.
 const FIRST: usize = 4;
@@ -39,7 +38,7 @@ pub struct PeriodicEstimate {
 /// where not even three grids have so few; and those of [`steady_periodic_on_grid`].
 pub fn steady_periodic(
     surface: &PeriodicSurface,
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &PeriodicLoad,
     relative_error: f64,
     max_elements: usize,
@@ -56,7 +55,7 @@ pub fn steady_periodic(
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
         let options = PeriodicOptions::default();
-        let state = steady_periodic_on_grid(&grid, &heights, material, load, &options)?;
+        let state = steady_periodic_on_grid(&grid, &heights, elastomer, load, &options)?;
         states.push(state);
         if let Some(estimate) = estimate(&states)
             && missed(&estimate, relative_error).is_none()

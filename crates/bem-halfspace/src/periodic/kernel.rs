@@ -1,7 +1,7 @@
 //! How a sliding material answers waves of pressure.
 //!
 //! ```text
-//! û(q) = 2 p̂(q) / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) / |q|,        q_x ≥ 0
+//! û(q) = 2 p̂(q) M / (|q| E*(−q_x v)) = (1 − ν) [J'(q_x v) + i J''(q_x v)] p̂(q) M / |q|,        q_x ≥ 0
 //! ```
 //!
 //! In the frame that moves with the surface a wave passes with the angular frequency −q_x v. The gap of an element is
@@ -11,11 +11,12 @@
 use std::f64::consts::PI;
 
 use numerics::positive;
-use rheology::{CreepSpectrum, Material};
+use rheology::{CreepSpectrum, Material as _};
 use rustfft::num_complex::Complex;
 
+use crate::layer::Base;
 use crate::periodic::waves::Waves;
-use crate::{BemError, Grid};
+use crate::{BemError, Elastomer, Grid};
 
 /// A material under a surface that slides.
 #[derive(Debug, Clone)]
@@ -24,22 +25,33 @@ pub(super) struct Sliding {
     /// 1 − ν.
     factor: f64,
     velocity: f64,
+    base: Base,
 }
 
 impl Sliding {
     pub(super) fn new(
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
-        let creep = material.creep();
+        let creep = elastomer.material().creep();
         if creep.fluidity() > 0.0 {
             return Err(BemError::FlowsUnderWaves);
         }
         Ok(Self {
-            factor: 0.5 * positive("half-space factor", material.half_space_factor())?,
+            factor: 0.5
+                * positive(
+                    "half-space factor",
+                    elastomer.material().half_space_factor(),
+                )?,
             creep,
             velocity,
+            base: Base::of(elastomer),
         })
+    }
+
+    /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
+    pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
+        Ok(self.compliances(&[0.0])?[0].re * self.base.mean())
     }
 
     /// (1 − ν) [J' + i J''] of every row, before any shift.
@@ -70,7 +82,7 @@ pub(super) struct Kernel {
 impl Kernel {
     pub(super) fn new(sliding: &Sliding, grid: &Grid) -> Result<Self, BemError> {
         let dx = grid.spacing()[0];
-        let waves = Waves::new(grid);
+        let waves = Waves::new(grid, &sliding.base);
         let along_x = &waves.along_x;
         let mut at_centre = sliding.compliances(along_x)?;
         let shortest = sliding.compliances(&[PI / dx])?[0];

@@ -27,12 +27,11 @@ mod search;
 mod waves;
 
 use numerics::{InvalidParameter, in_range, not_negative, positive};
-use rheology::Material;
 
 use crate::chunks::in_pool;
 use crate::contact::check_length;
 use crate::reductions::dot;
-use crate::{BemError, Grid, PressureField};
+use crate::{BemError, Elastomer, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{PeriodicEstimate, steady_periodic};
@@ -107,7 +106,8 @@ pub struct PeriodicSliding {
     pub area_fraction: f64,
     /// Part of the elements that are in contact.
     pub counted_area_fraction: f64,
-    /// Depth of the mean plane of the surface below the mean of the deformed half space, \[m]; negative in light contact.
+    /// Depth of the mean plane of the surface, \[m]: below the mean of the deformed half space, which the mean pressure moves
+    /// without limit, or below the surface of a layer at rest; negative in light contact.
     pub mean_depth: f64,
     /// Products with the kernel on this grid.
     pub products: usize,
@@ -130,14 +130,14 @@ pub struct PeriodicSliding {
 pub fn steady_periodic_on_grid(
     grid: &Grid,
     heights: &[f64],
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &PeriodicLoad,
     options: &PeriodicOptions,
 ) -> Result<PeriodicSliding, BemError> {
     options.validate()?;
     check_surface(grid, heights)?;
     let problem = search::Problem {
-        sliding: &Sliding::new(material, load.velocity)?,
+        sliding: &Sliding::new(elastomer, load.velocity)?,
         grid,
         heights,
         mean_pressure: load.mean_pressure,
@@ -157,6 +157,7 @@ fn solve_here(problem: search::Problem) -> Result<PeriodicSliding, BemError> {
     let from_slopes = mean(&field);
     equations.kernel.dissipate(&pressure, &mut field);
     let from_dissipation = mean(&field);
+    let squeezed = problem.mean_pressure * problem.sliding.mean_compliance()?;
     let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let [counted, corrected] = area_fractions(problem.grid.shape()[1], &pressure);
     Ok(PeriodicSliding {
@@ -164,7 +165,7 @@ fn solve_here(problem: search::Problem) -> Result<PeriodicSliding, BemError> {
         friction_from_dissipation: from_dissipation,
         area_fraction: corrected,
         counted_area_fraction: counted,
-        mean_depth: solved.depth - mean_height,
+        mean_depth: solved.depth - mean_height + squeezed,
         products: solved.products,
         residual: solved.residual,
         pressure: PressureField {

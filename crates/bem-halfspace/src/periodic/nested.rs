@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use rustfft::num_complex::Complex;
 
+use crate::layer::Base;
 use crate::periodic::equations::Equations;
 use crate::periodic::search::{self, Problem, Solved};
 use crate::periodic::waves::Waves;
@@ -63,7 +64,7 @@ fn halved(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let (columns, [dx, dy]) = (grid.shape()[1], grid.spacing());
     let cut = 0.5 * PI * (1.0 - f64::EPSILON.sqrt());
     let mut field = vec![0.0; heights.len()];
-    Waves::new(grid).apply(heights, &mut field, |row, [q_x, q]| {
+    Waves::new(grid, &Base::default()).apply(heights, &mut field, |row, [q_x, q]| {
         // For the mean this is another mean, which changes nothing but the depth of a guess.
         let q_y = if row == 0 {
             q

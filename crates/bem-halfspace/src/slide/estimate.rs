@@ -2,13 +2,13 @@
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, ErrorParts, Goal, Request};
-use rheology::{CreepSpectrum, Material};
+use rheology::{CreepSpectrum, Material as _};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::slide::stationary::settle;
 use crate::slide::{March, PressureField, StationaryOptions, Transient, slide_over};
-use crate::{BemError, ContactOptions, GridOptions};
+use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const LARGEST_GRID: usize = 32;
@@ -40,11 +40,11 @@ pub type SlideEstimate = ContactEstimate<Transient, GridOptions>;
 /// [`slide_on_grid`](super::slide_on_grid).
 pub fn slide<'w>(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SlideEstimate, BemError> {
-    Problem::new(&surface, material, load, request.into())?.solve()
+    Problem::new(&surface, elastomer, load, request.into())?.solve()
 }
 
 /// Memory that [`slide`] takes at most for a number of elements along the contact, \[bytes].
@@ -53,12 +53,17 @@ pub fn slide<'w>(
 /// As for [`slide`], before anything is solved.
 pub fn slide_memory(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
     let surface: &dyn Surface = &surface;
-    let problem = Problem::new(surface, material, load, Accuracy::Elements(elements).into())?;
+    let problem = Problem::new(
+        surface,
+        elastomer,
+        load,
+        Accuracy::Elements(elements).into(),
+    )?;
     let options = problem.options(problem.plan.length() / elements as f64);
     let (spacing, footprint) = (options.spacing, options.footprint);
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
@@ -77,25 +82,25 @@ type End = (Transient, f64, Option<f64>);
 
 struct Problem<'a, M: ?Sized> {
     surface: &'a dyn Surface,
-    material: &'a M,
+    elastomer: &'a M,
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
     request: Request<'a>,
 }
 
-impl<'a, M: Material + ?Sized> Problem<'a, M> {
+impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
     fn new(
         surface: &'a dyn Surface,
-        material: &'a M,
+        elastomer: &'a M,
         load: &'a SlidingLoad,
         request: Request<'a>,
     ) -> Result<Self, BemError> {
         Ok(Self {
-            plan: GridPlan::sliding(surface, material, load)?,
-            creep: material.creep(),
+            plan: GridPlan::sliding(surface, elastomer, load)?,
+            creep: elastomer.material().creep(),
             surface,
-            material,
+            elastomer,
             load,
             request,
         })
@@ -118,7 +123,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             } else {
                 Target::Friction
             },
-            has_peak: peak_has_limit(self.surface, self.material),
+            has_peak: peak_has_limit(self.surface, self.elastomer),
         };
         let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
         if self.is_elastic() {
@@ -185,7 +190,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
         options: &GridOptions,
         tell: &dyn Fn(f64),
     ) -> Result<End, BemError> {
-        let transient = slide_over(self.surface, self.material, load, options, tell)?;
+        let transient = slide_over(self.surface, self.elastomer, load, options, tell)?;
         let friction = transient.last().friction_coefficient;
         Ok((transient, friction, None))
     }
@@ -229,7 +234,7 @@ impl<'a, M: Material + ?Sized> Problem<'a, M> {
             over_distance: 2.0 * length + memory,
         };
         let load = self.load.after(distance)?;
-        let march = March::sliding(self.surface, self.material, &load, options)?;
+        let march = March::sliding(self.surface, self.elastomer, &load, options)?;
         let end = settle(march, &load, options, &stationary, tell)?;
         let friction = end.friction_coefficient;
         Ok((end.transient, friction, Some(end.change * friction.abs())))

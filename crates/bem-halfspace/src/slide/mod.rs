@@ -15,12 +15,11 @@ mod stationary;
 mod transient;
 
 use indenters::{SlidingLoad, Surface};
-use rheology::Material;
 
 pub use crate::pressure_field::PressureField;
 pub use crate::resolution::SlideOmission;
 pub use crate::stepping::{March, MarchState, Motion, MotionRow};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions};
 pub use estimate::{SlideEstimate, slide, slide_memory};
 pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};
 pub use transient::{SlideRow, Transient};
@@ -40,22 +39,22 @@ pub use transient::{SlideRow, Transient};
 /// [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn slide_on_grid(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Result<Transient, BemError> {
-    slide_over(&surface, material, load, options, &|_| ())
+    slide_over(&surface, elastomer, load, options, &|_| ())
 }
 
 /// Tells which part of the march is done.
 fn slide_over(
     surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &GridOptions,
     tell: &dyn Fn(f64),
 ) -> Result<Transient, BemError> {
-    let mut march = March::sliding(surface, material, load, options)?;
+    let mut march = March::sliding(surface, elastomer, load, options)?;
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
         // At a depth there may be no contact for a while, under a force there always is.
@@ -73,11 +72,11 @@ fn slide_over(
 /// Like [`March::new`] and [`March::step`].
 pub fn follow(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     motions: &[Motion],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
-    let mut march = March::new(&surface, material, motions, options)?;
+    let mut march = March::new(&surface, elastomer, motions, options)?;
     let mut rows = Vec::with_capacity(motions.len());
     while let Some(row) = march.step()? {
         rows.push(row);

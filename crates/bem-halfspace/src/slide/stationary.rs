@@ -10,10 +10,9 @@
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{between_zero_and_one, positive};
-use rheology::Material;
 
 use crate::slide::{March, SlideRow, Transient};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions};
 
 /// So many have a last quarter.
 const FEWEST_STEPS: usize = 4;
@@ -144,12 +143,12 @@ pub struct StationarySlide {
 /// [`BemError::NotStationary`] with the change reached; otherwise like [`slide_on_grid`](crate::slide::slide_on_grid).
 pub fn slide_to_stationary(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &GridOptions,
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
-    let march = March::sliding(&surface, material, load, options)?;
+    let march = March::sliding(&surface, elastomer, load, options)?;
     settle(march, load, options, stationary, &|_| ())
 }
 

@@ -20,10 +20,9 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{in_range, positive};
-use rheology::Material;
 
-use crate::BemError;
 use crate::steady::sliding_creep::SlidingCreep;
+use crate::{BemError, Elastomer};
 
 /// Halvings of the logarithm of the length: all the digits there are.
 const HALVINGS: usize = 60;
@@ -44,7 +43,7 @@ pub(super) fn depth_scale(
         return Ok(positive("F_N / (4 η v)", depth)?);
     }
     let depth = |length: f64| -> Result<f64, BemError> {
-        Ok(0.25 * normal_force * (creep.compliance(length)? / length))
+        Ok(0.25 * normal_force * (creep.compliance_of_contact(length)? / length))
     };
     let length = length_of_contact(height, depth, largest)?;
     Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
@@ -67,7 +66,7 @@ pub(super) fn scale_of_profile(
         0.5 * (rear + front)
     };
     let depth = |length: f64| -> Result<f64, BemError> {
-        Ok(force_per_length / TAU * creep.compliance(length)?)
+        Ok(force_per_length / TAU * creep.compliance_of_contact(length)?)
     };
     let length = length_of_contact(height, depth, f64::INFINITY)?;
     let depth = positive("2 (1 - ν) F' J(a/v) / (2π)", depth(length)?)?;
@@ -109,10 +108,10 @@ fn length_of_contact(
 /// D of a surface under a force, \[m].
 pub(crate) fn depth_scale_of_surface(
     surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
 ) -> Result<f64, BemError> {
-    let creep = SlidingCreep::new(material, load.velocity())?;
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
     let force = load.require_normal_force()?;
     let body = surface.as_axisymmetric();
     let height = |distance| match body {

@@ -2,15 +2,14 @@
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{Accuracy, Goal, Request, Unwatched, Watch};
-use rheology::Material;
 
-use crate::BemError;
 use crate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::steady::loading::Loading;
 use crate::steady::refinement::{Problem, refine};
 use crate::steady::solution::SteadyEstimate;
 use crate::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
+use crate::{BemError, Elastomer};
 
 /// Δy/Δx of a grid of a given number of elements.
 const ASPECT: f64 = 0.5;
@@ -26,11 +25,11 @@ const BYTES_PER_ELEMENT: f64 = 900.0;
 /// As for [`steady`], before anything is solved.
 pub fn steady_memory(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let plan = GridPlan::sliding(&surface, material, load)?;
+    let plan = GridPlan::sliding(&surface, elastomer, load)?;
     let options = grid(&plan, elements);
     // A mirror halves the unknowns, and saves less of the kernel.
     let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
@@ -55,7 +54,7 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// friction is infinite, or a surface that is low everywhere; and the errors of [`steady_on_grid`](super::steady_on_grid).
 pub fn steady<'w>(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<SteadyEstimate, BemError> {
@@ -66,9 +65,9 @@ pub fn steady<'w>(
                 relative_error,
                 ..RefinementOptions::default()
             };
-            refined(&surface, material, load, &options, request.watch)
+            refined(&surface, elastomer, load, &options, request.watch)
         }
-        Accuracy::Elements(_) => with_elements(&surface, material, load, request),
+        Accuracy::Elements(_) => with_elements(&surface, elastomer, load, request),
     }
 }
 
@@ -78,26 +77,26 @@ pub fn steady<'w>(
 /// As for [`steady`].
 pub fn steady_refined(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &RefinementOptions,
 ) -> Result<SteadyEstimate, BemError> {
-    refined(&surface, material, load, options, &Unwatched)
+    refined(&surface, elastomer, load, options, &Unwatched)
 }
 
 fn refined(
     surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &RefinementOptions,
     watch: &dyn Watch,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = GridPlan::sliding(surface, material, load)?;
+    let plan = GridPlan::sliding(surface, elastomer, load)?;
     let problem = Problem {
         surface,
-        loading: Loading::new(surface, material, load, &plan.footprint)?,
+        loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
         plan,
-        has_peak: peak_has_limit(surface, material),
+        has_peak: peak_has_limit(surface, elastomer),
         watch,
     };
     with_depth(load, refine(&problem, options)?)
@@ -106,16 +105,16 @@ fn refined(
 /// The state on a grid of a given number of elements, compared with grids of fewer.
 fn with_elements(
     surface: &dyn Surface,
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = GridPlan::sliding(surface, material, load)?;
-    let has_peak = peak_has_limit(surface, material);
+    let plan = GridPlan::sliding(surface, elastomer, load)?;
+    let has_peak = peak_has_limit(surface, elastomer);
     let resolution = resolution(request, load.control(), plan.apex_exponent, has_peak);
     let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);
-        let state = steady_on_grid(surface, material, load, &options)?;
+        let state = steady_on_grid(surface, elastomer, load, &options)?;
         Ok(state.on_grid(options, load.sliding_distance()))
     })?;
     with_depth(load, estimate)

@@ -11,7 +11,6 @@
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{Accuracy, Estimate, Request};
-use rheology::Material;
 
 use crate::bars::{self, ContactEstimate};
 use crate::plan::GridPlan;
@@ -23,7 +22,7 @@ use crate::steady::sliding_creep::SlidingCreep;
 use crate::steady::{
     RefinementOptions, Reuse, SteadyEstimate, SteadyOptions, SteadySliding, solve,
 };
-use crate::{BemError, Footprint};
+use crate::{BemError, Elastomer, Footprint};
 
 /// One grid for stationary sliding in plane strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,17 +90,17 @@ const MOST_UNKNOWNS: usize = 2000;
 /// [`BemError::Indenter`] for a depth, which does not exist in plane strain.
 pub fn steady_line<'w>(
     profile: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     request: impl Into<Request<'w>>,
 ) -> Result<LineEstimate, BemError> {
     let (profile, request): (&dyn Surface, Request) = (&profile, request.into());
-    let creep = SlidingCreep::new(material, load.velocity())?;
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
     let force = load.require_normal_force()?;
     let [_, length] = scale_of_profile(profile, &creep, force)?;
     let front = FRONT + FRONT_BY_MEMORY * (creep.memory() / length).ln_1p();
     let footprint = [-REAR * length, front * length];
-    let loading = Loading::per_length(profile, material, load, footprint)?;
+    let loading = Loading::per_length(profile, elastomer, load, footprint)?;
     let strip = Strip::new(profile, &loading);
     let problem = Problem {
         surface: &strip,
@@ -111,7 +110,7 @@ pub fn steady_line<'w>(
             coarsest_spacing: length / COARSEST,
             apex_exponent: 2.0,
         },
-        has_peak: bars::reacts_at_once(material),
+        has_peak: bars::reacts_at_once(elastomer),
         watch: request.watch,
     };
     let known = match request.accuracy {
@@ -129,7 +128,11 @@ pub fn steady_line<'w>(
         friction_coefficient: known.friction_coefficient,
         error_parts: known.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: None,
+        indentation_depth: if creep.base().is_layer() {
+            known.indentation_depth
+        } else {
+            None
+        },
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::of_box(known.options.spacing[0]),
@@ -145,12 +148,12 @@ pub fn steady_line<'w>(
 /// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a material that flows.
 pub fn steady_line_on_grid(
     profile: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &LineOptions,
 ) -> Result<LineSliding, BemError> {
     let profile: &dyn Surface = &profile;
-    let loading = Loading::per_length(profile, material, load, options.footprint)?;
+    let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
     let strip = Strip::new(profile, &loading);
     let grid = SteadyOptions {
         phase: [options.phase, 0.0],

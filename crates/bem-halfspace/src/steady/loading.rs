@@ -4,11 +4,10 @@ use std::f64::consts::PI;
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{in_range, positive};
-use rheology::Material;
 
 use crate::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
-use crate::{BemError, Footprint};
+use crate::{BemError, Elastomer, Footprint};
 
 const SINKS: &str =
     "on a material that flows the body sinks for ever, so that a depth belongs to a distance";
@@ -48,11 +47,11 @@ impl Loading {
     /// [`BemError::SlidingDistanceMissing`]; [`BemError::InvalidParameter`] for numbers out of range.
     pub(super) fn new(
         surface: &dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         load: &SlidingLoad,
         footprint: &Footprint,
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(material, load.velocity())?;
+        let creep = SlidingCreep::new(elastomer, load.velocity())?;
         let [rear, front] = footprint.x;
         let (depth_scale, sliding_distance) = match load.control() {
             Control::NormalForce(force) => {
@@ -81,11 +80,11 @@ impl Loading {
     /// [`BemError::InvalidParameter`] for a depth, a material that flows, or numbers out of range.
     pub(super) fn per_length(
         profile: &dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         load: &SlidingLoad,
         [rear, front]: [f64; 2],
     ) -> Result<Self, BemError> {
-        let creep = SlidingCreep::new(material, load.velocity())?;
+        let creep = SlidingCreep::new(elastomer, load.velocity())?;
         let force = load.require_normal_force()?;
         let [depth_scale, _] = scale_of_profile(profile, &creep, force)?;
         let strip = STRIP * (front - rear + creep.memory());

@@ -39,11 +39,10 @@ mod wiener_hopf;
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{between_zero_and_one, positive};
-use rheology::Material;
 
 pub use crate::averages::{Average, Refinement};
 use crate::chunks::in_pool;
-use crate::{BemError, Footprint};
+use crate::{BemError, Elastomer, Footprint};
 pub(crate) use contact_scale::depth_scale_of_surface;
 pub use depth::SinkingDepth;
 pub use estimate::{steady, steady_memory, steady_refined};
@@ -125,11 +124,11 @@ pub enum SteadyOmission {
 /// [`BemError::InvalidHeight`]; [`BemError::Material`].
 pub fn steady_on_grid(
     surface: &(impl Surface + ?Sized),
-    material: &(impl Material + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
     load: &SlidingLoad,
     options: &SteadyOptions,
 ) -> Result<SteadySliding, BemError> {
-    let loading = Loading::new(&surface, material, load, &options.footprint)?;
+    let loading = Loading::new(&surface, elastomer, load, &options.footprint)?;
     solve(&surface, &loading, options, &mut Reuse::default())
 }
 

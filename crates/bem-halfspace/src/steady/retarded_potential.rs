@@ -8,7 +8,7 @@
 
 use std::collections::VecDeque;
 
-use crate::influence;
+use crate::layer::Base;
 use crate::reductions::dot;
 use crate::steady::exponential_rule::{ExponentialRule, MAX_POINTS};
 use crate::steady::sliding_creep::ElementCreep;
@@ -55,6 +55,7 @@ struct Retardation {
 pub(super) struct RetardedPotential {
     delays: Vec<Retardation>,
     rules: [ExponentialRule; POINTS.len()],
+    base: Base,
     aspect: f64,
     n_columns: usize,
     /// Position of the present row.
@@ -88,6 +89,7 @@ impl RetardedPotential {
         let mut start = Self {
             delays: delays.collect(),
             rules,
+            base: creep.base.clone(),
             aspect,
             n_columns,
             position,
@@ -107,7 +109,8 @@ impl RetardedPotential {
 
     /// Potential V of the loaded element.
     fn potential(&self, x: f64, column: usize) -> f64 {
-        influence([x, column as f64 * self.aspect], [1.0, self.aspect])
+        let offset = [x, column as f64 * self.aspect];
+        self.base.influence(offset, [1.0, self.aspect])
     }
 
     /// Adds the potentials of the next row behind, and drops those of the row furthest ahead.
@@ -123,8 +126,9 @@ impl RetardedPotential {
         let slowest = rates.fold(f64::MAX, f64::min);
         let mut ends = vec![self.position];
         let mut end = self.position;
-        while slowest * (end - self.position) < LARGEST_EXPONENT && end < 1e150 {
-            end *= GROWTH;
+        let felt = 1.0 + self.base.reach();
+        while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
+            end = (GROWTH * end).min(end + self.base.clearance());
             ends.push(end);
         }
         let rule = POINTS.len() - 1;
@@ -171,7 +175,7 @@ impl RetardedPotential {
         self.push_row(x + 1.0 - KEPT as f64);
         for column in 0..self.n_columns {
             let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
-            let distance = distance_from_edges([x, x + 1.0], clearance);
+            let distance = distance_from_edges([x, x + 1.0], clearance).min(self.base.clearance());
             if let Some(rule) = shortest(&ROWS, distance) {
                 self.through_rows(column, rule);
             } else if let Some(rule) = shortest(&POINTS, distance) {
@@ -231,7 +235,7 @@ impl RetardedPotential {
         for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
             *increment = 0.0;
         }
-        for panel in panels(x, clearance).iter().rev() {
+        for panel in panels(x, (clearance, self.base.clearance())).iter().rev() {
             let potentials = self.at_nodes(panel, column);
             for (index, delay) in self.delays.iter().enumerate() {
                 let (decay, weights) = self.over_panel(delay, panel);
@@ -269,8 +273,8 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
 }
 
 /// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
-/// one of the rules.
-fn panels(x: f64, clearance: f64) -> Vec<Panel> {
+/// one of the rules. The clearances are those of the edges across, and of all other singularities.
+fn panels(x: f64, clearance: (f64, f64)) -> Vec<Panel> {
     let mut ends = vec![x];
     ends.extend(
         [-0.5, 0.5]
@@ -285,9 +289,9 @@ fn panels(x: f64, clearance: f64) -> Vec<Panel> {
     panels
 }
 
-fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
+fn divide([start, end]: [f64; 2], clearance: (f64, f64), panels: &mut Vec<Panel>) {
     let length = end - start;
-    let distance = distance_from_edges([start, end], clearance);
+    let distance = distance_from_edges([start, end], clearance.0).min(clearance.1);
     let rule =
         shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
     if let Some(rule) = rule {
@@ -308,6 +312,7 @@ mod tests {
     use numerics::integrate;
 
     use super::*;
+    use crate::influence;
     use crate::steady::sliding_creep::Delay;
 
     /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.

@@ -10,9 +10,13 @@
 use std::f64::consts::{FRAC_2_PI, PI};
 
 use numerics::positive;
-use rheology::{CreepSpectrum, Material};
+use rheology::{CreepSpectrum, Material as _};
 
-use crate::BemError;
+use crate::layer::Base;
+use crate::{BemError, Elastomer};
+
+/// Rate of the retardation element that stands for a flow behind which the load is not felt for ever.
+const SLOWEST: f64 = 1e-100;
 
 /// A material at a sliding speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +25,7 @@ pub(super) struct SlidingCreep {
     /// 2 (1 − ν).
     half_space_factor: f64,
     velocity: f64,
+    base: Base,
 }
 
 /// The creep compliance over one element, as parts of J(Δx/v): what the tables of the kernel depend on.
@@ -33,6 +38,8 @@ pub(super) struct ElementCreep {
     /// Part of the free flow.
     pub(super) flow: f64,
     pub(super) delays: Vec<Delay>,
+    /// With lengths in Δx.
+    pub(super) base: Base,
 }
 
 /// A retardation element over the length of one element.
@@ -58,24 +65,39 @@ impl Delay {
 
 impl SlidingCreep {
     pub(super) fn new(
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
         Ok(Self {
-            spectrum: material.creep(),
-            half_space_factor: positive("half-space factor", material.half_space_factor())?,
+            spectrum: elastomer.material().creep(),
+            half_space_factor: positive(
+                "half-space factor",
+                elastomer.material().half_space_factor(),
+            )?,
             velocity: positive("velocity", velocity)?,
+            base: Base::of(elastomer),
         })
     }
 
-    /// Whether there is nothing but a dashpot, under which only rising elements touch.
+    /// Whether there is nothing but a dashpot half space, under which only rising elements touch.
     pub(super) fn only_flows(&self) -> bool {
-        self.spectrum.instantaneous_compliance() == 0.0 && self.spectrum.elements().is_empty()
+        self.fluidity() > 0.0
+            && self.spectrum.instantaneous_compliance() == 0.0
+            && self.spectrum.elements().is_empty()
     }
 
-    /// Fluidity 1/η_f, [1/(Pa s)].
+    /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
+    /// not sink for ever.
     pub(super) const fn fluidity(&self) -> f64 {
-        self.spectrum.fluidity()
+        if self.base.is_layer() {
+            0.0
+        } else {
+            self.spectrum.fluidity()
+        }
+    }
+
+    pub(super) const fn base(&self) -> &Base {
+        &self.base
     }
 
     /// Distance in which the slowest retardation element forgets, \[m].
@@ -88,6 +110,11 @@ impl SlidingCreep {
     /// Compliance 2 (1 − ν)/(η_f v) of the free flow, by which the surface sinks per length, [1/(Pa m)].
     pub(super) fn flow_per_length(&self) -> f64 {
         self.half_space_factor * self.spectrum.fluidity() / self.velocity
+    }
+
+    /// The same under a load of about that length, by how much less a layer gives way than a half space.
+    pub(super) fn compliance_of_contact(&self, length: f64) -> Result<f64, BemError> {
+        Ok(self.compliance(length)? * self.base.softness(length))
     }
 
     /// Compliance 2 (1 − ν) J(length/v), \[1/Pa].
@@ -108,6 +135,13 @@ impl SlidingCreep {
             positive("compliance of a retardation element", delay.compliance())?;
         }
         parts.shift = self.shift(spacing)?;
+        parts.base = self.base.in_units_of(spacing);
+        if parts.base.is_layer() && parts.flow > 0.0 {
+            // The slowest element there is.
+            let (rate, share) = (SLOWEST, parts.flow);
+            parts.delays.push(Delay { rate, share });
+            parts.flow = 0.0;
+        }
         Ok(parts)
     }
 
@@ -126,6 +160,7 @@ impl SlidingCreep {
             instant: self.spectrum.instantaneous_compliance(),
             flow: self.spectrum.fluidity() * time,
             delays: delays.collect::<Result<_, BemError>>()?,
+            base: Base::default(),
         })
     }
 

@@ -11,7 +11,6 @@
 
 use std::sync::Arc;
 
-use crate::influence;
 use crate::steady::kernel::wake_influence;
 use crate::steady::retarded_potential::RetardedPotential;
 use crate::steady::sliding_creep::ElementCreep;
@@ -87,7 +86,7 @@ impl WakeTable {
     }
 
     /// Values of a kernel along a row.
-    fn along(&self, row: usize, kernel: fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
+    fn along(&self, row: usize, kernel: impl Fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
         let x = self.offset(row);
         let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);
         (0..self.n_columns()).map(value).collect()
@@ -133,7 +132,9 @@ impl WakeTable {
     fn add_instant(&mut self) {
         let instant = self.creep.instant;
         for row in 0..=2 * self.reach[0] {
-            let here = self.along(row, influence);
+            let here = self.along(row, |offset, edges| {
+                self.creep.base.influence(offset, edges)
+            });
             self.add(row, |column| [instant * here[column]; 2]);
         }
     }

@@ -2,11 +2,10 @@
 
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::positive;
-use rheology::Material;
 
 use super::{March, MeanSlopes, Motion, MotionRow, Route};
 use crate::grid::elements_along;
-use crate::{BemError, Grid, GridOptions};
+use crate::{BemError, Elastomer, Grid, GridOptions};
 
 /// Steps at a depth after which a march is not begun.
 const MOST_STEPS: f64 = 1e5;
@@ -24,13 +23,13 @@ impl<'a> March<'a> {
     /// range; [`BemError::GridTooLarge`]; [`BemError::InvalidHeight`]; [`BemError::Material`].
     pub fn new(
         surface: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         motions: &[Motion],
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let route = Route::through(motions.iter().copied(), spacing, None)?;
-        Self::on(route, surface, material, options)
+        Self::on(route, surface, elastomer, options)
     }
 
     /// Part of the steps that are done.
@@ -45,7 +44,7 @@ impl<'a> March<'a> {
     /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
     pub fn sliding(
         surface: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         load: &SlidingLoad,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
@@ -72,7 +71,7 @@ impl<'a> March<'a> {
                 Route::through(ends_at(distance, spacing)?.map(motion), spacing, None)?
             }
         };
-        Self::on(route, surface, material, options)
+        Self::on(route, surface, elastomer, options)
     }
 
     /// Makes the next step; none after the last.

@@ -23,13 +23,14 @@ use std::ops::Range;
 
 use indenters::{Control, Surface};
 use numerics::positive;
-use rheology::{CreepSpectrum, ExponentialStep, Material};
+use rheology::{CreepSpectrum, ExponentialStep, Material as _};
 
 use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
+use crate::layer::Base;
 use crate::pressure_field::PressureField;
 use crate::resolution::{Layout, SlideOmission};
-use crate::{BemError, GridOptions};
+use crate::{BemError, Elastomer, GridOptions};
 pub use checkpoint::MarchState;
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
@@ -70,28 +71,29 @@ impl<'a> March<'a> {
     fn on(
         route: Route,
         surface: &'a dyn Surface,
-        material: &(impl Material + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let [along_x, along_y] = surface.mirrors();
         let layout = options.layout([along_x && route.rests(), along_y])?;
         let [dx, dy] = options.spacing;
-        let creep = material.creep();
+        let creep = elastomer.material().creep();
         let time_step = route.legs[0].time_step;
         let step = ExponentialStep::creep(&creep, time_step)?;
         let route = match step.n_fields() {
             0 => route.without_memory(),
             _ => route,
         };
+        let base = Base::of(elastomer).in_units_of(dx);
         let n_rows = route.rows_from(0, layout.followed()[0]).end;
-        let window = Window::new(n_rows, &layout, dy / dx, step.n_fields())?;
+        let window = Window::new(n_rows, &layout, dy / dx, (step.n_fields(), base))?;
         let mut march = Self {
             surface,
             options: *options,
             layout,
             scale: 0.0,
             creep,
-            half_space_factor: material.half_space_factor(),
+            half_space_factor: elastomer.material().half_space_factor(),
             route,
             steps_done: 0,
             step,

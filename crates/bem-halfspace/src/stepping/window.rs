@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use rheology::ExponentialStep;
 
+use crate::layer::Base;
 use crate::resolution::Layout;
 use crate::{BemError, Convolution, ConvolutionWorkspace, Grid};
 
@@ -30,11 +31,11 @@ impl Window {
         n_rows: usize,
         layout: &Layout,
         aspect: f64,
-        n_fields: usize,
+        (n_fields, base): (usize, Base),
     ) -> Result<Self, BemError> {
         let grid = Grid::new([n_rows, layout.followed()[1]], [1.0, aspect])?;
         let n_elements = grid.n_elements();
-        let whole = Convolution::new(&grid.unfolded(layout.mirrors));
+        let whole = Convolution::free(&grid.unfolded(layout.mirrors), base);
         let convolution = whole.folded(layout.mirrors);
         Ok(Self {
             workspace: convolution.workspace(),

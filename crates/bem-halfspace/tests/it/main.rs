@@ -14,6 +14,7 @@ mod indentation_follows_lee_radok_and_ting;
 mod interrupted_marches;
 mod invariance;
 mod kernels;
+mod layers;
 mod memory;
 mod mirrors;
 mod nested_grids;

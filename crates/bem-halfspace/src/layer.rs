@@ -1,0 +1,338 @@
+//! A layer of finite thickness t, bonded to a rigid base and free of friction above.
+//!
+//! A wave of pressure moves its surface by `û = 2 p̂ M(|q|t)/(|q| E*)`, with E* as for the half space, where M is 1. So every
+//! half-space method answers for a layer when the potential 1/r of a point is replaced by
+//!
+//! ```text
+//! 1/r + c(r/t)/t,        c(ρ) = ∫_0^∞ [M(s) − 1] J₀(sρ) ds,
+//! ```
+//!
+//! of which the second part is analytic for |Im ρ| < 2, and both together decay like e^(−0.7 ρ) or faster.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
+use std::sync::{Arc, OnceLock};
+
+use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule};
+use rheology::Material;
+
+use crate::influence;
+use crate::rectangle::integrate_smooth;
+
+/// What a surface is pressed into: every [`Material`] stands for a half space, and [`Layer`] makes a layer of it.
+pub trait Elastomer {
+    /// What it is made of.
+    fn material(&self) -> &(impl Material + ?Sized);
+
+    /// Its thickness, \[m]; infinite for a half space.
+    fn thickness(&self) -> f64;
+}
+
+impl<M: Material + ?Sized> Elastomer for M {
+    fn material(&self) -> &(impl Material + ?Sized) {
+        self
+    }
+
+    fn thickness(&self) -> f64 {
+        f64::INFINITY
+    }
+}
+
+/// A layer of a material, bonded to a rigid base.
+#[derive(Debug)]
+pub struct Layer<'a, M: ?Sized> {
+    material: &'a M,
+    thickness: f64,
+}
+
+impl<'a, M: Material + ?Sized> Layer<'a, M> {
+    /// A layer of a thickness greater than 0 \[m]; an infinite one is a half space.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for another number.
+    pub fn new(material: &'a M, thickness: f64) -> Result<Self, InvalidParameter> {
+        in_range("thickness", thickness, thickness > 0.0, "greater than 0")?;
+        Ok(Self {
+            material,
+            thickness,
+        })
+    }
+}
+
+impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
+    fn material(&self) -> &(impl Material + ?Sized) {
+        self.material
+    }
+
+    fn thickness(&self) -> f64 {
+        self.thickness
+    }
+}
+
+/// Factor M(s) by which a layer on a rigid base gives way less to a wave of pressure than a half space, for s = |q|t ≥ 0 and
+/// −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
+#[must_use]
+pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
+    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
+    // Times 2 e^(−2s), so that nothing overflows; the difference sinh 2s − 2s is a series where it would cancel.
+    let excess = if s < 0.5 {
+        let square = 4.0 * s * s;
+        let series = (1..=10).rev().fold(0.0, |sum, n| {
+            square / f64::from(2 * n * (2 * n + 1)) * (1.0 + sum)
+        });
+        4.0 * s * series * decay
+    } else {
+        1.0 - decay * decay - 4.0 * s * decay
+    };
+    let numerator = 8.0 * s * decay * (1.0 - 2.0 * poisson_ratio) + kappa * excess;
+    numerator / denominator(s, poisson_ratio)
+}
+
+/// 2 e^(−2s) times the denominator of M.
+fn denominator(s: f64, poisson_ratio: f64) -> f64 {
+    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
+    2.0 * decay * (constant(poisson_ratio) + 2.0 * s * s) + kappa * (1.0 + decay * decay)
+}
+
+fn constant(poisson_ratio: f64) -> f64 {
+    5.0 - 4.0 * poisson_ratio * (3.0 - 2.0 * poisson_ratio)
+}
+
+/// M(s) − 1 without cancellation.
+fn deficit(s: f64, poisson_ratio: f64) -> f64 {
+    let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
+    let rest = kappa * decay + 2.0 * s * (1.0 + s) + constant(poisson_ratio);
+    -2.0 * decay * rest / denominator(s, poisson_ratio)
+}
+
+/// A half space, or a layer with its thickness in the unit of the lengths of a grid.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Base(Option<Thin>);
+
+#[derive(Debug, Clone)]
+struct Thin {
+    thickness: f64,
+    poisson_ratio: f64,
+    /// Found when it is first needed.
+    correction: Arc<OnceLock<Correction>>,
+}
+
+impl PartialEq for Thin {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();
+        same(self.thickness, other.thickness) && same(self.poisson_ratio, other.poisson_ratio)
+    }
+}
+
+impl Base {
+    pub(crate) fn of(elastomer: &(impl Elastomer + ?Sized)) -> Self {
+        let thickness = elastomer.thickness();
+        Self(thickness.is_finite().then(|| Thin {
+            thickness,
+            poisson_ratio: elastomer.material().poisson_ratio(),
+            correction: Arc::default(),
+        }))
+    }
+
+    /// The same with lengths in another unit.
+    pub(crate) fn in_units_of(&self, length: f64) -> Self {
+        Self(self.0.clone().map(|thin| Thin {
+            thickness: thin.thickness / length,
+            ..thin
+        }))
+    }
+
+    pub(crate) const fn is_layer(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// |q|/M(|q|t), the |q| > 0 of the wave that a half space would resist as much.
+    pub(crate) fn stiffness(&self, wave_number: f64) -> f64 {
+        self.0.as_ref().map_or(wave_number, |thin| {
+            wave_number / layer_factor(wave_number * thin.thickness, thin.poisson_ratio)
+        })
+    }
+
+    /// The same, and for waves longer than about the thickness that of a wave as long: what an incompressible layer resists in
+    /// longer ones depends on the load around, which it is squeezed out under.
+    pub(crate) fn local_stiffness(&self, wave_number: f64) -> f64 {
+        let longest = self.0.as_ref().map_or(0.0, |thin| 2.0 / thin.thickness);
+        self.stiffness(wave_number.max(longest))
+    }
+
+    /// M/|q| of the mean: by how much a layer gives way under a load that is the same everywhere; 0 for a half space, where
+    /// displacements are measured from their mean.
+    pub(crate) fn mean(&self) -> f64 {
+        self.0.as_ref().map_or(0.0, |thin| {
+            let nu = thin.poisson_ratio;
+            0.5 * thin.thickness * (1.0 - 2.0 * nu) / (1.0 - nu).powi(2)
+        })
+    }
+
+    /// By how much softer than a half space the base is under a load of about that length.
+    pub(crate) fn softness(&self, length: f64) -> f64 {
+        // A Winkler foundation gives way under a flat punch of that radius by as much.
+        let wave_number = FRAC_PI_4.recip() / length;
+        wave_number / self.stiffness(wave_number)
+    }
+
+    /// Where contact may occur over about that length from the middle, as a multiple of the heights where a half space may be
+    /// touched: a thin layer that cannot shrink rises around the contact, and meets a body h ∼ r^p up to the height
+    /// (p/2 + 1) d.
+    pub(crate) fn rise(&self, half_length: f64) -> f64 {
+        let slenderness = self
+            .0
+            .as_ref()
+            .map_or(0.0, |thin| half_length / thin.thickness);
+        1.0 + (0.4 * slenderness).min(2.0)
+    }
+
+    /// Distance beyond which nothing moves.
+    pub(crate) fn reach(&self) -> f64 {
+        self.0
+            .as_ref()
+            .map_or(f64::INFINITY, |thin| REACH * thin.thickness)
+    }
+
+    /// The longest panel of a line on which polynomials follow c as well as they follow the potential of an element on a
+    /// panel next to its edge that is as long as its distance.
+    pub(crate) fn clearance(&self) -> f64 {
+        self.0.as_ref().map_or(f64::INFINITY, |thin| {
+            FRAC_1_SQRT_2 * SINGULAR * thin.thickness
+        })
+    }
+
+    /// Displacement by a uniformly loaded rectangle, as [`influence`].
+    pub(crate) fn influence(&self, offset: [f64; 2], edges: [f64; 2]) -> f64 {
+        let Some(thin) = &self.0 else {
+            return influence(offset, edges);
+        };
+        // Of the rectangle only what is not too far to move anything.
+        let reach = self.reach();
+        let [mut centre, mut seen] = [offset, edges];
+        for axis in 0..2 {
+            let half = 0.5 * edges[axis];
+            let [first, last] = [
+                (offset[axis] - half).max(-reach),
+                (offset[axis] + half).min(reach),
+            ];
+            if first >= last {
+                return 0.0;
+            }
+            if last - first < edges[axis] {
+                (centre[axis], seen[axis]) = (0.5 * (first + last), last - first);
+            }
+        }
+        let unit = thin.thickness;
+        let table = thin
+            .correction
+            .get_or_init(|| Correction::new(thin.poisson_ratio));
+        let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
+        let smooth = integrate_smooth(SINGULAR, (offset, edges), |x, y| {
+            table.at((x * x + y * y).sqrt())
+        });
+        influence(centre, seen) + unit * smooth
+    }
+}
+
+/// Distance from 0 at which c is singular, along the imaginary axis.
+const SINGULAR: f64 = 2.0;
+/// Where 1/ρ + c is below 1e-15 of 1.
+const REACH: f64 = 44.0;
+/// Where 1 − M is.
+const SHORTEST_WAVE: f64 = 24.0;
+/// Panels and points of the integral over s: as many as follow J₀(sρ) up to the reach.
+const WAVE_PANELS: u8 = 8;
+const WAVE_POINTS: usize = 96;
+/// Length in distances to the singularities of the panels of ρ on which c is integrated, and of those on which it is kept;
+/// with as many coefficients as give 1e-12.
+const PANEL: f64 = 0.5;
+const TERMS: usize = 16;
+const SHORT_PANEL: f64 = 0.0625;
+const FEW_TERMS: usize = 6;
+
+/// c(ρ) up to the reach, on short panels of the same length.
+#[derive(Debug)]
+struct Correction(Vec<Panel<FEW_TERMS>>);
+
+impl Correction {
+    fn new(poisson_ratio: f64) -> Self {
+        let LobattoRule { nodes, weights } = lobatto_rule(WAVE_POINTS);
+        let half = 0.5 * SHORTEST_WAVE / f64::from(WAVE_PANELS);
+        let waves: Vec<[f64; 2]> = (0..WAVE_PANELS)
+            .flat_map(|panel| {
+                let middle = half * f64::from(2 * panel + 1);
+                let rule = nodes.iter().zip(&weights);
+                rule.map(move |(t, weight)| [middle + half * t, half * weight])
+            })
+            .map(|[s, weight]| [s, weight * deficit(s, poisson_ratio)])
+            .collect();
+        let integral = |rho: f64| -> f64 {
+            let waves = waves.iter().map(|[s, weight]| weight * libm::j0(s * rho));
+            waves.sum()
+        };
+        let mut panels: Vec<Panel<TERMS>> = Vec::new();
+        let mut start = 0.0;
+        while start < REACH {
+            let length = PANEL * f64::hypot(start, SINGULAR);
+            panels.push(Panel::new([start, length], integral));
+            start += length;
+        }
+        let value = |rho: f64| {
+            let panel = panels.partition_point(|panel| panel.start <= rho);
+            panels[panel.max(1) - 1].at(rho)
+        };
+        let starts = (0..).map(|index| SHORT_PANEL * f64::from(index));
+        let starts = starts.take_while(|start| *start < REACH);
+        Self(
+            starts
+                .map(|start| Panel::new([start, SHORT_PANEL], value))
+                .collect(),
+        )
+    }
+
+    fn at(&self, rho: f64) -> f64 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a distance is not negative, and beyond the last panel it does not matter by how much"
+        )]
+        let panel = self.0.get((rho / SHORT_PANEL) as usize);
+        panel.map_or_else(|| -rho.recip(), |panel| panel.at(rho))
+    }
+}
+
+/// A Chebyshev series over a part of the line.
+#[derive(Debug)]
+struct Panel<const N: usize> {
+    start: f64,
+    length: f64,
+    coefficients: [f64; N],
+}
+
+impl<const N: usize> Panel<N> {
+    fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
+        let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
+        let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
+        let values: [f64; N] = std::array::from_fn(value);
+        let coefficient = |order: usize| {
+            let terms = values.iter().enumerate();
+            let terms = terms.map(|(index, value)| value * (order as f64 * angle(index)).cos());
+            terms.sum::<f64>() * if order == 0 { 1.0 } else { 2.0 } / N as f64
+        };
+        Self {
+            start,
+            length,
+            coefficients: std::array::from_fn(coefficient),
+        }
+    }
+
+    /// By the recurrence of Clenshaw (1955).
+    fn at(&self, rho: f64) -> f64 {
+        let x = 2.0 * (rho - self.start) / self.length - 1.0;
+        let [mut last, mut this] = [0.0; 2];
+        for coefficient in self.coefficients[1..].iter().rev() {
+            (last, this) = (this, 2.0 * x * this - last + coefficient);
+        }
+        x * this - last + self.coefficients[0]
+    }
+}

@@ -1,0 +1,268 @@
+//! A layer on a rigid base: its factor, its potential, pressing against an integral equation, and its limits.
+
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
+
+use bem_halfspace::{
+    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, SlidingLoad, layer_factor,
+    press, slide, steady, steady_line, steady_periodic_on_grid,
+};
+use casebook::refused;
+use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, PowerProfile, RigidLine};
+use nalgebra::{DMatrix, DVector};
+use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
+use rheology::{Compressible, Elastic, Material, StandardSolid, StandardSolidParameters, Viscous};
+
+use crate::support::{assert_close, assert_near};
+
+/// ν, s and M(s); casebook-2.json, "layer".
+const FACTORS: [[f64; 3]; 7] = [
+    [0.0, 0.05, 0.024_999_992_201_426_974],
+    [0.0, 3.0, 0.953_820_617_645_123_9],
+    [0.3, 0.3, 0.123_138_581_660_434_59],
+    [0.3, 10.0, 0.999_999_491_307_521_4],
+    [0.45, 1.0, 0.304_116_812_406_668_66],
+    [0.5, 0.05, 8.296_003_684_674_766e-5],
+    [0.5, 3.0, 0.886_720_854_075_309_1],
+];
+
+#[test]
+fn the_factor_is_known_to_rounding_for_all_waves() {
+    for [nu, s, expected] in FACTORS {
+        assert_close("M", layer_factor(s, nu), expected, 2e-15);
+    }
+    for nu in [-0.9, 0.0, 0.3, 0.4999, 0.499_999, 0.5] {
+        for decade in -6..=6 {
+            let s = 10.0_f64.powi(decade);
+            // Both terms of the numerator, of which one dominates unless s² is about 1 − 2ν.
+            let long =
+                s * (0.5 * (1.0 - 2.0 * nu) + (3.0 - 4.0 * nu) * s * s / 6.0) / (1.0 - nu).powi(2);
+            let expected = if s < 1.0 { long } else { 1.0 };
+            let allowed = if s < 1.0 {
+                5.0 * s * s
+            } else {
+                8.0 * (s + 1.0).powi(2) * (-2.0 * s).exp()
+            };
+            assert_close("M", layer_factor(s, nu), expected, allowed.max(1e-13));
+        }
+    }
+}
+
+/// A layer of E* = 1.
+fn material(poisson_ratio: f64) -> Compressible {
+    let spring = Elastic::new(0.5 * (1.0 - poisson_ratio)).unwrap();
+    Compressible::new(&spring, poisson_ratio).unwrap()
+}
+
+/// Force and depth of a body that touches a layer of E* = 1 over a disc, from dual integral equations:
+///
+/// ```text
+/// q(x) + (1/π) ∫ q(s) k(x − s) ds = d − g(x) for |x| < a,    k(x) = ∫_0^∞ [M(ξt) − 1] cos ξx dξ,    F = ∫ q dx
+/// ```
+///
+/// with the profile g of the equivalent line, by the rule of Lobatto (Nyström). A smooth body has q(a) = 0.
+fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: bool) -> [f64; 2] {
+    let LobattoRule { nodes, weights } = lobatto_rule(80);
+    let nodes: Vec<f64> = nodes.iter().map(|t| 0.5 * a * (1.0 + t)).collect();
+    let waves = lobatto_rule(400);
+    let kernel = |x: f64| {
+        let wave = |(t, weight): (&f64, &f64)| {
+            let s = 15.0 * (1.0 + t);
+            15.0 * weight * (layer_factor(s, nu) - 1.0) * (s * x).cos()
+        };
+        waves
+            .nodes
+            .iter()
+            .zip(&waves.weights)
+            .map(wave)
+            .sum::<f64>()
+    };
+    let n = nodes.len();
+    let matrix = DMatrix::from_fn(n, n, |row, column| {
+        let identity = if row == column { 1.0 } else { 0.0 };
+        let [x, s] = [nodes[row], nodes[column]];
+        identity + 0.5 * a * FRAC_1_PI * weights[column] * (kernel(x - s) + kernel(x + s))
+    });
+    let solver = matrix.lu();
+    let line = EquivalentLine(body);
+    let profile = DVector::from_fn(n, |row, _| line.height(nodes[row].min(a)));
+    let [of_depth, of_profile] =
+        [DVector::repeat(n, 1.0), profile].map(|right| solver.solve(&right).unwrap());
+    let depth = if has_edge {
+        1.0
+    } else {
+        of_profile[n - 1] / of_depth[n - 1]
+    };
+    let loads = of_depth * depth - of_profile;
+    let force: f64 = loads
+        .iter()
+        .zip(&weights)
+        .map(|(load, weight)| a * weight * load)
+        .sum();
+    [force, depth]
+}
+
+/// The depth is given, so that the deviation is that of the force; of a punch the elements follow the edge.
+#[test]
+fn pressing_agrees_with_an_integral_equation() {
+    for nu in [0.0, 0.45, 0.5] {
+        for a in [0.1, 8.0] {
+            let bodies: [(&str, Box<dyn Axisymmetric>, [f64; 2]); 3] = [
+                (
+                    "paraboloid",
+                    Box::new(PowerProfile::paraboloid(1.0).unwrap()),
+                    [2e-4, 1e-4],
+                ),
+                (
+                    "cone",
+                    Box::new(PowerProfile::cone(1.0).unwrap()),
+                    [2e-4, 1e-4],
+                ),
+                ("punch", Box::new(FlatPunch::new(a).unwrap()), [3e-2, 8e-3]),
+            ];
+            for (name, body, [asked, allowed]) in bodies {
+                let [force, depth] = by_integral_equation(&body, [a, nu], name == "punch");
+                let material = material(nu);
+                let layer = Layer::new(&material, 1.0).unwrap();
+                let control = Control::IndentationDepth(depth);
+                let found = press(&body, &layer, control, asked).unwrap();
+                let scene = format!("{name}, ν = {nu}, a = {a} t");
+                assert_close(&scene, found.normal_force.value, force, allowed);
+                assert_within_bar(&scene, found.normal_force, force);
+                assert_within_bar(&scene, found.contact_area, PI * a * a);
+            }
+        }
+    }
+}
+
+fn assert_within_bar(what: &str, found: Estimate, expected: f64) {
+    let Estimate { value, error } = found;
+    assert!(
+        (value - expected).abs() <= error,
+        "{what}: {value} ± {error}, not {expected}"
+    );
+}
+
+/// Every field moves as the sum of the waves in it: by the factor of the wave without end.
+#[test]
+fn all_elements_together_move_the_mean() {
+    let grid = Grid::new([801, 801], [1.0, 0.8]).unwrap();
+    let ones = vec![1.0; grid.n_elements()];
+    for nu in [-0.5, 0.0, 0.3, 0.499_999, 0.5] {
+        for thickness in [0.3, 2.0, 7.0] {
+            let material = material(nu);
+            let layer = Layer::new(&material, thickness).unwrap();
+            let convolution = Convolution::on(&layer, &grid);
+            let (mut sums, mut workspace) = (ones.clone(), convolution.workspace());
+            convolution.apply(&mut workspace, (&ones, 0..801), (&mut sums, 400..401));
+            let mean = PI * thickness * (1.0 - 2.0 * nu) / (1.0 - nu).powi(2);
+            assert_near("the middle", sums[400 * 801 + 400], mean, 1e-10 * thickness);
+        }
+    }
+}
+
+fn solid() -> StandardSolid {
+    let parameters = StandardSolidParameters {
+        equilibrium_modulus: 0.25,
+        maxwell_modulus: 2.25,
+        viscosity: 2.25,
+    };
+    StandardSolid::new(parameters).unwrap()
+}
+
+/// casebook-2.json, "line": a collocation method of another author, with 1e-8 of friction and length and 6e-6 of the depth.
+#[test]
+fn a_cylinder_slides_as_an_independent_solver_finds() {
+    let solid = solid();
+    let layer = Layer::new(&solid, 0.1).unwrap();
+    let load = SlidingLoad::new(0.02, 0.01).unwrap();
+    let found = steady_line(&Cylinder::new(1.0).unwrap(), &layer, &load, 1e-5).unwrap();
+    assert_within_bar("μ", found.friction_coefficient, 0.038_570_761_236_354_46);
+    assert_within_bar("width", found.contact_area, 2.0 * 0.073_904_070_412_448_22);
+    assert_within_bar(
+        "peak",
+        found.peak_pressure.unwrap(),
+        0.215_895_694_783_608_37,
+    );
+    assert_within_bar(
+        "depth",
+        found.indentation_depth.unwrap(),
+        0.003_948_654_133_675_425,
+    );
+}
+
+/// Also of a layer that flows, under which a body does not sink for ever.
+#[test]
+fn a_march_comes_to_the_stationary_state() {
+    let body = PowerProfile::paraboloid(0.5).unwrap();
+    let (viscous, solid) = (Viscous::new(1.0).unwrap(), solid());
+    let materials: [&dyn Material; 2] = [&viscous, &solid];
+    for nu in [0.3, 0.5] {
+        for material in materials {
+            let material = Compressible::new(material, nu).unwrap();
+            let layer = Layer::new(&material, 0.1).unwrap();
+            let load = SlidingLoad::new(0.001, 0.1).unwrap();
+            let stationary = steady(&body, &layer, &load, 1e-3).unwrap();
+            let load = load.after(1.5).unwrap();
+            let marched = slide(&body, &layer, &load, Accuracy::Elements(10)).unwrap();
+            let scene = format!("{material:?}");
+            assert_within_bar(
+                &scene,
+                marched.friction_coefficient,
+                stationary.friction_coefficient.value,
+            );
+            let depth = stationary.indentation_depth.unwrap();
+            assert_within_bar(&scene, marched.indentation_depth.unwrap(), depth.value);
+        }
+    }
+}
+
+/// A solid remembers the layer by its thickness only: what is missing to the half space falls like a/t.
+#[test]
+fn a_thick_layer_is_a_half_space() {
+    let (body, solid) = (PowerProfile::paraboloid(0.5).unwrap(), solid());
+    let load = SlidingLoad::new(0.001, 0.1).unwrap();
+    let control = Control::NormalForce(0.001);
+    let friction_and_depth = |thickness: f64| {
+        let layer = Layer::new(&solid, thickness).unwrap();
+        let slid = steady(&body, &layer, &load, 1e-3).unwrap();
+        let pressed = press(&body, &layer, control, 1e-3).unwrap();
+        [
+            slid.friction_coefficient,
+            pressed.indentation_depth.unwrap(),
+        ]
+    };
+    let [friction, depth] = friction_and_depth(f64::INFINITY);
+    let [thick_friction, thick_depth] = friction_and_depth(12.0);
+    assert_within_bar("friction at t = 100 a", thick_friction, friction.value);
+    let [missing, half] =
+        [thick_depth, friction_and_depth(6.0)[1]].map(|thick| depth.value - thick.value);
+    assert_close("order of approach", half / missing, 2.0, 0.05);
+}
+
+/// A wave that is in full contact, in closed form, and the mean, which is the depth.
+#[test]
+fn a_periodic_layer_moves_by_its_factor() {
+    let grid = Grid::new([32, 32], [1.0 / 32.0; 2]).unwrap();
+    let wave = |element: usize| 1e-3 * (TAU * ((element / 32) as f64 / 32.0)).cos();
+    let heights: Vec<f64> = (0..grid.n_elements()).map(wave).collect();
+    let (solid, thickness, velocity) = (Compressible::new(&solid(), 0.3).unwrap(), 0.2, 0.1);
+    let layer = Layer::new(&solid, thickness).unwrap();
+    let load = PeriodicLoad::new(1.0, velocity).unwrap();
+    let state =
+        steady_periodic_on_grid(&grid, &heights, &layer, &load, &PeriodicOptions::default())
+            .unwrap();
+    // μ = p̂ h̃ q sin δ/2 over the mean pressure, with |p̂| = ½ |E*| q h̃/M.
+    let modulus = solid.complex_modulus(TAU * velocity).unwrap().loss * 2.0 / 0.7;
+    let friction = 0.25 * modulus * (TAU * 1e-3).powi(2) / layer_factor(TAU * thickness, 0.3);
+    assert_close("friction", state.friction_coefficient, friction, 1e-9);
+    let mean = thickness * 0.4 / (2.0 * 0.25 * 0.7);
+    assert_close("depth", state.mean_depth, mean, 1e-9);
+}
+
+#[test]
+fn a_thickness_is_a_number_above_zero() {
+    let solid = solid();
+    for thickness in [0.0, -1.0, f64::NAN] {
+        refused("thickness", Layer::new(&solid, thickness));
+    }
+}
