@@ -18,7 +18,6 @@ use indenters::{SlidingLoad, Surface};
 use rheology::Material;
 
 pub use crate::pressure_field::PressureField;
-pub use crate::resolution::SlideOmission;
 pub use crate::stepping::{March, MarchState, Motion, MotionRow};
 use crate::{BemError, GridOptions};
 pub use estimate::{SlideEstimate, slide, slide_memory};
