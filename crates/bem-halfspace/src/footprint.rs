@@ -123,8 +123,11 @@ impl Footprint {
         Ok(sides)
     }
 
-    /// Number of elements behind and ahead of, right and left of the element under the lowest point.
-    pub(crate) fn elements(&self, spacing: [f64; 2]) -> Result<[[usize; 2]; 2], BemError> {
+    /// Number of elements behind and ahead of, right and left of the element under the lowest point, of edges \[m].
+    ///
+    /// # Errors
+    /// [`BemError::InvalidParameter`] for ends on the wrong side of the lowest point; [`BemError::GridTooLarge`].
+    pub fn elements(&self, spacing: [f64; 2]) -> Result<[[usize; 2]; 2], BemError> {
         let mut counts = [[0; 2]; 2];
         for (axis, ends) in self.sides()?.into_iter().enumerate() {
             for (side, end) in ends.into_iter().enumerate() {

@@ -5,16 +5,6 @@ use crate::mirror::Mirror;
 use crate::{BemError, ContactOptions, Footprint};
 use numerics::positive;
 
-/// A part of the work of a march that is left out where a problem does not need it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum SlideOmission {
-    /// The elements of the footprint around the contact, while it is solved.
-    OutsideContact,
-    /// The displacement of the rows that the footprint has left behind for good.
-    RowsBehind,
-}
-
 /// One grid for pressing and sliding in time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -25,9 +15,6 @@ pub struct GridOptions {
     pub footprint: Footprint,
     /// How exactly each step is solved.
     pub contact: ContactOptions,
-    /// Work that is done although the problem does not need it, to measure what leaving it out saves; the result is the
-    /// same up to the tolerance.
-    pub redundant_work: Option<SlideOmission>,
 }
 
 /// The elements under the indenter.
@@ -49,7 +36,6 @@ impl GridOptions {
             spacing,
             footprint,
             contact: ContactOptions::default(),
-            redundant_work: None,
         }
     }
 

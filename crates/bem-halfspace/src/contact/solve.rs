@@ -43,10 +43,9 @@ fn solve_around(
 ) -> Result<Solved, BemError> {
     let convolution = problem.convolution;
     let grid = convolution.grid();
-    let may_have_box = state.may_have_box && convolution.surroundings == Surroundings::Free;
     let saves_time = |bounds: &Bounds| {
         let part = bounds.n_elements() as f64 / grid.n_elements() as f64;
-        may_have_box && part < LARGEST_BOX
+        convolution.surroundings == Surroundings::Free && part < LARGEST_BOX
     };
     let with_margin = bounds.map(|bounds| bounds.with_margin(grid.shape(), convolution.mirrors));
     let Some((bounds, outer)) = bounds.zip(with_margin.filter(saves_time)) else {

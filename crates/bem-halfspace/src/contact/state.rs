@@ -16,8 +16,6 @@ pub struct ContactState {
     pub(super) displacement: Vec<f64>,
     /// Elements in contact, increasing.
     contact: Vec<usize>,
-    /// Whether the iteration may run on a box around the contact.
-    pub(crate) may_have_box: bool,
     /// The grid, and what surrounds it, for which everything below was made when it was first needed.
     kind: Option<(Grid, Surroundings)>,
     pub(super) workspace: Option<ConvolutionWorkspace>,
@@ -38,7 +36,6 @@ impl ContactState {
             load: vec![0.0; n],
             displacement: vec![0.0; n],
             contact: Vec::new(),
-            may_have_box: true,
             kind: None,
             workspace: None,
             fields: None,

@@ -17,7 +17,6 @@ mod transient;
 use indenters::{SlidingLoad, Surface};
 
 pub use crate::pressure_field::PressureField;
-pub use crate::resolution::SlideOmission;
 pub use crate::stepping::{March, MarchState, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
 pub use estimate::{SlideEstimate, slide, slide_memory};

@@ -10,7 +10,6 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::conjugate_residuals::{minimise, norm};
 use crate::reductions::add;
-use crate::steady::SteadyOmission;
 use crate::steady::filter::Product;
 use crate::steady::mesh::Mesh;
 use crate::steady::plans::Plans;
@@ -44,15 +43,9 @@ pub(super) fn solve_equations(
     start: Vec<f64>,
     tolerance: f64,
 ) -> EquationSolution {
-    let elements = contact.iter().copied();
-    let mut region = mesh.region(elements.clone());
-    let small = is_factorised(contact.len(), region.n_places());
-    let redundant_work = mesh.options.redundant_work;
-    if small && redundant_work != Some(SteadyOmission::Transforms) {
+    let region = mesh.region(contact.iter().copied());
+    if is_factorised(contact.len(), region.n_places()) {
         return factorise(mesh, contact);
-    }
-    if redundant_work == Some(SteadyOmission::OutsideContact) {
-        region = mesh.region_of_all(elements);
     }
     ContactEquations::new(mesh, plans, contact, region).iterate(start, tolerance)
 }

@@ -110,14 +110,7 @@ impl Mesh {
 
     /// Some elements in the box around them.
     pub(super) fn region(&self, elements: impl Iterator<Item = usize> + Clone) -> Region {
-        let places = elements.map(|element| self.places(element));
-        Region::within(places.clone(), places)
-    }
-
-    /// Some elements in the box around all.
-    pub(super) fn region_of_all(&self, elements: impl Iterator<Item = usize>) -> Region {
-        let all = (0..self.n_elements()).map(|element| self.places(element));
-        Region::within(all, elements.map(|element| self.places(element)))
+        Region::around(elements.map(|element| self.places(element)))
     }
 
     /// Centre of a row (axis 0) or column (axis 1) relative to the lowest point, \[m].

@@ -79,9 +79,6 @@ pub struct SteadyOptions {
     pub tolerance: f64,
     /// Active sets tried before the solver gives up.
     pub max_iterations: usize,
-    /// Work that is done although the problem does not need it, to measure what leaving it out saves; the result is the
-    /// same up to the tolerance.
-    pub redundant_work: Option<SteadyOmission>,
 }
 
 impl SteadyOptions {
@@ -95,19 +92,8 @@ impl SteadyOptions {
             footprint,
             tolerance: 1e-9,
             max_iterations: 500,
-            redundant_work: None,
         }
     }
-}
-
-/// A part of the work that is left out where a problem does not need it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum SteadyOmission {
-    /// The elements around the contact, while its equations are solved by transforms.
-    OutsideContact,
-    /// Transforms and iteration, where a contact is small enough to be factorised.
-    Transforms,
 }
 
 /// Solves the stationary sliding of `surface` on a linear viscoelastic material on one grid, under a force or at a depth;

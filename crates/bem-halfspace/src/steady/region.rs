@@ -12,12 +12,9 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Elements at some places, each with its image, in the box around others that include them.
-    pub(super) fn within(
-        occupied: impl Iterator<Item = [[usize; 2]; 2]>,
-        elements: impl Iterator<Item = [[usize; 2]; 2]>,
-    ) -> Self {
-        let bounds = Bounds::of(occupied.flatten()).unwrap_or(Bounds::EMPTY);
+    /// Elements at some places, each with its image.
+    pub(super) fn around(elements: impl Iterator<Item = [[usize; 2]; 2]> + Clone) -> Self {
+        let bounds = Bounds::of(elements.clone().flatten()).unwrap_or(Bounds::EMPTY);
         let place = |place| bounds.place(place);
         Self {
             shape: bounds.shape(),

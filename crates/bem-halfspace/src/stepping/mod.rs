@@ -29,7 +29,7 @@ use crate::bounds::Bounds;
 use crate::contact::{ContactBox, check_heights};
 use crate::layer::Base;
 use crate::pressure_field::PressureField;
-use crate::resolution::{Layout, SlideOmission};
+use crate::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
 pub use checkpoint::MarchState;
 pub use motion::{Motion, MotionRow};
@@ -240,9 +240,6 @@ impl<'a> March<'a> {
 
     /// Rows that a step or a later one needs.
     fn rows_needed(&self, step: usize) -> Range<usize> {
-        if self.options.redundant_work == Some(SlideOmission::RowsBehind) {
-            return 0..self.window.convolution.grid().shape()[0];
-        }
         self.route.rows_from(step, self.layout.followed()[0])
     }
 
@@ -293,21 +290,11 @@ impl<'a> March<'a> {
 
     /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
-        let convolution = &self.window.convolution;
-        let [rows, columns] = self.layout.followed();
-        if self.options.redundant_work == Some(SlideOmission::OutsideContact) {
-            let bounds = Bounds {
-                lower: [0; 2],
-                upper: [rows, columns],
-            };
-            let mut contact_box = ContactBox::of(convolution, bounds)?;
-            contact_box.state.may_have_box = false;
-            return Ok(contact_box);
-        }
+        let [_, columns] = self.layout.followed();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));
         let index = lowest.unwrap_or(0);
         let element = Bounds::around([index / columns, index % columns]);
-        ContactBox::of(convolution, self.with_margin(&element))
+        ContactBox::of(&self.window.convolution, self.with_margin(&element))
     }
 
     /// With room for a growing contact.

@@ -8,7 +8,6 @@ use super::{Leg, March, MotionRow};
 use crate::BemError;
 use crate::bounds::Bounds;
 use crate::mirror::images;
-use crate::resolution::SlideOmission;
 
 /// A box of which less is needed than this part gives way to a smaller one; more than the part below which the contact
 /// solver would take a smaller box of its own.
@@ -111,9 +110,6 @@ impl March<'_> {
     ///
     /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
     fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
-        if self.options.redundant_work == Some(SlideOmission::OutsideContact) {
-            return Ok(());
-        }
         let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);
         let [rows, columns] = [0, 1].map(|axis| needed.shape()[axis].min(shape[axis]));

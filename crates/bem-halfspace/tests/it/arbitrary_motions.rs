@@ -113,6 +113,17 @@ fn the_footprint_does_not_matter() {
     assert_same_rows(&small, &large, 1.0, 1e-9);
 }
 
+/// The rows that a body leaves for good are not followed any more, those to which it comes back are: with the same steps
+/// before.
+#[test]
+fn a_return_at_the_end_changes_nothing_before() {
+    let path = (1..=24).map(|k| 0.1 * f64::from(k)).map(|x| (x, x));
+    let options = tight(squares(0.1, 1.3));
+    let away = moved(path.clone(), &solid(), &options);
+    let back = moved(path.chain([(2.5, 0.1)]), &solid(), &options);
+    assert_same_rows(&away, &back, 1.0, 1e-9);
+}
+
 /// Waiting at a place is pressing: the depth is that of a body that never moved, if it was lifted meanwhile.
 #[test]
 fn a_body_pressed_elsewhere_meets_a_fresh_surface() {

@@ -1,7 +1,7 @@
 //! A march that is interrupted and resumed makes the same steps to the last bit.
 
-use bem_halfspace::slide::{March, MotionRow, SlideOmission};
-use bem_halfspace::{Control, GridOptions};
+use bem_halfspace::Control;
+use bem_halfspace::slide::{March, MotionRow};
 use indenters::{Surface, Unmirrored};
 use rheology::Material;
 
@@ -18,17 +18,9 @@ fn path(k: usize) -> (f64, f64, Control) {
     (0.1 * k_th, (0.07 * k_th).min(1.9), control)
 }
 
-fn march<'a>(
-    redundant_work: Option<SlideOmission>,
-    (body, material): (&'a dyn Surface, &'a dyn Material),
-    n_steps: usize,
-) -> March<'a> {
+fn march<'a>(body: &'a dyn Surface, material: &dyn Material, n_steps: usize) -> March<'a> {
     let motions = motions((1..=n_steps).map(path));
-    let options = GridOptions {
-        redundant_work,
-        ..squares(0.1, 1.6)
-    };
-    March::new(body, material, &motions, &options).expect("a march")
+    March::new(body, material, &motions, &squares(0.1, 1.6)).expect("a march")
 }
 
 /// Makes at most so many steps.
@@ -41,31 +33,24 @@ fn step(march: &mut March<'_>, n_steps: usize) -> Vec<MotionRow> {
 fn a_resumed_march_makes_the_same_steps_to_the_last_bit() {
     let body = power(0.5, 1.5);
     let material = prony([0.2, 0.0], &[(2.0, 0.3), (1.0, 2.0)]);
-    // The rows behind are in the state where they are moved all the same.
-    let behind = Some(SlideOmission::RowsBehind);
-    for (work, interruptions) in [
-        (None, &[0, 1, 4, 9, 12, 19, 25, 32][..]),
-        (behind, &[4, 19]),
-    ] {
-        let new = || march(work, (&body, &material), 32);
-        let expected = step(&mut new(), 33);
-        assert_eq!(expected.len(), 32, "steps of the motion");
-        for &interruption in interruptions {
-            let mut first = new();
-            let mut rows = step(&mut first, interruption);
-            let state = first.state();
-            #[cfg(feature = "serde")]
-            let text = serde_json::to_string(&state).expect("a text");
-            #[cfg(feature = "serde")]
-            let state = serde_json::from_str(&text).expect("a state");
-            let mut second = new();
-            second.resume(&state).expect("a state of the same scene");
-            assert_eq!(state.steps_done(), interruption, "steps in the state");
-            let pressures = [&first, &second].map(|march| march.pressure());
-            assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
-            rows.extend(step(&mut second, 33));
-            assert_eq!(rows, expected, "{work:?} after {interruption} steps");
-        }
+    let new = || march(&body, &material, 32);
+    let expected = step(&mut new(), 33);
+    assert_eq!(expected.len(), 32, "steps of the motion");
+    for interruption in [0, 1, 4, 9, 12, 19, 25, 32] {
+        let mut first = new();
+        let mut rows = step(&mut first, interruption);
+        let state = first.state();
+        #[cfg(feature = "serde")]
+        let text = serde_json::to_string(&state).expect("a text");
+        #[cfg(feature = "serde")]
+        let state = serde_json::from_str(&text).expect("a state");
+        let mut second = new();
+        second.resume(&state).expect("a state of the same scene");
+        assert_eq!(state.steps_done(), interruption, "steps in the state");
+        let pressures = [&first, &second].map(|march| march.pressure());
+        assert_eq!(pressures[0], pressures[1], "after {interruption} steps");
+        rows.extend(step(&mut second, 33));
+        assert_eq!(rows, expected, "after {interruption} steps");
     }
 }
 
@@ -75,17 +60,17 @@ fn a_state_of_another_scene_is_refused() {
     let whole = Unmirrored(&body);
     let branches = [(2.0, 0.3), (1.0, 2.0)];
     let [one, two] = [1, 2].map(|n| prony([0.2, 0.0], &branches[..n]));
-    let mut first = march(None, (&body, &one), 32);
+    let mut first = march(&body, &one, 32);
     step(&mut first, 3);
-    let refused = march(None, (&body, &two), 32).resume(&first.state());
+    let refused = march(&body, &two, 32).resume(&first.state());
     assert!(format!("{refused:?}").contains("\"memory\""), "{refused:?}");
     assert_refused("branches", refused, "LengthMismatch");
-    let refused = march(None, (&body, &one), 2).resume(&first.state());
+    let refused = march(&body, &one, 2).resume(&first.state());
     assert_refused("two steps", refused, "steps done");
     // The footprint of one has both sides, that of the other one.
     let elastic = elastic(2.0);
-    let mut mirrored = march(None, (&body, &elastic), 32);
-    let mut all = march(None, (&whole, &elastic), 32);
+    let mut mirrored = march(&body, &elastic, 32);
+    let mut all = march(&whole, &elastic, 32);
     step(&mut mirrored, 1);
     step(&mut all, 1);
     let [front, both] = [mirrored.state(), all.state()];

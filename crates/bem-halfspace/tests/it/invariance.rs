@@ -1,10 +1,8 @@
 //! Friction depends only on the dimensionless groups, and neither units nor footprints nor mirrors matter, nor how the
-//! equations of a contact are solved. That the other omissions change nothing is shown by `viscofriction run --explain`.
+//! equations of a contact are solved.
 
 use bem_halfspace::Footprint;
-use bem_halfspace::steady::{
-    SteadyOmission, SteadyOptions, SteadySliding, steady_line, steady_on_grid,
-};
+use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
 use casebook::group;
 use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
@@ -141,8 +139,8 @@ fn results_are_invariant_under_a_change_of_units() {
     }
 }
 
-/// Half of a symmetric scene and the whole, and the factorised contact and that of the iteration, are one discrete
-/// problem: answers differ by what the tolerance leaves open only.
+/// Half of a symmetric scene and the whole are one discrete problem, also where the half is factorised and the whole solved
+/// by iteration: answers differ by what the tolerance leaves open only.
 #[test]
 fn neither_half_a_scene_nor_a_factorisation_changes_the_contact() {
     let dashpot = viscous(2.0);
@@ -169,29 +167,15 @@ fn neither_half_a_scene_nor_a_factorisation_changes_the_contact() {
             // Elements on the axis are their own image.
             let [n, of_half] = [whole.unknowns, half.unknowns];
             assert!(2 * n > 3 * of_half && n <= 2 * of_half, "{n}, {of_half}");
+            let is_factorised = [&half, &whole].map(SteadySliding::is_factorised);
+            let is_either = elements > 5.0 || is_factorised == [true, false];
+            assert!(is_either, "half and whole factorised: {is_factorised:?}");
             let numbers = |state: &SteadySliding| {
                 let [force, area] = [state.normal_force, state.contact_area];
                 [state.friction_coefficient, force, area]
             };
             assert_all_close(options, numbers(&half), numbers(&whole), 1e-9);
         }
-        if elements > 10.0 || exponent < 2.0 {
-            continue;
-        }
-        let [expected, got] = [None, Some(SteadyOmission::Transforms)].map(|redundant_work| {
-            let state = scene.steady_on(&SteadyOptions {
-                redundant_work,
-                tolerance: 1e-11,
-                ..options
-            });
-            let is_factorised = redundant_work.is_none();
-            assert_eq!(state.is_factorised(), is_factorised, "{redundant_work:?}");
-            // Friction is a difference of slopes, and known to a part of their mean modulus.
-            let uphill = 1.0 + state.friction_coefficient / state.mean_slope;
-            let depth = state.depth.reference_depth;
-            [uphill, state.contact_area, state.normal_force, depth]
-        });
-        assert_all_close(elements, got, expected, 1e-10);
     }
 }
 

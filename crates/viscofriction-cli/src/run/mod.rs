@@ -1,6 +1,5 @@
 //! `run`: one scene, one answer.
 
-mod explain;
 mod files;
 mod pictures;
 mod table;
@@ -16,7 +15,7 @@ use viscofriction::scene::Method;
 use viscofriction::solve::{Answer, Omission, Problem, check_memory, problem_of, solve_watched};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{OutputFolder, print_line, say};
+use crate::output::{OutputFolder, markdown, print_line, say};
 use crate::progress;
 pub(crate) use pictures::around;
 
@@ -34,7 +33,7 @@ pub(crate) struct Run {
     /// How the result is printed.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Say which parts of the method the scene did not need, and measure what that saves by doing them too.
+    /// Say which parts of the method the scene did not need, why, and what leaving them out saves.
     #[arg(long)]
     explain: bool,
     /// Also write result.json, fields (NPY and CSV) and pictures (SVG and PNG) into this folder.
@@ -89,7 +88,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
         print_line(&format!("written into {}", out.path().display()))?;
     }
     if options.explain {
-        explain(&problem, &answer, options.format)?;
+        explain(&problem, answer.answer, options.format)?;
     }
     Ok(())
 }
@@ -124,10 +123,13 @@ fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
     }
 }
 
-/// Measures what the scene did not need; a result as JSON stays alone on the standard output.
-fn explain(problem: &Problem, answer: &Timed<'_>, format: Format) -> Result<()> {
-    let task = "measuring what was left out".to_owned();
-    let omissions = progress::during(task, |_| explain::table(problem, answer))?;
+/// Says what the scene did not need; a result as JSON stays alone on the standard output.
+fn explain(problem: &Problem, answer: &Answer, format: Format) -> Result<()> {
+    let mut omissions = markdown("left out | because | what that saves");
+    for &omission in &answer.left_out {
+        let saved = omission.saves(problem, answer);
+        omissions.add_row([omission.name(), omission.because().to_owned(), saved]);
+    }
     match format {
         Format::Json => say(&omissions.to_string()),
         Format::Table => print_line(&format!("\nnot needed, and left out:\n{omissions}"))?,

@@ -260,7 +260,7 @@ pub(crate) fn pressed(
 }
 
 /// What a force that is held for a duration does to the material, as an impulse on the dashpot of unit viscosity.
-pub(crate) fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
+fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
     let compliance = material.half_space_factor() * material.creep_compliance(duration)?;
     Ok(force * compliance)
 }

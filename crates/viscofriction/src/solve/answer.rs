@@ -1,8 +1,6 @@
 //! What a method answers: quantities in SI, each with its error.
 
-use bem_halfspace::GridOptions;
 use bem_halfspace::slide::PressureField;
-use bem_halfspace::steady::SteadyOptions;
 use mdr_core::CurvePoint;
 use numerics::{ErrorParts, Estimate};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
@@ -48,7 +46,7 @@ pub struct Answer {
     /// Parts of the method that the scene did not need.
     pub left_out: Vec<Omission>,
     /// The finest boundary elements.
-    pub grid: Option<Grid>,
+    pub(crate) grid: Option<Grid>,
     /// Fields and histories.
     pub fields: Fields,
 }
@@ -88,16 +86,11 @@ pub struct ContactBox {
 
 /// The finest boundary elements behind an answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Grid {
-    /// Of the stationary state.
-    Stationary {
-        /// The grid.
-        options: SteadyOptions,
-        /// Whether the contact was factorised.
-        factorised: bool,
-    },
-    /// Of pressing, and of sliding in time.
-    March(GridOptions),
+pub(crate) struct Grid {
+    /// Elements of the footprint behind and ahead of, right and left of the one under the lowest point.
+    pub(crate) footprint: [[usize; 2]; 2],
+    /// Whether the contact was factorised.
+    pub(crate) factorised: bool,
 }
 
 /// Fields and histories behind an answer; what a method does not have is empty.

@@ -1,7 +1,9 @@
 //! What boundary elements say, as answers.
 
 use bem_halfspace::slide::{SlideRow, slide};
-use bem_halfspace::{ContactEstimate, PeriodicLoad, indent, steady, steady_line, steady_periodic};
+use bem_halfspace::{
+    ContactEstimate, GridOptions, PeriodicLoad, indent, steady, steady_line, steady_periodic,
+};
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
@@ -34,13 +36,13 @@ pub(crate) fn stationary(
     request: Request,
 ) -> Result<Answer> {
     let estimate = steady(surface, material, load, request)?;
-    let finest = &estimate.finest;
+    let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
         unknowns: finest.unknowns,
         iterations: finest.iterations,
-        grid: Some(Grid::Stationary {
-            options: estimate.options,
+        grid: Some(Grid {
+            footprint: options.footprint.elements(options.spacing)?,
             factorised: finest.is_factorised(),
         }),
         ..answer(&estimate, Method::BemSteady, ends)
@@ -136,7 +138,7 @@ pub(crate) fn transient(
     let mut answer = Answer {
         unknowns: last.n_contact,
         iterations: estimate.finest.rows.len(),
-        grid: Some(Grid::March(estimate.options)),
+        grid: Some(of_march(&estimate.options)?),
         ..answer(&estimate, Method::BemTransient, ends)
     };
     answer.fields.history = estimate.finest.rows.iter().map(history_row).collect();
@@ -158,11 +160,18 @@ pub(crate) fn pressed(
         friction_coefficient: None,
         unknowns: finest.n_contact,
         iterations: 1,
-        grid: Some(Grid::March(estimate.options)),
+        grid: Some(of_march(&estimate.options)?),
         ..answer(&estimate, Method::BemTransient, ends)
     };
     answer.fields.pressure = estimate.finest.pressure;
     Ok(answer)
+}
+
+fn of_march(options: &GridOptions) -> Result<Grid> {
+    Ok(Grid {
+        footprint: options.footprint.elements(options.spacing)?,
+        factorised: false,
+    })
 }
 
 fn history_row(row: &SlideRow) -> HistoryRow {

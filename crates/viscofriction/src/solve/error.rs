@@ -8,7 +8,6 @@ use rheology::RheologyError;
 use thiserror::Error;
 
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
-use super::omission::Omission;
 use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
@@ -89,20 +88,6 @@ pub enum SolveError {
     FrontNotFound {
         /// The force, \[N].
         normal_force: f64,
-    },
-    /// The answer says nothing of the grid behind it, which is to be solved again.
-    #[error("the answer has no grid to solve again")]
-    NoGrid,
-    /// On the grid of an answer, solved again far more tightly, the body ends without contact.
-    #[error("solved again, the grid of the answer ends without contact")]
-    NoContact,
-    /// Work that the method does not have, and so cannot leave out.
-    #[error("{} does not leave out {}", method.name(), omission.name())]
-    NotLeftOut {
-        /// The method of the answer.
-        method: Method,
-        /// The work.
-        omission: Omission,
     },
 }
 

@@ -1,10 +1,8 @@
-//! What a method left out, decided here and nowhere else.
+//! What a method left out, decided here and nowhere else, and what that saves.
 
-use indenters::Surface as _;
 use rheology::CreepSpectrum;
 
 use super::answer::{Answer, Grid};
-use super::body::Body;
 use super::omission::Omission;
 use super::problem::{Motion, Problem};
 use super::work::work;
@@ -12,8 +10,7 @@ use crate::scene::{Control, Method, Model};
 
 impl Omission {
     /// The method that does the work of an omission too, where another method does.
-    #[must_use]
-    pub const fn done_by(self, model: Model, motion: Motion) -> Option<Method> {
+    const fn done_by(self, model: Model, motion: Motion) -> Option<Method> {
         match (self, model, motion) {
             (Self::NumericalSolution, Model::Line, Motion::Sliding(_)) => Some(Method::MdrSteady),
             (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding(_)) => {
@@ -26,6 +23,74 @@ impl Omission {
             _ => None,
         }
     }
+
+    /// What leaving it out of an answer to a problem saves, as a count where there is one that is exact.
+    #[must_use]
+    pub fn saves(self, problem: &Problem, answer: &Answer) -> String {
+        let Answer {
+            unknowns,
+            iterations,
+            ..
+        } = answer;
+        let n_footprint = |even| answer.grid.map_or(0, |grid| grid.n_elements(even));
+        let all = n_footprint([false; 2]);
+        match self {
+            Self::MirrorHalf if answer.method == Method::BemSteady => {
+                let n_contact = n_contact(answer);
+                format!("{unknowns} of {n_contact} elements in contact are unknowns")
+            }
+            Self::MirrorHalf => {
+                let n_followed = n_footprint(mirrors(problem).unwrap_or_default());
+                format!("{n_followed} of {all} elements of the footprint are followed")
+            }
+            Self::OutsideContact => {
+                let n_contact = n_contact(answer);
+                format!("{n_contact} of {all} elements of the footprint are in contact")
+            }
+            Self::Transforms => format!("the equations of {unknowns} unknowns are factorised"),
+            Self::RowsBehind => {
+                format!("each of {iterations} time steps leaves a row of elements behind")
+            }
+            Self::HistoryFields => {
+                let n_fields = n_fields(&problem.material.creep());
+                format!("0 values per element instead of {n_fields}")
+            }
+            Self::NumericalSolution => "no elements and no iteration".to_owned(),
+            Self::TimeSteps => "one state instead of a march in time".to_owned(),
+            Self::HalfSpace => "a line instead of a surface of elements".to_owned(),
+            Self::Gradients => "no slope of an element is computed".to_owned(),
+            Self::Files => "no field and no picture is written".to_owned(),
+        }
+    }
+}
+
+/// Elements in contact where the body slides, images included.
+fn n_contact(answer: &Answer) -> usize {
+    let field = answer.fields.pressure.iter();
+    let pressures = field.flat_map(|field| &field.pressure);
+    pressures.filter(|pressure| **pressure > 0.0).count()
+}
+
+impl Grid {
+    /// Elements of the footprint, without images along the axes along which everything is even.
+    fn n_elements(&self, even: [bool; 2]) -> usize {
+        let along = |axis: usize| {
+            let [before, after] = self.footprint[axis];
+            let is_half = even[axis] && before == after;
+            1 + after + if is_half { 0 } else { before }
+        };
+        along(0) * along(1)
+    }
+}
+
+/// Whether body and motion are their own mirror images along x and y; none of bodies that no other method answers for, one
+/// element of which along y leaves nothing to leave out.
+fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
+    let [along, across] = problem.body.surface()?.mirrors();
+    Some([
+        along && matches!(problem.motion, Motion::Pressing(_)),
+        across,
+    ])
 }
 
 /// What the method of the answer left out. Work that only another method would do is named where that method answers the
@@ -40,13 +105,10 @@ pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
 }
 
 fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
-    let [even_along, even_across] = match &problem.body {
-        // No other method answers for them, and one element along y leaves nothing to leave out.
-        Body::Cylinder(_) | Body::Periodic(_) => return Vec::new(),
-        Body::Revolution(body) => body.mirrors(),
-        Body::HeightMap(map) => map.mirrors(),
+    let Some(even) = mirrors(problem) else {
+        return Vec::new();
     };
-    let mirror = |is_even: bool| is_even.then_some(Omission::MirrorHalf);
+    let mirror = even.contains(&true).then_some(Omission::MirrorHalf);
     let candidates = match (answer.method, problem.motion) {
         (Method::Analytic, Motion::Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
@@ -61,13 +123,13 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
             // After a distance the friction is not yet that of the stationary state.
             let is_stationary = load.sliding_distance().is_none();
             vec![
-                mirror(even_across),
+                mirror,
                 Some(outside_or_transforms(answer)),
                 is_stationary.then_some(Omission::TimeSteps),
             ]
         }
         (Method::BemTransient, Motion::Sliding(_)) => vec![
-            mirror(even_across),
+            mirror,
             Some(Omission::OutsideContact),
             Some(Omission::RowsBehind),
         ],
@@ -77,7 +139,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
             let remembers = constant && n_fields(&problem.material.creep()) > 1;
             vec![
                 Some(Omission::TimeSteps),
-                mirror(even_along || even_across),
+                mirror,
                 Some(Omission::Gradients),
                 remembers.then_some(Omission::HistoryFields),
             ]
@@ -92,14 +154,12 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
 /// A box is transformed unless its contact is factorised.
 const fn outside_or_transforms(answer: &Answer) -> Omission {
     match answer.grid {
-        Some(Grid::Stationary {
-            factorised: true, ..
-        }) => Omission::Transforms,
+        Some(grid) if grid.factorised => Omission::Transforms,
         _ => Omission::OutsideContact,
     }
 }
 
-/// Values that an element of the half space remembers; the dashpot in its place remembers one.
+/// Values that an element of the half space remembers where it is followed in time.
 fn n_fields(creep: &CreepSpectrum) -> usize {
     creep.elements().len() + usize::from(creep.fluidity() > 0.0)
 }

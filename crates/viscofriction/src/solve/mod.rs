@@ -15,11 +15,10 @@ mod modulus_error;
 mod offer;
 mod omission;
 mod problem;
-mod same_problem;
 mod validity;
 mod work;
 
-pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow, Persson, RoughAnswer};
+pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution, body};
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
@@ -30,7 +29,6 @@ pub(crate) use offer::not_offered;
 pub use offer::{choose, problem_of};
 pub use omission::Omission;
 pub use problem::{Motion, Problem};
-pub use same_problem::solve_again;
 
 use self::left_out::left_out;
 use self::validity::warnings;

@@ -49,7 +49,7 @@ impl Omission {
             Self::OutsideContact => "pressure is in the contact only",
             Self::Transforms => "the contact is small enough to be factorised",
             Self::RowsBehind => "what the footprint has left does not come back",
-            Self::HistoryFields => "a dashpot under the same impulse has the same depth",
+            Self::HistoryFields => "a spring of the same compliance has the same depth",
             Self::Gradients => "nothing slides, so that no slope enters",
             Self::Files => "there is no --out",
         }
