@@ -72,6 +72,9 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
 /// −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
 #[must_use]
 pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
+    if s > SHORTEST_WAVE {
+        return 1.0 + deficit(s.min(1e3), poisson_ratio);
+    }
     let (kappa, decay) = (3.0 - 4.0 * poisson_ratio, (-2.0 * s).exp());
     // Times 2 e^(−2s), so that nothing overflows; the difference sinh 2s − 2s is a series where it would cancel.
     let excess = if s < 0.5 {
@@ -133,12 +136,20 @@ impl Base {
         }))
     }
 
-    /// The same with lengths in another unit.
-    pub(crate) fn in_units_of(&self, length: f64) -> Self {
-        Self(self.0.clone().map(|thin| Thin {
-            thickness: thin.thickness / length,
-            ..thin
-        }))
+    /// The same with lengths in edges of an element.
+    ///
+    /// # Errors
+    /// [`InvalidParameter`] for a layer that is thinner by far.
+    pub(crate) fn in_units_of(&self, edge: f64) -> Result<Self, InvalidParameter> {
+        let Some(thin) = self.0.clone() else {
+            return Ok(Self(None));
+        };
+        let is_resolved = thin.thickness >= edge / LONGEST_EDGE;
+        let allowed = "at least 1/32 of the edge of an element (below about 1/150 of the contact a layer is a Winkler \
+                       foundation, or where it is incompressible a film)";
+        in_range("thickness", thin.thickness, is_resolved, allowed)?;
+        let thickness = thin.thickness / edge;
+        Ok(Self(Some(Thin { thickness, ..thin })))
     }
 
     pub(crate) const fn is_layer(&self) -> bool {
@@ -234,6 +245,8 @@ impl Base {
     }
 }
 
+/// Edge of an element in thicknesses, at most.
+const LONGEST_EDGE: f64 = 32.0;
 /// Distance from 0 at which c is singular, along the imaginary axis.
 const SINGULAR: f64 = 2.0;
 /// Where 1/ρ + c is below 1e-15 of 1.

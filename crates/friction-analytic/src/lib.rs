@@ -15,6 +15,8 @@
 //! - On the half space: the [function s(p)](scaling_factor) that Kürschner leaves open, as a table with error bars, and
 //!   the [friction](half_space_power_friction) that follows from it; [wavy surfaces](wavy_surface_sliding) in full contact
 //!   on any material.
+//! - On [thin layers](ThinLayer): the Winkler foundation, in plane strain [for sliding too](winkler_line_force), and the film
+//!   of an incompressible one.
 //! - Rough surfaces in partial contact: Persson's theory, from a [spectrum](persson_of_spectrum) or from
 //!   [waves](persson_of_waves).
 //!
@@ -56,6 +58,7 @@ mod sinking;
 mod slow_sliding;
 mod stationary;
 mod superposition;
+mod thin_layer;
 mod transient;
 mod viscoelastic;
 mod wavy;
@@ -82,6 +85,7 @@ pub use sinking::{one_sided_sinking_velocity, sinking_velocity};
 pub use slow_sliding::{SlowSliding, slow_sliding};
 pub use stationary::{StationarySliding, stationary_depth};
 pub use superposition::superposition_sliding;
+pub use thin_layer::{ThinContact, ThinLayer, winkler_line_force};
 pub use transient::{
     TransientSliding, cone_depth_by_equation_15, sliding_distance_to_depth, transient_sliding,
 };

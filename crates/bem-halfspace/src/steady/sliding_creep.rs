@@ -135,7 +135,7 @@ impl SlidingCreep {
             positive("compliance of a retardation element", delay.compliance())?;
         }
         parts.shift = self.shift(spacing)?;
-        parts.base = self.base.in_units_of(spacing);
+        parts.base = self.base.in_units_of(spacing)?;
         if parts.base.is_layer() && parts.flow > 0.0 {
             // The slowest element there is.
             let (rate, share) = (SLOWEST, parts.flow);

@@ -84,7 +84,7 @@ impl<'a> March<'a> {
             0 => route.without_memory(),
             _ => route,
         };
-        let base = Base::of(elastomer).in_units_of(dx);
+        let base = Base::of(elastomer).in_units_of(dx)?;
         let n_rows = route.rows_from(0, layout.followed()[0]).end;
         let window = Window::new(n_rows, &layout, dy / dx, (step.n_fields(), base))?;
         let mut march = Self {

@@ -7,6 +7,7 @@ use bem_halfspace::{
     press, slide, steady, steady_line, steady_periodic_on_grid,
 };
 use casebook::refused;
+use friction_analytic::ThinLayer;
 use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, PowerProfile, RigidLine};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
@@ -257,6 +258,41 @@ fn a_periodic_layer_moves_by_its_factor() {
     assert_close("friction", state.friction_coefficient, friction, 1e-9);
     let mean = thickness * 0.4 / (2.0 * 0.25 * 0.7);
     assert_close("depth", state.mean_depth, mean, 1e-9);
+}
+
+/// The foundation of Winkler is within 1 % at a = 50 t. The radii of both limits are off in proportion to t/a, and the forces
+/// at a depth by less.
+#[test]
+fn thin_layers_are_foundations_or_films() {
+    let body = PowerProfile::paraboloid(1.0).unwrap();
+    for nu in [0.3, 0.5] {
+        let limit = ThinLayer::new(0.5 * (1.0 - nu), nu, 1.0).unwrap();
+        let [near, far] = [10.0, 20.0].map(|a| {
+            let [force, depth] = by_integral_equation(&body, [a, nu], false);
+            let thin = if nu < 0.5 {
+                limit.press_winkler(&body, depth)
+            } else {
+                limit.press_film(&body, depth)
+            };
+            let thin = thin.unwrap();
+            [
+                1.0 - thin.normal_force / force,
+                1.0 - thin.contact_radius / a,
+            ]
+        });
+        let [force, radius] = [0, 1].map(|quantity| near[quantity] / far[quantity]);
+        assert!(
+            (2.5..4.0).contains(&force) && (1.7..2.2).contains(&radius),
+            "{near:?} {far:?}"
+        );
+    }
+    let material = material(0.3);
+    let layer = Layer::new(&material, 1.0).unwrap();
+    let found = press(&body, &layer, Control::IndentationDepth(2500.0), 1e-2).unwrap();
+    let limit = ThinLayer::new(0.35, 0.3, 1.0).unwrap();
+    let limit = limit.press_winkler(&body, 2500.0).unwrap();
+    assert_within_bar("force", found.normal_force, limit.normal_force);
+    assert_close("force", found.normal_force.value, limit.normal_force, 1e-2);
 }
 
 #[test]

@@ -83,7 +83,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     if let Some(out) = &out {
         files::write(&answer, out)?;
     }
-    print(&answer, options.format, problem.method.is_none())?;
+    print(&problem, &answer, options.format)?;
     if let (Some(out), Format::Table) = (&out, options.format) {
         print_line(&format!("written into {}", out.path().display()))?;
     }
@@ -105,13 +105,14 @@ fn in_pool(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
     Ok(pool.install(|| solve_watched(problem, watch))?)
 }
 
-fn print(timed: &Timed<'_>, format: Format, chosen: bool) -> Result<()> {
+fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
     let Timed { answer, seconds } = timed;
     match format {
         Format::Json => print_line(&serde_json::to_string_pretty(timed)?),
         Format::Table => {
-            let (method, model) = (answer.method.name(), table::model(answer.model));
-            let cheapest = if chosen { CHEAPEST } else { "" };
+            let (method, model) = (answer.method.name(), table::model(problem, answer));
+            let is_chosen = problem.method.is_none();
+            let cheapest = if is_chosen { CHEAPEST } else { "" };
             print_line(&format!("{method}{cheapest}; {model}; {seconds:.3} s"))?;
             print_line(&table::table(answer))?;
             if let Some(parts) = table::parts(&answer.error_parts) {

@@ -2,7 +2,7 @@
 
 use comfy_table::Table;
 use viscofriction::scene::Model;
-use viscofriction::solve::Answer;
+use viscofriction::solve::{Answer, Problem};
 use viscofriction::{ErrorParts, Estimate};
 
 use crate::output::markdown;
@@ -25,15 +25,15 @@ pub(super) fn table(answer: &Answer) -> Table {
     ];
     let of_rough = answer.rough.map(|rough| {
         let theory = rough.persson;
-        let theory = [theory.friction_coefficient, theory.area_fraction];
-        let [friction, area] = theory.map(Estimate::exact);
+        let friction = theory.map(|theory| Estimate::exact(theory.friction_coefficient));
+        let area = theory.map(|theory| Estimate::exact(theory.area_fraction));
         let dissipation = rough.friction_from_dissipation;
         [
             ("friction by dissipation", Some(dissipation), ""),
             ("mean pressure", Some(rough.mean_pressure), "Pa"),
             ("area fraction", Some(rough.area_fraction), ""),
-            ("friction, Persson's theory", Some(friction), ""),
-            ("area fraction, Persson's theory", Some(area), ""),
+            ("friction, Persson's theory", friction, ""),
+            ("area fraction, Persson's theory", area, ""),
         ]
     });
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
@@ -66,9 +66,12 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
 }
 
 /// The model in words.
-pub(super) const fn model(model: Model) -> &'static str {
-    match model {
-        Model::Line => "one-dimensional model",
-        Model::HalfSpace => "half space",
+pub(super) fn model(problem: &Problem, answer: &Answer) -> String {
+    match answer.model {
+        Model::HalfSpace if problem.thickness.is_finite() => {
+            format!("layer of {} m", short(problem.thickness))
+        }
+        Model::HalfSpace => "half space".to_owned(),
+        Model::Line => "one-dimensional model".to_owned(),
     }
 }

@@ -11,6 +11,7 @@ mod fit_material;
 mod fuzzed_inputs;
 mod height_maps_of_numpy;
 mod histories;
+mod layers;
 mod malformed;
 mod rough_scenes;
 mod scenes;

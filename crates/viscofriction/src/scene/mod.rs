@@ -30,14 +30,25 @@ pub(crate) use source::{scene_file, split_index};
 
 use crate::text::WrongInput;
 
-/// A rigid body on a half space, and what is asked about it.
+/// How thick the elastomer is.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    /// Thickness > 0, \[m].
+    pub thickness: f64,
+}
+
+/// A rigid body on an elastomer, and what is asked about it.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// The rigid body.
     pub indenter: Indenter,
-    /// The half space.
+    /// The elastomer.
     pub material: MaterialTable,
+    /// A layer bonded to a rigid base; without it a half space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layer: Option<Layer>,
     /// How the body is pressed and moved.
     pub load: Load,
     /// What is asked, and how well.

@@ -23,7 +23,8 @@ pub struct Answer {
     pub friction_coefficient: Option<Estimate>,
     /// F_N, \[N], or \[N/m] of a cylinder.
     pub normal_force: Estimate,
-    /// Depth of the lowest point below the undeformed surface, \[m]; none where it has no end.
+    /// Depth of the lowest point below the undeformed surface, \[m], and of the mean plane of a periodic surface; none where
+    /// it has no end.
     pub indentation_depth: Option<Estimate>,
     /// Parts of the error of the friction coefficient; where nothing slides of the depth, or of the force at a given depth.
     pub error_parts: ErrorParts,
@@ -60,8 +61,8 @@ pub struct RoughAnswer {
     pub area_fraction: Estimate,
     /// The friction coefficient from the power that the material dissipates.
     pub friction_from_dissipation: Estimate,
-    /// Persson's theory of the same waves.
-    pub persson: Persson,
+    /// Persson's theory of the same waves on a half space; none on a layer.
+    pub persson: Option<Persson>,
 }
 
 /// Persson's theory (2001) of the waves of a surface, exact as a sum.
@@ -234,7 +235,7 @@ impl Answer {
         numbers.extend(parts.map(|(name, part)| (format!("error_{name}"), part)));
         let contact = self.contact_box.as_ref();
         let edges = contact.map_or([None; 4], ContactBox::edges);
-        let theory = self.rough.map(|rough| rough.persson);
+        let theory = self.rough.and_then(|rough| rough.persson);
         let friction = theory.map(|one| one.friction_coefficient);
         let others = [
             ("contact_box_error", contact.map(|contact| contact.error)),
@@ -305,7 +306,9 @@ impl Serialize for Answer {
             }
         }
         if let Some(rough) = self.rough {
-            map.serialize_entry("persson", &rough.persson)?;
+            if let Some(persson) = rough.persson {
+                map.serialize_entry("persson", &persson)?;
+            }
         }
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;

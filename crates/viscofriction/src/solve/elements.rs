@@ -8,7 +8,6 @@ use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
-use rheology::Material;
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
 use super::error::Result;
@@ -30,12 +29,12 @@ fn answer<S, O>(estimate: &ContactEstimate<S, O>, method: Method, [x, y]: [[f64;
 
 /// The stationary state.
 pub(crate) fn stationary(
+    problem: &Problem,
     surface: &dyn Surface,
-    material: &dyn Material,
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = steady(surface, material, load, request)?;
+    let estimate = steady(surface, &problem.elastomer()?, load, request)?;
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -53,12 +52,12 @@ pub(crate) fn stationary(
 
 /// The stationary state of a cylinder in plane strain.
 pub(crate) fn line_contact(
+    problem: &Problem,
     cylinder: &Cylinder,
-    material: &dyn Material,
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = steady_line(cylinder, material, load, request)?;
+    let estimate = steady_line(cylinder, &problem.elastomer()?, load, request)?;
     let finest = &estimate.finest;
     let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
     let mut answer = Answer {
@@ -85,12 +84,11 @@ pub(crate) fn periodic(
 ) -> Result<Answer> {
     let area: f64 = surface.period().iter().product();
     let mean_pressure = load.mean_pressure();
-    let material = &*problem.material;
     let fitting = problem.max_memory.map(|bytes| bytes / BYTES_PER_ELEMENT);
     let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
     #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
     let most = most as usize;
-    let estimate = steady_periodic(surface, material, load, relative_error, most)?;
+    let estimate = steady_periodic(surface, &problem.elastomer()?, load, relative_error, most)?;
     let wave = |wave: &Wave| SurfaceWave {
         amplitude: wave.amplitude,
         wave_vector: surface.wave_vector(wave),
@@ -101,12 +99,18 @@ pub(crate) fn periodic(
         mean_pressure,
         velocity: load.velocity(),
     };
-    let theory = persson_of_waves(&waves, material, load)?;
+    let theory = persson_of_waves(&waves, &problem.material, load)?;
+    // The theory is that of the half space.
+    let persson = (!problem.is_layer()).then_some(Persson {
+        area_fraction: theory.area_fraction.value,
+        friction_coefficient: theory.friction_coefficient.value,
+    });
     let finest = estimate.finest;
     let elements = finest.pressure.pressure.iter();
     let mut answer = Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
         error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
+        indentation_depth: problem.is_layer().then_some(estimate.mean_depth),
         contact_area: Some(estimate.area_fraction * area),
         unknowns: elements.filter(|pressure| **pressure > 0.0).count(),
         iterations: finest.products,
@@ -114,10 +118,7 @@ pub(crate) fn periodic(
             mean_pressure: Estimate::exact(mean_pressure),
             area_fraction: estimate.area_fraction,
             friction_from_dissipation: estimate.friction_from_dissipation,
-            persson: Persson {
-                area_fraction: theory.area_fraction.value,
-                friction_coefficient: theory.friction_coefficient.value,
-            },
+            persson,
         }),
         ..Answer::new(Method::BemSteady, Model::HalfSpace, force)
     };
@@ -127,12 +128,12 @@ pub(crate) fn periodic(
 
 /// From first touch to the stationary state, or over a distance.
 pub(crate) fn transient(
+    problem: &Problem,
     surface: &dyn Surface,
-    material: &dyn Material,
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = slide(surface, material, load, request)?;
+    let estimate = slide(surface, &problem.elastomer()?, load, request)?;
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
@@ -148,12 +149,12 @@ pub(crate) fn transient(
 
 /// Pressing without sliding.
 pub(crate) fn pressed(
+    problem: &Problem,
     surface: &dyn Surface,
-    material: &dyn Material,
     load: &PressingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = indent(surface, material, load, request)?;
+    let estimate = indent(surface, &problem.elastomer()?, load, request)?;
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {

@@ -102,21 +102,21 @@ impl Watch for Limited<'_> {
 
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
 fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
-    let material = &*problem.material;
+    let elastomer = problem.elastomer().ok()?;
     let surface = problem.body.surface()?;
     match (method, problem.motion) {
         (Method::BemSteady, Motion::Sliding(load)) => {
-            steady_memory(surface, material, &load, elements).ok()
+            steady_memory(surface, &elastomer, &load, elements).ok()
         }
         (Method::BemTransient, Motion::Sliding(load)) => {
-            slide_memory(surface, material, &load, elements).ok()
+            slide_memory(surface, &elastomer, &load, elements).ok()
         }
         (Method::BemTransient, Motion::Pressing(load)) => {
-            indent_memory(surface, material, &load, elements).ok()
+            indent_memory(surface, &elastomer, &load, elements).ok()
         }
         (Method::MdrTransient, Motion::Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
-            mdr_core::slide_memory(&line, material, &load, elements).ok()
+            mdr_core::slide_memory(&line, &problem.material, &load, elements).ok()
         }
         _ => None,
     }

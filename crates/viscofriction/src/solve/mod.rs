@@ -79,7 +79,7 @@ fn watched(
     let answer = Answer {
         model,
         left_out,
-        warnings: warnings(&problem.body, &answer),
+        warnings: warnings(problem, &answer),
         ..answer
     };
     answer.finite()

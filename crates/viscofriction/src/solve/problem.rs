@@ -2,11 +2,14 @@
 
 use std::path::Path;
 
+use bem_halfspace::{BemError, Layer};
 use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
 use mdr_core::HistoryPoint;
+use numerics::positive;
 use rheology::{Material, RheologyError};
 
 use super::body::{Body, body};
+use super::error::SolveError;
 use super::expansion::Expansion;
 use super::half_space::{HalfSpace, Simple, half_space, simple};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
@@ -19,6 +22,8 @@ pub struct Problem {
     pub body: Body,
     /// The elastomer.
     pub material: Box<dyn Material>,
+    /// Its thickness, \[m]; infinite for a half space.
+    pub thickness: f64,
     /// How well it stands for a fractional element; none of a material that stands for itself.
     pub expansion: Option<Expansion>,
     /// How the body is pressed and moves.
@@ -79,11 +84,15 @@ impl Problem {
             material,
             expansion,
         } = half_space(&scene.material, folder, read)?;
+        let thickness = scene.layer.map_or(Ok(f64::INFINITY), |layer| {
+            positive("layer.thickness", layer.thickness)
+        })?;
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let problem = Self {
             body,
             simple: simple(&*material).map_err(not_reduced)?,
             material,
+            thickness,
             expansion,
             motion,
             history,
@@ -95,6 +104,18 @@ impl Problem {
         };
         problem.check_control()?;
         Ok(problem)
+    }
+
+    /// What the body is pressed into.
+    ///
+    /// # Errors
+    /// [`SolveError`] for a thickness that is not greater than 0.
+    pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
+        Ok(Layer::new(&*self.material, self.thickness).map_err(BemError::from)?)
+    }
+
+    pub(crate) const fn is_layer(&self) -> bool {
+        self.thickness.is_finite()
     }
 
     /// Whether the load can be held by what is known of the material.

@@ -4,14 +4,16 @@ use indenters::Surface as _;
 
 use super::answer::Answer;
 use super::body::{Body, Revolution};
+use super::problem::Problem;
 
 /// Mean slope of the surface in contact above which linear theory is no longer accurate.
 const STEEPEST: f64 = 0.5;
-/// Depth over the radius of a sphere, likewise.
+/// Depth over the radius of a sphere or the thickness of a layer, likewise.
 const DEEPEST: f64 = 1.0 / 3.0;
 
 /// Sentences about the validity of an answer, none where linear theory holds.
-pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
+pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
+    let body = &problem.body;
     let mut warnings = Vec::new();
     if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > STEEPEST) {
         warnings.push(format!(
@@ -30,6 +32,13 @@ pub(super) fn warnings(body: &Body, answer: &Answer) -> Vec<String> {
             "the indentation depth {depth:.3e} m is more than a third of the radius {:.3e} m of the sphere, where linear \
              theory ends",
             sphere.radius()
+        ));
+    }
+    if depth > DEEPEST * problem.thickness {
+        warnings.push(format!(
+            "the indentation depth {depth:.3e} m is more than a third of the thickness {:.3e} m of the layer, where linear \
+             theory ends",
+            problem.thickness
         ));
     }
     warnings

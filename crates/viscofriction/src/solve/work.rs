@@ -18,6 +18,7 @@ use crate::scene::{Accuracy, Control, Method, Model};
 pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + 'a>, Refusal>;
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
+const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
@@ -26,6 +27,8 @@ const NOTHING_SLIDES: Refusal =
 
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
+    let has_layers = matches!(method, Method::BemSteady | Method::BemTransient);
+    require(has_layers || !problem.is_layer(), NO_LAYER)?;
     if let Motion::History(_) = problem.motion {
         return followed(problem, method, accuracy);
     }
@@ -56,8 +59,9 @@ fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
     if holds { Ok(()) } else { Err(refusal) }
 }
 
-fn flows(problem: &Problem) -> bool {
-    problem.material.creep().fluidity() > 0.0
+/// Whether a single body sinks for ever, as it does not on a layer.
+fn sinks(problem: &Problem) -> bool {
+    problem.material.creep().fluidity() > 0.0 && !problem.is_layer()
 }
 
 fn has_force(problem: &Problem) -> bool {
@@ -115,12 +119,12 @@ fn line_contact<'a>(
         }
         (Method::BemSteady, Motion::Sliding(load)) => {
             require(
-                !flows(problem),
+                !sinks(problem),
                 "under a line contact a half space that flows sinks the faster the longer it is, without limit",
             )?;
             require(load.sliding_distance().is_none(), STATIONARY)?;
             ready(move |watch| {
-                elements::line_contact(cylinder, material, &load, Request { accuracy, watch })
+                elements::line_contact(problem, cylinder, &load, Request { accuracy, watch })
             })
         }
         (Method::BemSteady, _) => Err(NOTHING_SLIDES),
@@ -143,7 +147,7 @@ fn periodic<'a>(
     };
     require(load.sliding_distance().is_none(), STATIONARY)?;
     require(
-        !flows(problem),
+        problem.material.creep().fluidity() <= 0.0,
         "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
     )?;
     let Accuracy::RelativeError(asked) = accuracy else {
@@ -162,12 +166,11 @@ fn boundary_elements<'a>(
     accuracy: Accuracy,
 ) -> Work<'a> {
     let is_stationary = method == Method::BemSteady;
-    let material = &*problem.material;
     let load = match problem.motion {
         Motion::Sliding(load) => load,
         Motion::Pressing(load) if !is_stationary => {
             return ready(move |watch| {
-                elements::pressed(surface, material, &load, Request { accuracy, watch })
+                elements::pressed(problem, surface, &load, Request { accuracy, watch })
             });
         }
         Motion::Pressing(_) | Motion::History(_) => return Err(NOTHING_SLIDES),
@@ -178,7 +181,7 @@ fn boundary_elements<'a>(
             "at a depth it marches over a distance; give solve.sliding_distance",
         )?;
         require(
-            !flows(problem),
+            !sinks(problem),
             "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance",
         )?;
     }
@@ -187,7 +190,7 @@ fn boundary_elements<'a>(
     } else {
         elements::transient
     };
-    ready(move |watch| slid(surface, material, &load, Request { accuracy, watch }))
+    ready(move |watch| slid(problem, surface, &load, Request { accuracy, watch }))
 }
 
 fn one_dimensional<'a>(
