@@ -17,6 +17,7 @@ mod omission;
 mod problem;
 mod same_problem;
 mod validity;
+mod with_fields;
 mod work;
 
 pub use answer::{Answer, ContactBox, Fields, Grid, HistoryRow, Persson, RoughAnswer};
@@ -31,6 +32,7 @@ pub use offer::{choose, problem_of};
 pub use omission::Omission;
 pub use problem::{Motion, Problem};
 pub use same_problem::solve_again;
+pub use with_fields::with_fields;
 
 use self::left_out::left_out;
 use self::validity::warnings;
