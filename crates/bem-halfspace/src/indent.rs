@@ -11,6 +11,7 @@ mod press;
 use indenters::{Control, Surface};
 
 use crate::error::check_contact_elements;
+pub use crate::stepping::MotionRow;
 use crate::stepping::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
@@ -36,22 +37,6 @@ impl IndentStep {
     }
 }
 
-/// The state at one time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct IndentRow {
-    /// Time since first touch, \[s].
-    pub time: f64,
-    /// Depth of the lowest point, \[m].
-    pub indentation_depth: f64,
-    /// Normal force F_N, \[N].
-    pub normal_force: f64,
-    /// Area of the elements in contact, \[m²].
-    pub contact_area: f64,
-    /// Number of elements in contact.
-    pub n_contact: usize,
-}
-
 /// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid.
 ///
 /// # Errors
@@ -64,7 +49,7 @@ pub fn indent_history_on_grid(
     elastomer: &(impl Elastomer + ?Sized),
     steps: &[IndentStep],
     options: &GridOptions,
-) -> Result<Vec<IndentRow>, BemError> {
+) -> Result<Vec<MotionRow>, BemError> {
     let motion = |step: &IndentStep| Motion {
         time: step.time,
         position: 0.0,
@@ -76,13 +61,7 @@ pub fn indent_history_on_grid(
     let mut largest = 0;
     while let Some(row) = march.advance()? {
         largest = largest.max(march.elements_across());
-        rows.push(IndentRow {
-            time: row.time,
-            indentation_depth: row.indentation_depth,
-            normal_force: row.normal_force,
-            contact_area: row.contact_area,
-            n_contact: row.n_contact,
-        });
+        rows.push(row);
     }
     check_contact_elements(largest)?;
     Ok(rows)

@@ -44,6 +44,7 @@ pub use scene::Scene;
 pub use solve::{
     Answer, Body, ContactBox, Fields, HistoryRow, Motion, NotOffered, Omission, Problem,
     Revolution, SolveError, check_memory, choose, problem_of, solve, solve_by, solve_watched,
+    with_fields,
 };
 pub use text::{ReadFile, WrongInput, line_of, line_of_record};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, numerics, rheology};

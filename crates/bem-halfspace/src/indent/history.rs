@@ -6,7 +6,7 @@ use indenters::{Control, Surface};
 use numerics::between_zero_and_one;
 use rheology::{CreepSpectrum, Material as _};
 
-use super::{IndentRow, IndentStep, indent_history_on_grid};
+use super::{IndentStep, MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
 /// How exactly a history is followed.
@@ -38,7 +38,7 @@ impl HistoryOptions {
 #[must_use]
 pub struct IndentHistory {
     /// One row per time that was asked for; force and depth are extrapolated in the length of the steps.
-    pub rows: Vec<IndentRow>,
+    pub rows: Vec<MotionRow>,
     /// Estimated error of force and depth by the steps in time, relative to the largest of each in the history: the last
     /// change by halving them, or the largest effect of elements that yield within a step.
     pub time_error: f64,
@@ -61,13 +61,13 @@ pub fn indent_history(
     options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
-    let run = |n: usize| -> Result<Vec<IndentRow>, BemError> {
+    let run = |n: usize| -> Result<Vec<MotionRow>, BemError> {
         let steps = subdivided(&control, times, n);
         let rows = indent_history_on_grid(surface, elastomer, &steps, &options.grid)?;
         Ok(rows.into_iter().skip(n - 1).step_by(n).collect())
     };
     let creep = elastomer.material().creep();
-    let (mut coarse, mut before): (Option<Vec<IndentRow>>, Option<Vec<IndentRow>>) = (None, None);
+    let (mut coarse, mut before): (Option<Vec<MotionRow>>, Option<Vec<MotionRow>>) = (None, None);
     let (mut n, mut error) = (1, 1.0);
     loop {
         let last = 2 * n > options.max_steps;
@@ -128,8 +128,8 @@ fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
 
 /// The contact is that of the finer rows, because elements touch or do not, and no force becomes a pull, because the
 /// contact is lost at a moment between steps.
-fn extrapolated(coarse: &[IndentRow], fine: &[IndentRow]) -> Vec<IndentRow> {
-    let row = |(coarse, fine): (&IndentRow, &IndentRow)| IndentRow {
+fn extrapolated(coarse: &[MotionRow], fine: &[MotionRow]) -> Vec<MotionRow> {
+    let row = |(coarse, fine): (&MotionRow, &MotionRow)| MotionRow {
         indentation_depth: 2.0 * fine.indentation_depth - coarse.indentation_depth,
         normal_force: (2.0 * fine.normal_force - coarse.normal_force).max(0.0),
         ..*fine
@@ -155,8 +155,8 @@ fn unresolved(creep: &CreepSpectrum, times: &[f64], n: usize) -> Result<f64, Bem
 }
 
 /// Largest difference of force and depth relative to the largest of each.
-fn difference(before: &[IndentRow], rows: &[IndentRow]) -> f64 {
-    let of = |value: fn(&IndentRow) -> f64| {
+fn difference(before: &[MotionRow], rows: &[MotionRow]) -> f64 {
+    let of = |value: fn(&MotionRow) -> f64| {
         let pairs = before.iter().zip(rows);
         let changes = pairs.map(|(a, b)| (value(a) - value(b)).abs());
         let change = changes.fold(0.0, f64::max);

@@ -13,11 +13,11 @@ pub struct Motion {
     pub control: Control,
 }
 
-/// The state at the end of a step.
+/// The state at the end of a step; of [indentation](mod@crate::indent) the position and the forces along x are 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotionRow {
-    /// Time at the end of the step, \[s].
+    /// Time at the end of the step, since the first touch, \[s].
     pub time: f64,
     /// Position of the lowest point along x, \[m].
     pub position: f64,

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::indent::{HistoryOptions, IndentRow, indent_history};
+use bem_halfspace::indent::{HistoryOptions, MotionRow, indent_history};
 use bem_halfspace::{BemError, Control, GridOptions};
 use casebook::{Case, group};
 use rheology::{Compressible, Material};
@@ -56,7 +56,7 @@ fn depth_error(material: &dyn Material, p: f64, elements: f64) -> f64 {
     let radius = body.line_position(exact(5.0));
     let options = squares(radius / elements, 1.2 * radius);
     let steps = pressed(&body, material, pressed_by(force, &times), &options);
-    let error = |step: &IndentRow| step.indentation_depth / exact(step.time) - 1.0;
+    let error = |step: &MotionRow| step.indentation_depth / exact(step.time) - 1.0;
     let squares = steps.iter().map(|step| error(step).powi(2));
     (squares.sum::<f64>() / times.len() as f64).sqrt()
 }
@@ -116,7 +116,7 @@ fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
 }
 
 /// A depth that rises with the speed V up to the time `turn` and falls again, until `end`.
-fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Vec<IndentRow> {
+fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Vec<MotionRow> {
     let body = match name {
         "cone" => cone(case.input("tan_theta")),
         _ => paraboloid(0.5 / case.input("R")),
@@ -135,7 +135,7 @@ fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Ve
     history.rows
 }
 
-fn radius(row: &IndentRow) -> f64 {
+fn radius(row: &MotionRow) -> f64 {
     (row.contact_area / PI).sqrt()
 }
 

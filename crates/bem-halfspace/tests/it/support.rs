@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_2_PI;
 use std::fmt::Debug;
 
-use bem_halfspace::indent::{IndentRow, IndentStep, indent_history_on_grid};
+use bem_halfspace::indent::{IndentStep, MotionRow, indent_history_on_grid};
 use bem_halfspace::slide::{Motion, PressureField, Transient, slide_on_grid};
 use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, SteadySliding, steady, steady_on_grid};
 use bem_halfspace::{
@@ -370,7 +370,7 @@ pub(crate) fn pressed(
     material: &dyn Material,
     path: impl IntoIterator<Item = (f64, Control)>,
     options: &GridOptions,
-) -> Vec<IndentRow> {
+) -> Vec<MotionRow> {
     let step = |(time, control)| IndentStep { time, control };
     let steps: Vec<IndentStep> = path.into_iter().map(step).collect();
     indent_history_on_grid(body, material, &steps, options).expect("an indentation")

@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use viscofriction::Estimate;
+use viscofriction::mdr_core::CurvePoint;
 use viscofriction::npy::to_npy;
 use viscofriction::solve::{Answer, HistoryRow};
 
@@ -66,9 +67,9 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
     Ok(())
 }
 
-/// A history that was asked for: its points with their errors, force over depth and force over time.
-fn write_curve(answer: &Answer, out: &OutputFolder) -> Result<()> {
-    let curve = &answer.fields.curve;
+/// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
+/// and the one that was found over time.
+fn write_curve(curve: &[CurvePoint], out: &OutputFolder) -> Result<()> {
     let rows = curve.iter().map(|point| {
         let quantities = [
             point.normal_force,
@@ -81,20 +82,33 @@ fn write_curve(answer: &Answer, out: &OutputFolder) -> Result<()> {
     let names = "time_s normal_force_n normal_force_error_n indentation_depth_m indentation_depth_error_m \
                  contact_radius_m contact_radius_error_m";
     out.write("history.csv", &to_csv(names, rows)?)?;
-    let force = "normal force [N]";
-    let points = curve
+    let [force, depth] = ["normal force [N]", "indentation depth [m]"];
+    let varies = |of: fn(&CurvePoint) -> Estimate| curve.windows(2).any(|p| of(&p[0]) != of(&p[1]));
+    if varies(|point| point.normal_force) && varies(|point| point.indentation_depth) {
+        let points = curve
+            .iter()
+            .map(|p| [p.indentation_depth.value, p.normal_force.value]);
+        out.draw("history", &pictures::points(depth, force, points.collect()))?;
+    }
+    let is_depth_found = curve
         .iter()
-        .map(|p| [p.indentation_depth.value, p.normal_force.value]);
-    let figure = pictures::points("indentation depth [m]", force, points.collect());
-    out.draw("history", &figure)?;
-    let points = curve.iter().map(|p| [p.time, p.normal_force.value]);
-    let figure = pictures::points("time [s]", force, points.collect());
+        .any(|point| point.indentation_depth.error > 0.0);
+    let over_time = |point: &CurvePoint| {
+        let found = if is_depth_found {
+            point.indentation_depth
+        } else {
+            point.normal_force
+        };
+        [point.time, found.value]
+    };
+    let label = if is_depth_found { depth } else { force };
+    let figure = pictures::points("time [s]", label, curve.iter().map(over_time).collect());
     out.draw("history_over_time", &figure)
 }
 
 fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
     if !answer.fields.curve.is_empty() {
-        return write_curve(answer, out);
+        return write_curve(&answer.fields.curve, out);
     }
     let rows = &answer.fields.history;
     if rows.is_empty() {

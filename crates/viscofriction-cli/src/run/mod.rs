@@ -12,7 +12,9 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::Method;
-use viscofriction::solve::{Answer, Omission, Problem, check_memory, problem_of, solve_watched};
+use viscofriction::solve::{
+    Answer, Omission, Problem, check_memory, problem_of, solve_watched, with_fields,
+};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{OutputFolder, markdown, print_line, say};
@@ -74,7 +76,10 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let answer = progress::during(task, |watch| in_pool(&problem, watch));
     let seconds = started.elapsed().as_secs_f64();
     let mut answer = answer.with_context(|| path.to_string())?;
-    if out.is_none() {
+    if out.is_some() {
+        let task = format!("fields of {path}");
+        answer = progress::during(task, |_| with_fields(&problem, answer));
+    } else {
         answer.left_out.push(Omission::Files);
     }
     let answer = &answer;

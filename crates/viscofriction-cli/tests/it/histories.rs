@@ -1,4 +1,7 @@
-//! Histories of depth and force, in a scene and in a file, against casebook-2.json (11 and 14 digits).
+//! Histories of depth and force, in a scene and in a file, against casebook-2.json (11 and 14 digits), and those of what is
+//! held.
+
+use std::f64::consts::PI;
 
 use serde_json::Value;
 
@@ -76,5 +79,46 @@ fn a_force_that_rises_gives_the_depth_of_theory() {
     let depths = column(&folder.json("force.toml"), "indentation_depth");
     for (place, expected) in [(1, 0.007479854782350828), (4, 0.023842571351249137)] {
         assert_close("depth", depths[place], expected, 1e-11);
+    }
+}
+
+/// F = 16/3 G d^(3/2) (Hertz), with 1/J(t) or G(t) as the modulus G.
+#[test]
+fn what_is_held_has_the_history_and_the_pressure_of_hertz() {
+    let folder = Folder::new("held");
+    let depth = |time: f64| (3.0 / 16.0 * 0.01 * (1.0 - 0.8 * (-time / 5.0).exp())).powf(2.0 / 3.0);
+    let force = |time: f64| 16.0 / 3.0 * (1.0 + 4.0 * (-time).exp()) * 0.001;
+    let held: [(_, _, _, &dyn Fn(f64) -> f64); 2] = [
+        ("normal_force", "indentation_depth", 3, &depth),
+        ("indentation_depth", "normal_force", 1, &force),
+    ];
+    for (given, found, place, expected) in held {
+        let load = format!("{given} = 0.01, velocity = 0");
+        folder.write("held.toml", scene(&load, "solve.duration = 4.0"));
+        let result = folder.json("held.toml --out out --overwrite");
+        let [times, written] = [0, place].map(|column| folder.column("out/history.csv", column));
+        let ends = (times.first(), times.last());
+        assert_eq!(ends, (Some(&0.0), Some(&4.0)), "touch and duration");
+        assert_eq!(written, column(&result, found), "{found} in both files");
+        let end = number(&result, found);
+        assert_eq!(written.last(), Some(&end), "{found} at the end");
+        let bar = number(&result["history_error"], found);
+        assert!(bar < 1e-9 * end, "bar {bar:e} of {found}");
+        for (time, value) in times.into_iter().zip(written) {
+            let off = (value - expected(time)).abs();
+            assert!(off <= bar, "{found} {value} at {time} is off by {off:e}");
+        }
+    }
+    let [radii, pressures] = [0, 1].map(|column| folder.column("out/line_pressure.csv", column));
+    assert_eq!(radii.len(), 202, "places of the pressure");
+    let peak = 1.5 * force(4.0) / (PI * 0.01);
+    for (radius, pressure) in radii.into_iter().zip(pressures) {
+        let root = (1.0 - radius * radius / 0.01).max(0.0).sqrt();
+        let off = (pressure - peak * root).abs();
+        // At the rim the root has half of the digits.
+        assert!(
+            off < 1e-7 * peak,
+            "{pressure} at {radius} is off by {off:e}"
+        );
     }
 }

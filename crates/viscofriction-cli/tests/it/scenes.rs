@@ -106,6 +106,9 @@ IN/half-space-run-in.toml --method bem-transient | history.csv history.png histo
 IN/cone-viscous.toml --method mdr-transient | history.csv history.png history.svg
 IN/cylinder-solid.toml --method bem-steady | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
 line.toml | line_load.csv line_load.npy line_load.png line_load.svg
+IN/hertz.toml | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
+IN/cylinder-hertz.toml | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
+IN/creeping-punch.toml | history.csv history_over_time.png history_over_time.svg
 ";
 
 /// Fields, histories and pictures of every method that has them.

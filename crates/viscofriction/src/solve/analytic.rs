@@ -266,7 +266,7 @@ fn impulse(material: &dyn Material, force: f64, duration: f64) -> Result<f64> {
 }
 
 /// Force at a depth that was held for a duration, over the impulse that leads to it on that dashpot, [1/s].
-fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
+pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
     let modulus = material.relaxation_modulus(duration)?;
     let stiffness = modulus / material.half_space_factor();
     if !(stiffness.is_finite() && stiffness > 0.0) {

@@ -101,11 +101,12 @@ pub struct Fields {
     pub pressure: Option<PressureField>,
     /// Position \[m] and load per length \[N/m] along the contact of a line.
     pub line_load: Vec<[f64; 2]>,
-    /// Position \[m] and pressure \[Pa] across the contact of a cylinder.
+    /// Position \[m] and pressure \[Pa] across the contact of a cylinder, or along a diameter under a body of revolution that
+    /// does not slide.
     pub line_pressure: Vec<[f64; 2]>,
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
-    /// The points of the history that was asked for.
+    /// The points of the history that was asked for, or [since touch](super::with_fields()).
     pub curve: Vec<CurvePoint>,
 }
 

@@ -16,6 +16,7 @@ mod offer;
 mod omission;
 mod problem;
 mod validity;
+mod with_fields;
 mod work;
 
 pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
@@ -29,6 +30,7 @@ pub(crate) use offer::not_offered;
 pub use offer::{choose, problem_of};
 pub use omission::Omission;
 pub use problem::{Motion, Problem};
+pub use with_fields::with_fields;
 
 use self::left_out::left_out;
 use self::validity::warnings;

@@ -1,0 +1,122 @@
+//! The pressure under a body that is pressed, and what has happened since touch.
+
+use std::f64::consts::PI;
+
+use friction_analytic::indentation_pressure;
+use mdr_core::CurvePoint;
+use numerics::Estimate;
+
+use super::analytic::{pressed, stiffness};
+use super::answer::Answer;
+use super::body::{Body, Revolution};
+use super::half_space::Simple;
+use super::problem::{Motion, Problem};
+use crate::scene::{Control, Method};
+
+/// Places of the pressure on each side of the middle.
+const N_PLACES: usize = 100;
+/// Points in time after touch.
+const N_TIMES: usize = 60;
+
+/// Adds the pressure and the history to a closed form of pressing, where they take longer than the answer itself; other
+/// answers have their fields already.
+///
+/// Under a force that is held on a material that creeps, the pressure depends on how the contact has grown, and is left out.
+/// So are that of a body whose slope jumps inside the contact, as of a flat cone, and the history on an elastic material.
+#[must_use]
+pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
+    let pressure = match (&problem.body, answer.method) {
+        (Body::Revolution(body), Method::Analytic) => {
+            if let (Motion::Pressing(load), false) = (problem.motion, is_elastic(problem)) {
+                answer.fields.curve = since_touch(problem, body, load.duration());
+            }
+            pressure_of_revolution(problem, body, &answer)
+        }
+        (Body::Cylinder(_), Method::Analytic) => pressure_of_cylinder(&answer),
+        _ => None,
+    };
+    if let Some(pressure) = pressure {
+        answer.fields.line_pressure = pressure;
+    }
+    answer
+}
+
+fn is_elastic(problem: &Problem) -> bool {
+    problem.simple == Some(Simple::Elastic)
+}
+
+/// The contact at times that are dense after touch, where the most happens; those at which a quantity underflows are left
+/// out.
+fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
+    let point = |time: f64| {
+        let answer = pressed(body, &*problem.material, problem.motion.control(), time);
+        let answer = answer.and_then(Answer::finite);
+        let answer = answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy));
+        let answer = answer.ok()?;
+        let contact = answer.contact_box?;
+        Some(CurvePoint {
+            time,
+            indentation_depth: answer.indentation_depth?,
+            normal_force: answer.normal_force,
+            contact_radius: Estimate {
+                value: contact.x[1],
+                error: contact.error,
+            },
+        })
+    };
+    let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
+    let time = |index: usize| duration * (index as f64 / N_TIMES as f64).powi(4);
+    let times = (0..=N_TIMES).map(time).filter(|time| *time >= shortest);
+    times.filter_map(point).collect()
+}
+
+/// G/(2 (1 − ν)) times the pressure of unit modulus, along a diameter.
+fn pressure_of_revolution(
+    problem: &Problem,
+    body: &Revolution,
+    answer: &Answer,
+) -> Option<Vec<[f64; 2]>> {
+    let time = match (problem.motion, problem.motion.control()) {
+        _ if is_elastic(problem) => 0.0,
+        (Motion::Pressing(load), Control::IndentationDepth(_)) => load.duration(),
+        _ => return None,
+    };
+    let modulus = stiffness(&*problem.material, time).ok()?;
+    let depth = answer.indentation_depth?.value;
+    let [_, edge] = answer.contact_box.as_ref()?.x;
+    // There it is infinite, and near there no quadrature knows it well enough.
+    let mut kinks = body.kinks().into_iter();
+    if kinks.any(|kink| kink.radius < edge && kink.slope_jump != 0.0) {
+        return None;
+    }
+    let pressure = |radius| Some(modulus * indentation_pressure(&**body, depth, radius).ok()?);
+    across(edge, edge < body.max_radius(), pressure)
+}
+
+/// p = p₀ √(1 − (x/b)²) (Hertz 1881).
+fn pressure_of_cylinder(answer: &Answer) -> Option<Vec<[f64; 2]>> {
+    let peak = answer.peak_pressure?.value;
+    let [_, edge] = answer.contact_box.as_ref()?.x;
+    across(edge, true, |place| {
+        Some(peak * (1.0 - (place / edge).powi(2)).sqrt())
+    })
+}
+
+/// An even pressure from edge to edge of a contact, without the places where it may be infinite: the middle, and edges of the
+/// body. Where the contact ends inside the body, the pressure is zero and as steep as a root.
+fn across(
+    edge: f64,
+    ends_inside: bool,
+    pressure: impl Fn(f64) -> Option<f64>,
+) -> Option<Vec<[f64; 2]>> {
+    let place = |index: usize| {
+        let part = (index as f64 + 0.5) / N_PLACES as f64;
+        let dense_at_ends = 0.5 - 0.5 * (PI * part).cos();
+        edge * if ends_inside { dense_at_ends } else { part }
+    };
+    let at = |place: f64| Some([place, pressure(place)?]);
+    let mut ahead: Vec<[f64; 2]> = (0..N_PLACES).map(place).map(at).collect::<Option<_>>()?;
+    ahead.extend(ends_inside.then_some([edge, 0.0]));
+    let behind = ahead.iter().rev().map(|[place, value]| [-place, *value]);
+    Some(behind.chain(ahead.iter().copied()).collect())
+}
