@@ -7,7 +7,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
-use viscofriction::scene::Source;
+use viscofriction::scene::{Layer, Source};
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
 
@@ -50,6 +50,7 @@ fn column(name: &str) -> PyResult<Column> {
         "indentation_depth" => |scene, depth| scene.load.indentation_depth = Some(depth),
         "mean_pressure" => |scene, pressure| scene.load.mean_pressure = Some(pressure),
         "velocity" => |scene, velocity| scene.load.velocity = Some(velocity),
+        "thickness" => |scene, thickness| scene.layer = Some(Layer { thickness }),
         "duration" => |scene, duration| scene.solve.duration = Some(duration),
         "sliding_distance" => |scene, distance| scene.solve.sliding_distance = Some(distance),
         other => return Err(wrong(format!("{other} does not vary from scene to scene"))),

@@ -33,6 +33,7 @@ def slide(
     indentation_depth: ArrayLike | None = None,
     mean_pressure: ArrayLike | None = None,
     sliding_distance: ArrayLike | None = None,
+    thickness: ArrayLike | None = None,
     model: str | None = None,
     method: str | None = None,
     relative_error: float | None = None,
@@ -40,10 +41,10 @@ def slide(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Answer:
-    """Friction of a body that slides over a half space of the material.
+    """Friction of a body that slides over a half space of the material, or a layer of it bonded to a rigid base.
 
-    Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so is a sliding
-    distance [m] from first touch, without which the state is stationary. ``model="line"`` asks for the one-dimensional
+    Speed > 0 [m/s], and either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], are numbers or arrays that fit together; so are a sliding
+    distance [m] from first touch, without which the state is stationary, and the thickness [m] of a layer. ``model="line"`` asks for the one-dimensional
     model, ``method`` for one of the program's methods. ``relative_error`` is asked of the friction coefficient, 1e-3 unless
     given; ``elements`` is a fixed resolution in its place.
 
@@ -55,6 +56,7 @@ def slide(
         indentation_depth=indentation_depth,
         mean_pressure=mean_pressure,
         sliding_distance=sliding_distance,
+        thickness=thickness,
     )
     if not (numbers("velocity", velocity) > 0).all():
         raise ValueError(f"velocity must be greater than 0, but is {velocity!r}")
@@ -71,6 +73,7 @@ def press(
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
     duration: ArrayLike | None = None,
+    thickness: ArrayLike | None = None,
     model: str | None = None,
     method: str | None = None,
     relative_error: float | None = None,
@@ -78,15 +81,21 @@ def press(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Answer:
-    """Contact of a body that is pressed into a half space of the material, without sliding.
+    """Contact of a body that is pressed into a half space of the material, or a layer of it, without sliding.
 
-    Either normal force [N] or depth [m] is held for a duration [s], which an elastic material does not need. ``method=
+    Either normal force [N] or depth [m] is held for a duration [s], which an elastic material does not need; ``thickness`` [m] is that
+    of a layer bonded to a rigid base. ``method=
     "bem-transient"`` gives the field of pressure of every body; ``relative_error`` is asked of the depth, or of the force at a
     given depth. Otherwise as ``slide``.
     """
     if duration is None and isinstance(material, Elastic):
         duration = 1.0
-    loads = given(normal_force=normal_force, indentation_depth=indentation_depth, duration=duration)
+    loads = given(
+        normal_force=normal_force,
+        indentation_depth=indentation_depth,
+        duration=duration,
+        thickness=thickness,
+    )
     options = given(
         model=model, method=method, relative_error=relative_error, elements=elements, threads=threads
     )
