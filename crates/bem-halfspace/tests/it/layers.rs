@@ -217,7 +217,8 @@ fn a_march_comes_to_the_stationary_state() {
     }
 }
 
-/// A solid remembers the layer by its thickness only: what is missing to the half space falls like a/t.
+/// What is missing to the half space falls like a/t: to the depth on a solid, and to the friction on a dashpot, on which the
+/// depth grows by F/(4πηv) ln 2.
 #[test]
 fn a_thick_layer_is_a_half_space() {
     let (body, solid) = (PowerProfile::paraboloid(0.5).unwrap(), solid());
@@ -238,6 +239,18 @@ fn a_thick_layer_is_a_half_space() {
     let [missing, half] =
         [thick_depth, friction_and_depth(6.0)[1]].map(|thick| depth.value - thick.value);
     assert_close("order of approach", half / missing, 2.0, 0.05);
+    let viscous = Viscous::new(1.0).unwrap();
+    let flowing = |thickness: f64| {
+        let layer = Layer::new(&viscous, thickness).unwrap();
+        steady(&body, &layer, &load, 1e-4).unwrap()
+    };
+    let [half_space, thinner, thicker] = [f64::INFINITY, 6.0, 12.0].map(flowing);
+    let friction = half_space.friction_coefficient.value;
+    let [one, half] = [&thinner, &thicker].map(|layer| friction - layer.friction_coefficient.value);
+    assert_close("order of approach of the friction", one / half, 2.0, 0.02);
+    let [one, two] = [thinner, thicker].map(|layer| layer.indentation_depth.unwrap().value);
+    let sunken = 0.001 / (4.0 * PI * 0.1) * 2.0_f64.ln();
+    assert_close("sinking", two - one, sunken, 0.02);
 }
 
 /// A wave that is in full contact, in closed form, and the mean, which is the depth.
