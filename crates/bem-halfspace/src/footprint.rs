@@ -1,5 +1,7 @@
 //! Where contact may occur, seen from the indenter.
 
+use std::f64::consts::LN_2;
+
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{InvalidParameter, positive};
 
@@ -70,9 +72,18 @@ impl Footprint {
         height: f64,
     ) -> Result<Self, BemError> {
         let footprint = Self::below(surface, height)?;
-        let half_length = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
-        let rise = Base::of(elastomer).rise(half_length);
-        Self::below(surface, rise * height)
+        let base = Base::of(elastomer);
+        if !base.is_layer() {
+            return Ok(footprint);
+        }
+        let half_length = |footprint: Self| -> Result<f64, BemError> {
+            Ok(footprint.sides()?.concat().into_iter().fold(0.0, f64::max))
+        };
+        let length = half_length(footprint)?;
+        let doubled = half_length(Self::below(surface, 2.0 * height)?)?;
+        // In front of a wall no length is left for the rim.
+        let exponent = (LN_2 / (doubled / length).ln()).min(8.0);
+        Self::below(surface, base.rise(length, exponent) * height)
     }
 
     /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends

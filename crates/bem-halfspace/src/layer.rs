@@ -10,7 +10,7 @@
 //! of which the second part is analytic for |Im ρ| < 2, and both together decay like e^(−0.7 ρ) or faster.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule};
 use rheology::Material;
@@ -115,8 +115,7 @@ pub(crate) struct Base(Option<Thin>);
 struct Thin {
     thickness: f64,
     poisson_ratio: f64,
-    /// Found when it is first needed.
-    correction: Arc<OnceLock<Correction>>,
+    correction: Arc<Correction>,
 }
 
 impl PartialEq for Thin {
@@ -129,10 +128,13 @@ impl PartialEq for Thin {
 impl Base {
     pub(crate) fn of(elastomer: &(impl Elastomer + ?Sized)) -> Self {
         let thickness = elastomer.thickness();
-        Self(thickness.is_finite().then(|| Thin {
-            thickness,
-            poisson_ratio: elastomer.material().poisson_ratio(),
-            correction: Arc::default(),
+        Self(thickness.is_finite().then(|| {
+            let poisson_ratio = elastomer.material().poisson_ratio();
+            Thin {
+                thickness,
+                poisson_ratio,
+                correction: Correction::of(poisson_ratio),
+            }
         }))
     }
 
@@ -186,15 +188,15 @@ impl Base {
         wave_number / self.stiffness(wave_number)
     }
 
-    /// Where contact may occur over about that length from the middle, as a multiple of the heights where a half space may be
-    /// touched: a thin layer that cannot shrink rises around the contact, and meets a body h ∼ r^p up to the height
-    /// (p/2 + 1) d.
-    pub(crate) fn rise(&self, half_length: f64) -> f64 {
-        let slenderness = self
-            .0
-            .as_ref()
-            .map_or(0.0, |thin| half_length / thin.thickness);
-        1.0 + (0.4 * slenderness).min(2.0)
+    /// Where contact may occur over about that length from the middle of a body h ∼ r^p, as a multiple of the heights where a
+    /// half space may be touched: a thin layer that hardly shrinks rises around the contact, and meets the body up to the
+    /// height (1 + p/2) d where it does not shrink at all.
+    pub(crate) fn rise(&self, half_length: f64, exponent: f64) -> f64 {
+        self.0.as_ref().map_or(1.0, |thin| {
+            let slenderness = (half_length / thin.thickness / SLENDER).min(1.0);
+            let shrinks = (10.0 * (0.5 - thin.poisson_ratio)).clamp(0.0, 1.0);
+            1.0 + slenderness * (ROOM + 0.5 * exponent * (1.0 - shrinks))
+        })
     }
 
     /// Distance beyond which nothing moves.
@@ -234,9 +236,7 @@ impl Base {
             }
         }
         let unit = thin.thickness;
-        let table = thin
-            .correction
-            .get_or_init(|| Correction::new(thin.poisson_ratio));
+        let table = &thin.correction;
         let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
         let smooth = integrate_smooth(SINGULAR, (offset, edges), |x, y| {
             table.at((x * x + y * y).sqrt())
@@ -247,6 +247,9 @@ impl Base {
 
 /// Edge of an element in thicknesses, at most.
 const LONGEST_EDGE: f64 = 32.0;
+/// From how many thicknesses on a layer is thin, and how much more room there is at its rim than that.
+const SLENDER: f64 = 5.0;
+const ROOM: f64 = 0.2;
 /// Distance from 0 at which c is singular, along the imaginary axis.
 const SINGULAR: f64 = 2.0;
 /// Where 1/ρ + c is below 1e-15 of 1.
@@ -267,7 +270,25 @@ const FEW_TERMS: usize = 6;
 #[derive(Debug)]
 struct Correction(Vec<Panel<FEW_TERMS>>);
 
+/// Tables of the last Poisson ratios, of which a solution needs one again and again.
+static KNOWN: Mutex<Vec<(u64, Arc<Correction>)>> = Mutex::new(Vec::new());
+const KEPT: usize = 8;
+
 impl Correction {
+    fn of(poisson_ratio: f64) -> Arc<Self> {
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        let ratio = poisson_ratio.to_bits();
+        if let Some((_, table)) = known.iter().find(|(other, _)| *other == ratio) {
+            return Arc::clone(table);
+        }
+        let table = Arc::new(Self::new(poisson_ratio));
+        if known.len() == KEPT {
+            known.remove(0);
+        }
+        known.push((ratio, Arc::clone(&table)));
+        table
+    }
+
     fn new(poisson_ratio: f64) -> Self {
         let LobattoRule { nodes, weights } = lobatto_rule(WAVE_POINTS);
         let half = 0.5 * SHORTEST_WAVE / f64::from(WAVE_PANELS);

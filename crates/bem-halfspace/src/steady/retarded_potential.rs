@@ -245,6 +245,11 @@ impl RetardedPotential {
         }
     }
 
+    /// Potential of the loaded element at the present row.
+    pub(super) fn here(&self, column: usize) -> f64 {
+        self.rows[KEPT - 1][column]
+    }
+
     /// Displacement by all retardation elements at the present row.
     pub(super) fn value(&self, column: usize) -> f64 {
         self.values[column..].iter().step_by(self.n_columns).sum()

@@ -67,11 +67,10 @@ impl WakeTable {
         if creep.flow > 0.0 {
             table.add_flow(smaller);
         }
-        if creep.instant > 0.0 {
-            table.add_instant();
-        }
         if !creep.delays.is_empty() {
-            table.add_retarded();
+            table.add_recovering();
+        } else if creep.instant > 0.0 {
+            table.add_instant();
         }
         table
     }
@@ -139,14 +138,17 @@ impl WakeTable {
         }
     }
 
-    fn add_retarded(&mut self) {
+    /// What recovers, at once or with delays, from one and the same potentials.
+    fn add_recovering(&mut self) {
+        let instant = self.creep.instant;
         let last = 2 * self.reach[0];
         let first = [self.offset(last), self.aspect];
         let mut retarded = RetardedPotential::new(&self.creep, first, self.n_columns());
         for row in (0..=last).rev() {
             retarded.step(self.offset(row));
             self.add(row, |column| {
-                [retarded.value(column), retarded.increment(column)]
+                let now = instant * retarded.here(column);
+                [retarded.value(column), retarded.increment(column)].map(|part| now + part)
             });
         }
     }

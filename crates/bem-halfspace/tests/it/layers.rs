@@ -102,6 +102,39 @@ fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: b
     [force, depth]
 }
 
+/// a/t, F/(2 E* a d) of a punch, and d/(2 a²) and F/(2 a³ E*) of a paraboloid, for ν = 0.3; casebook-2.json, "axisymmetric".
+const PRESSED: [[f64; 4]; 2] = [
+    [
+        0.5,
+        1.624_025_413_213_734_4,
+        0.758_850_417_876_064_3,
+        1.402_231_502_855_397_3,
+    ],
+    [
+        5.0,
+        10.099_790_755_218_667,
+        0.527_090_413_774_384_6,
+        5.312_512_985_441_645,
+    ],
+];
+
+#[test]
+fn the_integral_equation_is_that_of_the_casebook() {
+    for [a, punch, depth_of_paraboloid, force_of_paraboloid] in PRESSED {
+        let [force, _] = by_integral_equation(&FlatPunch::new(a).unwrap(), [a, 0.3], true);
+        assert_close("punch", 0.5 * force / a, punch, 1e-10);
+        let paraboloid = PowerProfile::paraboloid(1.0).unwrap();
+        let [force, depth] = by_integral_equation(&paraboloid, [a, 0.3], false);
+        assert_close("depth", 0.5 * depth / (a * a), depth_of_paraboloid, 1e-10);
+        assert_close(
+            "force",
+            0.5 * force / (a * a * a),
+            force_of_paraboloid,
+            1e-10,
+        );
+    }
+}
+
 /// The depth is given, so that the deviation is that of the force; of a punch the elements follow the edge.
 #[test]
 fn pressing_agrees_with_an_integral_equation() {
@@ -271,6 +304,13 @@ fn a_periodic_layer_moves_by_its_factor() {
     assert_close("friction", state.friction_coefficient, friction, 1e-9);
     let mean = thickness * 0.4 / (2.0 * 0.25 * 0.7);
     assert_close("depth", state.mean_depth, mean, 1e-9);
+    // The same by a convolution.
+    let convolution = Convolution::periodic_on(&layer, &grid);
+    let pressure: Vec<f64> = heights.iter().map(|height| 1.0 + height).collect();
+    let (mut moved, mut workspace) = (heights.clone(), convolution.workspace());
+    convolution.apply(&mut workspace, (&pressure, 0..32), (&mut moved, 0..32));
+    let expected = TAU * thickness * 0.4 / (2.0 * 0.49) + layer_factor(TAU * thickness, 0.3) * 1e-3;
+    assert_close("crest", moved[0], expected, 1e-13);
 }
 
 /// The foundation of Winkler is within 1 % at a = 50 t. The radii of both limits are off in proportion to t/a, and the forces
