@@ -100,11 +100,17 @@ impl SlidingCreep {
         &self.base
     }
 
-    /// Distance in which the slowest retardation element forgets, \[m].
+    /// Distance in which the slowest retardation element forgets, or ahead of which a layer that flows does not feel the
+    /// load, \[m].
     pub(super) fn memory(&self) -> f64 {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
-        self.velocity * times.fold(0.0, f64::max)
+        let memory = self.velocity * times.fold(0.0, f64::max);
+        if self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
+            memory.max(self.base.reach())
+        } else {
+            memory
+        }
     }
 
     /// Compliance 2 (1 − ν)/(η_f v) of the free flow, by which the surface sinks per length, [1/(Pa m)].

@@ -7,7 +7,7 @@ use bem_halfspace::{
     press, slide, steady, steady_line, steady_periodic_on_grid,
 };
 use casebook::refused;
-use friction_analytic::ThinLayer;
+use friction_analytic::{ThinLayer, power_sliding, winkler_line_force};
 use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, PowerProfile, RigidLine};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
@@ -346,6 +346,30 @@ fn thin_layers_are_foundations_or_films() {
     let limit = limit.press_winkler(&body, 2500.0).unwrap();
     assert_within_bar("force", found.normal_force, limit.normal_force);
     assert_close("force", found.normal_force.value, limit.normal_force, 1e-2);
+}
+
+/// Springs side by side are the one-dimensional model, so that a cylinder on a thin layer of a dashpot follows Kürschner's
+/// eq. (22); on a thick one it has a contact at all, which it has not on the half space.
+#[test]
+fn a_cylinder_slides_over_a_layer_that_flows() {
+    let viscous = Compressible::new(&Viscous::new(1e4).unwrap(), 0.0).unwrap();
+    let friction = |thickness: f64, force: f64| {
+        let layer = Layer::new(&viscous, thickness).unwrap();
+        let load = SlidingLoad::new(force, 1e-3).unwrap();
+        let found = steady_line(&Cylinder::new(1e-2).unwrap(), &layer, &load, 1e-3).unwrap();
+        found.friction_coefficient.value
+    };
+    let line = PowerProfile::paraboloid(25.0).unwrap();
+    let force = winkler_line_force(&viscous, 1e-3, 100.0).unwrap();
+    let load = SlidingLoad::new(force, 1e-3).unwrap();
+    let theorem = power_sliding(&line, &Viscous::new(5e3).unwrap(), &load).unwrap();
+    assert_close(
+        "thin",
+        friction(1e-3, 100.0),
+        theorem.friction_coefficient,
+        1e-3,
+    );
+    assert!(friction(3e-2, 9e-3) > 0.0);
 }
 
 #[test]
