@@ -70,7 +70,7 @@ enum Command {
     },
     /// Measure anew how stable, accurate and expensive the methods are: CSV, SVG, PNG and Markdown.
     Evidence(evidence::Evidence),
-    /// Count what each library crate pulls in when it is built alone, and measure what building it takes. Markdown.
+    /// Count what each library crate pulls in when it is built alone. Markdown.
     Dependencies(ci::Dependencies),
     /// Run everything that CI checks.
     Ci,
@@ -89,7 +89,7 @@ pub fn execute() -> ExitCode {
         } => scaling::print(&exponents, relative_error, format),
         Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
-        Command::Dependencies(options) => ci::measure(&options),
+        Command::Dependencies(options) => ci::write_dependencies(&options),
         Command::Ci => ci::run(),
     };
     match outcome {

@@ -94,32 +94,18 @@ pub(crate) fn solid(stiffness_ratio: f64) -> Result<StandardSolid> {
     Ok(standard_solid([stiffness_ratio, 1.0, 1.0])?)
 }
 
-/// Friction of the half space as far as it was computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Reached {
-    pub(crate) friction: Estimate,
-    /// On the finest grid, where the error asked for was reached.
-    pub(crate) unknowns: Option<usize>,
-}
-
 /// Friction with the error bar that was reached, which is right even where it is wider than what was asked for.
 pub(crate) fn as_far_as_reached(
     result: Result<SteadyEstimate, BemError>,
-) -> Result<Reached, BemError> {
+) -> Result<Estimate, BemError> {
     match result {
-        Ok(estimate) => Ok(Reached {
-            friction: estimate.friction_coefficient,
-            unknowns: estimate.refinements.last().map(|last| last.unknowns),
-        }),
+        Ok(estimate) => Ok(estimate.friction_coefficient),
         Err(BemError::NotReached {
             quantity: "friction coefficient",
             value,
             error,
             ..
-        }) => Ok(Reached {
-            friction: Estimate { value, error },
-            unknowns: None,
-        }),
+        }) => Ok(Estimate { value, error }),
         Err(other) => Err(other),
     }
 }

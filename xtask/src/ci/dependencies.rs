@@ -1,5 +1,4 @@
-//! `dependencies`: what each library crate pulls in when it is built alone and without its optional features, and what
-//! building it takes.
+//! `dependencies`: what each library crate pulls in when it is built alone and without its optional features.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,12 +19,12 @@ pub(crate) struct Dependencies {
     out: PathBuf,
 }
 
-/// The page whose text up to the first table is kept, and with whose counts CI compares.
+/// The page whose text up to the first table is kept, and whose tables CI compares with what is so now.
 const COMMITTED: &str = "docs/dependencies.md";
 
 const CRATES: &str = "
-| crate | of this workspace | of others | for building only | processor time \\[s] |
-|---|---|---|---|---|
+| crate | of this workspace | of others | for building only |
+|---|---|---|---|
 ";
 
 const DIRECT: &str = "
@@ -38,45 +37,42 @@ const WITHIN: &str = "
 |---|---|---|---|
 ";
 
-/// Counts, builds, and writes the page.
-pub(crate) fn measure(options: &Dependencies) -> Result<()> {
-    let page = committed()?;
-    let text = page.split("\n| ").next().unwrap_or_default();
-    let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
-    let workspace = Workspace::read()?;
-    for library in workspace.libraries() {
-        let rows = rows(library)?;
-        let seconds = processor_seconds_to_build(library)?;
-        crates += &format!("{} {seconds:.0} |\n", rows[0]);
-        direct += &rows[1..].concat();
-    }
-    let within: String = workspace.packages.iter().map(Package::row).collect();
-    let page = [text, &crates, &direct, WITHIN, &within].concat();
+/// Counts, and writes the page.
+pub(crate) fn write(options: &Dependencies) -> Result<()> {
+    let page = page(&committed()?, &Workspace::read()?)?;
     write_atomically(&options.out, page.as_bytes())?;
     print_line(&format!("written to {}", options.out.display()))
 }
 
-/// Compares what the committed page says with what is so now.
+/// Compares the committed page with what is so now.
 pub(super) fn check(workspace: &Workspace) -> Result<()> {
-    let page = committed()?;
-    let mut rows: Vec<String> = workspace.packages.iter().map(Package::row).collect();
-    for library in workspace.libraries() {
-        rows.extend(self::rows(library)?);
-    }
-    for row in rows {
-        ensure!(
-            page.contains(row.as_str()),
-            "{COMMITTED} lacks {row:?}; `cargo xtask dependencies --out {COMMITTED}` makes it current"
-        );
-    }
+    let committed = committed()?;
+    let is_current = page(&committed, workspace)? == committed;
+    ensure!(
+        is_current,
+        "{COMMITTED} is out of date; `cargo xtask dependencies --out {COMMITTED}` makes it current"
+    );
     Ok(())
+}
+
+/// The text of a page with the tables of what is so now.
+fn page(committed: &str, workspace: &Workspace) -> Result<String> {
+    let text = committed.split("\n| ").next().unwrap_or_default();
+    let [mut crates, mut direct] = [CRATES, DIRECT].map(str::to_owned);
+    for library in workspace.libraries() {
+        let rows = rows(library)?;
+        crates += &rows[0];
+        direct += &rows[1..].concat();
+    }
+    let within: String = workspace.packages.iter().map(Package::row).collect();
+    Ok([text, &crates, &direct, WITHIN, &within].concat())
 }
 
 fn committed() -> Result<String> {
     fs::read_to_string(workspace_root().join(COMMITTED)).context(COMMITTED)
 }
 
-/// The row of a crate up to its time, and one for each direct dependency, with the number of crates that it alone would
+/// The row of a crate, and one for each direct dependency, with the number of crates that it alone would
 /// bring.
 fn rows(library: &str) -> Result<Vec<String>> {
     let all = tree(library, "normal,build")?;
@@ -86,7 +82,9 @@ fn rows(library: &str) -> Result<Vec<String>> {
     let ours = linked.iter().filter(|name| name.ends_with(')')).count();
     let others = linked.len() - ours;
     let building = distinct_all.difference(&linked).count();
-    let mut rows = vec![format!("| `{library}` | {ours} | {others} | {building} |")];
+    let mut rows = vec![format!(
+        "| `{library}` | {ours} | {others} | {building} |\n"
+    )];
     for start in (1..all.len()).filter(|start| all[*start].0 == 1) {
         let inner = all[start + 1..].iter().take_while(|(depth, _)| *depth > 1);
         let count = distinct(&all[start..=start + inner.count()]).len();
@@ -111,25 +109,4 @@ fn tree(library: &str, edges: &str) -> Result<Vec<(usize, String)>> {
 
 fn distinct(nodes: &[(usize, String)]) -> BTreeSet<&str> {
     nodes.iter().map(|(_, package)| &**package).collect()
-}
-
-/// Builds a crate alone, without its optional features and from nothing; returns the processor time, \[s].
-fn processor_seconds_to_build(library: &str) -> Result<f64> {
-    let folder = tempfile::tempdir()?;
-    let before = seconds_of_ended_children()?;
-    let target = folder.path().display();
-    cargo_output(&format!(
-        "build --quiet --release --package {library} --no-default-features --target-dir {target}"
-    ))?;
-    Ok(seconds_of_ended_children()? - before)
-}
-
-/// User and system time of all processes that were waited for, \[s].
-fn seconds_of_ended_children() -> Result<f64> {
-    let text = fs::read_to_string("/proc/self/stat").context("times are known on Linux only")?;
-    // Behind the name, which is in parentheses, the numbers of the children are the 14th and 15th, in hundredths.
-    let (_, numbers) = text.rsplit_once(')').context("no statistics")?;
-    let ticks = numbers.split_whitespace().skip(13).take(2);
-    let ticks: Result<f64, _> = ticks.map(str::parse::<f64>).sum();
-    Ok(0.01 * ticks?)
 }

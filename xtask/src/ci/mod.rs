@@ -14,7 +14,7 @@ use anyhow::{Context, Result, ensure};
 
 use crate::figures;
 use cargo::Cargo;
-pub(crate) use dependencies::{Dependencies, measure};
+pub(crate) use dependencies::{Dependencies, write as write_dependencies};
 use workspace::{Workspace, check_lengths};
 
 /// Runs all steps up to the first that fails; the last line printed counts the tests.

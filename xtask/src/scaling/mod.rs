@@ -113,11 +113,16 @@ pub(crate) fn scaling_factor(
         aspect: if exponent < STEEP { 0.5 } else { 1.0 },
         max_unknowns,
     };
-    let half_space = as_far_as_reached(scene.friction(&options))
+    let half_space = scene.friction(&options);
+    let finest = half_space
+        .as_ref()
+        .ok()
+        .and_then(|found| found.refinements.last());
+    let unknowns = finest.map(|finest| finest.unknowns);
+    let friction = as_far_as_reached(half_space)
         .with_context(|| format!("scaling factor of p = {exponent}"))?;
-    let friction = half_space.friction;
     let (scaling_factor, error) = (friction.value / line, friction.error / line);
-    let Some(unknowns) = half_space.unknowns else {
+    let Some(unknowns) = unknowns else {
         bail!(
             "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {scaling_factor} \
              with an error of {error:.1e}"

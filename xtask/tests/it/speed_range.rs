@@ -2,9 +2,7 @@
 
 use std::sync::OnceLock;
 
-use casebook::standard_solid;
-use friction_analytic::{ElasticContact, high_speed_friction, low_speed_friction, scaling_factor};
-use indenters::{PowerProfile, stretch};
+use friction_analytic::scaling_factor;
 
 use crate::support::{Evidence, Row, number};
 
@@ -48,37 +46,6 @@ fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one() {
             let is_narrow = bar <= 2.01e-2 * number(row, "ratio");
             assert!(is_narrow, "{what}: error bar {bar}");
             assert_within([number(row, "ratio"), expected], bar + allowed, &what);
-        }
-    }
-}
-
-/// The friction itself at both ends, where its next order is a part v τ/(γ a) or a/(v τ) of it.
-#[test]
-fn friction_vanishes_at_both_ends_as_the_elastic_limits_say() {
-    for exponent in [1.0, 2.0] {
-        let body = PowerProfile::new(1.0 / stretch(exponent).expect("κ"), exponent);
-        let body = body.expect("a body");
-        let solid = standard_solid([1e-4, 1.0, 1.0]).expect("a solid");
-        let rows = curve(exponent);
-        let contact = |row| ElasticContact {
-            contact_radius: 1.0,
-            velocity: number(row, "speed"),
-        };
-        let slow = low_speed_friction(&body, &solid, contact(&rows[0]));
-        let fast = high_speed_friction(&body, &solid, contact(&rows[10]));
-        for (row, limit) in [(&rows[0], slow), (&rows[10], fast)] {
-            let limit = limit.expect("an elastic limit");
-            let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
-            let bar = number(row, "half_space_error");
-            for (column, expected, bar) in [
-                ("line", limit.line, 0.0),
-                ("half_space", limit.half_space, bar),
-                ("normal_force", limit.normal_force, 0.0),
-            ] {
-                let allowed = bar + 4e-3 * expected;
-                let pair = [number(row, column), expected];
-                assert_within(pair, allowed, &format!("{column}, {what}"));
-            }
         }
     }
 }

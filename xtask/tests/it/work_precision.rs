@@ -46,23 +46,6 @@ fn every_method_answers_its_scenes_with_an_error_and_a_time() {
     assert!(!printed.contains("refused"), "refused: {printed}");
 }
 
-/// Over elements and tolerances errors fall by a half at least; a relative error that is asked for is kept.
-#[test]
-fn errors_fall_with_the_resolution_or_are_those_asked_for() {
-    let rows = evidence().rows("work_precision");
-    for runs in rows.chunk_by(|one, other| key(one) == key(other)) {
-        let [first, last] = [&runs[0], &runs[runs.len() - 1]];
-        let allowed = match first["resolution_kind"].as_str() {
-            "elements" | "tolerance" => 0.5 * number(first, "error"),
-            "relative error" => number(last, "resolution"),
-            _ => number(last, "error_bar"),
-        };
-        let allowed = allowed + number(last, "reference_error");
-        let holds = number(last, "error") <= allowed;
-        assert!(holds, "not within {allowed:e}: {first:?}, {last:?}");
-    }
-}
-
 /// The chain of elements and the depth of a smooth contact are of second order; on the grids of the half space the
 /// outline of the contact makes orders scatter, by about their standard errors.
 #[test]

@@ -68,14 +68,9 @@ impl Sliding {
     pub(super) fn half_space(&self, normal_force: f64, relative_error: f64) -> Result<Estimate> {
         let (body, solid) = (self.body()?, solid(self.stiffness_ratio)?);
         let load = SlidingLoad::new(normal_force, self.speed)?;
-        let reached = as_far_as_reached(steady_refined(
-            &body,
-            &solid,
-            &load,
-            &refined_to(relative_error, 0.5),
-        ));
-        let reached = reached.with_context(|| format!("the half space of {self:?}"))?;
-        Ok(reached.friction)
+        let options = refined_to(relative_error, 0.5);
+        as_far_as_reached(steady_refined(&body, &solid, &load, &options))
+            .with_context(|| format!("the half space of {self:?}"))
     }
 
     /// Friction of the line under a force by the viscous law of the same loss modulus.

@@ -9,7 +9,7 @@
 //! ```
 
 use anyhow::{Context, Result};
-use numerics::bracketed_root;
+use numerics::{bracketed_root, integrate};
 use rheology::{RelaxationBranch, RelaxationSpectrum};
 
 /// Stationary sliding of a cone.
@@ -43,13 +43,21 @@ pub(super) fn cone_on_solid(material: &RelaxationSpectrum, velocity: f64) -> Res
     let mut load = 0.5 * spring * (2.0 - left * left) + dashpot * left;
     let mut work = dashpot * (1.0 + rear) + 0.5 * spring * left * left;
     for branch in &branches {
-        load += branch.load(rear);
-        work += branch.work(rear);
+        let ahead = |distance: f64| branch.ahead(distance);
+        let behind = |distance: f64| branch.behind(distance);
+        load += integral(ahead, 1.0) + integral(behind, rear);
+        let squares = integral(|z| ahead(z).powi(2), 1.0) + integral(|z| behind(z).powi(2), rear);
+        work += squares / branch.stiffness() + 0.5 * behind(rear).powi(2) / branch.modulus;
     }
     Ok(ConeOnSolid {
         normal_force: 4.0 * load,
         friction_coefficient: work / load,
     })
+}
+
+/// From the end of the contact or its apex, next to which short branches fade.
+fn integral(stress: impl Fn(f64) -> f64, length: f64) -> f64 {
+    integrate(stress, [0.0, length], 1e-12).value
 }
 
 struct Branch {
@@ -62,61 +70,14 @@ impl Branch {
         self.modulus * self.length
     }
 
-    fn charge(&self) -> f64 {
-        -(-1.0 / self.length).exp_m1()
+    /// Stress at a distance behind the front.
+    fn ahead(&self, distance: f64) -> f64 {
+        -self.stiffness() * (-distance / self.length).exp_m1()
     }
 
     /// Stress at a distance behind the apex.
     fn behind(&self, distance: f64) -> f64 {
         let lost = (-distance / self.length).exp_m1();
-        self.stiffness() * (self.charge() * (1.0 + lost) + lost)
+        self.ahead(1.0) * (1.0 + lost) + self.stiffness() * lost
     }
-
-    /// ∫ e dx from −y to 1.
-    fn load(&self, y: f64) -> f64 {
-        let z = y / self.length;
-        let behind = -self.charge() * (-z).exp_m1() - filled(z);
-        self.stiffness() * self.length * (filled(1.0 / self.length) + behind)
-    }
-
-    /// ∫ e² dx / (G l) from −y to 1 and e²/(2 G) at −y.
-    fn work(&self, y: f64) -> f64 {
-        let z = y / self.length;
-        let q = self.charge();
-        let lost = -(-z).exp_m1();
-        let behind = -0.5 * q * q * (-2.0 * z).exp_m1() - q * lost * lost + filled_square(z);
-        let dissipated =
-            self.stiffness() * self.length * (filled_square(1.0 / self.length) + behind);
-        let held = self.behind(y);
-        dissipated + 0.5 * held * held / self.modulus
-    }
-}
-
-/// ∫₀^z (1 − e^(−t)) dt = z − 1 + e^(−z).
-fn filled(z: f64) -> f64 {
-    if z > 0.5 {
-        return z + (-z).exp_m1();
-    }
-    // z²/2! − z³/3! + …
-    series(z, 2, |_| 1.0)
-}
-
-/// ∫₀^z (1 − e^(−t))² dt = z − 2 (1 − e^(−z)) + (1 − e^(−2z))/2.
-fn filled_square(z: f64) -> f64 {
-    if z > 0.5 {
-        return z + 2.0 * (-z).exp_m1() - 0.5 * (-2.0 * z).exp_m1();
-    }
-    // Σ (2^(k−1) − 2) (−1)^(k+1) z^k/k! from k = 3
-    -series(z, 3, |k| 2_f64.powi(k - 1) - 2.0)
-}
-
-/// Σ weight(k) (−z)^k/k! from k = `first`.
-fn series(z: f64, first: i32, weight: impl Fn(i32) -> f64) -> f64 {
-    let mut term = (1..first).fold(1.0, |term, k| term * (-z / f64::from(k)));
-    let mut sum = 0.0;
-    for k in first..first + 30 {
-        term *= -z / f64::from(k);
-        sum += weight(k) * term;
-    }
-    sum
 }

@@ -10,8 +10,8 @@ use numerics::Estimate;
 use serde::Serialize;
 
 use super::Table;
-use crate::meter::{measure as metered, median};
-use crate::scene::{Reached, Scene, as_far_as_reached, refined_to};
+use crate::meter::median;
+use crate::scene::{Scene, as_far_as_reached, refined_to};
 use crate::tasks::in_turn;
 
 /// Exponents of the power profiles.
@@ -105,21 +105,19 @@ impl Case {
         let finer = if is_costly { FINER_WHERE_COSTLY } else { FINER };
         let is_crescent = self.exponent.is_some_and(|p| p >= CRESCENT);
         let aspect = if is_crescent { 1.0 } else { 0.5 };
-        let reference = self.solve(finer * asked, aspect)?.friction;
+        let reference = self.solve(finer * asked, aspect)?;
         let row = |aspect| self.row(asked, aspect, reference);
         ASPECTS.into_iter().map(row).collect()
     }
 
     fn row(&self, asked: f64, aspect: f64, reference: Estimate) -> Result<Row> {
-        let (solved, cost) = metered(|| self.solve(asked, aspect));
-        let Reached { friction, unknowns } = solved?;
+        let friction = self.solve(asked, aspect)?;
         let deviation = (friction.value - reference.value).abs();
         Ok(Row {
             case: self.name.clone(),
             exponent: self.exponent,
             aspect,
             relative_error_asked: asked,
-            reached: unknowns.is_some(),
             friction: friction.value,
             error_bar: friction.error,
             reference_friction: reference.value,
@@ -127,17 +125,14 @@ impl Case {
             deviation,
             deviation_over_bar: deviation / friction.error,
             holds: deviation <= friction.error + reference.error,
-            unknowns,
-            seconds: cost.seconds,
-            processor_seconds: cost.processor_seconds,
         })
     }
 
-    fn solve(&self, relative_error: f64, aspect: f64) -> Result<Reached> {
+    fn solve(&self, relative_error: f64, aspect: f64) -> Result<Estimate> {
         let Scene { material, load, .. } = Scene::unit(1.0)?;
         let options = refined_to(relative_error, aspect);
-        let friction = as_far_as_reached(steady_refined(&self.body, &material, &load, &options));
-        friction.with_context(|| format!("{}, {options:?}", self.name))
+        let reached = as_far_as_reached(steady_refined(&self.body, &material, &load, &options));
+        reached.with_context(|| format!("{}, {options:?}", self.name))
     }
 }
 
@@ -149,8 +144,6 @@ struct Row {
     exponent: Option<f64>,
     aspect: f64,
     relative_error_asked: f64,
-    /// Whether the error asked for was reached; the bar is judged either way.
-    reached: bool,
     friction: f64,
     error_bar: f64,
     reference_friction: f64,
@@ -159,9 +152,6 @@ struct Row {
     deviation_over_bar: f64,
     /// Whether the deviation is within the bar and the error of the reference.
     holds: bool,
-    unknowns: Option<usize>,
-    seconds: f64,
-    processor_seconds: f64,
 }
 
 /// Judges the bars of all bodies, or of a few.

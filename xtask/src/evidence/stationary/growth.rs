@@ -34,7 +34,6 @@ struct Row {
     processor_seconds: f64,
     /// Most memory resident up to here.
     peak_memory_mib: Option<f64>,
-    residual: f64,
     /// Of the friction coefficient on this one grid, from the extrapolated one.
     relative_deviation: f64,
 }
@@ -64,7 +63,6 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
             seconds: cost.seconds,
             processor_seconds: cost.processor_seconds,
             peak_memory_mib: peak_memory(),
-            residual: solution.residual,
             relative_deviation: solution.friction_coefficient / limit - 1.0,
         })
     })?;
