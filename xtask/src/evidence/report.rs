@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde::Serialize;
 use viscofriction_plot::Figure;
 
-use crate::output::{markdown_table, to_csv, write_atomically, write_figure};
+use crate::output::{known_digits, markdown_table, to_csv, write_atomically, write_figure};
 
 /// What an experiment found.
 #[derive(Debug)]
@@ -78,43 +78,5 @@ impl Table {
         }
         let header: Vec<String> = columns.map(|name| name.replace('_', " ")).collect();
         Ok(markdown_table(&header, lines).to_string())
-    }
-}
-
-/// Four digits, or fewer if the error is larger than a unit of the last one.
-fn known_digits(value: f64, error: Option<f64>) -> String {
-    if value == 0.0 || value.fract() == 0.0 && value.abs() < 1e6 {
-        return value.to_string();
-    }
-    let first = value.abs().log10().floor();
-    let last = error.map_or(f64::NEG_INFINITY, |error| error.log10().ceil());
-    let is_below = |count: f64| move |&digit: &usize| (digit as f64) < count;
-    let decimals = |count| (0..20).take_while(is_below(count)).count();
-    if (-3.0..6.0).contains(&first) {
-        let last = last.max(first - 3.0);
-        return format!("{value:.*}", decimals(-last));
-    }
-    format!("{value:.*e}", decimals((first - last).min(2.0)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_known_digits_are_printed() {
-        for (value, error, expected) in [
-            (0.271_8, Some(8e-3), "0.27"),
-            (0.271_8, Some(0.6), "0"),
-            (1.882e-5, Some(4e-8), "1.88e-5"),
-            (1.882e-5, Some(4e-7), "1.9e-5"),
-            (1.882e-5, None, "1.88e-5"),
-            (97_736.0, None, "97736"),
-            (12.345_67, None, "12.35"),
-            (0.0, Some(0.0), "0"),
-        ] {
-            let got = known_digits(value, error);
-            assert_eq!(got, expected, "{value} ± {error:?}");
-        }
     }
 }

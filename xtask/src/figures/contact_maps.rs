@@ -1,12 +1,12 @@
 //! The stationary contacts as maps of the pressure.
 
-use crate::figures::stationary::{Contact, Row};
+use crate::figures::stationary::Contact;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 /// Window of every panel, in contact lengths of the one-dimensional model.
 const WINDOW: [[f64; 2]; 2] = [[-0.2, 1.8], [-1.4, 1.4]];
 /// Pressures above this many times the mean share a colour: along the front edge they have no limit.
-pub(super) const BRIGHTEST: f64 = 3.0;
+const BRIGHTEST: f64 = 3.0;
 /// Elements that share a cell of the map, along x and along y.
 const SHARE: usize = 2;
 /// Steps of the circle from one end to the other.
@@ -16,27 +16,12 @@ pub(super) fn figure(contacts: &[Contact]) -> Figure {
     Figure::new(contacts.iter().map(map), 2)
 }
 
-/// Lengths of the contacts along their middle, and breadths to a side.
-pub(super) fn extents(contacts: &[Contact]) -> [String; 2] {
-    let list = |value: fn(&Contact) -> f64| {
-        let values = contacts.iter().map(value);
-        let values = values.map(|value| format!("{value:.2}"));
-        values.collect::<Vec<_>>().join(", ")
-    };
-    [
-        list(|contact| contact.middle().front - contact.middle().rear),
-        list(Contact::half_breadth),
-    ]
-}
-
 fn map(contact: &Contact) -> Chart {
-    let cell = SHARE as f64 / contact.elements as f64;
-    let cells = WINDOW.map(|[from, to]| whole((to - from) / cell));
+    // The window is two contact lengths long and 2.8 wide.
+    let cells = [10, 14].map(|fifths| fifths * contact.elements / 5 / SHARE);
     let colours = Axis::linear("P / mean P", [0.0, BRIGHTEST]);
     let field = Field::new(cells, colours, |column, row| {
-        let corner = [(0, column), (1, row)]
-            .map(|(axis, step): (usize, usize)| WINDOW[axis][0] + step as f64 * cell);
-        pressure(contact, corner)
+        pressure(contact, [column, row])
     });
     let x = Axis::linear("x / contact length,  motion →", WINDOW[0]);
     let y = Axis::linear("y / contact length", WINDOW[1]);
@@ -48,10 +33,12 @@ fn map(contact: &Contact) -> Chart {
     }
 }
 
-/// Mean over the elements of a cell, given by its corner; none where half of them or more are free.
-fn pressure(contact: &Contact, corner: [f64; 2]) -> Option<f64> {
-    let element = 1.0 / contact.elements as f64;
-    let centre = |axis: usize, step: usize| corner[axis] + (0.5 + step as f64) * element;
+/// Mean over the elements of a cell; none where half of them or more are free.
+fn pressure(contact: &Contact, cell: [usize; 2]) -> Option<f64> {
+    let centre = |axis: usize, step: usize| {
+        let element = (cell[axis] * SHARE + step) as f64 + 0.5;
+        WINDOW[axis][0] + element / contact.elements as f64
+    };
     let pressures = (0..SHARE * SHARE)
         .map(|index| contact.pressure([centre(0, index / SHARE), centre(1, index % SHARE)]));
     let loads: Vec<f64> = pressures.filter(|pressure| *pressure > 0.0).collect();
@@ -59,19 +46,14 @@ fn pressure(contact: &Contact, corner: [f64; 2]) -> Option<f64> {
     (2 * loads.len() > SHARE * SHARE).then(|| mean.min(BRIGHTEST))
 }
 
-/// Along the front from right to left, and back along the rear; a point for the columns that share a cell.
+/// Along the front from right to left, and back along the rear.
 fn outline(contact: &Contact) -> Series {
-    let columns = || contact.outline.chunks(SHARE);
-    let front = columns().map(|rows| [mean(rows, |row| row.front), mean(rows, |row| row.y)]);
-    let rear = columns().map(|rows| [mean(rows, |row| row.rear), mean(rows, |row| row.y)]);
+    let rows = || contact.outline.iter().step_by(SHARE);
+    let front = rows().map(|row| [row.front, row.y]);
+    let rear = rows().map(|row| [row.rear, row.y]);
     let mut points: Vec<[f64; 2]> = front.chain(rear.rev()).collect();
     points.extend(points.first().copied());
     Series::line(points, Line::thin(Dash::Solid), Colour::Black)
-}
-
-/// Mean of neighbouring columns.
-fn mean(rows: &[Row], value: fn(&Row) -> f64) -> f64 {
-    rows.iter().map(value).sum::<f64>() / rows.len() as f64
 }
 
 /// Points at one contact length from the lowest point, as far as the window shows them.
@@ -80,13 +62,4 @@ fn circle() -> Series {
     let angle = |step: u32| last * (2.0 * f64::from(step) / f64::from(ARC) - 1.0);
     let points = (0..=ARC).map(|step| [angle(step).cos(), angle(step).sin()]);
     Series::line(points.collect(), Line::thin(Dash::Dotted), Colour::Black)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a whole number of cells"
-)]
-fn whole(count: f64) -> usize {
-    count.round() as usize
 }

@@ -16,10 +16,10 @@ pub(super) const PAPER: [(f64, f64); 2] = [(1.0, 0.55), (2.0, 0.67)];
 /// The plain simulation: ten elements along the contact length of the one-dimensional model, the fewest of a round
 /// number for which the contact outline is more than a few elements; and forty contact lengths of sliding, the first
 /// doubling of five over whose second half friction changes by less than one per cent.
-pub(super) const PLAIN_ELEMENTS: f64 = 10.0;
-pub(super) const PLAIN_LENGTHS: f64 = 40.0;
+const PLAIN_ELEMENTS: f64 = 10.0;
+const PLAIN_LENGTHS: f64 = 40.0;
 /// Relative error asked of the converged factors.
-pub(super) const RELATIVE_ERROR: f64 = 2e-4;
+const RELATIVE_ERROR: f64 = 2e-4;
 const DRIFT_TOLERANCE: f64 = 0.02;
 
 /// plain + time_level_bias + distance_bias + grid_bias = converged.
@@ -30,17 +30,17 @@ pub(super) struct Row {
     /// Friction ratio at the end of the plain simulation, with the slope at the end of the step.
     pub(super) plain: f64,
     /// Added by the mean slope over the step.
-    pub(super) time_level_bias: f64,
+    time_level_bias: f64,
     /// Added by an infinite sliding distance.
-    pub(super) distance_bias: f64,
+    distance_bias: f64,
     /// Added by an infinitely fine grid.
-    pub(super) grid_bias: f64,
+    grid_bias: f64,
     pub(super) converged: f64,
     pub(super) error: f64,
-    pub(super) plain_elements: f64,
-    pub(super) plain_lengths: f64,
+    plain_elements: f64,
+    plain_lengths: f64,
     /// Relative change over the second half of the distance of the plain simulation.
-    pub(super) plain_drift: f64,
+    plain_drift: f64,
 }
 
 pub(super) fn compute() -> Result<Vec<Row>> {

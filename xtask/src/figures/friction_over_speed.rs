@@ -11,14 +11,14 @@ use crate::tasks::in_parallel;
 
 /// The paper gives the slope of the cone only; force, viscosity and curvature are chosen so that contacts measure from
 /// 0.1 mm to 2 cm.
-pub(super) const CONE_SLOPE: f64 = 0.1;
-pub(super) const CURVATURE: f64 = 10.0;
-pub(super) const NORMAL_FORCE: f64 = 1.0;
-pub(super) const VISCOSITY: f64 = 1e5;
+const CONE_SLOPE: f64 = 0.1;
+const CURVATURE: f64 = 10.0;
+const NORMAL_FORCE: f64 = 1.0;
+const VISCOSITY: f64 = 1e5;
 /// Speeds from 10⁻³ to 10⁻¹ m/s, six per decade.
 pub(super) const SPEEDS: u32 = 13;
 /// The half space slides over this many contact lengths of the one-dimensional model.
-pub(super) const SLIDING_LENGTHS: f64 = 32.0;
+const SLIDING_LENGTHS: f64 = 32.0;
 /// At least so many elements lie along the contact length.
 const MIN_ELEMENTS: f64 = 12.0;
 const DRIFT_TOLERANCE: f64 = 0.03;

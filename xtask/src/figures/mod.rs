@@ -62,7 +62,7 @@ pub(crate) fn reproduce(out: &Path) -> Result<()> {
         pictures.push((name, write_figure(out, name, &figure)?));
     }
     let page = out.join("report.html");
-    write_atomically(&page, report::html(&data, &tables, &pictures)?.as_bytes())?;
+    write_atomically(&page, report::html(&tables, &pictures)?.as_bytes())?;
     let seconds = start.elapsed().as_secs_f64();
     println!("{} written in {seconds:.1} s", page.display());
     Ok(())

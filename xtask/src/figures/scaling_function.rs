@@ -71,15 +71,3 @@ pub(super) fn figure(rows: &[Node]) -> Figure {
     let function = Chart::new(exponents.clone(), factor, function);
     Figure::new([function, Chart::new(exponents, error, errors)], 1)
 }
-
-/// How the function rises and falls.
-pub(super) fn course(rows: &[Node]) -> String {
-    let order = |one: &&Node, other: &&Node| one.scaling_factor.total_cmp(&other.scaling_factor);
-    let highest = rows.iter().max_by(order);
-    let ends = [rows.first(), highest, rows.last()]
-        .map(|row| row.map_or([0.0; 2], |row| [row.exponent, row.scaling_factor]));
-    format!(
-        "From {:.4} for a cusp with p = {:.4} it rises to {:.4} near p = {:.2} and falls to {:.4} for p = {:.0}",
-        ends[0][1], ends[0][0], ends[1][1], ends[1][0], ends[2][1], ends[2][0]
-    )
-}

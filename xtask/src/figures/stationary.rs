@@ -48,16 +48,6 @@ impl Contact {
         let position = position.map(|coordinate| coordinate * self.contact_length);
         self.solution.pressure.at(position) / self.mean_pressure
     }
-
-    /// Where the middle column touches.
-    pub(super) fn middle(&self) -> &Row {
-        &self.outline[self.outline.len() / 2]
-    }
-
-    /// Half the breadth of the contact.
-    pub(super) fn half_breadth(&self) -> f64 {
-        self.solution.contact_y[1] / self.contact_length
-    }
 }
 
 /// The contacts of all profiles.
@@ -120,7 +110,7 @@ mod tests {
                 let is_mirrored = same && (row.y + other.y).abs() < 1e-9;
                 assert!(is_mirrored, "{row:?} and {other:?}");
             }
-            let middle = contact.middle();
+            let middle = &rows[rows.len() / 2];
             lengths.push(middle.front - middle.rear);
             let half = 0.5 * middle.element;
             let [rear, next_to_front] = [middle.rear + half, middle.front - 3.0 * half]

@@ -8,7 +8,7 @@ fn no_stiff_or_extreme_case_is_wrong() {
     let rows = evidence.rows("stability");
     let count = |verdict: &str| rows.iter().filter(|row| row["verdict"] == verdict).count();
     let counts = ["accurate", "refused", "wrong"].map(count);
-    let are_right = counts[0] > 150 && counts[1] > 15 && counts[2] == 0;
+    let are_right = counts[0] > 150 && counts[1] > 3 && counts[2] == 0;
     assert!(are_right, "accurate, refused, wrong: {counts:?}");
     for row in rows.iter().filter(|row| row["verdict"] == "accurate") {
         let [deviation, tolerance] = ["deviation", "tolerance"].map(|column| number(row, column));

@@ -1,8 +1,6 @@
 //! All families, in the order of the table.
 
-use indenters::{
-    FlatCone, Hyperboloid, PowerProfile, RoundTippedCone, Sphere, TruncatedParaboloid,
-};
+use indenters::{Hyperboloid, PowerProfile, RoundTippedCone, Sphere};
 use rheology::{KelvinVoigt, Maxwell};
 
 use super::case::{Family, decades, families};
@@ -18,7 +16,6 @@ const HALF_SPACE: [f64; 14] = [
     0.5, 0.55, 0.6, 0.75, 0.9, 1.0, 1.5, 2.0, 4.0, 8.0, 16.0, 100.0, 300.0, 1000.0,
 ];
 const WIDTHS: [f64; 6] = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
-const ELEMENTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 7.0, 30.0, 100.0, 1000.0];
 
 pub(super) fn all() -> Vec<Family> {
     let usual = shapes().into_iter().chain(on_the_line());
@@ -30,15 +27,13 @@ fn ratios() -> impl Iterator<Item = f64> {
     decades(-12, 12, 1)
 }
 
-/// Flat ends, bodies that are almost flat, and needles.
+/// Bodies that are almost flat, and needles.
 fn shapes() -> Vec<Family> {
     let tips = decades(-12, -3, 1).chain(decades(3, 12, 1));
     families! {
         Cheap "line, cone with round tip", "tip / m", ratios() => |tip| line::both(&RoundTippedCone::new(tip, 1.0)?);
         Cheap "line, sphere", "radius/depth", decades(0, 12, 1) => |radius| line::both(&Sphere::new(radius)?);
         Cheap "line, hyperboloid", "radius/depth", ratios() => |radius| line::both(&Hyperboloid::new(radius, 1.0)?);
-        Cheap "line, cone with flat end", "end / m", decades(-12, 8, 1) => |end| line::diverges(&FlatCone::new(end, 1.0)?);
-        Cheap "line, worn paraboloid", "end / m", decades(-12, 3, 1) => |end| line::diverges(&TruncatedParaboloid::new(end, 1.0)?);
         Cheap "line, cone, any slope", "slope", ratios() => |slope| line::both(&PowerProfile::cone(slope)?);
         Costly "half space, cone, any slope", "slope", decades(-12, 12, 3) => half_space::any_slope;
         Costly "half space, cone with flat end", "end/contact", decades(-12, -4, 1) => half_space::flat_end;
@@ -64,7 +59,6 @@ fn on_the_line() -> Vec<Family> {
         Cheap "line, pressed, Maxwell", "Δt/τ", ratios() => |ratio| line::pressed(&Maxwell::new(1.0, 1.0)?, ratio);
         Cheap "line, pressed, 16 branches", "Δt", ratios() => |ratio| line::pressed(&sixteen_branches(), ratio);
         Cheap "line, march, cone on Maxwell", "vτ/x_r", ratios().step_by(2) => line::march;
-        Cheap "line, march, cone on dashpot", "elements", ELEMENTS => line::coarse_march;
     }
 }
 
@@ -75,8 +69,6 @@ fn on_the_half_space() -> Vec<Family> {
         Costly "half space, dashpot, stationary", "p", HALF_SPACE => half_space::power_profile;
         Costly "half space, three elements, slow", "γ", gammas() => half_space::slow;
         Costly "half space, three elements, fast", "γ", gammas() => half_space::fast;
-        Costly "half space, three elements, plateau", "γ", decades(-12, -8, 1) => half_space::plateau;
-        Costly "half space, 16 branches over 15 decades", "vτ/a", decades(-12, 12, 2) => half_space::branches;
         Costly "half space, slender paraboloid", "width/length", WIDTHS => half_space::slender;
         Cheap "half space, pressed, Kelvin–Voigt", "Δt/λ", ratios() => |ratio| half_space::pressed(&KelvinVoigt::new(1.0, 1.0)?, ratio);
         Cheap "half space, pressed, Maxwell", "Δt/τ", ratios() => |ratio| half_space::pressed(&Maxwell::new(1.0, 1.0)?, ratio);

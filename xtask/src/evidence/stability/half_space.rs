@@ -1,7 +1,5 @@
 //! The half space: stationary sliding, the march in time, and pressing.
 
-use std::f64::consts::FRAC_PI_2;
-
 use anyhow::Result;
 use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
 use bem_halfspace::slide::{SlideRow, slide_on_grid};
@@ -16,7 +14,7 @@ use numerics::{Estimate, InvalidParameter};
 use rheology::{Elastic, Material, Maxwell, StandardSolid, Viscous};
 
 use super::case::{Row, compare, refused};
-use super::line::{on_dashpot, sixteen_branches};
+use super::line::on_dashpot;
 use crate::scene::{Scene, solid};
 
 /// Enough unknowns for all of these cases, and seconds at most.
@@ -124,40 +122,6 @@ pub(super) fn fast(gamma: f64) -> Result<Row> {
     at_limit(gamma, 1e4, high_speed_friction)
 }
 
-/// Between the limits a solid with a soft spring is a dashpot, at v τ = 1e-5 a within γ/1e-5 and 1e-5.
-pub(super) fn plateau(gamma: f64) -> Result<Row> {
-    let body = PowerProfile::cone(0.1)?;
-    let velocity = 1e-5;
-    // F = 4 η v a h̃(a)/a for a = 1.
-    let load = SlidingLoad::new(0.4 * FRAC_PI_2 * velocity, velocity)?;
-    let Estimate { value, error } = half_space_power_friction(&body, &Viscous::new(1.0)?, &load)?;
-    let error = error + 1e-2 * value;
-    judged(&body, &solid(gamma)?, &load, Estimate { value, error }, 0.0)
-}
-
-/// Two estimates on elements of two shapes agree within their error bars.
-fn agreeing(
-    body: &dyn Surface,
-    material: &dyn Material,
-    load: &SlidingLoad,
-    width: f64,
-) -> Result<Row> {
-    let solve = |aspect| {
-        let options = RefinementOptions { aspect, ..OPTIONS };
-        Ok::<_, BemError>(steady_refined(body, material, load, &options)?.friction_coefficient)
-    };
-    let (got, other) = (solve(0.5 * width)?, solve(width)?);
-    let tolerance = (got.error + other.error) / other.value;
-    compare!(within tolerance; "friction coefficient" => got.value, other.value)
-}
-
-/// Every speed meets some of the branches.
-pub(super) fn branches(velocity: f64) -> Result<Row> {
-    let body = PowerProfile::paraboloid(0.1)?;
-    let load = SlidingLoad::new(1.0, velocity)?;
-    agreeing(&body, &sixteen_branches(), &load, 1.0)
-}
-
 /// h = x² + (y/r)² on the elements of a grid that is as slender as the body.
 struct SlenderParaboloid {
     aspect: f64,
@@ -181,11 +145,19 @@ impl Surface for SlenderParaboloid {
     }
 }
 
+/// Two estimates on elements of two shapes agree within their error bars.
+///
 /// Under this force the contact is about as long as one, however wide.
 pub(super) fn slender(aspect: f64) -> Result<Row> {
     let load = SlidingLoad::new(aspect.max(1.0), 1.0)?;
-    let body = SlenderParaboloid { aspect };
-    agreeing(&body, &Viscous::new(1.0)?, &load, aspect)
+    let (body, material) = (SlenderParaboloid { aspect }, Viscous::new(1.0)?);
+    let solve = |aspect| {
+        let options = RefinementOptions { aspect, ..OPTIONS };
+        Ok::<_, BemError>(steady_refined(&body, &material, &load, &options)?.friction_coefficient)
+    };
+    let (got, other) = (solve(0.5 * aspect)?, solve(aspect)?);
+    let tolerance = (got.error + other.error) / other.value;
+    compare!(within tolerance; "friction coefficient" => got.value, other.value)
 }
 
 /// Under a constant force any number of steps of any length ends where one elastic step of compliance J(t) does, on the

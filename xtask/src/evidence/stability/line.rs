@@ -5,11 +5,11 @@ use std::f64::consts::FRAC_2_PI;
 use anyhow::Result;
 use casebook::prony;
 use friction_analytic::{
-    FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
+    SlidingContact, StationarySliding, ViscoelasticSliding, axisymmetric_sliding,
     kelvin_voigt_sliding, maxwell_sliding, power_indentation_after_impulse,
 };
 use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad, SlidingLoad};
-use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, indent, slide_on_grid, steady};
+use mdr_core::{MdrError, SlideOptions, SteadySliding, indent, slide_on_grid, steady};
 use rheology::{KelvinVoigt, Material, Maxwell, Prony, Viscous};
 
 use super::case::{Row, compare, refused};
@@ -61,19 +61,6 @@ pub(super) fn both(body: &dyn Axisymmetric) -> Result<Row> {
     let Scene { material, load, .. } = Scene::unit(1.0)?;
     let expected = axisymmetric_sliding(body, &material, &load)?;
     beside_theorem(&state(body, &material, &load)?, &expected)
-}
-
-/// A kink that rises has infinite friction on a dashpot, however small the flat end; both methods say so.
-///
-/// Around larger ends the contact is narrower than the rounding of its position.
-pub(super) fn diverges(body: &dyn Axisymmetric) -> Result<Row> {
-    let Scene { material, load, .. } = Scene::unit(1.0)?;
-    let by_line = state(body, &material, &load);
-    if let Err(MdrError::FrictionDiverges { .. }) = by_line {
-        let theorem = axisymmetric_sliding(body, &material, &load);
-        return refused!(theorem => FrictionError::FrictionDiverges { .. });
-    }
-    refused!(by_line => MdrError::FrictionDiverges { .. })
 }
 
 /// The closed form (16) of the theorem, which shares nothing with the solver.
@@ -145,18 +132,6 @@ pub(super) fn pressed(material: &dyn Material, time: f64) -> Result<Row> {
     compare!(within ASKED; "indentation depth" => got, depth)
 }
 
-/// A march with so many elements along the stationary contact.
-pub(super) fn marched(
-    profile: &PowerProfile,
-    material: &dyn Material,
-    load: &SlidingLoad,
-    elements: usize,
-) -> Result<Transient, MdrError> {
-    let line = EquivalentLine(profile);
-    let options = SlideOptions::with_elements(elements, &line, material, load)?;
-    slide_on_grid(&line, material, load, &options)
-}
-
 /// Elements along the stationary contact of a march.
 const MARCHED: usize = 400;
 
@@ -167,25 +142,9 @@ pub(super) fn march(velocity: f64) -> Result<Row> {
     let material = Maxwell::new(1.0, 1.0)?;
     let expected = maxwell_sliding(&profile, &material, contact(velocity))?;
     let load = SlidingLoad::new(expected.normal_force, velocity)?;
-    let got = marched(&profile, &material, &load, MARCHED)?.last;
+    let line = EquivalentLine(&profile);
+    let options = SlideOptions::with_elements(MARCHED, &line, &material, &load)?;
+    let got = slide_on_grid(&line, &material, &load, &options)?.last;
     let tolerance = 4.0 / MARCHED as f64;
     compare!(got, expected, within tolerance; friction_coefficient, indentation_depth)
-}
-
-/// On a dashpot the cone has its friction (21) at any spacing that has three elements.
-pub(super) fn coarse_march(elements: f64) -> Result<Row> {
-    let scene = on_dashpot(PowerProfile::cone(0.1)?)?;
-    let expected = scene.theory()?;
-    let options = SlideOptions {
-        spacing: expected.contact_length() / elements,
-        drift_tolerance: 1e-9,
-        max_sliding_distance: 100.0 * expected.contact_length(),
-    };
-    let line = EquivalentLine(&scene.body);
-    let got = slide_on_grid(&line, &scene.material, &scene.load, &options);
-    if elements < 3.0 {
-        return refused!(got => MdrError::TooCoarse { .. });
-    }
-    // The distance from the stationary state is less than the drift.
-    compare!(got?.last, expected, within 1e-9; friction_coefficient, indentation_depth)
 }
