@@ -306,10 +306,8 @@ impl Serialize for Answer {
                 map.serialize_entry(&format!("{name}_error"), &error)?;
             }
         }
-        if let Some(rough) = self.rough {
-            if let Some(persson) = rough.persson {
-                map.serialize_entry("persson", &persson)?;
-            }
+        if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
+            map.serialize_entry("persson", &persson)?;
         }
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;
