@@ -86,18 +86,6 @@ fn a_cylinder_on_a_three_element_solid_is_hunters_within_the_error_bar() {
     }
 }
 
-/// What the solver leaves is a part of the bar, whether slopes of one sign or of both are loaded.
-#[test]
-fn the_residual_is_a_part_of_the_error() {
-    for (gamma, z) in [(0.1, 2.0), (1.0, 100.0)] {
-        let estimate = Scene::hunter(gamma, z).0.solve(1e-2).expect("a state");
-        let (bar, parts) = (estimate.friction_coefficient.error, estimate.error_parts);
-        assert_close((gamma, z), parts.sum(), bar, 1e-12);
-        let iteration = parts.iteration.expect("a part");
-        assert!(iteration > 0.0 && iteration < bar, "{parts:?} of {bar:e}");
-    }
-}
-
 #[test]
 fn a_cylinder_on_three_branches_is_that_of_the_spectral_reference() {
     for case in group("VIS-05") {

@@ -3,17 +3,20 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bem_halfspace::{
-    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, SlidingLoad, layer_factor,
-    press, slide, steady, steady_line, steady_periodic_on_grid,
+    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor, press, slide,
+    steady, steady_line, steady_periodic_on_grid,
 };
-use casebook::refused;
+use casebook::refuses;
 use friction_analytic::ThinLayer;
-use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, PowerProfile, RigidLine};
+use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, RigidLine};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
-use rheology::{Compressible, Elastic, Material, StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Compressible, Material, Prony};
 
-use crate::support::{assert_close, assert_near};
+use crate::support::{
+    after, assert_close, assert_near, cone, elastic, paraboloid, three_elements, under_force,
+    viscous,
+};
 
 /// ν, s and M(s); casebook-2.json, "layer".
 const FACTORS: [[f64; 3]; 7] = [
@@ -50,8 +53,7 @@ fn the_factor_is_known_to_rounding_for_all_waves() {
 
 /// A layer of E* = 1.
 fn material(poisson_ratio: f64) -> Compressible {
-    let spring = Elastic::new(0.5 * (1.0 - poisson_ratio)).unwrap();
-    Compressible::new(&spring, poisson_ratio).unwrap()
+    Compressible::new(&elastic(0.5 * (1.0 - poisson_ratio)), poisson_ratio).unwrap()
 }
 
 /// Force and depth of a body that touches a layer of E* = 1 over a disc, from dual integral equations:
@@ -61,21 +63,17 @@ fn material(poisson_ratio: f64) -> Compressible {
 /// ```
 ///
 /// with the profile g of the equivalent line, by the rule of Lobatto (Nyström). A smooth body has q(a) = 0.
-fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: bool) -> [f64; 2] {
+fn by_integral_equation(body: &dyn Axisymmetric, [a, nu]: [f64; 2], has_edge: bool) -> [f64; 2] {
     let LobattoRule { nodes, weights } = lobatto_rule(80);
     let nodes: Vec<f64> = nodes.iter().map(|t| 0.5 * a * (1.0 + t)).collect();
     let waves = lobatto_rule(400);
-    let kernel = |x: f64| {
+    let kernel = |x: f64| -> f64 {
         let wave = |(t, weight): (&f64, &f64)| {
             let s = 15.0 * (1.0 + t);
             15.0 * weight * (layer_factor(s, nu) - 1.0) * (s * x).cos()
         };
-        waves
-            .nodes
-            .iter()
-            .zip(&waves.weights)
-            .map(wave)
-            .sum::<f64>()
+        let points = waves.nodes.iter().zip(&waves.weights);
+        points.map(wave).sum()
     };
     let n = nodes.len();
     let matrix = DMatrix::from_fn(n, n, |row, column| {
@@ -94,11 +92,8 @@ fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: b
         of_profile[n - 1] / of_depth[n - 1]
     };
     let loads = of_depth * depth - of_profile;
-    let force: f64 = loads
-        .iter()
-        .zip(&weights)
-        .map(|(load, weight)| a * weight * load)
-        .sum();
+    let pairs = loads.iter().zip(&weights);
+    let force = pairs.map(|(load, weight)| a * weight * load).sum();
     [force, depth]
 }
 
@@ -107,25 +102,18 @@ fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: b
 fn pressing_agrees_with_an_integral_equation() {
     for nu in [0.0, 0.45, 0.5] {
         for a in [0.1, 8.0] {
-            let bodies: [(&str, Box<dyn Axisymmetric>, [f64; 2]); 3] = [
-                (
-                    "paraboloid",
-                    Box::new(PowerProfile::paraboloid(1.0).unwrap()),
-                    [2e-4, 1e-4],
-                ),
-                (
-                    "cone",
-                    Box::new(PowerProfile::cone(1.0).unwrap()),
-                    [2e-4, 1e-4],
-                ),
-                ("punch", Box::new(FlatPunch::new(a).unwrap()), [3e-2, 8e-3]),
+            let punch = FlatPunch::new(a).unwrap();
+            let bodies: [(&str, &dyn Axisymmetric, [f64; 2]); 3] = [
+                ("paraboloid", &paraboloid(1.0), [2e-4, 1e-4]),
+                ("cone", &cone(1.0), [2e-4, 1e-4]),
+                ("punch", &punch, [3e-2, 8e-3]),
             ];
             for (name, body, [asked, allowed]) in bodies {
-                let [force, depth] = by_integral_equation(&body, [a, nu], name == "punch");
+                let [force, depth] = by_integral_equation(body, [a, nu], name == "punch");
                 let material = material(nu);
                 let layer = Layer::new(&material, 1.0).unwrap();
                 let control = Control::IndentationDepth(depth);
-                let found = press(&body, &layer, control, asked).unwrap();
+                let found = press(body, &layer, control, asked).unwrap();
                 let scene = format!("{name}, ν = {nu}, a = {a} t");
                 assert_close(&scene, found.normal_force.value, force, allowed);
                 assert_within_bar(&scene, found.normal_force, force);
@@ -135,12 +123,9 @@ fn pressing_agrees_with_an_integral_equation() {
     }
 }
 
+#[track_caller]
 fn assert_within_bar(what: &str, found: Estimate, expected: f64) {
-    let Estimate { value, error } = found;
-    assert!(
-        (value - expected).abs() <= error,
-        "{what}: {value} ± {error}, not {expected}"
-    );
+    assert_near(what, found.value, expected, found.error);
 }
 
 /// Every field moves as the sum of the waves in it: by the factor of the wave without end.
@@ -161,13 +146,8 @@ fn all_elements_together_move_the_mean() {
     }
 }
 
-fn solid() -> StandardSolid {
-    let parameters = StandardSolidParameters {
-        equilibrium_modulus: 0.25,
-        maxwell_modulus: 2.25,
-        viscosity: 2.25,
-    };
-    StandardSolid::new(parameters).unwrap()
+fn solid() -> Prony {
+    three_elements(0.25, 2.25, 1.0)
 }
 
 /// casebook-2.json, "line": a collocation method of another author, with 1e-8 of friction and length and 6e-6 of the depth.
@@ -175,42 +155,30 @@ fn solid() -> StandardSolid {
 fn a_cylinder_slides_as_an_independent_solver_finds() {
     let solid = solid();
     let layer = Layer::new(&solid, 0.1).unwrap();
-    let load = SlidingLoad::new(0.02, 0.01).unwrap();
+    let load = under_force(0.02, 0.01);
     let found = steady_line(&Cylinder::new(1.0).unwrap(), &layer, &load, 1e-5).unwrap();
+    let (peak, depth) = (found.peak_pressure, found.indentation_depth);
     assert_within_bar("μ", found.friction_coefficient, 0.038_570_761_236_354_46);
     assert_within_bar("width", found.contact_area, 2.0 * 0.073_904_070_412_448_22);
-    assert_within_bar(
-        "peak",
-        found.peak_pressure.unwrap(),
-        0.215_895_694_783_608_37,
-    );
-    assert_within_bar(
-        "depth",
-        found.indentation_depth.unwrap(),
-        0.003_948_654_133_675_425,
-    );
+    assert_within_bar("peak", peak.unwrap(), 0.215_895_694_783_608_37);
+    assert_within_bar("depth", depth.unwrap(), 0.003_948_654_133_675_425);
 }
 
 /// Also of a layer that flows, under which a body does not sink for ever.
 #[test]
 fn a_march_comes_to_the_stationary_state() {
-    let body = PowerProfile::paraboloid(0.5).unwrap();
-    let (viscous, solid) = (Viscous::new(1.0).unwrap(), solid());
-    let materials: [&dyn Material; 2] = [&viscous, &solid];
+    let body = paraboloid(0.5);
+    let materials: [&dyn Material; 2] = [&viscous(1.0), &solid()];
     for nu in [0.3, 0.5] {
         for material in materials {
             let material = Compressible::new(material, nu).unwrap();
             let layer = Layer::new(&material, 0.1).unwrap();
-            let load = SlidingLoad::new(0.001, 0.1).unwrap();
+            let load = under_force(0.001, 0.1);
             let stationary = steady(&body, &layer, &load, 1e-3).unwrap();
-            let load = load.after(1.5).unwrap();
-            let marched = slide(&body, &layer, &load, Accuracy::Elements(10)).unwrap();
+            let marched = slide(&body, &layer, &after(load, 1.5), Accuracy::Elements(10)).unwrap();
             let scene = format!("{material:?}");
-            assert_within_bar(
-                &scene,
-                marched.friction_coefficient,
-                stationary.friction_coefficient.value,
-            );
+            let friction = stationary.friction_coefficient.value;
+            assert_within_bar(&scene, marched.friction_coefficient, friction);
             let depth = stationary.indentation_depth.unwrap();
             assert_within_bar(&scene, marched.indentation_depth.unwrap(), depth.value);
         }
@@ -220,17 +188,15 @@ fn a_march_comes_to_the_stationary_state() {
 /// A solid remembers the layer by its thickness only: what is missing to the half space falls like a/t.
 #[test]
 fn a_thick_layer_is_a_half_space() {
-    let (body, solid) = (PowerProfile::paraboloid(0.5).unwrap(), solid());
-    let load = SlidingLoad::new(0.001, 0.1).unwrap();
+    let (body, solid) = (paraboloid(0.5), solid());
+    let load = under_force(0.001, 0.1);
     let control = Control::NormalForce(0.001);
     let friction_and_depth = |thickness: f64| {
         let layer = Layer::new(&solid, thickness).unwrap();
         let slid = steady(&body, &layer, &load, 1e-3).unwrap();
         let pressed = press(&body, &layer, control, 1e-3).unwrap();
-        [
-            slid.friction_coefficient,
-            pressed.indentation_depth.unwrap(),
-        ]
+        let depth = pressed.indentation_depth.unwrap();
+        [slid.friction_coefficient, depth]
     };
     let [friction, depth] = friction_and_depth(f64::INFINITY);
     let [thick_friction, thick_depth] = friction_and_depth(12.0);
@@ -249,9 +215,8 @@ fn a_periodic_layer_moves_by_its_factor() {
     let (solid, thickness, velocity) = (Compressible::new(&solid(), 0.3).unwrap(), 0.2, 0.1);
     let layer = Layer::new(&solid, thickness).unwrap();
     let load = PeriodicLoad::new(1.0, velocity).unwrap();
-    let state =
-        steady_periodic_on_grid(&grid, &heights, &layer, &load, &PeriodicOptions::default())
-            .unwrap();
+    let options = PeriodicOptions::default();
+    let state = steady_periodic_on_grid(&grid, &heights, &layer, &load, &options).unwrap();
     // μ = p̂ h̃ q sin δ/2 over the mean pressure, with |p̂| = ½ |E*| q h̃/M.
     let modulus = solid.complex_modulus(TAU * velocity).unwrap().loss * 2.0 / 0.7;
     let friction = 0.25 * modulus * (TAU * 1e-3).powi(2) / layer_factor(TAU * thickness, 0.3);
@@ -264,7 +229,7 @@ fn a_periodic_layer_moves_by_its_factor() {
 /// at a depth by less.
 #[test]
 fn thin_layers_are_foundations_or_films() {
-    let body = PowerProfile::paraboloid(1.0).unwrap();
+    let body = paraboloid(1.0);
     for nu in [0.3, 0.5] {
         let limit = ThinLayer::new(0.5 * (1.0 - nu), nu, 1.0).unwrap();
         let [near, far] = [10.0, 20.0].map(|a| {
@@ -275,10 +240,7 @@ fn thin_layers_are_foundations_or_films() {
                 limit.press_film(&body, depth)
             };
             let thin = thin.unwrap();
-            [
-                1.0 - thin.normal_force / force,
-                1.0 - thin.contact_radius / a,
-            ]
+            [thin.normal_force / force, thin.contact_radius / a].map(|ratio| 1.0 - ratio)
         });
         let [force, radius] = [0, 1].map(|quantity| near[quantity] / far[quantity]);
         assert!(
@@ -298,7 +260,7 @@ fn thin_layers_are_foundations_or_films() {
 #[test]
 fn a_thickness_is_a_number_above_zero() {
     let solid = solid();
-    for thickness in [0.0, -1.0, f64::NAN] {
-        refused("thickness", Layer::new(&solid, thickness));
-    }
+    refuses("thickness", &[0.0, -1.0, f64::NAN], |t| {
+        Layer::new(&solid, t)
+    });
 }
