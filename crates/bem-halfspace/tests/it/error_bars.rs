@@ -219,23 +219,6 @@ fn force_and_depth_control_agree_on_one_grid() {
     }
 }
 
-#[test]
-fn the_friction_at_a_depth_is_that_under_its_force() {
-    let scene = Scene::unit(2.0);
-    let load = scene.load_over(1e3);
-    let pressed = Scene { load, ..scene }.steady(1e-3);
-    let depth = pressed.indentation_depth.expect("a depth after a distance");
-    let held = at_depth(depth.value, load.velocity());
-    let load = after(held, 1e3 * scene.contact_length());
-    let held = Scene { load, ..scene }.steady(1e-3);
-    // The force follows the depth with a power between 1 and 2.
-    let allowed = held.normal_force.error + 2.0 * depth.error / depth.value * 0.5;
-    assert_near("force", held.normal_force.value, 0.5, allowed);
-    let [held, pressed] = [held, pressed].map(|estimate| estimate.friction_coefficient);
-    let allowed = held.error + pressed.error + 1e-3 * pressed.value;
-    assert_near("friction", held.value, pressed.value, allowed);
-}
-
 /// Refuses to refine beyond some unknowns, and returns what was reached.
 fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usize) -> Estimate {
     let mut options = RefinementOptions {

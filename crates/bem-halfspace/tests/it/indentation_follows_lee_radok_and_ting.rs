@@ -1,4 +1,4 @@
-//! Pressing by a given force or depth, and letting go, on any material (casebook VIS-01, VIS-02); under a constant force
+//! Pressing by a given force or depth, and letting go, on any material (casebook VIS-02); under a constant force
 //! the depth is exactly that of the line model (BEM-05).
 
 use std::f64::consts::PI;
@@ -143,20 +143,6 @@ fn radius(row: &MotionRow) -> f64 {
 /// the edge, less than 4e-3 at 16 (`depth_converges_to_the_exact_law_with_second_order`).
 const ELEMENTS: f64 = 16.0;
 const TOLERANCE: f64 = 6e-3;
-
-#[test]
-fn a_depth_ramp_has_the_force_of_lee_and_radok() {
-    let cases = group("VIS-01").into_iter();
-    for case in cases.filter(|case| case.has_input("V")) {
-        for name in ["paraboloid", "cone"] {
-            let time = case.input("t");
-            let rows = triangle(&case, name, [time, time], 4);
-            case.check_within(&format!("F_{name}"), rows[3].normal_force, TOLERANCE);
-            // The area of whole elements says the radius to half an element.
-            case.check_within(&format!("a_{name}"), radius(&rows[3]), 0.5 / ELEMENTS);
-        }
-    }
-}
 
 /// After the turn the contact shrinks faster than the depth, and is lost before the depth is zero.
 #[test]

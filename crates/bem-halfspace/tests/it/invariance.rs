@@ -8,8 +8,8 @@ use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
 
 use crate::support::{
-    Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power,
-    pressed, pressed_by, prony, slid, squares, three_elements, tight, under_force, viscous,
+    Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power, prony,
+    slid, squares, three_elements, under_force, viscous,
 };
 
 /// μ / (c^(1/p) (F/(ηv))^(1−1/p)) for random scenes over many decades (casebook BEM-07).
@@ -90,17 +90,6 @@ fn stationary<M: Material>(scene: &Scene<M>, [length, stress, _]: Units) -> Vec<
     ]
 }
 
-/// The end of three steps under a constant force.
-fn press<M: Material>(scene: &Scene<M>, [length, stress, time]: Units) -> Vec<f64> {
-    let times = [0.1, 1.0, 10.0].map(|moment| moment * time);
-    let force = 0.5 * stress * length * length;
-    let options = tight(squares(0.1 * length, 2.0 * length));
-    let steps = pressed_by(force, &times);
-    let rows = pressed(&scene.body, &scene.material, steps, &options);
-    let [depth, area] = [rows[2].indentation_depth, rows[2].contact_area / length];
-    vec![depth / length, area / length]
-}
-
 fn line([length, stress, time]: Units) -> Vec<f64> {
     let material = three_elements(0.1 * stress, stress, time);
     let load = under_force(stress * length, length / time);
@@ -116,10 +105,9 @@ fn results_are_invariant_under_a_change_of_units() {
         let solid = three_elements(0.1 * stress, stress, 0.5 * time);
         scene(solid, [length, stress, time])
     };
-    let solvers: [(_, &Solver); 7] = [
+    let solvers: [(_, &Solver); 6] = [
         ("march on a dashpot", &|units| march(&dashpot(units), units)),
         ("march on a solid", &|units| march(&solid(units), units)),
-        ("pressed", &|units| press(&solid(units), units)),
         ("dashpot", &|units| stationary(&dashpot(units), units)),
         ("solid", &|units| stationary(&solid(units), units)),
         ("at a depth", &|units| {

@@ -3,17 +3,20 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bem_halfspace::{
-    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, SlidingLoad, layer_factor,
-    press, slide, steady, steady_line, steady_periodic_on_grid,
+    Control, Convolution, Grid, Layer, PeriodicLoad, PeriodicOptions, layer_factor, press, slide,
+    steady, steady_line, steady_periodic_on_grid,
 };
-use casebook::refused;
+use casebook::refuses;
 use friction_analytic::{ThinLayer, power_sliding, winkler_line_force};
-use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, PowerProfile, RigidLine};
+use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, RigidLine};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
-use rheology::{Compressible, Elastic, Material, StandardSolid, StandardSolidParameters, Viscous};
+use rheology::{Compressible, Material, Prony};
 
-use crate::support::{assert_close, assert_near};
+use crate::support::{
+    after, assert_close, assert_near, cone, elastic, paraboloid, three_elements, under_force,
+    viscous,
+};
 
 /// ν, s and M(s); casebook-2.json, "layer".
 const FACTORS: [[f64; 3]; 7] = [
@@ -50,8 +53,7 @@ fn the_factor_is_known_to_rounding_for_all_waves() {
 
 /// A layer of E* = 1.
 fn material(poisson_ratio: f64) -> Compressible {
-    let spring = Elastic::new(0.5 * (1.0 - poisson_ratio)).unwrap();
-    Compressible::new(&spring, poisson_ratio).unwrap()
+    Compressible::new(&elastic(0.5 * (1.0 - poisson_ratio)), poisson_ratio).unwrap()
 }
 
 /// Force and depth of a body that touches a layer of E* = 1 over a disc, from dual integral equations:
@@ -61,21 +63,17 @@ fn material(poisson_ratio: f64) -> Compressible {
 /// ```
 ///
 /// with the profile g of the equivalent line, by the rule of Lobatto (Nyström). A smooth body has q(a) = 0.
-fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: bool) -> [f64; 2] {
+fn by_integral_equation(body: &dyn Axisymmetric, [a, nu]: [f64; 2], has_edge: bool) -> [f64; 2] {
     let LobattoRule { nodes, weights } = lobatto_rule(80);
     let nodes: Vec<f64> = nodes.iter().map(|t| 0.5 * a * (1.0 + t)).collect();
     let waves = lobatto_rule(400);
-    let kernel = |x: f64| {
+    let kernel = |x: f64| -> f64 {
         let wave = |(t, weight): (&f64, &f64)| {
             let s = 15.0 * (1.0 + t);
             15.0 * weight * (layer_factor(s, nu) - 1.0) * (s * x).cos()
         };
-        waves
-            .nodes
-            .iter()
-            .zip(&waves.weights)
-            .map(wave)
-            .sum::<f64>()
+        let points = waves.nodes.iter().zip(&waves.weights);
+        points.map(wave).sum()
     };
     let n = nodes.len();
     let matrix = DMatrix::from_fn(n, n, |row, column| {
@@ -94,11 +92,8 @@ fn by_integral_equation(body: &impl Axisymmetric, [a, nu]: [f64; 2], has_edge: b
         of_profile[n - 1] / of_depth[n - 1]
     };
     let loads = of_depth * depth - of_profile;
-    let force: f64 = loads
-        .iter()
-        .zip(&weights)
-        .map(|(load, weight)| a * weight * load)
-        .sum();
+    let pairs = loads.iter().zip(&weights);
+    let force = pairs.map(|(load, weight)| a * weight * load).sum();
     [force, depth]
 }
 
@@ -123,7 +118,7 @@ fn the_integral_equation_is_that_of_the_casebook() {
     for [a, punch, depth_of_paraboloid, force_of_paraboloid] in PRESSED {
         let [force, _] = by_integral_equation(&FlatPunch::new(a).unwrap(), [a, 0.3], true);
         assert_close("punch", 0.5 * force / a, punch, 1e-10);
-        let paraboloid = PowerProfile::paraboloid(1.0).unwrap();
+        let paraboloid = paraboloid(1.0);
         let [force, depth] = by_integral_equation(&paraboloid, [a, 0.3], false);
         assert_close("depth", 0.5 * depth / (a * a), depth_of_paraboloid, 1e-10);
         assert_close(
@@ -140,25 +135,18 @@ fn the_integral_equation_is_that_of_the_casebook() {
 fn pressing_agrees_with_an_integral_equation() {
     for nu in [0.0, 0.45, 0.5] {
         for a in [0.1, 8.0] {
-            let bodies: [(&str, Box<dyn Axisymmetric>, [f64; 2]); 3] = [
-                (
-                    "paraboloid",
-                    Box::new(PowerProfile::paraboloid(1.0).unwrap()),
-                    [2e-4, 1e-4],
-                ),
-                (
-                    "cone",
-                    Box::new(PowerProfile::cone(1.0).unwrap()),
-                    [2e-4, 1e-4],
-                ),
-                ("punch", Box::new(FlatPunch::new(a).unwrap()), [3e-2, 8e-3]),
+            let punch = FlatPunch::new(a).unwrap();
+            let bodies: [(&str, &dyn Axisymmetric, [f64; 2]); 3] = [
+                ("paraboloid", &paraboloid(1.0), [2e-4, 1e-4]),
+                ("cone", &cone(1.0), [2e-4, 1e-4]),
+                ("punch", &punch, [3e-2, 8e-3]),
             ];
             for (name, body, [asked, allowed]) in bodies {
-                let [force, depth] = by_integral_equation(&body, [a, nu], name == "punch");
+                let [force, depth] = by_integral_equation(body, [a, nu], name == "punch");
                 let material = material(nu);
                 let layer = Layer::new(&material, 1.0).unwrap();
                 let control = Control::IndentationDepth(depth);
-                let found = press(&body, &layer, control, asked).unwrap();
+                let found = press(body, &layer, control, asked).unwrap();
                 let scene = format!("{name}, ν = {nu}, a = {a} t");
                 assert_close(&scene, found.normal_force.value, force, allowed);
                 assert_within_bar(&scene, found.normal_force, force);
@@ -168,12 +156,9 @@ fn pressing_agrees_with_an_integral_equation() {
     }
 }
 
+#[track_caller]
 fn assert_within_bar(what: &str, found: Estimate, expected: f64) {
-    let Estimate { value, error } = found;
-    assert!(
-        (value - expected).abs() <= error,
-        "{what}: {value} ± {error}, not {expected}"
-    );
+    assert_near(what, found.value, expected, found.error);
 }
 
 /// Every field moves as the sum of the waves in it: by the factor of the wave without end.
@@ -194,13 +179,8 @@ fn all_elements_together_move_the_mean() {
     }
 }
 
-fn solid() -> StandardSolid {
-    let parameters = StandardSolidParameters {
-        equilibrium_modulus: 0.25,
-        maxwell_modulus: 2.25,
-        viscosity: 2.25,
-    };
-    StandardSolid::new(parameters).unwrap()
+fn solid() -> Prony {
+    three_elements(0.25, 2.25, 1.0)
 }
 
 /// casebook-2.json, "line": a collocation method of another author, with 1e-8 of friction and length and 6e-6 of the depth.
@@ -208,42 +188,30 @@ fn solid() -> StandardSolid {
 fn a_cylinder_slides_as_an_independent_solver_finds() {
     let solid = solid();
     let layer = Layer::new(&solid, 0.1).unwrap();
-    let load = SlidingLoad::new(0.02, 0.01).unwrap();
+    let load = under_force(0.02, 0.01);
     let found = steady_line(&Cylinder::new(1.0).unwrap(), &layer, &load, 1e-5).unwrap();
+    let (peak, depth) = (found.peak_pressure, found.indentation_depth);
     assert_within_bar("μ", found.friction_coefficient, 0.038_570_761_236_354_46);
     assert_within_bar("width", found.contact_area, 2.0 * 0.073_904_070_412_448_22);
-    assert_within_bar(
-        "peak",
-        found.peak_pressure.unwrap(),
-        0.215_895_694_783_608_37,
-    );
-    assert_within_bar(
-        "depth",
-        found.indentation_depth.unwrap(),
-        0.003_948_654_133_675_425,
-    );
+    assert_within_bar("peak", peak.unwrap(), 0.215_895_694_783_608_37);
+    assert_within_bar("depth", depth.unwrap(), 0.003_948_654_133_675_425);
 }
 
 /// Also of a layer that flows, under which a body does not sink for ever.
 #[test]
 fn a_march_comes_to_the_stationary_state() {
-    let body = PowerProfile::paraboloid(0.5).unwrap();
-    let (viscous, solid) = (Viscous::new(1.0).unwrap(), solid());
-    let materials: [&dyn Material; 2] = [&viscous, &solid];
+    let body = paraboloid(0.5);
+    let materials: [&dyn Material; 2] = [&viscous(1.0), &solid()];
     for nu in [0.3, 0.5] {
         for material in materials {
             let material = Compressible::new(material, nu).unwrap();
             let layer = Layer::new(&material, 0.1).unwrap();
-            let load = SlidingLoad::new(0.001, 0.1).unwrap();
+            let load = under_force(0.001, 0.1);
             let stationary = steady(&body, &layer, &load, 1e-3).unwrap();
-            let load = load.after(1.5).unwrap();
-            let marched = slide(&body, &layer, &load, Accuracy::Elements(10)).unwrap();
+            let marched = slide(&body, &layer, &after(load, 1.5), Accuracy::Elements(10)).unwrap();
             let scene = format!("{material:?}");
-            assert_within_bar(
-                &scene,
-                marched.friction_coefficient,
-                stationary.friction_coefficient.value,
-            );
+            let friction = stationary.friction_coefficient.value;
+            assert_within_bar(&scene, marched.friction_coefficient, friction);
             let depth = stationary.indentation_depth.unwrap();
             assert_within_bar(&scene, marched.indentation_depth.unwrap(), depth.value);
         }
@@ -254,17 +222,15 @@ fn a_march_comes_to_the_stationary_state() {
 /// depth grows by F/(4πηv) ln 2.
 #[test]
 fn a_thick_layer_is_a_half_space() {
-    let (body, solid) = (PowerProfile::paraboloid(0.5).unwrap(), solid());
-    let load = SlidingLoad::new(0.001, 0.1).unwrap();
+    let (body, solid) = (paraboloid(0.5), solid());
+    let load = under_force(0.001, 0.1);
     let control = Control::NormalForce(0.001);
     let friction_and_depth = |thickness: f64| {
         let layer = Layer::new(&solid, thickness).unwrap();
         let slid = steady(&body, &layer, &load, 1e-3).unwrap();
         let pressed = press(&body, &layer, control, 1e-3).unwrap();
-        [
-            slid.friction_coefficient,
-            pressed.indentation_depth.unwrap(),
-        ]
+        let depth = pressed.indentation_depth.unwrap();
+        [slid.friction_coefficient, depth]
     };
     let [friction, depth] = friction_and_depth(f64::INFINITY);
     let [thick_friction, thick_depth] = friction_and_depth(12.0);
@@ -272,9 +238,9 @@ fn a_thick_layer_is_a_half_space() {
     let [missing, half] =
         [thick_depth, friction_and_depth(6.0)[1]].map(|thick| depth.value - thick.value);
     assert_close("order of approach", half / missing, 2.0, 0.05);
-    let viscous = Viscous::new(1.0).unwrap();
+    let dashpot = viscous(1.0);
     let flowing = |thickness: f64| {
-        let layer = Layer::new(&viscous, thickness).unwrap();
+        let layer = Layer::new(&dashpot, thickness).unwrap();
         steady(&body, &layer, &load, 1e-4).unwrap()
     };
     let [half_space, thinner, thicker] = [f64::INFINITY, 6.0, 12.0].map(flowing);
@@ -295,9 +261,8 @@ fn a_periodic_layer_moves_by_its_factor() {
     let (solid, thickness, velocity) = (Compressible::new(&solid(), 0.3).unwrap(), 0.2, 0.1);
     let layer = Layer::new(&solid, thickness).unwrap();
     let load = PeriodicLoad::new(1.0, velocity).unwrap();
-    let state =
-        steady_periodic_on_grid(&grid, &heights, &layer, &load, &PeriodicOptions::default())
-            .unwrap();
+    let options = PeriodicOptions::default();
+    let state = steady_periodic_on_grid(&grid, &heights, &layer, &load, &options).unwrap();
     // μ = p̂ h̃ q sin δ/2 over the mean pressure, with |p̂| = ½ |E*| q h̃/M.
     let modulus = solid.complex_modulus(TAU * velocity).unwrap().loss * 2.0 / 0.7;
     let friction = 0.25 * modulus * (TAU * 1e-3).powi(2) / layer_factor(TAU * thickness, 0.3);
@@ -317,7 +282,7 @@ fn a_periodic_layer_moves_by_its_factor() {
 /// at a depth by less.
 #[test]
 fn thin_layers_are_foundations_or_films() {
-    let body = PowerProfile::paraboloid(1.0).unwrap();
+    let body = paraboloid(1.0);
     for nu in [0.3, 0.5] {
         let limit = ThinLayer::new(0.5 * (1.0 - nu), nu, 1.0).unwrap();
         let [near, far] = [10.0, 20.0].map(|a| {
@@ -328,10 +293,7 @@ fn thin_layers_are_foundations_or_films() {
                 limit.press_film(&body, depth)
             };
             let thin = thin.unwrap();
-            [
-                1.0 - thin.normal_force / force,
-                1.0 - thin.contact_radius / a,
-            ]
+            [thin.normal_force / force, thin.contact_radius / a].map(|ratio| 1.0 - ratio)
         });
         let [force, radius] = [0, 1].map(|quantity| near[quantity] / far[quantity]);
         assert!(
@@ -352,17 +314,17 @@ fn thin_layers_are_foundations_or_films() {
 /// eq. (22); on a thick one it has a contact at all, which it has not on the half space.
 #[test]
 fn a_cylinder_slides_over_a_layer_that_flows() {
-    let viscous = Compressible::new(&Viscous::new(1e4).unwrap(), 0.0).unwrap();
+    let dashpot = Compressible::new(&viscous(1e4), 0.0).unwrap();
     let friction = |thickness: f64, force: f64| {
-        let layer = Layer::new(&viscous, thickness).unwrap();
-        let load = SlidingLoad::new(force, 1e-3).unwrap();
+        let layer = Layer::new(&dashpot, thickness).unwrap();
+        let load = under_force(force, 1e-3);
         let found = steady_line(&Cylinder::new(1e-2).unwrap(), &layer, &load, 1e-3).unwrap();
         found.friction_coefficient.value
     };
-    let line = PowerProfile::paraboloid(25.0).unwrap();
-    let force = winkler_line_force(&viscous, 1e-3, 100.0).unwrap();
-    let load = SlidingLoad::new(force, 1e-3).unwrap();
-    let theorem = power_sliding(&line, &Viscous::new(5e3).unwrap(), &load).unwrap();
+    let line = paraboloid(25.0);
+    let force = winkler_line_force(&dashpot, 1e-3, 100.0).unwrap();
+    let load = under_force(force, 1e-3);
+    let theorem = power_sliding(&line, &viscous(5e3), &load).unwrap();
     assert_close(
         "thin",
         friction(1e-3, 100.0),
@@ -375,7 +337,7 @@ fn a_cylinder_slides_over_a_layer_that_flows() {
 #[test]
 fn a_thickness_is_a_number_above_zero() {
     let solid = solid();
-    for thickness in [0.0, -1.0, f64::NAN] {
-        refused("thickness", Layer::new(&solid, thickness));
-    }
+    refuses("thickness", &[0.0, -1.0, f64::NAN], |t| {
+        Layer::new(&solid, t)
+    });
 }

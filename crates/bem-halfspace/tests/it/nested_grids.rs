@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::{ContactOptions, ContactState, Control, Convolution, Grid};
+use casebook::SquareContact;
 
 use crate::support::{Pressing, assert_near, difference};
 
@@ -14,15 +15,12 @@ const FORCE: Control = Control::NormalForce(0.036);
 
 /// Hertz contact of radius 0.3 on the unit square for E* = R = 1, apex between four elements.
 fn hertz(n: usize) -> Pressing {
-    let edge = 1.0 / n as f64;
-    let centre = |index: f64| (index + 0.5) * edge - 0.5;
-    let grid = Grid::new([n, n], [edge; 2]).expect("a valid grid");
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
     Pressing {
-        compliance: 4.0,
+        heights: SquareContact::hertz(n, 0.0).heights,
+        compliance: SquareContact::COMPLIANCE,
         options: OPTIONS,
-        ..Pressing::new(Convolution::new(&grid), |[row, column]| {
-            0.5 * (centre(row).powi(2) + centre(column).powi(2))
-        })
+        ..Pressing::new(Convolution::new(&grid), |_| 0.0)
     }
 }
 
@@ -31,7 +29,7 @@ fn iterations_hardly_depend_on_the_grid() {
     let iterations = [128, 256, 512, 1024].map(|n| {
         let (contact, _) = hertz(n).solve(FORCE);
         // Second order in the depth: 0.09 (0.3/h)^-2 with a factor of order one.
-        let ratio = contact.indentation_depth / 0.09;
+        let ratio = contact.indentation_depth / SquareContact::HERTZ_DEPTH;
         assert_near(n, ratio, 1.0, 4.0 / (n * n) as f64);
         contact.iterations
     });

@@ -54,31 +54,28 @@ fn power_profiles_have_both_limits_in_closed_form() {
         [1e12, 1e12, 1e-12],
         [1e-12, 1e-12, 1e-12],
     ] {
-        power_profiles_have_both_limits([length, stress, time]);
-    }
-}
-
-fn power_profiles_have_both_limits([length, stress, time]: [f64; 3]) {
-    let (g1, g2, tau) = (0.2 * stress, 3.0 * stress, 0.5 * time);
-    let (a, v) = (0.7 * length, 2.0 * length / time);
-    let solid = solid([g1, g2, tau]);
-    for p in [0.3, 0.51, 0.75, 1.0, 1.5, 2.0, 4.0, 10.0] {
-        let c = 0.4 * length.powf(1.0 - p);
-        let profile = power(c, p);
-        let kc = profile.stretch() * c;
-        let fast = high_speed_friction(&profile, &solid, contact(a, v)).unwrap();
-        let rate = g2 / tau / (g1 + g2);
-        let expected = rate / v * kc * 2.0 * p / (2.0 * p + 1.0) * a.powf(p);
-        assert_close!(fast.half_space => expected, within 1e-11; "p = {p}");
-        let force = 8.0 * (g1 + g2) * p / (p + 1.0) * profile.line_height(a) * a;
-        assert_close!(fast.normal_force => force, within 1e-12; "p = {p}");
-        if p <= 0.5 {
-            continue;
+        let (g1, g2, tau) = (0.2 * stress, 3.0 * stress, 0.5 * time);
+        let (a, v) = (0.7 * length, 2.0 * length / time);
+        let solid = solid([g1, g2, tau]);
+        for p in [0.3, 0.51, 0.75, 1.0, 1.5, 2.0, 4.0, 10.0] {
+            let c = 0.4 * length.powf(1.0 - p);
+            let profile = power(c, p);
+            let kc = profile.stretch() * c;
+            let fast = high_speed_friction(&profile, &solid, contact(a, v)).unwrap();
+            let rate = g2 / tau / (g1 + g2);
+            let expected = rate / v * kc * 2.0 * p / (2.0 * p + 1.0) * a.powf(p);
+            assert_close!(fast.half_space => expected, within 1e-11; "p = {p}");
+            let force = 8.0 * (g1 + g2) * p / (p + 1.0) * profile.line_height(a) * a;
+            assert_close!(fast.normal_force => force, within 1e-12; "p = {p}");
+            if p <= 0.5 {
+                continue;
+            }
+            let slow = low_speed_friction(&profile, &solid, contact(a, v)).unwrap();
+            let expected =
+                g2 * tau * v / g1 * kc * p * (p + 1.0) / (2.0 * p - 1.0) * a.powf(p - 2.0);
+            assert_close!(slow.line => expected, within 1e-11; "p = {p}");
+            assert_close!(slow.normal_force => force * g1 / (g1 + g2), within 1e-12; "p = {p}");
         }
-        let slow = low_speed_friction(&profile, &solid, contact(a, v)).unwrap();
-        let expected = g2 * tau * v / g1 * kc * p * (p + 1.0) / (2.0 * p - 1.0) * a.powf(p - 2.0);
-        assert_close!(slow.line => expected, within 1e-11; "p = {p}");
-        assert_close!(slow.normal_force => force * g1 / (g1 + g2), within 1e-12; "p = {p}");
     }
 }
 

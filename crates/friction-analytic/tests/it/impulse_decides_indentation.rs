@@ -3,7 +3,7 @@ use friction_analytic::{
     Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
     power_indentation_after_impulse,
 };
-use indenters::{Axisymmetric, Cylinder, FlatPunch, Sphere};
+use indenters::{Axisymmetric, Cylinder, Sphere};
 use proptest::prelude::*;
 
 use crate::support::{power, viscous};
@@ -67,17 +67,6 @@ fn no_impulse_makes_no_contact() {
     assert_eq!(searched, Ok(nothing), "root search");
     let width = cylinder_half_width_after_impulse(&Cylinder::new(0.01).unwrap(), &material, 0.0);
     assert_eq!(width, Ok(0.0), "cylinder");
-}
-
-#[test]
-fn a_punch_sinks_in_proportion_to_the_impulse() {
-    let (radius, eta) = (0.5, 3.0);
-    let punch = FlatPunch::new(radius).unwrap();
-    for impulse in [1e-6, 1.0, 1e6] {
-        let contact = indentation_after_impulse(&punch, &viscous(eta), impulse).unwrap();
-        assert_close!(contact.contact_radius => radius, within 1e-16);
-        assert_close!(contact.indentation_depth => impulse / (8.0 * eta * radius), within 1e-15);
-    }
 }
 
 /// b = √(4 F' R/(π E*)) with E* = 4 G, where the impulse over the viscosity stands for F'/G.

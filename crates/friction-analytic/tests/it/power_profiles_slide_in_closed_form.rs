@@ -3,7 +3,7 @@ use friction_analytic::{FrictionError, power_sliding, stationary_depth};
 use indenters::stretch;
 use proptest::prelude::*;
 
-use crate::support::{check_expected, material_and_load, power, sliding, with_depth};
+use crate::support::{material_and_load, power, sliding, with_depth};
 
 #[test]
 fn power_profiles_slide_in_closed_form() {
@@ -55,10 +55,11 @@ fn exponents_from_just_above_one_half_to_a_billion_are_answered() {
         let (material, load) = with_depth(case.input("D"));
         let state = power_sliding(&power(case.input("c"), p), &material, &load).unwrap();
         let mu = state.friction_coefficient;
-        let scaled = ("mu_times_2p_minus_1", mu * (2.0 * p - 1.0));
-        check_expected(&case, &[("mu", mu), scaled]);
         if case.expected("mu").is_some() {
+            case.check("mu", mu);
             case.check("x_d", state.contact_length());
+        } else {
+            case.check("mu_times_2p_minus_1", mu * (2.0 * p - 1.0));
         }
     }
 }

@@ -1,23 +1,11 @@
 //! The derivatives of a force along a path of the depth are those of differences, and the force that of `indent_along`.
 
-use indenters::{Axisymmetric, Control, FlatCone, PowerProfile, Sphere};
+use indenters::Control;
 use mdr_core::{CurvePoint, ForceDerivatives, HistoryPoint, MdrError, force_derivatives};
 use rheology::Material;
 
-use crate::histories_match_quadrature::{follow, knots, material, numbers, path};
+use crate::histories_match_quadrature::{body, follow, knots, material, numbers, path, stretched};
 use crate::support::{history, prony};
-
-/// The logarithm of a stretch of the body, of a sphere of its radius.
-fn body(name: &str, stretch: f64) -> Box<dyn Axisymmetric> {
-    let by = stretch.exp();
-    match name {
-        "paraboloid" => Box::new(PowerProfile::paraboloid(0.5 * by).expect("a paraboloid")),
-        "cone" => Box::new(PowerProfile::cone(0.3 * by).expect("a cone")),
-        "sphere" => Box::new(Sphere::new(by).expect("a sphere")),
-        "flat-cone" => Box::new(FlatCone::new(0.02, 0.4 * by).expect("a cone")),
-        _ => Box::new(PowerProfile::new(0.4 * by, 1.5).expect("a power")),
-    }
-}
 
 /// What may vary: the stretch, a shift of all depths, the lone spring and dashpot, and modulus and time of each branch.
 fn parameters(material: &dyn Material) -> Vec<f64> {
@@ -37,7 +25,7 @@ fn force(shape: &str, parameters: &[f64], path: &[HistoryPoint]) -> Vec<f64> {
         Control::NormalForce(_) => panic!("{point:?} has no depth"),
     });
     let path = history(shifted, Control::IndentationDepth);
-    let curve = force_derivatives(&*body(shape, parameters[0]), &material, &path);
+    let curve = force_derivatives(&*stretched(shape, parameters[0]), &material, &path);
     curve.expect("a curve").normal_force
 }
 
@@ -73,7 +61,7 @@ fn derivatives_are_those_of_differences() {
         let time = |n: u8| start + (end - start) * (f64::from(n) + 0.3) / 48.0;
         let path = path(&knots, &(0..48).map(time).collect::<Vec<f64>>());
         let case = format!("{name}, {shape}, {along}");
-        let (body, material) = (body(shape, 0.0), material(name));
+        let (body, material) = (body(shape), material(name));
         let exact = force_derivatives(&*body, &material, &path).expect("a curve");
         assert_eq!(exact.exact_until, path.len(), "{case}: one approach");
         assert_same(&exact, &follow(&*body, &material, &path), &case);
@@ -138,17 +126,17 @@ fn assert_same(exact: &ForceDerivatives, curve: &[CurvePoint], case: &str) {
 /// Elements that are touched again as if they had never been left: wrong in the second order of the dip.
 #[test]
 fn a_dip_in_a_dwell_is_wrong_in_second_order() {
-    let body = PowerProfile::paraboloid(0.5).expect("a paraboloid");
+    let body = body("paraboloid");
     let error = |dip: f64| {
         let mut knots = numbers::<2>("0 0, 1 0.01, 2 0.01, 2.1 0.01, 2.2 0.01, 3 0.01, 4 0");
         knots[3][1] -= dip;
         let times: Vec<f64> = (1..80).map(|n| 0.05 * f64::from(n)).collect();
         let path = path(&knots, &times);
-        let fast = force_derivatives(&body, &material("solid"), &path).expect("a curve");
+        let fast = force_derivatives(&*body, &material("solid"), &path).expect("a curve");
         let begins = path[fast.exact_until].time;
         let is_seen = (begins - 2.15).abs() < 1e-12 || dip < 1e-4;
         assert!(is_seen, "touched again at {begins}");
-        let exact = follow(&body, &material("solid"), &path);
+        let exact = follow(&*body, &material("solid"), &path);
         let pairs = fast.normal_force.iter().zip(&exact);
         let errors = pairs.map(|(fast, exact)| (fast - exact.normal_force.value).abs());
         errors.fold(0.0, f64::max)
@@ -160,14 +148,14 @@ fn a_dip_in_a_dwell_is_wrong_in_second_order() {
 
 #[test]
 fn forces_are_not_differentiated_and_a_body_above_has_none() {
-    let body = PowerProfile::paraboloid(0.5).expect("a paraboloid");
+    let body = body("paraboloid");
     let held = |value, control| history([[0.0, value], [1.0, value]], control);
     let forces = held(1.0, Control::NormalForce);
-    let refused = force_derivatives(&body, &material("solid"), &forces);
+    let refused = force_derivatives(&*body, &material("solid"), &forces);
     let named = matches!(&refused, Err(MdrError::InvalidParameter(refused)) if refused.parameter == "control");
     assert!(named, "{refused:?}");
     let above = held(-1e-3, Control::IndentationDepth);
-    let above = force_derivatives(&body, &material("solid"), &above).expect("a curve");
+    let above = force_derivatives(&*body, &material("solid"), &above).expect("a curve");
     let forces = [&above.normal_force, &above.depth, &above.moduli[0]];
     assert_eq!(forces, [&vec![0.0; 2]; 3], "no contact");
 }

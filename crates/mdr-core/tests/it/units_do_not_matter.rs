@@ -1,8 +1,8 @@
 //! Numbers depend on the question, not on its units, also near the smallest and largest ones, where squares of depths are
 //! no numbers any more; and they are the same every time.
 
-use indenters::{Control, EquivalentLine, PowerProfile, PressingLoad};
-use mdr_core::{Transient, indent};
+use indenters::{EquivalentLine, PowerProfile};
+use mdr_core::Transient;
 
 use crate::support::{assert_close, load, march, material, prony, slid};
 
@@ -23,13 +23,9 @@ fn all_units() -> impl Iterator<Item = Units> {
     })
 }
 
-fn body(exponent: f64, length: f64) -> PowerProfile {
-    let coefficient = 0.4 * length.powf(1.0 - exponent);
-    PowerProfile::new(coefficient, exponent).expect("a power profile")
-}
-
 fn marched(exponent: f64, [length, force, time]: Units) -> Transient {
-    let body = body(exponent, length);
+    let coefficient = 0.4 * length.powf(1.0 - exponent);
+    let body = PowerProfile::new(coefficient, exponent).expect("a power profile");
     let dashpot = material(50.0 * force * time / (length * length));
     let load = load(2.0 * force, 0.1 * length / time);
     march(&EquivalentLine(&body), &dashpot, &load, 24, 1e-13)
@@ -64,23 +60,6 @@ fn marches_are_the_same_over_twenty_four_decades() {
 fn the_same_question_has_the_same_answer_to_the_last_bit() {
     let [first, second] = [marched(1.5, [1.0; 3]), marched(1.5, [1.0; 3])];
     assert_eq!(first, second, "two runs of one question");
-}
-
-#[test]
-fn indentation_is_the_same_over_twenty_four_decades() {
-    let depth = |[length, force, time]: Units| {
-        let body = body(2.0, length);
-        let dashpot = material(50.0 * force * time / (length * length));
-        let pressing = PressingLoad::new(Control::NormalForce(2.0 * force), 3.0 * time);
-        let pressing = pressing.expect("a load");
-        let line = EquivalentLine(&body);
-        let pressed = indent(&line, &dashpot, &pressing, 1e-12);
-        pressed.expect("a contact").indentation_depth.value / length
-    };
-    let expected = depth([1.0; 3]);
-    for units in all_units() {
-        assert_close([depth(units), expected], 1e-12, 0.0, &units);
-    }
 }
 
 /// (22) with a curvature, a viscosity and a speed of one: d = F/4, μ = 4/3 √(2 d).

@@ -79,6 +79,8 @@ const SCENES: &str = r#"
 13 | method = "analytic"\nelements = 32 | 13 | solve.method: analytic does not answer this scene: closed forms have no elements
 13 | method = "mdr-steady"\nsliding_distance = 1.0 | 13 | these do: mdr-transient
 13 | method = "bem-steady"\nmodel = "line" | 13 | these do: analytic, mdr-steady, mdr-transient
+13 | [layer]\nthickness = 0.0 | 14 | layer.thickness must be finite and greater than 0, but is 0
+13 | [layer]\nthickness = nan | 14 | layer.thickness must be finite and greater than 0, but is NaN
 1-3 | [indenter.superposition]\nterms = [] | 2 | indenter.superposition.terms
 1-3 | [indenter.superposition]\nterms = [\n{ coefficient = 1.0, exponent = 1.0 },\n{ coefficient = 0.0, exponent = 2.0 },\n] | 4 | indenter.superposition.terms[1].coefficient must be finite and not 0, but is 0
 1-3 | [indenter.superposition]\nterms = [{ coefficient = 1.0 }] | 2 | missing field `exponent`

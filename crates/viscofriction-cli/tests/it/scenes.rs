@@ -51,6 +51,7 @@ IN/cone-viscous.toml --method mdr-steady | discretisation
 IN/cone-viscous.toml --method mdr-transient | discretisation truncation
 IN/cone-half-space.toml --method bem-steady | discretisation iteration
 IN/half-space-run-in.toml --method bem-transient | discretisation iteration
+IN/cylinder-solid.toml --method bem-steady | discretisation iteration
 IN/hertz.toml --method mdr-transient | discretisation
 IN/hertz.toml --method bem-transient | discretisation iteration
 ";
