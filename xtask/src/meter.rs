@@ -73,35 +73,3 @@ pub(crate) fn peak_memory() -> Option<f64> {
     let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes / 1024.0)
 }
-
-#[cfg(test)]
-mod tests {
-    use std::cell::Cell;
-
-    use super::*;
-
-    #[test]
-    fn the_median_is_the_middle_value_or_the_mean_of_two() {
-        for (values, expected) in [
-            (vec![5.0], 5.0),
-            (vec![3.0, 1.0, 100.0], 3.0),
-            (vec![4.0, 1.0, 2.0, 100.0], 3.0),
-        ] {
-            let off = median(values.clone()) - expected;
-            assert!(off.abs() < 1e-15, "median of {values:?} is off by {off}");
-        }
-    }
-
-    #[test]
-    fn short_runs_are_repeated_and_failures_are_not() {
-        for (first, expected) in [(Ok("solved"), 101), (Err("refused"), 1)] {
-            let runs = Cell::new(0);
-            let result = measure_median(|| {
-                runs.set(runs.get() + 1);
-                first
-            });
-            assert_eq!(runs.get(), expected, "runs of {result:?}");
-            assert_eq!(result.map(|(value, _)| value), first, "the first run");
-        }
-    }
-}

@@ -94,12 +94,11 @@ fn along(distance: f64, [start, end]: [f64; 2], function: &impl Fn(f64) -> f64) 
     };
     // The singularities lie around 0, and are the farther away the farther that is.
     let ratio = (nearest * nearest + distance * distance).sqrt() / length;
+    let middle = start + 0.5 * length;
     if ratio < 2.5 {
-        let middle = 0.5 * (start + end);
         return along(distance, [start, middle], function)
             + along(distance, [middle, end], function);
     }
-    let middle = start + 0.5 * length;
     let rule = match ratio {
         250.0.. => RULES[0].1,
         25.0.. => {

@@ -52,12 +52,8 @@ impl ThinLayer {
     /// # Errors
     /// [`InvalidParameter`] for an incompressible layer, which does not give way so.
     pub fn winkler_modulus(&self) -> Result<f64, InvalidParameter> {
-        let nu = in_range(
-            "poisson_ratio",
-            self.poisson_ratio,
-            self.poisson_ratio < 0.5,
-            "below 0.5",
-        )?;
+        let nu = self.poisson_ratio;
+        in_range("poisson_ratio", nu, nu < 0.5, "below 0.5")?;
         Ok(2.0 * self.shear_modulus * (1.0 - nu) / ((1.0 - 2.0 * nu) * self.thickness))
     }
 
@@ -74,7 +70,10 @@ impl ThinLayer {
         let depth = positive("indentation_depth", indentation_depth)?;
         let (p, a) = (profile.exponent(), profile_radius(profile, depth));
         let force = PI * a * a * self.winkler_modulus()? * depth * p / (p + 2.0);
-        contact(force, a)
+        Ok(ThinContact {
+            normal_force: representable("normal force", force)?,
+            contact_radius: a,
+        })
     }
 
     /// The same where the layer is incompressible, and is squeezed from under the body like a film: `u = −t³/(3G) ∇²p` with
@@ -89,17 +88,17 @@ impl ThinLayer {
         indentation_depth: f64,
     ) -> Result<ThinContact, FrictionError> {
         let depth = positive("indentation_depth", indentation_depth)?;
-        in_range(
-            "poisson_ratio",
-            self.poisson_ratio,
-            self.poisson_ratio >= 0.5,
-            "0.5",
-        )?;
+        let nu = self.poisson_ratio;
+        in_range("poisson_ratio", nu, nu >= 0.5, "0.5")?;
         let p = profile.exponent();
         let a = profile_radius(profile, (1.0 + 0.5 * p) * depth);
         let slenderness = a / self.thickness;
         let pressure = self.shear_modulus * (depth / self.thickness) * slenderness * slenderness;
-        contact(3.0 / 8.0 * PI * pressure * a * a * p / (p + 4.0), a)
+        let force = 3.0 / 8.0 * PI * pressure * a * a * p / (p + 4.0);
+        Ok(ThinContact {
+            normal_force: representable("normal force", force)?,
+            contact_radius: a,
+        })
     }
 }
 
@@ -122,11 +121,4 @@ pub fn winkler_line_force(
 
 fn profile_radius(profile: &PowerProfile, height: f64) -> f64 {
     (height / profile.coefficient()).powf(profile.exponent().recip())
-}
-
-fn contact(force: f64, radius: f64) -> Result<ThinContact, FrictionError> {
-    Ok(ThinContact {
-        normal_force: representable("normal force", force)?,
-        contact_radius: representable("contact radius", radius)?,
-    })
 }

@@ -1,6 +1,6 @@
 //! Scenes of layers.
 
-use crate::support::{Folder, assert_close, estimate, number};
+use crate::support::{Folder, assert_close, number};
 
 const BELT: &str = "[material.standard-solid]
 equilibrium_modulus = 0.25
@@ -27,21 +27,11 @@ fn write(folder: &Folder, body_and_load: &str, material: &str, thickness: &str) 
     folder.write("scene.toml", scene);
 }
 
-/// casebook-2.json, "line", and the Winkler foundation, which is the one-dimensional model at the force
+/// The Winkler foundation is the one-dimensional model at the force
 /// `winkler_line_force` and of the paraboloid whose equivalent line is the profile of the cylinder.
 #[test]
-fn a_cylinder_slides_on_layers() {
+fn a_cylinder_slides_on_a_thin_layer_as_on_springs() {
     let folder = Folder::new("layers");
-    write(&folder, CYLINDER, "", "0.1");
-    let thick = folder.json("scene.toml");
-    for (field, expected) in [
-        ("friction_coefficient", 0.038_570_761_236_354_46),
-        ("indentation_depth", 0.003_948_654_133_675_425),
-    ] {
-        let found = estimate(&thick, field);
-        let holds = (found.value - expected).abs() <= found.error;
-        assert!(holds, "{field}: {found:?}, not {expected}");
-    }
     let compressible = "poisson_ratio = 0.3\n";
     write(&folder, CYLINDER, compressible, "0.001");
     let thin = folder.json("scene.toml");

@@ -101,7 +101,7 @@ pub(crate) fn periodic(
     };
     let theory = persson_of_waves(&waves, &problem.material, load)?;
     // The theory is that of the half space.
-    let persson = (!problem.is_layer()).then_some(Persson {
+    let persson = (!problem.thickness.is_finite()).then_some(Persson {
         area_fraction: theory.area_fraction.value,
         friction_coefficient: theory.friction_coefficient.value,
     });
@@ -110,7 +110,7 @@ pub(crate) fn periodic(
     let mut answer = Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
         error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
-        indentation_depth: problem.is_layer().then_some(estimate.mean_depth),
+        indentation_depth: problem.thickness.is_finite().then_some(estimate.mean_depth),
         contact_area: Some(estimate.area_fraction * area),
         unknowns: elements.filter(|pressure| **pressure > 0.0).count(),
         iterations: finest.products,

@@ -114,10 +114,6 @@ impl Problem {
         Ok(Layer::new(&*self.material, self.thickness).map_err(BemError::from)?)
     }
 
-    pub(crate) const fn is_layer(&self) -> bool {
-        self.thickness.is_finite()
-    }
-
     /// Whether the load can be held by what is known of the material.
     ///
     /// # Errors

@@ -27,7 +27,9 @@ const N_TIMES: usize = 60;
 pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     let pressure = match (&problem.body, answer.method) {
         (Body::Revolution(body), Method::Analytic) => {
-            if let (Motion::Pressing(load), false) = (problem.motion, is_elastic(problem)) {
+            if let (Motion::Pressing(load), false) =
+                (problem.motion, problem.simple == Some(Simple::Elastic))
+            {
                 answer.fields.curve = since_touch(problem, body, load.duration());
             }
             pressure_of_revolution(problem, body, &answer)
@@ -39,10 +41,6 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
         answer.fields.line_pressure = pressure;
     }
     answer
-}
-
-fn is_elastic(problem: &Problem) -> bool {
-    problem.simple == Some(Simple::Elastic)
 }
 
 /// The contact at times that are dense after touch, where the most happens; those at which a quantity underflows are left
@@ -77,7 +75,7 @@ fn pressure_of_revolution(
     answer: &Answer,
 ) -> Option<Vec<[f64; 2]>> {
     let time = match (problem.motion, problem.motion.control()) {
-        _ if is_elastic(problem) => 0.0,
+        _ if problem.simple == Some(Simple::Elastic) => 0.0,
         (Motion::Pressing(load), Control::IndentationDepth(_)) => load.duration(),
         _ => return None,
     };

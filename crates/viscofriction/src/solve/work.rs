@@ -28,7 +28,7 @@ const NOTHING_SLIDES: Refusal =
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
     let has_layers = matches!(method, Method::BemSteady | Method::BemTransient);
-    require(has_layers || !problem.is_layer(), NO_LAYER)?;
+    require(has_layers || !problem.thickness.is_finite(), NO_LAYER)?;
     if let Motion::History(_) = problem.motion {
         return followed(problem, method, accuracy);
     }
@@ -61,7 +61,7 @@ fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
 
 /// Whether a single body sinks for ever, as it does not on a layer.
 fn sinks(problem: &Problem) -> bool {
-    problem.material.creep().fluidity() > 0.0 && !problem.is_layer()
+    problem.material.creep().fluidity() > 0.0 && !problem.thickness.is_finite()
 }
 
 fn has_force(problem: &Problem) -> bool {
