@@ -29,7 +29,7 @@ pub struct ContactEstimate<S, O> {
     pub error_parts: ErrorParts,
     /// Normal force F_N, \[N].
     pub normal_force: Estimate,
-    /// Depth of the lowest point below the undeformed surface, \[m]; none in plane strain, and none where the material flows
+    /// Depth of the lowest point below the undeformed surface, \[m]; none on a half space in plane strain, and where it flows
     /// and the load has no sliding distance, because the body sinks for ever.
     pub indentation_depth: Option<Estimate>,
     /// Contact area, \[m²].

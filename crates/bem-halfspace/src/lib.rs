@@ -1,4 +1,4 @@
-//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space.
+//! Boundary elements for rigid indenters on an elastic, viscous or viscoelastic half space, or a [`Layer`] of it.
 //!
 //! Rectangular elements carry a constant pressure each; the displacement at their centres follows from Love's influence
 //! coefficients by fast convolution; the contact conditions are solved to a stated tolerance. A surface, a material, a load

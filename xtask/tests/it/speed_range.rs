@@ -1,20 +1,21 @@
 //! What the three-element solid does over the range of speeds, on the quick cases.
 
-use std::sync::OnceLock;
-
 use friction_analytic::scaling_factor;
 
 use crate::support::{Evidence, Row, number};
 
-/// One quick run for all tests.
-fn evidence() -> &'static Evidence {
-    static RUN: OnceLock<Evidence> = OnceLock::new();
-    RUN.get_or_init(|| Evidence::quick("speed-range", "speed-range"))
+/// One quick run for all claims.
+#[test]
+fn quick_evidence_over_the_speeds_is_as_it_should_be() {
+    let evidence = Evidence::quick("speed-range", "speed-range");
+    the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(&evidence);
+    friction_has_one_maximum_over_the_speed(&evidence);
+    the_viscous_law_holds_between_its_borders(&evidence);
 }
 
 /// The rows of one profile, by rising speed.
-fn curve(exponent: f64) -> Vec<Row> {
-    let rows = evidence().rows("friction_over_speed").into_iter();
+fn curve(evidence: &Evidence, exponent: f64) -> Vec<Row> {
+    let rows = evidence.rows("friction_over_speed").into_iter();
     let rows: Vec<Row> = rows
         .filter(|row| number(row, "exponent").total_cmp(&exponent).is_eq())
         .collect();
@@ -31,10 +32,9 @@ fn assert_within([actual, expected]: [f64; 2], allowed: f64, what: &str) {
 
 /// Exact ends (FRI-05) and the plateau. A decade and a half beyond each end of the plateau, its neighbours still move
 /// the ratio by some per cent of its change; three decades beyond, by some thousandths.
-#[test]
-fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one() {
+fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(evidence: &Evidence) {
     for exponent in [1.0, 2.0] {
-        let rows = curve(exponent);
+        let rows = curve(evidence, exponent);
         let plateau = scaling_factor(exponent).expect("a factor").value;
         for (row, expected, allowed) in [
             (&rows[0], 0.5, 2e-3),
@@ -51,10 +51,9 @@ fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one() {
 }
 
 /// Up to its only maximum friction rises with the speed, beyond it falls, in both models.
-#[test]
-fn friction_has_one_maximum_over_the_speed() {
+fn friction_has_one_maximum_over_the_speed(evidence: &Evidence) {
     for exponent in [1.0, 2.0] {
-        let rows = curve(exponent);
+        let rows = curve(evidence, exponent);
         for (column, bar) in [("line", "line_error"), ("half_space", "half_space_error")] {
             let [values, bars] = [column, bar].map(|column| {
                 let numbers = rows.iter().map(|row| number(row, column));
@@ -74,10 +73,9 @@ fn friction_has_one_maximum_over_the_speed() {
 }
 
 /// The law predicts too much friction on the line, at every speed, and is right within ten per cent between the borders.
-#[test]
-fn the_viscous_law_holds_between_its_borders() {
-    let map = evidence().rows("validity");
-    let borders = evidence().rows("validity_border");
+fn the_viscous_law_holds_between_its_borders(evidence: &Evidence) {
+    let map = evidence.rows("validity");
+    let borders = evidence.rows("validity_border");
     assert_eq!([map.len(), borders.len()], [36, 12], "sizes of the tables");
     for row in &map {
         let [friction, predicted] = ["line", "predicted_line"].map(|column| number(row, column));
@@ -92,7 +90,7 @@ fn the_viscous_law_holds_between_its_borders() {
                 .contains(&number(row, "speed"));
         assert_eq!(right, between, "{row:?} and {border:?}");
     }
-    evidence().assert_pictures(&["friction_over_speed", "ratio_over_speed", "validity"]);
-    let printed = &evidence().printed;
+    evidence.assert_pictures(&["friction_over_speed", "ratio_over_speed", "validity"]);
+    let printed = &evidence.printed;
     assert!(printed.contains("lowest speed"), "{printed}");
 }

@@ -1,13 +1,14 @@
 //! What the quick measurement of error against run time writes and says.
 
-use std::sync::OnceLock;
-
 use crate::support::{Evidence, Row, number};
 
-/// One quick run for all tests.
-fn evidence() -> &'static Evidence {
-    static RUN: OnceLock<Evidence> = OnceLock::new();
-    RUN.get_or_init(|| Evidence::quick("work-precision", "work-precision"))
+/// One quick run for all claims.
+#[test]
+fn quick_evidence_of_error_against_time_is_as_it_should_be() {
+    let evidence = Evidence::quick("work-precision", "work-precision");
+    every_method_answers_its_scenes_with_an_error_and_a_time(&evidence);
+    fitted_orders_are_positive_and_those_of_smooth_errors_are_known(&evidence);
+    pictures_are_drawn_and_the_table_is_printed(&evidence);
 }
 
 fn key(row: &Row) -> [&str; 3] {
@@ -29,9 +30,8 @@ const SERIES: [[&str; 3]; 11] = [
     ["rough surface", "half-space", "bem contact"],
 ];
 
-#[test]
-fn every_method_answers_its_scenes_with_an_error_and_a_time() {
-    let rows = evidence().rows("work_precision");
+fn every_method_answers_its_scenes_with_an_error_and_a_time(evidence: &Evidence) {
+    let rows = evidence.rows("work_precision");
     let series = rows.chunk_by(|one, other| key(one) == key(other));
     let found: Vec<[&str; 3]> = series.map(|rows| key(&rows[0])).collect();
     assert_eq!(found, SERIES, "series of the quick measurement");
@@ -42,15 +42,14 @@ fn every_method_answers_its_scenes_with_an_error_and_a_time() {
         assert!(number(row, "seconds") > 0.0, "no time passed: {row:?}");
         assert!(number(row, "error") < 0.05, "a coarse answer: {row:?}");
     }
-    let printed = &evidence().printed;
+    let printed = &evidence.printed;
     assert!(!printed.contains("refused"), "refused: {printed}");
 }
 
 /// The chain of elements and the depth of a smooth contact are of second order; on the grids of the half space the
 /// outline of the contact makes orders scatter, by about their standard errors.
-#[test]
-fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
-    let fits = evidence().rows("work_precision_orders");
+fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known(evidence: &Evidence) {
+    let fits = evidence.rows("work_precision_orders");
     let fitted: Vec<&Row> = fits.iter().filter(|fit| !fit["order"].is_empty()).collect();
     assert!(fitted.len() >= 5, "orders of {fits:?}");
     for fit in fitted {
@@ -66,10 +65,9 @@ fn fitted_orders_are_positive_and_those_of_smooth_errors_are_known() {
     }
 }
 
-#[test]
-fn pictures_are_drawn_and_the_table_is_printed() {
-    let Evidence { printed, .. } = evidence();
-    evidence().assert_pictures(&["work_precision_sliding", "work_precision_at_rest"]);
+fn pictures_are_drawn_and_the_table_is_printed(evidence: &Evidence) {
+    let Evidence { printed, .. } = evidence;
+    evidence.assert_pictures(&["work_precision_sliding", "work_precision_at_rest"]);
     for [scene, _, method] in SERIES {
         let mut lines = printed.lines();
         let is_there = lines.any(|line| line.contains(scene) && line.contains(method));

@@ -6,8 +6,8 @@
 //! V(x) = 2 Δx ln(L/|x|) + O(x²/L²)
 //! ```
 //!
-//! and the constant is absorbed in the depth, which in plane strain has no meaning. All forces and areas are per length
-//! along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
+//! and the constant is absorbed in the depth, which in plane strain has a meaning on a layer only. All forces and areas are per
+//! length along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
 use numerics::{Accuracy, Estimate, Request};
@@ -86,8 +86,8 @@ const MOST_UNKNOWNS: usize = 2000;
 /// Of the profile only the heights at y = 0 matter.
 ///
 /// # Errors
-/// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a material that flows, and
-/// [`BemError::Indenter`] for a depth, which does not exist in plane strain.
+/// As for [`steady`](super::steady()); [`BemError::InvalidParameter`] for a half space that flows, and
+/// [`BemError::Indenter`] for a depth, which does not exist on a half space in plane strain.
 pub fn steady_line<'w>(
     profile: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
@@ -145,7 +145,7 @@ pub fn steady_line<'w>(
 /// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
 ///
 /// # Errors
-/// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a material that flows.
+/// As for [`steady_on_grid`](super::steady_on_grid), and [`BemError::InvalidParameter`] for a half space that flows.
 pub fn steady_line_on_grid(
     profile: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
