@@ -139,7 +139,9 @@ impl Convolution {
             grid: self.grid.folded(mirrors),
             mirrors,
             transform: PlaneTransform::folded(self.transform.padded, mirrors),
-            ..self.clone()
+            spectrum: Arc::clone(&self.spectrum),
+            base: self.base.clone(),
+            ..*self
         }
     }
 

@@ -99,9 +99,10 @@ pub(crate) fn periodic(
         mean_pressure,
         velocity: load.velocity(),
     };
-    let theory = persson_of_waves(&waves, &problem.material, load)?;
     // The theory is that of the half space.
-    let persson = (!problem.thickness.is_finite()).then_some(Persson {
+    let theory = problem.thickness.is_infinite();
+    let theory = theory.then(|| persson_of_waves(&waves, &problem.material, load));
+    let persson = theory.transpose()?.map(|theory| Persson {
         area_fraction: theory.area_fraction.value,
         friction_coefficient: theory.friction_coefficient.value,
     });
