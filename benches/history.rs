@@ -5,8 +5,8 @@ use std::error::Error;
 
 use benches::report_error;
 use criterion::Criterion;
-use indenters::{Control, PowerProfile};
-use mdr_core::{Follow, HistoryPoint, force_derivatives, indent_along};
+use indenters::{Control, HistoryPoint, PowerProfile};
+use mdr_core::{Follow, force_derivatives, indent_along};
 use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
 /// 8 ∫ G(1 − s) √(0.01 s) 0.01 ds by quadrature with 40 digits (mpmath 1.3).

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
 use viscofriction::scene::{Layer, Source};
+use viscofriction::solve::with_fields;
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
 
@@ -69,6 +70,8 @@ pub(crate) struct Loads<'py> {
     heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2])>,
     /// Arrays of one length by their names.
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    /// Whether fields are wanted that take longer than the answer itself.
+    fields: bool,
 }
 
 impl Loads<'_> {
@@ -99,6 +102,7 @@ pub(crate) fn solve_loads<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let scenes = loads.scenes()?;
+    let fields = loads.fields;
     let count = scenes.columns.first().map_or(1, |(_, values)| values.len());
     let threads = scenes.scene.solve.threads;
     let problems = (0..count).map(|index| {
@@ -108,6 +112,14 @@ pub(crate) fn solve_loads<'py>(
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
     let answers = background::all(py, count, threads, progress, move |index| {
+        let solve = |problem: &Problem| {
+            let answer = solve(problem)?;
+            Ok(if fields {
+                with_fields(problem, answer)
+            } else {
+                answer
+            })
+        };
         match &problems[index] {
             Some(problem) => Some(solve(problem)),
             // It was built before.

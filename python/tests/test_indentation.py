@@ -44,6 +44,18 @@ def test_a_history_is_that_of_the_program(program: Callable[..., str], tmp_path:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [m]", "normal force [N]")
 
 
+def test_elements_follow_the_same_history_on_a_thick_layer() -> None:
+    time, depth = [0.0, 1.0, 1.8], [0.0, 1e-6, 0.2e-6]
+    exact = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, work=True)
+    layer = vf.indent(vf.Sphere(5e-6), GEL, time=time, indentation_depth=depth, thickness=5e-3)
+    assert np.abs(layer.normal_force - exact.normal_force).max() <= layer.normal_force_error
+    assert layer.normal_force_error < 1e-3 * exact.normal_force.max()
+    assert layer.contact_radius is None and layer.contact_area is not None and exact.contact_radius is not None
+    assert layer.contact_area[1] == pytest.approx(np.pi * exact.contact_radius[1] ** 2, abs=layer.contact_area_error)
+    # What is dissipated, and left in the surface.
+    assert exact.work is not None and 0.0 < exact.work[2] < exact.work[1]
+
+
 def test_a_depth_follows_from_a_force() -> None:
     time, depth = TIME[:101], DEPTH[:101]
     force = vf.indent(vf.Cone(0.5), GEL, time=time, indentation_depth=depth).normal_force

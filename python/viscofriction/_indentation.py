@@ -15,7 +15,7 @@ from ._arrays import columns
 from ._bodies import Body
 from ._materials import Material, Prony
 from ._results import rounded
-from ._solving import given, solve
+from ._solving import given, one
 
 Numbers = NDArray[np.float64]
 
@@ -26,15 +26,22 @@ __all__ = ["Finding", "IndentationFit", "Indentation", "fit_indentation", "inden
 class Indentation:
     """A history, point by point, and the largest error of each quantity, 0 of what was given; all in SI."""
 
-    #: Time [s], force [N], depth of the lowest point [m], and radius of the contact [m].
+    #: Time [s], force [N], and depth of the lowest point [m].
     time: Numbers
     normal_force: Numbers
     indentation_depth: Numbers
-    contact_radius: Numbers
     #: Absolute errors that hold at every point.
     normal_force_error: float
     indentation_depth_error: float
-    contact_radius_error: float
+    #: Radius of the contact [m] of a body of revolution on a half space.
+    contact_radius: Numbers | None = None
+    contact_radius_error: float | None = None
+    #: Work since the first point [J], of the same.
+    work: Numbers | None = None
+    work_error: float | None = None
+    #: Area of the contact [m²] of other bodies, and on layers.
+    contact_area: Numbers | None = None
+    contact_area_error: float | None = None
     #: Sentences about the validity of the answer.
     warnings: tuple[str, ...] = ()
 
@@ -115,13 +122,17 @@ def indent(
     time: ArrayLike,
     indentation_depth: ArrayLike | None = None,
     normal_force: ArrayLike | None = None,
+    thickness: float | None = None,
     relative_error: float | None = None,
+    work: bool = False,
 ) -> Indentation:
-    """Force and contact of a body of revolution that follows a history: pressed, held, pulled back, and pressed again.
+    """Force and contact of a body that follows a history: pressed, held, pulled back, and pressed again.
 
     Times [s] ≥ 0 that do not decrease, and at each either the depth [m] of the lowest point, negative above the surface, or the
-    force [N] ≥ 0; straight from point to point, from an undeformed surface. ``relative_error`` is asked of the depth under a
-    force that falls; everything else is exact up to rounding.
+    force [N] ≥ 0; straight from point to point, from an undeformed surface. Of bodies of revolution on a half space all is
+    exact up to rounding but the depth under a force that falls, of which ``relative_error`` is asked; with ``work`` that since
+    the first point is there too, to 1e-4 of its largest value. Height maps, and all bodies on a layer of a ``thickness`` [m], are followed with boundary elements, to a ``relative_error`` of the
+    largest force or depth.
 
     Raises ValueError for wrong input and NotReached where there is no answer.
     """
@@ -135,9 +146,10 @@ def indent(
         "indenter": body,
         "material": material,
         "load": {"history": points},
+        "layer": None if thickness is None else {"thickness": thickness},
         "solve": {"relative_error": relative_error},
     }
-    answer = solve(scene)
+    answer = one(scene, None, fields=work)
     known = answer.to_dict()
     curve: dict[str, Any] = answer.history
     largest: dict[str, Any] = {f"{quantity}_error": error for quantity, error in known["history_error"].items()}

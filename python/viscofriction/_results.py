@@ -193,7 +193,7 @@ class Answer:
 
     @property
     def history(self) -> dict[str, NDArray[np.float64]]:
-        """Time [s], normal force [N], depth [m] and contact radius [m] of a single scene with a history, by their names."""
+        """Time [s], normal force [N], depth [m], and radius [m] or area [m²] of the contact along the history of a single scene."""
         rows = self.to_dict().get("history")
         if self.shape != () or rows is None:
             raise AttributeError("a history belongs to a single scene with [load] history or history_file")

@@ -108,8 +108,13 @@ def solve(scene: Scene, *, progress: Progress = None) -> Answer:
     In a dictionary bodies and materials may stand in the place of their tables:
     ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
     """
+    return one(scene, progress, fields=False)
+
+
+def one(scene: Scene, progress: Progress, *, fields: bool) -> Answer:
+    """The answer to a scene, with what takes longer than the answer itself, or without."""
     table, folder, heights = read(scene)
-    request = {"scene": table, "folder": folder, "heights": heights, "columns": []}
+    request = {"scene": table, "folder": folder, "heights": heights, "columns": [], "fields": fields}
     with shown(progress) as show:
         answer = Answer(_native.solve_loads(request, show), {}, ())
     not_reached(answer)
@@ -130,7 +135,7 @@ def _solved(
     scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
     table, folder, heights = read(scene)
     columns, shape = together(loads)
-    request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items())}
+    request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items()), "fields": False}
     with shown(progress) as show:
         answer = Answer(_native.solve_loads(request, show), columns, shape)
     not_reached(answer)

@@ -64,7 +64,7 @@ pub(crate) struct OnGrid<S, O> {
 /// Places of some quantities in an array of them.
 pub(crate) const FRICTION: usize = 0;
 pub(crate) const FORCE: usize = 1;
-const DEPTH: usize = 2;
+pub(crate) const DEPTH: usize = 2;
 /// Their names, in errors.
 pub(crate) const NAMES: [&str; 3] = [
     "friction coefficient",
@@ -127,13 +127,15 @@ pub(crate) fn resolve<S, O>(
         (Target::Depth, Control::IndentationDepth(_)) => FORCE,
     };
     let quantities = |contact: &OnGrid<S, O>| {
-        std::array::from_fn(|index| Quantity {
+        let quantities = contact.quantities.iter().enumerate();
+        let driving = |(index, value): (usize, &f64)| Quantity {
             drives: index == target || index == FORCE,
-            ..Quantity::from(contact.quantities[index])
-        })
+            ..Quantity::from(*value)
+        };
+        quantities.map(driving).collect()
     };
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
-        let mut others = [ErrorParts::NONE; 5];
+        let mut others = vec![ErrorParts::NONE; contact.quantities.len()];
         others[target] = contact.other_error;
         Ok(others)
     };
@@ -159,7 +161,8 @@ pub(crate) fn resolve<S, O>(
 impl From<NotReached> for BemError {
     fn from(reached: NotReached) -> Self {
         Self::NotReached {
-            quantity: NAMES[reached.quantity],
+            // Of a history the quantities of each row come one after the other.
+            quantity: NAMES[reached.quantity % NAMES.len()],
             value: reached.value,
             error: reached.error,
             relative_error: reached.asked,

@@ -5,39 +5,24 @@
 //! any grid and in any steps. Hence under a constant force steps in time cause no error, on any material; with another
 //! history the error is of first order in their lengths, because force and load are held over a step.
 
+mod follow;
 mod history;
 mod press;
 
-use indenters::{Control, Surface};
+use indenters::{HistoryPoint, Surface};
 
 use crate::error::check_contact_elements;
 pub use crate::stepping::MotionRow;
 use crate::stepping::{March, Motion};
 use crate::{BemError, Elastomer, GridOptions};
+pub use follow::{IndentCurve, IndentPoint, follow, follow_memory};
 pub use history::{HistoryOptions, IndentHistory, indent_history};
 pub use press::{
     PressEstimate, PressSolution, indent, indent_memory, indent_on_grid, press, press_on_grid,
 };
 
-/// One step of a history; its control holds from the step before, so that a change of it is a jump.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IndentStep {
-    /// Time at the end of the step, since first touch, \[s].
-    pub time: f64,
-    /// Force or depth there; a force may be zero, a depth negative.
-    pub control: Control,
-}
-
-impl IndentStep {
-    /// Steps to each of the `times` \[s] under a constant control.
-    #[must_use]
-    pub fn constant(control: Control, times: &[f64]) -> Vec<Self> {
-        let step = |&time: &f64| Self { time, control };
-        times.iter().map(step).collect()
-    }
-}
-
-/// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid.
+/// Presses `surface` into an undeformed half space and lets it go again, step by step, on one grid; what controls the end of
+/// a step holds from the step before, so that a change of it is a jump.
 ///
 /// # Errors
 /// [`BemError::InvalidParameter`] for no steps, times that do not increase from above zero, or numbers out of range;
@@ -47,10 +32,10 @@ impl IndentStep {
 pub fn indent_history_on_grid(
     surface: &(impl Surface + ?Sized),
     elastomer: &(impl Elastomer + ?Sized),
-    steps: &[IndentStep],
+    steps: &[HistoryPoint],
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
-    let motion = |step: &IndentStep| Motion {
+    let motion = |step: &HistoryPoint| Motion {
         time: step.time,
         position: 0.0,
         control: step.control,

@@ -61,7 +61,7 @@ pub use error::BemError;
 pub use footprint::Footprint;
 pub use grid::Grid;
 pub use indent::{indent, indent_on_grid, press, press_on_grid};
-pub use indenters::{Control, PressingLoad, SlidingLoad};
+pub use indenters::{Control, HistoryPoint, PressingLoad, SlidingLoad};
 pub use influence::influence;
 pub use layer::{Elastomer, Layer, layer_factor};
 pub use numerics::InvalidParameter;

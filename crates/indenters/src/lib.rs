@@ -71,7 +71,7 @@ pub use height_map::HeightMap;
 pub use inverse_abel::inverse_abel;
 pub use leading_edge::{ContactLine, LeadingEdge, contact_line, leading_edge, leading_edge_with};
 pub use line::{EquivalentLine, RigidLine};
-pub use load::{Control, PressingLoad, SlidingLoad};
+pub use load::{Control, HistoryPoint, PressingLoad, SlidingLoad};
 pub use numerics::InvalidParameter;
 pub use piecewise_linear::PiecewiseLinearProfile;
 pub use power::PowerProfile;

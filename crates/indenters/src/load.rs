@@ -24,6 +24,25 @@ impl Control {
     }
 }
 
+/// Force or depth at one time of a history; two of the same time are a jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct HistoryPoint {
+    /// Time, \[s].
+    pub time: f64,
+    /// Force ≥ 0, or depth of the lowest point below the undeformed surface, of either sign.
+    pub control: Control,
+}
+
+impl HistoryPoint {
+    /// The same force or depth at each of the `times` \[s].
+    #[must_use]
+    pub fn held(control: Control, times: &[f64]) -> Vec<Self> {
+        let point = |&time: &f64| Self { time, control };
+        times.iter().map(point).collect()
+    }
+}
+
 /// A body that is pressed and slides along x with constant speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -39,7 +39,7 @@ mod steady;
 
 pub use error::MdrError;
 pub use history::{
-    CurvePoint, Follow, ForceDerivatives, HistoryPoint, force_derivatives, indent_along,
+    CurvePoint, Follow, ForceDerivatives, force_derivatives, indent_along, work_along,
 };
 pub use numerics::InvalidParameter;
 pub use press::{Pressed, indent, press};

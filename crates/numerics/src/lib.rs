@@ -17,7 +17,7 @@
 //!     others: 0.0,
 //!     selection: 1.0,
 //! };
-//! let pi = refine(&goal, |corners, _| half_perimeter(corners), |value| [Quantity::from(*value)], no_other_error)?;
+//! let pi = refine(&goal, |corners, _| half_perimeter(corners), |value| vec![Quantity::from(*value)], no_other_error)?;
 //! assert!((pi.value - std::f64::consts::PI).abs() < pi.error[0]);
 //! assert!(pi.error[0] < 1e-6 * pi.value);
 //! # Ok::<(), NotReached>(())

@@ -77,6 +77,8 @@ pub struct Goal<'a> {
 pub struct Quantity {
     /// Its value on one resolution.
     pub value: f64,
+    /// What the error asked for is relative to: the size of the value, unless that may vanish.
+    pub size: f64,
     /// Absolute error by rounding; no resolution is finer.
     pub rounding: f64,
     /// Least error of the elements, for values that all resolutions may have in common.
@@ -90,6 +92,7 @@ impl From<f64> for Quantity {
     fn from(value: f64) -> Self {
         Self {
             value,
+            size: value.abs(),
             rounding: 0.0,
             least: 0.0,
             drives: true,
@@ -99,13 +102,13 @@ impl From<f64> for Quantity {
 
 /// The result on the finest resolution, with the error of each quantity.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Refined<T, const N: usize> {
+pub struct Refined<T> {
     /// The result.
     pub value: T,
     /// Absolute error of each quantity: the sum of its parts and rounding.
-    pub error: [f64; N],
+    pub error: Vec<f64>,
     /// Where each error comes from.
-    pub parts: [ErrorParts; N],
+    pub parts: Vec<ErrorParts>,
     /// Elements of the finest resolution.
     pub elements: usize,
 }
@@ -121,7 +124,7 @@ pub struct NotReached {
     pub quantity: usize,
     /// Relative error asked for.
     pub asked: f64,
-    /// Value that was reached.
+    /// Value that was reached, or what else the error asked for is relative to.
     pub value: f64,
     /// Its absolute error.
     pub error: f64,
@@ -133,8 +136,8 @@ pub struct NotReached {
 ///
 /// # Errors
 /// None.
-pub fn no_other_error<T, E, const N: usize>(_: &T, _: &dyn Fn(f64)) -> Result<[ErrorParts; N], E> {
-    Ok([ErrorParts::NONE; N])
+pub fn no_other_error<T, E>(_: &T, _: &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E> {
+    Ok(Vec::new())
 }
 
 const FIRST: usize = 16;
@@ -149,17 +152,17 @@ const ROUNDING: f64 = 1e-12;
 
 /// Solves with the elements asked for, or with more and more until all quantities have the relative error.
 ///
-/// `others` gives the parts of the error that resolutions do not show because they are alike on all of them; it is called
-/// where the rest is small enough. Both are given what is to be told of their progress, from 0 to 1.
+/// There are as many quantities on all resolutions. `others` gives the parts of their errors that resolutions do not show
+/// because they are alike on all of them, for the first of them or for all; it is called where the rest is small enough. Both are given what is to be told of their progress, from 0 to 1.
 ///
 /// # Errors
 /// [`NotReached`] on the finest resolution allowed, and those of `solve` and `others`.
-pub fn refine<T, E: From<NotReached>, const N: usize>(
+pub fn refine<T, E: From<NotReached>>(
     goal: &Goal,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<T, E>,
-    quantities: impl Fn(&T) -> [Quantity; N],
-    others: impl Fn(&T, &dyn Fn(f64)) -> Result<[ErrorParts; N], E>,
-) -> Result<Refined<T, N>, E> {
+    quantities: impl Fn(&T) -> Vec<Quantity>,
+    others: impl Fn(&T, &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E>,
+) -> Result<Refined<T>, E> {
     let Request { accuracy, watch } = goal.request;
     let (mut elements, asked) = match accuracy {
         Accuracy::Elements(elements) => (elements, None),
@@ -182,11 +185,14 @@ pub fn refine<T, E: From<NotReached>, const N: usize>(
         let is_last = || elements >= goal.largest || !watch.allows(2 * elements);
         let weight = asked.map_or(1.0, |_| goal.selection);
         let grids = [&fine, &three_quarters, &half];
-        let mut parts = parts_of_elements([goal.order, weight], grids, three_eighths);
+        let eighths = three_eighths.as_deref();
+        let mut parts = parts_of_elements([goal.order, weight], grids, eighths);
         if not_reached(asked, &fine, &parts, elements).is_none() || is_last() {
             let work = goal.others * goal.work_on(elements as f64);
             let others = progress.during(work, |tell| others(&value, tell))?;
-            parts = std::array::from_fn(|index| parts[index].and(others[index]));
+            for (part, other) in parts.iter_mut().zip(others) {
+                *part = part.and(other);
+            }
         }
         match not_reached(asked, &fine, &parts, elements) {
             None => {
@@ -234,17 +240,18 @@ impl Goal<'_> {
 }
 
 /// What the elements do to each quantity, of all elements, three quarters and a half of them, and three eighths.
-fn parts_of_elements<const N: usize>(
+fn parts_of_elements(
     [order, weight]: [f64; 2],
-    resolutions: [&[Quantity; N]; 3],
-    three_eighths: Option<[Quantity; N]>,
-) -> [ErrorParts; N] {
-    std::array::from_fn(|index| {
+    resolutions: [&Vec<Quantity>; 3],
+    three_eighths: Option<&[Quantity]>,
+) -> Vec<ErrorParts> {
+    let part = |index: usize| {
         let values = resolutions.map(|quantities| quantities[index].value);
         let three_eighths = three_eighths.map(|quantities| quantities[index].value);
         let error = weight * error_of_elements(order, values, three_eighths);
         ErrorParts::of_elements(error.max(resolutions[0][index].least))
-    })
+    };
+    (0..resolutions[0].len()).map(part).collect()
 }
 
 /// Error on all elements where it falls with this power of them.
@@ -266,31 +273,29 @@ fn error_of_elements(
     weighted.fold(0.0, |largest, (one, weight)| (weight * one).max(largest))
 }
 
-fn errors<const N: usize>(fine: &[Quantity; N], parts: &[ErrorParts; N]) -> [f64; N] {
-    std::array::from_fn(|index| {
-        let Quantity { value, .. } = fine[index];
-        parts[index].sum() + ROUNDING * value.abs() + fine[index].rounding
-    })
+fn errors(fine: &[Quantity], parts: &[ErrorParts]) -> Vec<f64> {
+    let error = |(fine, parts): (&Quantity, &ErrorParts)| {
+        parts.sum() + ROUNDING * fine.value.abs() + fine.rounding
+    };
+    fine.iter().zip(parts).map(error).collect()
 }
 
 /// The first quantity that is not known well enough; none where no relative error is asked.
-fn not_reached<const N: usize>(
+fn not_reached(
     asked: Option<f64>,
-    fine: &[Quantity; N],
-    parts: &[ErrorParts; N],
+    fine: &[Quantity],
+    parts: &[ErrorParts],
     elements: usize,
 ) -> Option<NotReached> {
     let asked = asked?;
     let errors = errors(fine, parts);
-    let quantity = (0..N).find(|&quantity| {
-        let fine = &fine[quantity];
-        let allowed = (asked * fine.value.abs()).max(2.0 * fine.rounding);
-        fine.drives && errors[quantity] > allowed
-    })?;
+    let allowed = |fine: &Quantity| (asked * fine.size).max(2.0 * fine.rounding);
+    let missed = |quantity: &usize| errors[*quantity] > allowed(&fine[*quantity]);
+    let quantity = (0..fine.len()).find(|quantity| fine[*quantity].drives && missed(quantity))?;
     Some(NotReached {
         quantity,
         asked,
-        value: fine[quantity].value,
+        value: fine[quantity].size.copysign(fine[quantity].value),
         error: errors[quantity],
         elements,
     })
@@ -305,7 +310,7 @@ mod tests {
 
     const ROUNDED: f64 = 0.5;
 
-    fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Refined<f64, 1> {
+    fn resolved(order: f64, values: impl Fn(f64) -> f64) -> Refined<f64> {
         let goal = Goal {
             request: Accuracy::Elements(64).into(),
             largest: 128,
@@ -315,7 +320,7 @@ mod tests {
             selection: 1.0,
         };
         let quantities = |value: &f64| {
-            [Quantity {
+            vec![Quantity {
                 rounding: ROUNDED,
                 ..Quantity::from(*value)
             }]
@@ -358,7 +363,7 @@ mod tests {
     }
 
     /// Refines 4 + 4/n and its other error, each with half of its work told on the way.
-    fn watched(accuracy: Accuracy, watch: &Recorder) -> Result<Refined<f64, 1>, NotReached> {
+    fn watched(accuracy: Accuracy, watch: &Recorder) -> Result<Refined<f64>, NotReached> {
         let goal = Goal {
             request: Request { accuracy, watch },
             largest: 1 << 20,
@@ -373,9 +378,9 @@ mod tests {
         };
         let others = |_: &f64, tell: &dyn Fn(f64)| {
             tell(0.5);
-            Ok([ErrorParts::NONE])
+            Ok(Vec::new())
         };
-        refine(&goal, solve, |value| [Quantity::from(*value)], others)
+        refine(&goal, solve, |value| vec![Quantity::from(*value)], others)
     }
 
     #[test]

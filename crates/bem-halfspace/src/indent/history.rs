@@ -2,11 +2,11 @@
 //!
 //! Between two rows of a history the error of n steps is c₁/n + c₂/n² + …, so that of 2 f_2n − f_n is of second order.
 
-use indenters::{Control, Surface};
+use indenters::{Control, HistoryPoint, Surface};
 use numerics::between_zero_and_one;
 use rheology::{CreepSpectrum, Material as _};
 
-use super::{IndentStep, MotionRow, indent_history_on_grid};
+use super::{MotionRow, indent_history_on_grid};
 use crate::{BemError, Elastomer, GridOptions};
 
 /// How exactly a history is followed.
@@ -61,6 +61,26 @@ pub fn indent_history(
     options: &HistoryOptions,
 ) -> Result<IndentHistory, BemError> {
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
+    let history = refined(surface, elastomer, control, times, options)?;
+    let (steps, error) = (history.steps_per_row, history.time_error);
+    if error <= relative_error {
+        return Ok(history);
+    }
+    Err(BemError::TimeNotResolved {
+        steps,
+        error,
+        relative_error,
+    })
+}
+
+/// The same with the error that is reached with the steps allowed.
+pub(super) fn refined(
+    surface: &(impl Surface + ?Sized),
+    elastomer: &(impl Elastomer + ?Sized),
+    control: impl Fn(f64) -> Control,
+    times: &[f64],
+    options: &HistoryOptions,
+) -> Result<IndentHistory, BemError> {
     let run = |n: usize| -> Result<Vec<MotionRow>, BemError> {
         let steps = subdivided(&control, times, n);
         let rows = indent_history_on_grid(surface, elastomer, &steps, &options.grid)?;
@@ -83,23 +103,15 @@ pub fn indent_history(
             Err(BemError::ContactReachesBoundary { .. }) if !last => {}
             Err(refused) => return Err(refused),
         }
-        match before.take_if(|_| error <= relative_error) {
-            Some(rows) => {
-                return Ok(IndentHistory {
-                    rows,
-                    time_error: error,
-                    steps_per_row: n,
-                });
-            }
-            None if last => break,
-            None => n *= 2,
+        if let Some(rows) = before.take_if(|_| last || error <= options.relative_error) {
+            return Ok(IndentHistory {
+                rows,
+                time_error: error,
+                steps_per_row: n,
+            });
         }
+        n *= 2;
     }
-    Err(BemError::TimeNotResolved {
-        steps: n,
-        error,
-        relative_error,
-    })
 }
 
 /// From each of the times, and zero, to the next.
@@ -109,7 +121,7 @@ fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
 }
 
 /// `n` equal steps to each of the times.
-fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<IndentStep> {
+fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<HistoryPoint> {
     let ends = intervals(times).flat_map(|[start, end]| {
         (1..=n).map(move |k| {
             if k == n {
@@ -119,7 +131,7 @@ fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<
             }
         })
     });
-    let step = |time| IndentStep {
+    let step = |time| HistoryPoint {
         time,
         control: control(time),
     };

@@ -18,12 +18,12 @@ use crate::{BemError, Elastomer, GridOptions, Layer};
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
 /// Depth and force converge faster than that, cusps or not.
-const ORDER: f64 = 1.0;
+pub(super) const ORDER: f64 = 1.0;
 /// Of a transform of the elements along x and y.
 const WORK: f64 = 2.0;
 
 /// Memory for an element in front of the mirrors, \[bytes].
-const BYTES_PER_ELEMENT: f64 = 600.0;
+pub(super) const BYTES_PER_ELEMENT: f64 = 600.0;
 
 /// A contact under a control that was constant, on one grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,13 +94,17 @@ pub fn indent_memory(
     elements: usize,
 ) -> Result<f64, BemError> {
     let plan = Spring::after(elastomer, load)?.plan(&surface, load.control())?;
-    let options = grid(&plan, elements);
-    let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
-    let followed: f64 = mirrored.map(|_| 0.5).product();
-    Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+    Ok(BYTES_PER_ELEMENT * n_followed(&surface, &grid(&plan, elements)))
 }
 
-fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
+/// Elements in front of the mirrors.
+pub(super) fn n_followed(surface: &dyn Surface, options: &GridOptions) -> f64 {
+    let mirrored = surface.mirrors().into_iter().filter(|mirrored| *mirrored);
+    let followed: f64 = mirrored.map(|_| 0.5).product();
+    followed * options.footprint.n_elements(options.spacing)
+}
+
+pub(super) fn grid(plan: &GridPlan, elements: usize) -> GridOptions {
     let spacing = 2.0 * plan.length() / elements as f64;
     GridOptions::new([spacing; 2], plan.footprint.widened(spacing))
 }
@@ -135,7 +139,7 @@ pub fn indent_on_grid(
 }
 
 /// The spring that stands for a material under a constant control.
-struct Spring {
+pub(super) struct Spring {
     /// With the compliance 2 (1 − ν)/G = 1, and the Poisson ratio of the material.
     unit: Compressible,
     thickness: f64,
@@ -156,7 +160,7 @@ impl Spring {
         Self::new(elastomer, compliance, true)
     }
 
-    fn new(
+    pub(super) fn new(
         elastomer: &(impl Elastomer + ?Sized),
         compliance: f64,
         has_pressure: bool,
@@ -175,11 +179,18 @@ impl Spring {
         Ok(Layer::new(&self.unit, self.thickness)?)
     }
 
-    fn plan(&self, surface: &dyn Surface, control: Control) -> Result<GridPlan, BemError> {
+    pub(super) fn plan(
+        &self,
+        surface: &dyn Surface,
+        control: Control,
+    ) -> Result<GridPlan, BemError> {
         GridPlan::pressed(surface, &self.layer()?, self.scaled(control)?)
     }
 
-    fn after(elastomer: &(impl Elastomer + ?Sized), load: &PressingLoad) -> Result<Self, BemError> {
+    pub(super) fn after(
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &PressingLoad,
+    ) -> Result<Self, BemError> {
         let material = elastomer.material();
         let (factor, duration) = (material.half_space_factor(), load.duration());
         let creep = material.creep();

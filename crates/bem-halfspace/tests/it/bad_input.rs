@@ -1,12 +1,13 @@
 //! Bad input gives a typed error that names the parameter and its value.
 
-use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::indent::indent_history_on_grid;
 use bem_halfspace::slide::{
     March, Motion, StationaryOptions, Transient, slide, slide_on_grid, slide_to_stationary,
 };
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady, steady_line, steady_on_grid};
 use bem_halfspace::{
-    BemError, ContactState, Control, Convolution, Footprint, Grid, GridOptions, indent, press,
+    BemError, ContactState, Control, Convolution, Footprint, Grid, GridOptions, HistoryPoint,
+    indent, press,
 };
 use indenters::{Cylinder, FlatPunch, PressingLoad, Sphere, Surface};
 use numerics::Accuracy;
@@ -141,7 +142,7 @@ fn what_is_not_reached_says_what_was() {
 fn bodies_without_numbers_or_without_friction_are_refused() {
     let scene = Scene::unit(2.0);
     let (load, options) = (scene.load_over(1.0), scene.options(8.0));
-    let steps = IndentStep::constant(FORCE, &[1.0]);
+    let steps = HistoryPoint::held(FORCE, &[1.0]);
     for bad in [f64::NAN, f64::NEG_INFINITY] {
         let height = |x: f64, y: f64| if x > 0.1 { bad } else { x * x + y * y };
         let broken = Formula::new([false; 2], |[x, y]| (height(x, y), [2.0 * x, 2.0 * y]));
@@ -151,7 +152,7 @@ fn bodies_without_numbers_or_without_friction_are_refused() {
         assert_refused(bad, pressed, "InvalidHeight");
         assert_refused(bad, steady_with(&broken, |_| ()), "InvalidHeight");
     }
-    let endless = IndentStep::constant(FORCE, &[1e300]);
+    let endless = HistoryPoint::held(FORCE, &[1e300]);
     let overflow = indent_history_on_grid(&scene.body, &scene.material, &endless, &options);
     assert_refused("an endless time", overflow, "ContactReachesBoundary");
     let punch = FlatPunch::new(0.5 * scene.contact_length()).expect("a punch");

@@ -3,9 +3,10 @@
 
 use std::f64::consts::PI;
 
-use bem_halfspace::indent::{HistoryOptions, MotionRow, indent_history};
-use bem_halfspace::{BemError, Control, GridOptions};
+use bem_halfspace::indent::{HistoryOptions, IndentCurve, MotionRow, follow, indent_history};
+use bem_halfspace::{BemError, Control, GridOptions, HistoryPoint};
 use casebook::{Case, group};
+use numerics::Accuracy;
 use rheology::{Compressible, Material};
 
 use crate::support::{
@@ -116,33 +117,18 @@ fn a_rising_depth_has_the_force_that_its_elastic_contacts_make() {
 }
 
 /// A depth that rises with the speed V up to the time `turn` and falls again, until `end`.
-fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2], n_rows: usize) -> Vec<MotionRow> {
+fn triangle(case: &Case, name: &str, [turn, end]: [f64; 2]) -> IndentCurve {
     let body = match name {
         "cone" => cone(case.input("tan_theta")),
         _ => paraboloid(0.5 / case.input("R")),
     };
-    let speed = case.input("V");
-    let control = |time: f64| Control::IndentationDepth(speed * (turn - (time - turn).abs()));
-    let time = |k: usize| end * k as f64 / n_rows as f64;
-    let times: Vec<f64> = (1..=n_rows).map(time).collect();
-    let options = HistoryOptions {
-        relative_error: 5e-3,
-        ..HistoryOptions::new(options(body.line_position(speed * turn), ELEMENTS))
+    let point = |time: f64| HistoryPoint {
+        time,
+        control: Control::IndentationDepth(case.input("V") * (turn - (time - turn).abs())),
     };
-    let history = indent_history(&body, &case.material(), control, &times, &options);
-    let history = history.expect("a history");
-    assert_near(case.id(), history.time_error, 0.0, 5e-3);
-    history.rows
+    let history = [0.0, turn, end].map(point);
+    follow(&body, &case.material(), &history, Accuracy::Elements(32)).expect("a history")
 }
-
-fn radius(row: &MotionRow) -> f64 {
-    (row.contact_area / PI).sqrt()
-}
-
-/// Elements along the radius: the elastic force at a depth errs by the square of their inverse, scattered by the place of
-/// the edge, less than 4e-3 at 16 (`depth_converges_to_the_exact_law_with_second_order`).
-const ELEMENTS: f64 = 16.0;
-const TOLERANCE: f64 = 6e-3;
 
 /// After the turn the contact shrinks faster than the depth, and is lost before the depth is zero.
 #[test]
@@ -151,21 +137,24 @@ fn a_falling_depth_has_the_force_of_ting() {
     let cases = group("VIS-02").into_iter();
     for case in cases.filter(|case| case.has_input("t")) {
         for name in ["paraboloid", "cone"] {
-            let [turn, end] = [case.input("T"), case.input("t")];
-            // Rows at the turn and, twenty or five times as many steps later, at the end.
-            let n_rows = (end / (end - turn)).round();
-            let n_rows = if n_rows > 10.0 { 21 } else { 6 };
-            let rows = triangle(&case, name, [turn, end], n_rows);
-            let row = rows[n_rows - 1];
-            let largest = rows.iter().map(|row| row.normal_force).fold(0.0, f64::max);
+            let curve = triangle(&case, name, [case.input("T"), case.input("t")]);
+            let [_, turn, end] = curve.points[..] else {
+                panic!("{}: {:?}", case.id(), curve.points);
+            };
             let expected = case.expected(&format!("F_{name}")).expect("a force");
-            let allowed = TOLERANCE * largest;
-            assert_near((case.id(), name), row.normal_force, expected, allowed);
+            let (got, largest) = (end.normal_force, turn.normal_force.value);
+            assert_near((case.id(), name), got.value, expected, got.error);
+            assert_near((case.id(), name), got.error, 0.0, 0.02 * largest);
             if let Some(expected) = case.expected(&format!("a_{name}")) {
-                // The radius falls by a part of itself in the last of the steps that were needed.
-                assert_close((case.id(), name), radius(&row), expected, 1.0 / ELEMENTS);
+                let area = end.contact_area;
+                assert_near(
+                    (case.id(), name),
+                    area.value,
+                    PI * expected * expected,
+                    area.error,
+                );
             } else {
-                assert_eq!(row.n_contact, 0, "{}: {row:?}", case.id());
+                assert_eq!(curve.n_contact, 0, "{}: {end:?}", case.id());
                 n_lost += 1;
             }
         }

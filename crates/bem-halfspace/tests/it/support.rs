@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_2_PI;
 use std::fmt::Debug;
 
-use bem_halfspace::indent::{IndentStep, MotionRow, indent_history_on_grid};
+use bem_halfspace::indent::{MotionRow, indent_history_on_grid};
 use bem_halfspace::slide::{Motion, PressureField, Transient, slide_on_grid};
 use bem_halfspace::steady::{SteadyEstimate, SteadyOptions, SteadySliding, steady, steady_on_grid};
 use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
-    Footprint, Grid, GridOptions, solve_contact,
+    Footprint, Grid, GridOptions, HistoryPoint, solve_contact,
 };
 pub(crate) use casebook::prony;
 use indenters::{PowerProfile, SlidingLoad, Surface};
@@ -371,8 +371,8 @@ pub(crate) fn pressed(
     path: impl IntoIterator<Item = (f64, Control)>,
     options: &GridOptions,
 ) -> Vec<MotionRow> {
-    let step = |(time, control)| IndentStep { time, control };
-    let steps: Vec<IndentStep> = path.into_iter().map(step).collect();
+    let step = |(time, control)| HistoryPoint { time, control };
+    let steps: Vec<HistoryPoint> = path.into_iter().map(step).collect();
     indent_history_on_grid(body, material, &steps, options).expect("an indentation")
 }
 

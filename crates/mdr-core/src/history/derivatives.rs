@@ -2,13 +2,13 @@
 //!
 //! At the edge of a contact that shrinks w = 0, so that they are those of the closed form at constant t₁.
 
-use indenters::{Axisymmetric, Control};
+use indenters::{Axisymmetric, Control, HistoryPoint};
 use numerics::{in_range, positive};
 use rheology::Material;
 
 use super::approach::Approach;
+use super::checked;
 use super::radius::Radii;
-use super::{HistoryPoint, checked};
 use crate::{MdrError, error};
 
 /// The force of a history and its derivatives; every list has an entry for every point, 0 without contact.

@@ -15,12 +15,14 @@ mod force;
 mod memory;
 mod path;
 mod radius;
+mod work;
 
-use indenters::{Axisymmetric, Control};
+use indenters::{Axisymmetric, Control, HistoryPoint};
 use numerics::{Estimate, between_zero_and_one, finite, in_range, not_negative, positive};
 use rheology::Material;
 
 pub use self::derivatives::{ForceDerivatives, force_derivatives};
+pub use self::work::work_along;
 
 use self::approach::Approach;
 use self::contact::Contact;
@@ -29,16 +31,6 @@ use self::path::Path;
 use self::radius::Radii;
 use crate::MdrError;
 use crate::error;
-
-/// Force or depth at one time of a history, straight in between; two of the same time are a jump.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct HistoryPoint {
-    /// Time, \[s].
-    pub time: f64,
-    /// Force ≥ 0, or depth of the lowest point below the undeformed surface, of either sign.
-    pub control: Control,
-}
 
 /// The contact at one point of a history; an error of 0 says that a quantity is given.
 #[derive(Debug, Clone, Copy, PartialEq)]

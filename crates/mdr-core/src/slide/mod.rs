@@ -83,9 +83,9 @@ pub fn slide<'w>(
     let others = |march: &March, tell: &dyn Fn(f64)| motion.other_errors(march, tell);
     let refined = refine(&goal, solve, |march| motion.quantities(march), others)?;
     let (march, mut error) = (refined.value, refined.error);
-    let [error_parts, of_depth, ..] = refined.parts;
+    let error_parts = refined.parts[0];
     if has_steep_kinks(line) {
-        let elements = of_depth.discretisation.into_iter().sum::<f64>();
+        let elements = refined.parts[1].discretisation.into_iter().sum::<f64>();
         error[1] += (KINKED - 1.0) * elements;
     }
     let values = motion.values(&march.transient);
@@ -153,7 +153,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         [friction, last.indentation_depth, rear, front]
     }
 
-    fn quantities(&self, march: &March) -> [Quantity; 4] {
+    fn quantities(&self, march: &March) -> Vec<Quantity> {
         let last = &march.transient.last;
         let [friction, depth, rear, front] = self.values(&march.transient).map(Quantity::from);
         let slope = last.indentation_depth / last.contact_length;
@@ -172,7 +172,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
         }
         let is_elastic = is_elastic(&self.material.creep());
-        [
+        vec![
             Quantity {
                 rounding: if is_elastic { 0.0 } else { ROUNDING * slope },
                 ..friction
@@ -188,14 +188,15 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
 
     /// What all resolutions have in common: the step in time, the distance that is left, and a front that no element
     /// resolves.
-    fn other_errors(&self, march: &March, tell: &dyn Fn(f64)) -> Result<[ErrorParts; 4], MdrError> {
+    fn other_errors(&self, march: &March, tell: &dyn Fn(f64)) -> Result<Vec<ErrorParts>, MdrError> {
         let steps = self.errors_of_step(march, tell)?;
         let rest = self.remainders(&march.transient.rows);
-        let mut parts: [ErrorParts; 4] = std::array::from_fn(|quantity| ErrorParts {
+        let part = |quantity: usize| ErrorParts {
             time_stepping: steps.map(|errors| errors[quantity]),
             truncation: rest.and_then(|errors| errors[quantity]),
             ..ErrorParts::NONE
-        });
+        };
+        let mut parts: Vec<ErrorParts> = (0..4).map(part).collect();
         if has_steep_kinks(self.line) && !is_elastic(&self.material.creep()) {
             for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
                 part.discretisation = Some(unresolved);

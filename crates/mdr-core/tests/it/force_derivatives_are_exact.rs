@@ -1,7 +1,7 @@
 //! The derivatives of a force along a path of the depth are those of differences, and the force that of `indent_along`.
 
-use indenters::Control;
-use mdr_core::{CurvePoint, ForceDerivatives, HistoryPoint, MdrError, force_derivatives};
+use indenters::{Control, HistoryPoint};
+use mdr_core::{CurvePoint, ForceDerivatives, MdrError, force_derivatives};
 use rheology::Material;
 
 use crate::histories_match_quadrature::{body, follow, knots, material, numbers, path, stretched};

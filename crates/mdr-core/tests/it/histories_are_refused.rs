@@ -1,8 +1,8 @@
 //! Histories that cannot be followed are refused by name.
 
 use casebook::{assert_matches, superposition};
-use indenters::{Axisymmetric, Control, Sphere};
-use mdr_core::{CurvePoint, Follow, HistoryPoint, MdrError, indent_along};
+use indenters::{Axisymmetric, Control, HistoryPoint, Sphere};
+use mdr_core::{CurvePoint, Follow, MdrError, indent_along};
 
 use crate::histories_match_quadrature::{body, material};
 use crate::support::history;

@@ -1,7 +1,9 @@
 //! Force and contact radius along a path of the depth match quadrature with 40 digits, and both casebooks.
 
-use indenters::{Axisymmetric, Control, FlatCone, FlatPunch, Hyperboloid, PowerProfile, Sphere};
-use mdr_core::{CurvePoint, Follow, HistoryPoint, indent_along};
+use indenters::{
+    Axisymmetric, Control, FlatCone, FlatPunch, HistoryPoint, Hyperboloid, PowerProfile, Sphere,
+};
+use mdr_core::{CurvePoint, Follow, indent_along, work_along};
 use numerics::Estimate;
 use rheology::{Material, Prony, Springpot};
 
@@ -288,6 +290,43 @@ fn a_contact_that_has_relaxed_carries_nothing() {
     }
 }
 
+/// Against the trapezoidal rule on many points, with a contact that turns and is lost inside segments; in a spring nothing
+/// stays.
+#[test]
+fn work_is_the_area_under_the_curve() {
+    let body = body("paraboloid");
+    let work = |name: &str, solid: &str| {
+        let options = Follow {
+            relative_error: 1e-4,
+            ..Follow::default()
+        };
+        let work = work_along(&*body, &material(solid), &path(&knots(name), &[]), &options);
+        work.expect("work")
+    };
+    let times: Vec<f64> = (1..9000).map(|n| 4e-4 * f64::from(n)).collect();
+    let curve = follow(&*body, &material("solid"), &path(&knots("again"), &times));
+    let (mut area, mut known) = (0.0, work("again", "solid").into_iter().skip(1));
+    for pair in curve.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let rise = to.indentation_depth.value - from.indentation_depth.value;
+        area += 0.5 * (from.normal_force.value + to.normal_force.value) * rise;
+        if knots("again")
+            .iter()
+            .any(|[time, _]| time.total_cmp(&to.time).is_eq())
+        {
+            let (value, error) = (area, 1e-11);
+            let work = known.next().expect("work");
+            assert!(work.error <= 1e-4 * 2e-4, "{work:?}");
+            assert_agree([work, Estimate { value, error }], &to);
+        }
+    }
+    assert_eq!(known.next(), None, "all knots");
+    assert_agree(
+        [work("triangle", "elastic")[2], Estimate::exact(0.0)],
+        &"a spring",
+    );
+}
+
 /// F = 8 a ∫ G dd and d = ∫ J dF/(8 a): a punch has its radius at every load.
 #[test]
 fn a_flat_punch_follows_force_and_depth() {
@@ -303,9 +342,18 @@ fn a_flat_punch_follows_force_and_depth() {
     for (point, expected) in curve.iter().zip(expected) {
         assert_agree([point.normal_force, Estimate::exact(expected)], point);
     }
+    let work = work_along(&punch, &material("solid"), &path, &Follow::default());
+    let loading = Estimate::exact(0.08 * 0.02 * 0.02 * (0.5 + 4.0 * f64::exp(-1.0)));
+    assert_agree([work.expect("work")[1], loading], &"work of loading");
     let peak = expected[1];
     let forces = [[0.0, 0.0], [1.0, peak], [2.0, 0.5 * peak]];
     let curve = under(&punch, &forces, Follow::default().relative_error);
+    let rising = history(forces[..2].iter().copied(), Control::NormalForce);
+    let work = work_along(&punch, &material("solid"), &rising, &Follow::default());
+    // ∫ F dd with F ∝ t and d as below.
+    let creeping = 0.5 - 0.8 * (25.0 - 30.0 * f64::exp(-0.2));
+    let loading = Estimate::exact(peak * peak / 0.08 * creeping);
+    assert_agree([work.expect("work")[1], loading], &"work under a force");
     // J(t) = 1 − 4/5 e^(−t/5).
     let creep = |step: f64| step - 4.0 * (1.0 - f64::exp(-step / 5.0));
     let depths = [0.0, creep(1.0), creep(2.0) - 1.5 * creep(1.0)];

@@ -2,8 +2,8 @@
 //! and as springs of the compliance of the time.
 
 use casebook::Case;
-use indenters::{Axisymmetric, Control, EquivalentLine, PowerProfile, PressingLoad};
-use mdr_core::{CurvePoint, Follow, HistoryPoint, indent, indent_along};
+use indenters::{Axisymmetric, Control, EquivalentLine, HistoryPoint, PowerProfile, PressingLoad};
+use mdr_core::{CurvePoint, Follow, indent, indent_along};
 use rheology::Material;
 
 use crate::support::{assert_agree, assert_close, line_power, material, material_of};

@@ -6,12 +6,10 @@ use casebook::{Case, standard_solid};
 pub(crate) use casebook::{fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
-    Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
-    SlidingLoad, Sphere, TruncatedParaboloid, stretch,
+    Axisymmetric, Control, FlatCone, HistoryPoint, Hyperboloid, PowerProfile, RigidLine,
+    RoundTippedCone, SlidingLoad, Sphere, TruncatedParaboloid, stretch,
 };
-use mdr_core::{
-    HistoryPoint, MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady,
-};
+use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
 use numerics::Estimate;
 use proptest::prelude::*;
 use rheology::{Material, Prony, Viscous};

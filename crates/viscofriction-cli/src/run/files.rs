@@ -1,10 +1,11 @@
 //! The files of one answer: result.json, fields as NPY and CSV, pictures as SVG and PNG.
 
+use std::iter;
+
 use anyhow::Result;
 use viscofriction::Estimate;
-use viscofriction::mdr_core::CurvePoint;
 use viscofriction::npy::to_npy;
-use viscofriction::solve::{Answer, HistoryRow};
+use viscofriction::solve::{Answer, CurveRow, HistoryRow};
 
 use super::{Timed, pictures};
 use crate::output::{OutputFolder, to_csv};
@@ -69,21 +70,19 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
 
 /// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
 /// and the one that was found over time.
-fn write_curve(curve: &[CurvePoint], out: &OutputFolder) -> Result<()> {
-    let rows = curve.iter().map(|point| {
-        let quantities = [
-            point.normal_force,
-            point.indentation_depth,
-            point.contact_radius,
-        ];
-        let numbers = quantities.map(|Estimate { value, error }| [value, error]);
-        [vec![point.time], numbers.concat()].concat()
+fn write_curve(curve: &[CurveRow], out: &OutputFolder) -> Result<()> {
+    let rows = curve.iter().map(|row| {
+        let numbers = row
+            .quantities()
+            .flat_map(|(_, known)| [known.value, known.error]);
+        iter::once(row.time).chain(numbers).collect::<Vec<f64>>()
     });
-    let names = "time_s normal_force_n normal_force_error_n indentation_depth_m indentation_depth_error_m \
-                 contact_radius_m contact_radius_error_m";
-    out.write("history.csv", &to_csv(names, rows)?)?;
+    let names = curve[0].quantities();
+    let names = names.map(|([name, unit], _)| format!(" {name}_{unit} {name}_error_{unit}"));
+    let names = format!("time_s{}", names.collect::<String>());
+    out.write("history.csv", &to_csv(&names, rows)?)?;
     let [force, depth] = ["normal force [N]", "indentation depth [m]"];
-    let varies = |of: fn(&CurvePoint) -> Estimate| curve.windows(2).any(|p| of(&p[0]) != of(&p[1]));
+    let varies = |of: fn(&CurveRow) -> Estimate| curve.windows(2).any(|p| of(&p[0]) != of(&p[1]));
     if varies(|point| point.normal_force) && varies(|point| point.indentation_depth) {
         let points = curve
             .iter()
@@ -93,7 +92,7 @@ fn write_curve(curve: &[CurvePoint], out: &OutputFolder) -> Result<()> {
     let is_depth_found = curve
         .iter()
         .any(|point| point.indentation_depth.error > 0.0);
-    let over_time = |point: &CurvePoint| {
+    let over_time = |point: &CurveRow| {
         let found = if is_depth_found {
             point.indentation_depth
         } else {

@@ -6,8 +6,10 @@ use rayon::prelude::*;
 use viscofriction::indentation::{
     Finding, FitOptions, Flag, IndentationCurve, IndentationFit, Rheology, fit_indentation,
 };
-use viscofriction::indenters::{Axisymmetric, Control, FlatPunch, PowerProfile, Sphere};
-use viscofriction::mdr_core::{Follow, HistoryPoint, indent_along};
+use viscofriction::indenters::{
+    Axisymmetric, Control, FlatPunch, HistoryPoint, PowerProfile, Sphere,
+};
+use viscofriction::mdr_core::{Follow, indent_along};
 use viscofriction::rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
 
 use crate::support::{Folder, assert_close};

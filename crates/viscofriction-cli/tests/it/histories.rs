@@ -21,6 +21,18 @@ fn column(result: &Value, name: &str) -> Vec<f64> {
     rows.iter().map(|row| number(row, name)).collect()
 }
 
+/// Boundary elements follow a history to one part in a thousand of its largest value.
+fn assert_elements_agree(folder: &Folder, scene: &str, name: &str, expected: &[f64]) {
+    let largest = expected.iter().copied().fold(0.0, f64::max);
+    let elements = folder.json(&format!("{scene} --method bem-transient"));
+    let bar = number(&elements["history_error"], name);
+    assert!(bar <= 1e-3 * largest, "bar {bar:e} of {name}");
+    for (found, expected) in column(&elements, name).iter().zip(expected) {
+        let off = (found - expected).abs();
+        assert!(off <= bar, "{name} {found} is off by {off:e}, bar {bar:e}");
+    }
+}
+
 const TABLE: &str = "time_s,indentation_depth_m\n0,0\n1,0.01\n1.15,0.0085\n1.3,0.007\n1.5,0.009\n2.1,0.015\n2.3,0.013\n";
 
 #[test]
@@ -56,6 +68,7 @@ fn a_surface_that_has_not_recovered_is_pressed_again() {
     assert_close("contact radius", radius, 0.0944593877313644, 1e-11);
     let last = number(&of_file, "normal_force");
     assert_close("last force", last, expected[6], 1e-11);
+    assert_elements_agree(&folder, "file.toml", "normal_force", &expected);
     let bars = &of_file["history_error"];
     let bar = number(bars, "normal_force");
     assert!(bar > 0.0 && bar < 1e-12, "bar {bar:e}");
@@ -80,6 +93,7 @@ fn a_force_that_rises_gives_the_depth_of_theory() {
     for (place, expected) in [(1, 0.007479854782350828), (4, 0.023842571351249137)] {
         assert_close("depth", depths[place], expected, 1e-11);
     }
+    assert_elements_agree(&folder, "force.toml", "indentation_depth", &depths);
 }
 
 /// F = 16/3 G d^(3/2) (Hertz), with 1/J(t) or G(t) as the modulus G.

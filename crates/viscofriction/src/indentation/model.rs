@@ -9,7 +9,8 @@ use rheology::{
 
 use super::depth::ends;
 use super::{FitOptions, IndentationCurve};
-use crate::mdr_core::{ForceDerivatives, HistoryPoint, MdrError, force_derivatives};
+use crate::indenters::HistoryPoint;
+use crate::mdr_core::{ForceDerivatives, MdrError, force_derivatives};
 
 /// A material with free parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use indenters::Control;
-use mdr_core::HistoryPoint;
+use indenters::{Control, HistoryPoint};
 use numerics::in_range;
 
 use super::SceneError;

@@ -107,7 +107,57 @@ pub struct Fields {
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
     /// The points of the history that was asked for, or [since touch](super::with_fields()).
-    pub curve: Vec<CurvePoint>,
+    pub curve: Vec<CurveRow>,
+}
+
+/// The contact at one point of a history; an error of 0 says that a quantity is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveRow {
+    /// Time, \[s].
+    pub time: f64,
+    /// Force, \[N].
+    pub normal_force: Estimate,
+    /// Depth of the lowest point, \[m].
+    pub indentation_depth: Estimate,
+    /// Radius of the contact, \[m], or without a circle its area, \[m²].
+    pub contact: Contact,
+    /// Work ∫ F dd since the first point, \[J]; none unless [fields](super::with_fields()) were asked for, and of elements.
+    pub work: Option<Estimate>,
+}
+
+/// The size of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Contact {
+    /// Of a circle, \[m].
+    Radius(Estimate),
+    /// \[m²].
+    Area(Estimate),
+}
+
+impl CurveRow {
+    /// The names and units of its quantities, as columns write them, and what they are.
+    pub fn quantities(&self) -> impl Iterator<Item = ([&'static str; 2], Estimate)> {
+        let contact = match self.contact {
+            Contact::Radius(radius) => (["contact_radius", "m"], radius),
+            Contact::Area(area) => (["contact_area", "m2"], area),
+        };
+        let force = (["normal_force", "n"], self.normal_force);
+        let depth = (["indentation_depth", "m"], self.indentation_depth);
+        let work = self.work.map(|work| (["work", "j"], work));
+        [force, depth, contact].into_iter().chain(work)
+    }
+}
+
+impl From<CurvePoint> for CurveRow {
+    fn from(point: CurvePoint) -> Self {
+        Self {
+            time: point.time,
+            normal_force: point.normal_force,
+            indentation_depth: point.indentation_depth,
+            contact: Contact::Radius(point.contact_radius),
+            work: None,
+        }
+    }
 }
 
 /// One step of sliding.
@@ -124,36 +174,30 @@ pub struct HistoryRow {
 }
 
 /// Numbers by their names.
-struct Named<'a, const N: usize>([(&'a str, f64); N]);
+struct Named(Vec<(&'static str, f64)>);
 
-impl<const N: usize> Serialize for Named<'_, N> {
+impl Serialize for Named {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0)
+        serializer.collect_map(self.0.iter().copied())
     }
 }
 
-/// Name, and the quantity at a point.
-type OfCurve = (&'static str, fn(&CurvePoint) -> Estimate);
-
-/// What is known at each point of a history beside its time.
-const OF_CURVE: [OfCurve; 3] = [
-    ("normal_force", |point| point.normal_force),
-    ("indentation_depth", |point| point.indentation_depth),
-    ("contact_radius", |point| point.contact_radius),
-];
-
-/// The values of a point, and the largest errors of all points.
-fn curve_in_json(curve: &[CurvePoint]) -> (Vec<Named<'_, 4>>, Named<'_, 3>) {
-    let row = |point: &CurvePoint| {
-        let [force, depth, radius] = OF_CURVE.map(|(name, of)| (name, of(point).value));
-        Named([("time", point.time), force, depth, radius])
+/// The values of all points, and the largest errors.
+fn curve_in_json(curve: &[CurveRow]) -> (Vec<Named>, Named) {
+    let mut largest: Vec<(&str, f64)> = Vec::new();
+    let row = |row: &CurveRow| {
+        let mut values = vec![("time", row.time)];
+        for (index, ([name, _], known)) in row.quantities().enumerate() {
+            values.push((name, known.value));
+            match largest.get_mut(index) {
+                Some((_, error)) => *error = error.max(known.error),
+                None => largest.push((name, known.error)),
+            }
+        }
+        Named(values)
     };
-    let largest = |of: fn(&CurvePoint) -> Estimate| {
-        let errors = curve.iter().map(|point| of(point).error);
-        errors.fold(0.0, f64::max)
-    };
-    let errors = OF_CURVE.map(|(name, of)| (name, largest(of)));
-    (curve.iter().map(row).collect(), Named(errors))
+    let rows = curve.iter().map(row).collect();
+    (rows, Named(largest))
 }
 
 /// A value that is known to a relative error.

@@ -1,5 +1,6 @@
 //! What boundary elements say, as answers.
 
+use bem_halfspace::indent::{IndentPoint, follow};
 use bem_halfspace::slide::{SlideRow, slide};
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicLoad, indent, steady, steady_line, steady_periodic,
@@ -9,7 +10,9 @@ use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
-use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
+use super::answer::{
+    Answer, Contact, ContactBox, CurveRow, Grid, HistoryRow, Persson, RoughAnswer,
+};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -166,6 +169,34 @@ pub(crate) fn pressed(
         ..answer(&estimate, Method::BemTransient, ends)
     };
     answer.fields.pressure = estimate.finest.pressure;
+    Ok(answer)
+}
+
+/// Pressing and letting go along a history; the answer is its last point.
+pub(crate) fn followed(
+    problem: &Problem,
+    surface: &dyn Surface,
+    request: Request,
+) -> Result<Answer> {
+    let found = follow(surface, &problem.elastomer()?, &problem.history, request)?;
+    let last = found.points[found.points.len() - 1];
+    let row = |point: &IndentPoint| CurveRow {
+        time: point.time,
+        normal_force: point.normal_force,
+        indentation_depth: point.indentation_depth,
+        contact: Contact::Area(point.contact_area),
+        work: None,
+    };
+    let mut answer = Answer {
+        indentation_depth: Some(last.indentation_depth),
+        contact_area: Some(last.contact_area),
+        error_parts: found.error_parts,
+        unknowns: found.n_contact,
+        iterations: found.n_steps,
+        grid: Some(of_march(&found.options)?),
+        ..Answer::new(Method::BemTransient, Model::HalfSpace, last.normal_force)
+    };
+    answer.fields.curve = found.points.iter().map(row).collect();
     Ok(answer)
 }
 

@@ -5,7 +5,7 @@ use mdr_core::{Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox, HistoryRow};
+use super::answer::{Answer, ContactBox, CurveRow, HistoryRow};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -74,10 +74,7 @@ pub(crate) fn followed(
     method: Method,
     relative_error: f64,
 ) -> Result<Answer> {
-    let options = Follow {
-        relative_error,
-        modulus_error: problem.modulus_error(),
-    };
+    let options = following(problem, relative_error);
     let curve = indent_along(body, &*problem.material, &problem.history, &options)?;
     let last = curve.last().copied();
     let last = last.ok_or(MdrError::Empty { list: "history" })?;
@@ -93,8 +90,15 @@ pub(crate) fn followed(
         iterations: curve.len(),
         ..Answer::new(method, problem.model, last.normal_force)
     };
-    answer.fields.curve = curve;
+    answer.fields.curve = curve.into_iter().map(CurveRow::from).collect();
     Ok(answer)
+}
+
+pub(super) fn following(problem: &Problem, relative_error: f64) -> Follow {
+    Follow {
+        relative_error,
+        modulus_error: problem.modulus_error(),
+    }
 }
 
 fn contact_box([rear, front]: [Estimate; 2]) -> ContactBox {

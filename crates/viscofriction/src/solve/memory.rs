@@ -2,7 +2,8 @@
 
 use std::sync::OnceLock;
 
-use bem_halfspace::{indent::indent_memory, slide::slide_memory, steady::steady_memory};
+use bem_halfspace::indent::{follow_memory, indent_memory};
+use bem_halfspace::{slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
 use numerics::Watch;
 
@@ -113,6 +114,9 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
         }
         (Method::BemTransient, Motion::Pressing(load)) => {
             indent_memory(surface, &elastomer, &load, elements).ok()
+        }
+        (Method::BemTransient, Motion::History(_)) => {
+            follow_memory(surface, &elastomer, &problem.history, elements).ok()
         }
         (Method::MdrTransient, Motion::Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);

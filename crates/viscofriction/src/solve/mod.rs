@@ -19,7 +19,8 @@ mod validity;
 mod with_fields;
 mod work;
 
-pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
+pub use answer::{Answer, Contact, ContactBox, CurveRow, Fields};
+pub use answer::{HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution, body};
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;

@@ -2,11 +2,11 @@
 
 use numerics::{Estimate, NotReached};
 
-use super::answer::Answer;
+use super::answer::{Answer, Contact, CurveRow};
 use super::error::{Result, SolveError};
 use super::problem::{Motion, Problem};
 use super::validity::mean_slope;
-use crate::scene::{Accuracy, Model};
+use crate::scene::{Accuracy, Method, Model};
 
 /// What is asked of a method, over what is asked of the answer; the rest is for the series.
 const OF_THE_METHOD: f64 = 0.95;
@@ -41,10 +41,16 @@ impl Problem {
             return Ok(answer);
         };
         self.check_times(&answer, expansion.time_range)?;
-        if let Motion::History(_) = self.motion {
-            return Ok(answer);
-        }
         let relative = PER_MODULUS * expansion.relative_error;
+        if let Motion::History(_) = self.motion {
+            let of_elements = answer.method == Method::BemTransient;
+            // The one-dimensional model has it in its bars.
+            return Ok(if of_elements {
+                answer.curve_widened(relative)
+            } else {
+                answer
+            });
+        }
         let slope = mean_slope(&self.body, &answer).unwrap_or(0.0);
         let mut answer = answer.widened(relative, slope);
         if answer.model == Model::HalfSpace && matches!(self.motion, Motion::Sliding(_)) {
@@ -115,6 +121,32 @@ impl Answer {
         }
         if let Some(contact) = &mut self.contact_box {
             contact.error += relative * (contact.x[1] - contact.x[0]);
+        }
+        self
+    }
+
+    /// The same of the points of a history, relative to the largest value of each quantity; the last one is the answer.
+    fn curve_widened(mut self, relative: f64) -> Self {
+        let quantities: [fn(&mut CurveRow) -> &mut Estimate; 3] = [
+            |row| &mut row.normal_force,
+            |row| &mut row.indentation_depth,
+            |row| match &mut row.contact {
+                Contact::Radius(size) | Contact::Area(size) => size,
+            },
+        ];
+        let curve = &mut self.fields.curve;
+        for of in quantities {
+            let values = curve.iter_mut().map(|row| of(row).value.abs());
+            let largest = values.fold(0.0, f64::max);
+            let found = curve.iter_mut().map(of).filter(|found| found.error > 0.0);
+            found.for_each(|found| found.error += relative * largest);
+        }
+        if let Some(last) = curve.last() {
+            self.normal_force = last.normal_force;
+            self.indentation_depth = Some(last.indentation_depth);
+            if let Contact::Area(area) = last.contact {
+                self.contact_area = Some(area);
+            }
         }
         self
     }

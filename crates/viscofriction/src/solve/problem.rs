@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use bem_halfspace::{BemError, Layer};
-use indenters::{Control, IndenterError, PressingLoad, SlidingLoad};
-use mdr_core::HistoryPoint;
+use indenters::{Control, HistoryPoint, IndenterError, PressingLoad, SlidingLoad};
 use numerics::positive;
 use rheology::{Material, RheologyError};
 

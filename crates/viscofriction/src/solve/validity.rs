@@ -1,8 +1,10 @@
 //! Where the linear theory of the contact ends.
 
+use std::f64::consts::PI;
+
 use indenters::Surface as _;
 
-use super::answer::Answer;
+use super::answer::{Answer, Contact, CurveRow};
 use super::body::{Body, Revolution};
 use super::problem::Problem;
 
@@ -50,19 +52,22 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     if let Body::Periodic(surface) = body {
         return Some(surface.rms_slope());
     }
-    let curve = answer.fields.curve.iter();
-    let widest = curve.map(|point| point.contact_radius.value);
-    let widest = widest.fold(0.0, f64::max);
-    let Some(contact) = &answer.contact_box else {
+    let of_row = |row: &CurveRow| match row.contact {
+        Contact::Radius(radius) => radius.value,
+        Contact::Area(area) => (area.value / PI).sqrt(),
+    };
+    let widest = answer.fields.curve.iter().map(of_row).fold(0.0, f64::max);
+    let ends = answer.contact_box.as_ref().map(|contact| contact.x);
+    let Some(ends) = ends.or((widest > 0.0).then_some([-widest, widest])) else {
         return answer.friction_coefficient.map(|friction| friction.value);
     };
-    let radius = contact.x[0].abs().max(contact.x[1].abs()).max(widest);
+    let radius = ends[0].abs().max(ends[1].abs()).max(widest);
     let height = match body {
         Body::Periodic(_) => return None,
         Body::Revolution(body) => body.profile_height(radius),
         Body::Cylinder(cylinder) => cylinder.height([radius, 0.0]),
         Body::HeightMap(map) => {
-            let heights = contact.x.into_iter().map(|x| map.height([x, 0.0]));
+            let heights = ends.into_iter().map(|x| map.height([x, 0.0]));
             let heights = heights.filter(|height| height.is_finite());
             heights.fold(0.0, f64::max)
         }

@@ -3,23 +3,26 @@
 use std::f64::consts::PI;
 
 use friction_analytic::indentation_pressure;
-use mdr_core::CurvePoint;
+use mdr_core::work_along;
 use numerics::Estimate;
 
 use super::analytic::{pressed, stiffness};
-use super::answer::Answer;
+use super::answer::{Answer, Contact, CurveRow};
 use super::body::{Body, Revolution};
 use super::half_space::Simple;
+use super::mdr;
 use super::problem::{Motion, Problem};
 use crate::scene::{Control, Method};
 
 /// Places of the pressure on each side of the middle.
 const N_PLACES: usize = 100;
+/// Error of the work along a history, relative to the largest.
+const WORK: f64 = 1e-4;
 /// Points in time after touch.
 const N_TIMES: usize = 60;
 
-/// Adds the pressure and the history to a closed form of pressing, where they take longer than the answer itself; other
-/// answers have their fields already.
+/// Adds the pressure and the history to a closed form of pressing, and the work to a history of the one-dimensional model,
+/// where they take longer than the answer itself; other answers have their fields already.
 ///
 /// Under a force that is held on a material that creeps, the pressure depends on how the contact has grown, and is left out.
 /// So are that of a body whose slope jumps inside the contact, as of a flat cone, and the history on an elastic material.
@@ -40,32 +43,47 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     if let Some(pressure) = pressure {
         answer.fields.line_pressure = pressure;
     }
+    if let (Motion::History(_), Body::Revolution(body)) = (problem.motion, &problem.body)
+        && answer.method != Method::BemTransient
+    {
+        let options = mdr::following(problem, WORK);
+        let work = work_along(&**body, &*problem.material, &problem.history, &options);
+        for (row, work) in answer
+            .fields
+            .curve
+            .iter_mut()
+            .zip(work.into_iter().flatten())
+        {
+            row.work = Some(work);
+        }
+    }
     answer
 }
 
 /// The contact at times that are dense after touch, where the most happens; those at which a quantity underflows are left
 /// out.
-fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
-    let point = |time: f64| {
+fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurveRow> {
+    let row = |time: f64| {
         let answer = pressed(body, &*problem.material, problem.motion.control(), time);
         let answer = answer.and_then(Answer::finite);
         let answer = answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy));
         let answer = answer.ok()?;
         let contact = answer.contact_box?;
-        Some(CurvePoint {
+        Some(CurveRow {
             time,
             indentation_depth: answer.indentation_depth?,
             normal_force: answer.normal_force,
-            contact_radius: Estimate {
+            contact: Contact::Radius(Estimate {
                 value: contact.x[1],
                 error: contact.error,
-            },
+            }),
+            work: None,
         })
     };
     let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
     let time = |index: usize| duration * (index as f64 / N_TIMES as f64).powi(4);
     let times = (0..=N_TIMES).map(time).filter(|time| *time >= shortest);
-    times.filter_map(point).collect()
+    times.filter_map(row).collect()
 }
 
 /// G/(2 (1 − ν)) times the pressure of unit modulus, along a diameter.

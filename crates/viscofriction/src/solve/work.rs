@@ -19,6 +19,7 @@ pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> +
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
+const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not; analytic presses the one, bem-steady slides both";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
@@ -68,20 +69,21 @@ fn has_force(problem: &Problem) -> bool {
     matches!(problem.motion.control(), Control::NormalForce(_))
 }
 
-/// The one-dimensional model is exact here, on the half space too.
+/// Of a body of revolution the one-dimensional model is exact here, on the half space too.
 fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
-    let Body::Revolution(body) = &problem.body else {
-        return Err("a history needs a body of revolution");
-    };
-    match method {
-        Method::Analytic | Method::MdrTransient => {
+    match (method, &problem.body) {
+        (Method::MdrSteady | Method::BemSteady, _) => Err(NOTHING_SLIDES),
+        (Method::BemTransient, body) => {
+            let surface = body.surface().ok_or(ENDLESS)?;
+            ready(move |watch| elements::followed(problem, surface, Request { accuracy, watch }))
+        }
+        (_, Body::Revolution(body)) => {
             let Accuracy::RelativeError(asked) = accuracy else {
                 return Err(NO_ELEMENTS);
             };
             ready(move |_| mdr::followed(problem, &**body, method, asked))
         }
-        Method::MdrSteady | Method::BemSteady => Err(NOTHING_SLIDES),
-        Method::BemTransient => Err("it follows no history in a scene; analytic does, exactly"),
+        _ => Err("it needs a body of revolution; bem-transient follows a history with others"),
     }
 }
 
@@ -128,9 +130,7 @@ fn line_contact<'a>(
             })
         }
         (Method::BemSteady, _) => Err(NOTHING_SLIDES),
-        _ => Err(
-            "its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it",
-        ),
+        _ => Err(ENDLESS),
     }
 }
 

@@ -1,7 +1,8 @@
 //! The half space: stationary sliding, the march in time, and pressing.
 
 use anyhow::Result;
-use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
+use bem_halfspace::HistoryPoint;
+use bem_halfspace::indent::indent_history_on_grid;
 use bem_halfspace::slide::{SlideRow, slide_on_grid};
 use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions};
@@ -168,9 +169,9 @@ pub(super) fn pressed(material: &dyn Material, step: f64) -> Result<Row> {
     let options = GridOptions::new([0.1; 2], Footprint::square(2.0));
     // A force under which the last contact has a radius of about one.
     let force = 1.0 / material.creep_compliance(times[2])?;
-    let steps = IndentStep::constant(Control::NormalForce(force), &times);
+    let steps = HistoryPoint::held(Control::NormalForce(force), &times);
     let got = indent_history_on_grid(&body, material, &steps, &options)?;
-    let step = IndentStep::constant(Control::NormalForce(1.0), &[1.0]);
+    let step = HistoryPoint::held(Control::NormalForce(1.0), &[1.0]);
     let expected = indent_history_on_grid(&body, &Elastic::new(1.0)?, &step, &options)?;
     // Three solutions, each to the contact tolerance.
     let tolerance = 1e2 * options.contact.tolerance;

@@ -1,0 +1,146 @@
+//! The work that is done on the material along a history.
+
+use indenters::{Axisymmetric, Control, HistoryPoint};
+use numerics::{Estimate, NotReached};
+use rheology::Material;
+
+use super::{CurvePoint, Follow, indent_along};
+use crate::MdrError;
+
+/// Places and weights of Gauss's rule of three points from 0 to 1, √0.15 around the middle.
+const RULE: [[f64; 2]; 3] = [
+    [0.112_701_665_379_258_3, 5.0 / 18.0],
+    [0.5, 8.0 / 18.0],
+    [0.887_298_334_620_741_7, 5.0 / 18.0],
+];
+/// Parts of all segments together after which the refinement is given up.
+const MOST_PARTS: usize = 1 << 13;
+
+/// The work ∫ F dd \[J] from the first point of a history to each: up to the largest depth what is stored and dissipated, at
+/// the end of a history without contact what was dissipated and is left in a surface that has not recovered.
+///
+/// [`indent_along`] is asked for the force, or the depth, at the points of Gauss's rule on parts of each segment, which are
+/// halved until the work changes by [`Follow::relative_error`] of the largest; the change is a part of its error.
+///
+/// # Errors
+/// As for [`indent_along`], and [`MdrError::NotReached`].
+pub fn work_along(
+    body: &(impl Axisymmetric + ?Sized),
+    material: &(impl Material + ?Sized),
+    history: &[HistoryPoint],
+    options: &Follow,
+) -> Result<Vec<Estimate>, MdrError> {
+    let on = |parts: usize| {
+        let curve = indent_along(body, material, &divided(history, parts), options)?;
+        Ok::<_, MdrError>((summed(&curve, parts), bar(&curve)))
+    };
+    let mut parts = 1;
+    let (mut before, _) = on(parts)?;
+    loop {
+        parts *= 2;
+        let (work, bar) = on(parts)?;
+        let pairs = work.iter().zip(&before);
+        let change = pairs.map(|(one, other)| (one - other).abs());
+        let change = change.fold(0.0, f64::max);
+        let largest = work.iter().copied().map(f64::abs).fold(0.0, f64::max);
+        if change <= options.relative_error * largest {
+            let error = change + bar;
+            let known = |value| Estimate { value, error };
+            return Ok(work.into_iter().map(known).collect());
+        }
+        if 2 * parts * history.len() > MOST_PARTS {
+            return Err(MdrError::NotReached(NotReached {
+                quantity: 0,
+                asked: options.relative_error,
+                value: largest,
+                error: change,
+                elements: parts,
+            }));
+        }
+        before = work;
+    }
+}
+
+/// The history with the points of the rule on so many parts of each segment.
+fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
+    let mut points: Vec<HistoryPoint> = history.iter().take(1).copied().collect();
+    for pair in history.windows(2) {
+        let [start, end] = [pair[0], pair[1]];
+        for part in 0..parts {
+            points.extend(
+                RULE.map(|[place, _]| between(start, end, (part as f64 + place) / parts as f64)),
+            );
+        }
+        points.push(end);
+    }
+    points
+}
+
+fn between(start: HistoryPoint, end: HistoryPoint, part: f64) -> HistoryPoint {
+    let mean = |from: f64, to: f64| from + part * (to - from);
+    HistoryPoint {
+        time: mean(start.time, end.time),
+        control: match (start.control, end.control) {
+            (Control::NormalForce(from), Control::NormalForce(to)) => {
+                Control::NormalForce(mean(from, to))
+            }
+            (Control::IndentationDepth(from), Control::IndentationDepth(to)) => {
+                Control::IndentationDepth(mean(from, to))
+            }
+            // Refused by `indent_along`.
+            (_, control) => control,
+        },
+    }
+}
+
+/// ∫ F dd = F d − ∫ d dF up to each point of the history.
+fn summed(curve: &[CurvePoint], parts: usize) -> Vec<f64> {
+    let is_force = given_force(curve);
+    let mut work = 0.0;
+    let mut all = vec![work];
+    let length = RULE.len() * parts + 1;
+    for segment in curve.windows(length + 1).step_by(length) {
+        let [start, end] = [segment[0], segment[length]].map(values);
+        let inside = segment[1..length].iter().zip(RULE.iter().cycle());
+        let weighted =
+            inside.map(|(point, [_, weight])| values(*point).map(|value| weight * value));
+        let sums = weighted.fold([0.0; 2], |[force, depth], [more, deeper]| {
+            [force + more, depth + deeper]
+        });
+        let [force, depth] = sums.map(|sum| sum / parts as f64);
+        work += if is_force {
+            end[0] * end[1] - start[0] * start[1] - depth * (end[0] - start[0])
+        } else {
+            force * (end[1] - start[1])
+        };
+        all.push(work);
+    }
+    all
+}
+
+fn values(point: CurvePoint) -> [f64; 2] {
+    [point.normal_force, point.indentation_depth].map(|known| known.value)
+}
+
+/// Whether the force is what has no error.
+fn given_force(curve: &[CurvePoint]) -> bool {
+    curve.iter().all(|point| point.normal_force.error == 0.0)
+}
+
+/// What the error of the depth, or of the force, does to the work at any point, at most.
+fn bar(curve: &[CurvePoint]) -> f64 {
+    let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
+    let way = |of: fn(&CurvePoint) -> f64| {
+        let steps = curve
+            .windows(2)
+            .map(|pair| (of(&pair[1]) - of(&pair[0])).abs());
+        steps.sum::<f64>()
+    };
+    if given_force(curve) {
+        let force = |point: &CurvePoint| point.normal_force.value;
+        largest(|point| point.indentation_depth.error) * (2.0 * largest(force) + way(force))
+    } else {
+        let force = largest(|point| point.normal_force.error);
+        force * way(|point| point.indentation_depth.value)
+    }
+}
