@@ -229,7 +229,7 @@ paraboloid; solid; indentation_depth = 1e-4, velocity = 0.01; method = "bem-tran
 cylinder; solid; indentation_depth = 1e-4, velocity = 0.01; relative_error = 1e-2 | 3 | a line contact has no depth
 cylinder; viscous; normal_force = 1.0, velocity = 0.01; relative_error = 1e-2 | 3 | a half space that flows sinks the faster
 cylinder; solid; normal_force = 1.0, velocity = 0.01; model = "line" | 3 | the one-dimensional model is for bodies of revolution
-cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "bem-transient" | 2 | its elements end, and a cylinder does not; analytic presses it, and bem-steady slides it; these do: bem-steady
+cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "bem-transient" | 2 | its elements end, and a cylinder or a periodic surface does not; these do: bem-steady
 cylinder; solid; normal_force = 1.0, velocity = 0.01; method = "mdr-steady" | 2 | a cylinder is none; no other method does either
 "#;
 

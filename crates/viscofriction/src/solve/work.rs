@@ -19,7 +19,7 @@ pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> +
 
 const NO_ELEMENTS: Refusal = "closed forms have no elements; give relative_error instead";
 const NO_LAYER: Refusal = "it knows no layer; boundary elements do";
-const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not; analytic presses the one, bem-steady slides both";
+const ENDLESS: Refusal = "its elements end, and a cylinder or a periodic surface does not";
 const UNDER_FORCE: Refusal = "it slides under a force, not at a depth";
 const STATIONARY: Refusal =
     "it answers the stationary state, without duration and sliding_distance";
