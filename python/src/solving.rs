@@ -7,8 +7,8 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
-use viscofriction::scene::{Layer, Source};
-use viscofriction::solve::with_fields;
+use viscofriction::scene::{Layer, LoadPoint, Source};
+use viscofriction::solve::{CurveColumn, with_fields};
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
 
@@ -70,6 +70,12 @@ pub(crate) struct Loads<'py> {
     heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2])>,
     /// Arrays of one length by their names.
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    /// A history in the place of that of the scene: the control, times, and its values.
+    history: Option<(
+        String,
+        PyReadonlyArray1<'py, f64>,
+        PyReadonlyArray1<'py, f64>,
+    )>,
     /// Whether fields are wanted that take longer than the answer itself.
     fields: bool,
 }
@@ -82,8 +88,18 @@ impl Loads<'_> {
             let values = values.as_array().to_vec();
             Ok((column(name)?, values))
         });
+        let mut scene = Scene::try_from(table(&self.scene, "")?).map_err(wrong)?;
+        if let Some((control, times, values)) = &self.history {
+            let (times, values) = (times.as_array(), values.as_array());
+            let point = |(&time, &value): (&f64, &f64)| LoadPoint {
+                time,
+                normal_force: (control == "normal_force").then_some(value),
+                indentation_depth: (control == "indentation_depth").then_some(value),
+            };
+            scene.load.history = Some(times.iter().zip(values).map(point).collect());
+        }
         Ok(Scenes {
-            scene: Scene::try_from(table(&self.scene, "")?).map_err(wrong)?,
+            scene,
             folder: self.folder.clone(),
             heights: heights.transpose()?,
             columns: columns.collect::<PyResult<_>>()?,
@@ -126,7 +142,9 @@ pub(crate) fn solve_loads<'py>(
             None => scenes.problem(index).ok().map(|problem| solve(&problem)),
         }
     })?;
-    to_python(py, answers.into_iter().flatten().collect())
+    // The curve of a history that came as arrays is asked for as arrays.
+    let has_text = count == 1 && loads.history.is_none();
+    to_python(py, answers.into_iter().flatten().collect(), has_text)
 }
 
 fn map(heights: &PyReadonlyArray2<'_, f64>, spacing: [f64; 2]) -> PyResult<HeightMap> {
@@ -140,22 +158,19 @@ fn map(heights: &PyReadonlyArray2<'_, f64>, spacing: [f64; 2]) -> PyResult<Heigh
 fn to_python(
     py: Python<'_>,
     answers: Vec<Result<Answer, SolveError>>,
+    has_text: bool,
 ) -> PyResult<Bound<'_, PyDict>> {
     let names = Answer::columns();
     let mut columns = vec![vec![f64::NAN; answers.len()]; names.len()];
     let [others, failures] = [PyList::empty(py), PyList::empty(py)];
-    let single = answers.len() == 1;
     for (index, answer) in answers.into_iter().enumerate() {
         match answer {
             Ok(answer) => {
                 for (column, (_, value)) in columns.iter_mut().zip(answer.numbers()) {
                     column[index] = value.unwrap_or(f64::NAN);
                 }
-                let json = if single {
-                    Some(serde_json::to_string(&answer).map_err(wrong)?)
-                } else {
-                    None
-                };
+                let json = has_text.then(|| serde_json::to_string(&answer));
+                let json = json.transpose().map_err(wrong)?;
                 let other = other(py, answer)?;
                 other.set_item("json", json)?;
                 others.append(other)?;
@@ -195,6 +210,19 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         dictionary.set_item("pressure", pressure)?;
         dictionary.set_item("origin", field.origin)?;
         dictionary.set_item("spacing", field.grid.spacing())?;
+    }
+    let curve = &answer.fields.curve;
+    if !curve.is_empty() {
+        let [history, errors] = [PyDict::new(py), PyDict::new(py)];
+        let times: Vec<f64> = curve.iter().map(|row| row.time).collect();
+        history.set_item("time", times.into_pyarray(py))?;
+        for column in CurveColumn::all(curve) {
+            errors.set_item(format!("{}_error", column.name), column.error())?;
+            let values: Vec<f64> = column.values.iter().map(|known| known.value).collect();
+            history.set_item(column.name, values.into_pyarray(py))?;
+        }
+        dictionary.set_item("history", history)?;
+        dictionary.set_item("history_errors", errors)?;
     }
     for (name, pairs) in [
         ("line_load", &answer.fields.line_load),

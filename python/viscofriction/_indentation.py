@@ -15,7 +15,7 @@ from ._arrays import columns
 from ._bodies import Body
 from ._materials import Material, Prony
 from ._results import rounded
-from ._solving import given, one
+from ._solving import ask, given
 
 Numbers = NDArray[np.float64]
 
@@ -141,19 +141,16 @@ def indent(
         raise ValueError("either indentation_depth or normal_force is needed, one of them")
     [name] = path_of
     times, path = columns(time=time, **path_of)
-    points = [{"time": at, name: value} for at, value in zip(times.tolist(), path.tolist(), strict=True)]
     scene = {
         "indenter": body,
         "material": material,
-        "load": {"history": points},
+        "load": {},
         "layer": None if thickness is None else {"thickness": thickness},
         "solve": {"relative_error": relative_error},
     }
-    answer = one(scene, None, fields=work)
-    known = answer.to_dict()
-    curve: dict[str, Any] = answer.history
-    largest: dict[str, Any] = {f"{quantity}_error": error for quantity, error in known["history_error"].items()}
-    return Indentation(**curve, **largest, warnings=tuple(answer.warnings))
+    answer = ask(scene, {}, (), None, history=(name, times, path), fields=work)
+    known: dict[str, Any] = answer._single()
+    return Indentation(**known["history"], **known["history_errors"], warnings=tuple(answer.warnings))
 
 
 def fit_indentation(

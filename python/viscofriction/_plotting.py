@@ -111,8 +111,8 @@ def single(answer: Any, ax: Any) -> Any:
         if name in known:
             ax.plot(known[name][:, 0], known[name][:, 1])
             return tidy(ax, "x [m]", what, (None, None))
-    if "pressure" not in known and (history := answer.to_dict().get("history")):
-        ax.plot([row["indentation_depth"] for row in history], [row["normal_force"] for row in history], marker=".")
+    if "pressure" not in known and "history" in known:
+        ax.plot(answer.history["indentation_depth"], answer.history["normal_force"], marker=".")
         return tidy(ax, LABELS["indentation_depth"], LABELS["normal_force"], (None, None))
     image = ax.pcolormesh(answer.x, answer.y, answer.pressure.T, shading="nearest", cmap="magma")
     bar = ax.figure.colorbar(image, ax=ax, label="pressure [Pa]")

@@ -194,10 +194,10 @@ class Answer:
     @property
     def history(self) -> dict[str, NDArray[np.float64]]:
         """Time [s], normal force [N], depth [m], and radius [m] or area [m²] of the contact along the history of a single scene."""
-        rows = self.to_dict().get("history")
-        if self.shape != () or rows is None:
+        if self.shape != () or "history" not in (known := self._single()):
             raise AttributeError("a history belongs to a single scene with [load] history or history_file")
-        return {name: np.array([row[name] for row in rows]) for name in rows[0]}
+        history: dict[str, NDArray[np.float64]] = known["history"]
+        return history
 
     def _single(self) -> dict[str, Any]:
         if self.shape != () or self._answers[0] is None:

@@ -108,15 +108,24 @@ def solve(scene: Scene, *, progress: Progress = None) -> Answer:
     In a dictionary bodies and materials may stand in the place of their tables:
     ``{"indenter": Sphere(5e-3), "material": Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 0.01}}``.
     """
-    return one(scene, progress, fields=False)
+    return ask(scene, {}, (), progress)
 
 
-def one(scene: Scene, progress: Progress, *, fields: bool) -> Answer:
-    """The answer to a scene, with what takes longer than the answer itself, or without."""
+def ask(
+    scene: Scene,
+    columns: dict[str, Any],
+    shape: tuple[int, ...],
+    progress: Progress,
+    *,
+    history: Any = None,
+    fields: bool = False,
+) -> Answer:
+    """The answers to a scene with other loads, or another history, and with what takes longer than the answer itself."""
     table, folder, heights = read(scene)
-    request = {"scene": table, "folder": folder, "heights": heights, "columns": [], "fields": fields}
+    request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items())}
     with shown(progress) as show:
-        answer = Answer(_native.solve_loads(request, show), {}, ())
+        found = _native.solve_loads(request | {"history": history, "fields": fields}, show)
+    answer = Answer(found, columns, shape)
     not_reached(answer)
     return answer
 
@@ -133,13 +142,7 @@ def _solved(
     progress: Progress,
 ) -> Answer:
     scene = {"indenter": body, "material": material, "load": {"velocity": 0.0}, "solve": options}
-    table, folder, heights = read(scene)
-    columns, shape = together(loads)
-    request = {"scene": table, "folder": folder, "heights": heights, "columns": list(columns.items()), "fields": False}
-    with shown(progress) as show:
-        answer = Answer(_native.solve_loads(request, show), columns, shape)
-    not_reached(answer)
-    return answer
+    return ask(scene, *together(loads), progress)
 
 
 def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:

@@ -5,7 +5,7 @@ use std::iter;
 use anyhow::Result;
 use viscofriction::Estimate;
 use viscofriction::npy::to_npy;
-use viscofriction::solve::{Answer, CurveRow, HistoryRow};
+use viscofriction::solve::{Answer, CurveColumn, CurveRow, HistoryRow};
 
 use super::{Timed, pictures};
 use crate::output::{OutputFolder, to_csv};
@@ -71,14 +71,15 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
 /// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
 /// and the one that was found over time.
 fn write_curve(curve: &[CurveRow], out: &OutputFolder) -> Result<()> {
-    let rows = curve.iter().map(|row| {
-        let numbers = row
-            .quantities()
-            .flat_map(|(_, known)| [known.value, known.error]);
+    let columns = CurveColumn::all(curve);
+    let rows = curve.iter().enumerate().map(|(index, row)| {
+        let known = columns.iter().map(|column| column.values[index]);
+        let numbers = known.flat_map(|known| [known.value, known.error]);
         iter::once(row.time).chain(numbers).collect::<Vec<f64>>()
     });
-    let names = curve[0].quantities();
-    let names = names.map(|([name, unit], _)| format!(" {name}_{unit} {name}_error_{unit}"));
+    let names = columns
+        .iter()
+        .map(|CurveColumn { name, unit, .. }| format!(" {name}_{unit} {name}_error_{unit}"));
     let names = format!("time_s{}", names.collect::<String>());
     out.write("history.csv", &to_csv(&names, rows)?)?;
     let [force, depth] = ["normal force [N]", "indentation depth [m]"];

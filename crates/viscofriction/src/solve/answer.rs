@@ -1,5 +1,7 @@
 //! What a method answers: quantities in SI, each with its error.
 
+use std::iter;
+
 use bem_halfspace::slide::PressureField;
 use mdr_core::CurvePoint;
 use numerics::{ErrorParts, Estimate};
@@ -134,17 +136,47 @@ pub enum Contact {
     Area(Estimate),
 }
 
-impl CurveRow {
-    /// The names and units of its quantities, as columns write them, and what they are.
-    pub fn quantities(&self) -> impl Iterator<Item = ([&'static str; 2], Estimate)> {
-        let contact = match self.contact {
-            Contact::Radius(radius) => (["contact_radius", "m"], radius),
-            Contact::Area(area) => (["contact_area", "m2"], area),
+/// One quantity along a history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveColumn {
+    /// Its name, as in JSON.
+    pub name: &'static str,
+    /// Its unit, as in the names of columns.
+    pub unit: &'static str,
+    /// Its values at all points.
+    pub values: Vec<Estimate>,
+}
+
+impl CurveColumn {
+    /// The quantities that all points have, beside the time.
+    #[must_use]
+    pub fn all(curve: &[CurveRow]) -> Vec<Self> {
+        let contact = match curve.first().map(|row| row.contact) {
+            Some(Contact::Area(_)) => ["contact_area", "m2"],
+            _ => ["contact_radius", "m"],
         };
-        let force = (["normal_force", "n"], self.normal_force);
-        let depth = (["indentation_depth", "m"], self.indentation_depth);
-        let work = self.work.map(|work| (["work", "j"], work));
-        [force, depth, contact].into_iter().chain(work)
+        let column = |[name, unit]: [&'static str; 2], of: fn(&CurveRow) -> Option<Estimate>| {
+            let values = curve.iter().map(of).collect::<Option<_>>()?;
+            Some(Self { name, unit, values })
+        };
+        let columns = [
+            column(["normal_force", "n"], |row| Some(row.normal_force)),
+            column(["indentation_depth", "m"], |row| {
+                Some(row.indentation_depth)
+            }),
+            column(contact, |row| match row.contact {
+                Contact::Radius(size) | Contact::Area(size) => Some(size),
+            }),
+            column(["work", "j"], |row| row.work),
+        ];
+        columns.into_iter().flatten().collect()
+    }
+
+    /// The largest error of all points.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        let errors = self.values.iter().map(|value| value.error);
+        errors.fold(0.0, f64::max)
     }
 }
 
@@ -184,20 +216,16 @@ impl Serialize for Named {
 
 /// The values of all points, and the largest errors.
 fn curve_in_json(curve: &[CurveRow]) -> (Vec<Named>, Named) {
-    let mut largest: Vec<(&str, f64)> = Vec::new();
-    let row = |row: &CurveRow| {
-        let mut values = vec![("time", row.time)];
-        for (index, ([name, _], known)) in row.quantities().enumerate() {
-            values.push((name, known.value));
-            match largest.get_mut(index) {
-                Some((_, error)) => *error = error.max(known.error),
-                None => largest.push((name, known.error)),
-            }
-        }
-        Named(values)
+    let columns = CurveColumn::all(curve);
+    let row = |(index, row): (usize, &CurveRow)| {
+        let values = columns
+            .iter()
+            .map(|column| (column.name, column.values[index].value));
+        Named(iter::once(("time", row.time)).chain(values).collect())
     };
-    let rows = curve.iter().map(row).collect();
-    (rows, Named(largest))
+    let rows = curve.iter().enumerate().map(row).collect();
+    let errors = columns.iter().map(|column| (column.name, column.error()));
+    (rows, Named(errors.collect()))
 }
 
 /// A value that is known to a relative error.

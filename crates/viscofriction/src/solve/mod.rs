@@ -19,7 +19,7 @@ mod validity;
 mod with_fields;
 mod work;
 
-pub use answer::{Answer, Contact, ContactBox, CurveRow, Fields};
+pub use answer::{Answer, Contact, ContactBox, CurveColumn, CurveRow, Fields};
 pub use answer::{HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution, body};
 pub use error::{NotOffered, Result, SolveError};
