@@ -21,9 +21,11 @@ pub(super) struct Edge {
     theta: f64,
     /// a, a' and D there; none without contact.
     pub(super) place: Option<[f64; 3]>,
-    /// By how much deeper it lies than where all this is computed, and what that adds to the sum of the loads.
+    /// By how much deeper it lies than where all this is computed, what that adds to the sum of the loads, and the radius
+    /// there.
     shift: f64,
     correction: f64,
+    radius: f64,
     /// t − t₁.
     pub(super) lag: f64,
     /// w, and G(t − t₁).
@@ -41,6 +43,8 @@ pub(super) struct Edge {
 #[derive(Debug)]
 pub(super) struct Approach {
     radii: Radii,
+    /// Error of the sum of the loads that the polynomials of the radii make, [Pa m²].
+    load_error: f64,
     /// Of the branches, the lone spring last.
     pub(super) moduli: Vec<f64>,
     pub(super) rates: Vec<f64>,
@@ -92,9 +96,11 @@ impl Approach {
             load: vec![0.0; n],
             late: vec![Late::default(); if differentiates { n } else { 0 }],
         };
+        let moduli: Vec<f64> = moduli.chain([spectrum.equilibrium_modulus()]).collect();
         Self {
+            load_error: moduli.iter().sum::<f64>() * radii.area_error,
             radii,
-            moduli: moduli.chain([spectrum.equilibrium_modulus()]).collect(),
+            moduli,
             viscosity: spectrum.viscosity(),
             front: now.clone(),
             then: now.clone(),
@@ -144,7 +150,7 @@ impl Approach {
             point: self.point,
             load,
             terms: terms + radius * scale,
-            load_error: self.moduli.iter().sum::<f64>() * self.radii.area_error,
+            load_error: self.load_error,
             radius: self.radius(),
             edge: slope.abs() / self.edge.modulus * scale,
         }
@@ -152,9 +158,7 @@ impl Approach {
 
     /// Contact radius, \[m].
     pub(super) fn radius(&self) -> f64 {
-        let from = |depth: f64| [self.rings[self.edge.ring].start[1], depth + self.edge.shift];
-        let place = self.edge.place;
-        place.map_or(0.0, |[.., depth]| self.radii.at(from(depth))[0])
+        self.edge.place.map_or(0.0, |_| self.edge.radius)
     }
 
     /// D.
@@ -332,7 +336,8 @@ impl Approach {
 
     fn edge_at_front(&mut self) {
         let ring = self.rings.len() - 1;
-        self.edge.place = Some(self.place(ring, 1.0));
+        let place = self.place(ring, 1.0);
+        (self.edge.place, self.edge.radius) = (Some(place), place[0]);
         (self.edge.ring, self.edge.theta, self.edge.lag) = (ring, 1.0, 0.0);
         self.edge.load = self.viscosity * self.speed;
         self.edge.modulus = f64::INFINITY;
@@ -442,6 +447,8 @@ impl Approach {
         // ∂F/∂D = a' w at constant t, and w falls to 0 within the shift.
         (edge.shift, edge.correction) = (shift, 0.5 * slope * edge.load * shift);
         edge.place = Some([radius, slope, depth]);
+        let from = self.rings[ring].start[1];
+        edge.radius = self.radii.at([from, depth + shift])[0];
     }
 
     /// A ring up to θ.
