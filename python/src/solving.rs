@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
 use viscofriction::scene::{Layer, LoadPoint, Source};
-use viscofriction::solve::{CurveColumn, with_fields};
+use viscofriction::solve::with_fields;
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
 
@@ -211,15 +211,15 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
         dictionary.set_item("origin", field.origin)?;
         dictionary.set_item("spacing", field.grid.spacing())?;
     }
-    let curve = &answer.fields.curve;
-    if !curve.is_empty() {
+    let curve = answer.fields.curve;
+    if !curve.times.is_empty() {
         let [history, errors] = [PyDict::new(py), PyDict::new(py)];
-        let times: Vec<f64> = curve.iter().map(|row| row.time).collect();
-        history.set_item("time", times.into_pyarray(py))?;
-        for column in CurveColumn::all(curve) {
-            errors.set_item(format!("{}_error", column.name), column.error())?;
+        history.set_item("time", curve.times.into_pyarray(py))?;
+        for column in curve.columns {
+            let [name, _] = column.name;
+            errors.set_item(format!("{name}_error"), column.error())?;
             let values: Vec<f64> = column.values.iter().map(|known| known.value).collect();
-            history.set_item(column.name, values.into_pyarray(py))?;
+            history.set_item(name, values.into_pyarray(py))?;
         }
         dictionary.set_item("history", history)?;
         dictionary.set_item("history_errors", errors)?;

@@ -5,7 +5,7 @@ use std::iter;
 use anyhow::Result;
 use viscofriction::Estimate;
 use viscofriction::npy::to_npy;
-use viscofriction::solve::{Answer, CurveColumn, CurveRow, HistoryRow};
+use viscofriction::solve::{Answer, Curve, HistoryRow};
 
 use super::{Timed, pictures};
 use crate::output::{OutputFolder, to_csv};
@@ -70,44 +70,43 @@ fn write_line(answer: &Answer, out: &OutputFolder) -> Result<()> {
 
 /// A history that was asked for, or of a body that is held: its points with their errors, force over depth where both vary,
 /// and the one that was found over time.
-fn write_curve(curve: &[CurveRow], out: &OutputFolder) -> Result<()> {
-    let columns = CurveColumn::all(curve);
-    let rows = curve.iter().enumerate().map(|(index, row)| {
+fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
+    let Curve { times, columns } = curve;
+    let rows = times.iter().enumerate().map(|(index, time)| {
         let known = columns.iter().map(|column| column.values[index]);
         let numbers = known.flat_map(|known| [known.value, known.error]);
-        iter::once(row.time).chain(numbers).collect::<Vec<f64>>()
+        iter::once(*time).chain(numbers).collect::<Vec<f64>>()
     });
-    let names = columns
-        .iter()
-        .map(|CurveColumn { name, unit, .. }| format!(" {name}_{unit} {name}_error_{unit}"));
+    let names = columns.iter().map(|column| column.name);
+    let names = names.map(|[name, unit]| format!(" {name}_{unit} {name}_error_{unit}"));
     let names = format!("time_s{}", names.collect::<String>());
     out.write("history.csv", &to_csv(&names, rows)?)?;
-    let [force, depth] = ["normal force [N]", "indentation depth [m]"];
-    let varies = |of: fn(&CurveRow) -> Estimate| curve.windows(2).any(|p| of(&p[0]) != of(&p[1]));
-    if varies(|point| point.normal_force) && varies(|point| point.indentation_depth) {
-        let points = curve
+    let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
+    let [force, depth] = ["normal_force", "indentation_depth"].map(known);
+    let labels = ["normal force [N]", "indentation depth [m]"];
+    let varies = |values: &[Estimate]| values.windows(2).any(|pair| pair[0] != pair[1]);
+    if varies(force) && varies(depth) {
+        let points = depth
             .iter()
-            .map(|p| [p.indentation_depth.value, p.normal_force.value]);
-        out.draw("history", &pictures::points(depth, force, points.collect()))?;
+            .zip(force)
+            .map(|(depth, force)| [depth.value, force.value]);
+        out.draw(
+            "history",
+            &pictures::points(labels[1], labels[0], points.collect()),
+        )?;
     }
-    let is_depth_found = curve
+    let is_found = depth.iter().any(|depth| depth.error > 0.0);
+    let found = if is_found { depth } else { force };
+    let points = times
         .iter()
-        .any(|point| point.indentation_depth.error > 0.0);
-    let over_time = |point: &CurveRow| {
-        let found = if is_depth_found {
-            point.indentation_depth
-        } else {
-            point.normal_force
-        };
-        [point.time, found.value]
-    };
-    let label = if is_depth_found { depth } else { force };
-    let figure = pictures::points("time [s]", label, curve.iter().map(over_time).collect());
+        .zip(found)
+        .map(|(time, found)| [*time, found.value]);
+    let figure = pictures::points("time [s]", labels[usize::from(is_found)], points.collect());
     out.draw("history_over_time", &figure)
 }
 
 fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
-    if !answer.fields.curve.is_empty() {
+    if !answer.fields.curve.times.is_empty() {
         return write_curve(&answer.fields.curve, out);
     }
     let rows = &answer.fields.history;

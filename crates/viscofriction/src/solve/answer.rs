@@ -1,12 +1,10 @@
 //! What a method answers: quantities in SI, each with its error.
 
-use std::iter;
-
 use bem_halfspace::slide::PressureField;
-use mdr_core::CurvePoint;
 use numerics::{ErrorParts, Estimate};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
+use super::curve::Curve;
 use super::error::{Result, SolveError};
 use super::omission::Omission;
 use crate::scene::{Method, Model};
@@ -109,87 +107,7 @@ pub struct Fields {
     /// From first touch to the state that was asked for.
     pub history: Vec<HistoryRow>,
     /// The points of the history that was asked for, or [since touch](super::with_fields()).
-    pub curve: Vec<CurveRow>,
-}
-
-/// The contact at one point of a history; an error of 0 says that a quantity is given.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveRow {
-    /// Time, \[s].
-    pub time: f64,
-    /// Force, \[N].
-    pub normal_force: Estimate,
-    /// Depth of the lowest point, \[m].
-    pub indentation_depth: Estimate,
-    /// Radius of the contact, \[m], or without a circle its area, \[m²].
-    pub contact: Contact,
-    /// Work ∫ F dd since the first point, \[J]; none unless [fields](super::with_fields()) were asked for, and of elements.
-    pub work: Option<Estimate>,
-}
-
-/// The size of a contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Contact {
-    /// Of a circle, \[m].
-    Radius(Estimate),
-    /// \[m²].
-    Area(Estimate),
-}
-
-/// One quantity along a history.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveColumn {
-    /// Its name, as in JSON.
-    pub name: &'static str,
-    /// Its unit, as in the names of columns.
-    pub unit: &'static str,
-    /// Its values at all points.
-    pub values: Vec<Estimate>,
-}
-
-impl CurveColumn {
-    /// The quantities that all points have, beside the time.
-    #[must_use]
-    pub fn all(curve: &[CurveRow]) -> Vec<Self> {
-        let contact = match curve.first().map(|row| row.contact) {
-            Some(Contact::Area(_)) => ["contact_area", "m2"],
-            _ => ["contact_radius", "m"],
-        };
-        let column = |[name, unit]: [&'static str; 2], of: fn(&CurveRow) -> Option<Estimate>| {
-            let values = curve.iter().map(of).collect::<Option<_>>()?;
-            Some(Self { name, unit, values })
-        };
-        let columns = [
-            column(["normal_force", "n"], |row| Some(row.normal_force)),
-            column(["indentation_depth", "m"], |row| {
-                Some(row.indentation_depth)
-            }),
-            column(contact, |row| match row.contact {
-                Contact::Radius(size) | Contact::Area(size) => Some(size),
-            }),
-            column(["work", "j"], |row| row.work),
-        ];
-        columns.into_iter().flatten().collect()
-    }
-
-    /// The largest error of all points.
-    #[must_use]
-    pub fn error(&self) -> f64 {
-        let errors = self.values.iter().map(|value| value.error);
-        errors.fold(0.0, f64::max)
-    }
-}
-
-impl From<CurvePoint> for CurveRow {
-    fn from(point: CurvePoint) -> Self {
-        Self {
-            time: point.time,
-            normal_force: point.normal_force,
-            indentation_depth: point.indentation_depth,
-            contact: Contact::Radius(point.contact_radius),
-            work: None,
-        }
-    }
+    pub curve: Curve,
 }
 
 /// One step of sliding.
@@ -203,29 +121,6 @@ pub struct HistoryRow {
     pub indentation_depth_m: f64,
     /// F_h/F_N of the step.
     pub friction_coefficient: f64,
-}
-
-/// Numbers by their names.
-struct Named(Vec<(&'static str, f64)>);
-
-impl Serialize for Named {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().copied())
-    }
-}
-
-/// The values of all points, and the largest errors.
-fn curve_in_json(curve: &[CurveRow]) -> (Vec<Named>, Named) {
-    let columns = CurveColumn::all(curve);
-    let row = |(index, row): (usize, &CurveRow)| {
-        let values = columns
-            .iter()
-            .map(|column| (column.name, column.values[index].value));
-        Named(iter::once(("time", row.time)).chain(values).collect())
-    };
-    let rows = curve.iter().enumerate().map(row).collect();
-    let errors = columns.iter().map(|column| (column.name, column.error()));
-    (rows, Named(errors.collect()))
 }
 
 /// A value that is known to a relative error.
@@ -388,10 +283,8 @@ impl Serialize for Answer {
         if !self.error_parts.is_none() {
             map.serialize_entry("error_parts", &self.error_parts)?;
         }
-        if !self.fields.curve.is_empty() {
-            let (values, errors) = curve_in_json(&self.fields.curve);
-            map.serialize_entry("history", &values)?;
-            map.serialize_entry("history_error", &errors)?;
+        if !self.fields.curve.times.is_empty() {
+            self.fields.curve.serialize_into(&mut map)?;
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;

@@ -10,9 +10,8 @@ use indenters::rough::{PeriodicSurface, Wave};
 use indenters::{Cylinder, PressingLoad, SlidingLoad, Surface};
 use numerics::{ErrorParts, Estimate, Request};
 
-use super::answer::{
-    Answer, Contact, ContactBox, CurveRow, Grid, HistoryRow, Persson, RoughAnswer,
-};
+use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
+use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -180,13 +179,11 @@ pub(crate) fn followed(
 ) -> Result<Answer> {
     let found = follow(surface, &problem.elastomer()?, &problem.history, request)?;
     let last = found.points[found.points.len() - 1];
-    let row = |point: &IndentPoint| CurveRow {
-        time: point.time,
-        normal_force: point.normal_force,
-        indentation_depth: point.indentation_depth,
-        contact: Contact::Area(point.contact_area),
-        work: None,
-    };
+    let columns: [OfPoint<IndentPoint>; 3] = [
+        (FORCE, |point| point.normal_force),
+        (DEPTH, |point| point.indentation_depth),
+        (AREA, |point| point.contact_area),
+    ];
     let mut answer = Answer {
         indentation_depth: Some(last.indentation_depth),
         contact_area: Some(last.contact_area),
@@ -196,7 +193,7 @@ pub(crate) fn followed(
         grid: Some(of_march(&found.options)?),
         ..Answer::new(Method::BemTransient, Model::HalfSpace, last.normal_force)
     };
-    answer.fields.curve = found.points.iter().map(row).collect();
+    answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
     Ok(answer)
 }
 

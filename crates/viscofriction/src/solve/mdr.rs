@@ -1,11 +1,12 @@
 //! What the one-dimensional model says, as answers.
 
 use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
-use mdr_core::{Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
+use mdr_core::{CurvePoint, Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
-use super::answer::{Answer, ContactBox, CurveRow, HistoryRow};
+use super::answer::{Answer, ContactBox, HistoryRow};
+use super::curve::{Curve, DEPTH, FORCE, OfPoint, RADIUS};
 use super::error::Result;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
@@ -90,8 +91,17 @@ pub(crate) fn followed(
         iterations: curve.len(),
         ..Answer::new(method, problem.model, last.normal_force)
     };
-    answer.fields.curve = curve.into_iter().map(CurveRow::from).collect();
+    answer.fields.curve = curve_of(&curve);
     Ok(answer)
+}
+
+pub(super) fn curve_of(points: &[CurvePoint]) -> Curve {
+    let columns: [OfPoint<CurvePoint>; 3] = [
+        (FORCE, |point| point.normal_force),
+        (DEPTH, |point| point.indentation_depth),
+        (RADIUS, |point| point.contact_radius),
+    ];
+    Curve::of(points, |point| point.time, columns)
 }
 
 pub(super) fn following(problem: &Problem, relative_error: f64) -> Follow {

@@ -2,7 +2,8 @@
 
 use numerics::{Estimate, NotReached};
 
-use super::answer::{Answer, Contact, CurveRow};
+use super::answer::Answer;
+use super::curve::{AREA, DEPTH, FORCE};
 use super::error::{Result, SolveError};
 use super::problem::{Motion, Problem};
 use super::validity::mean_slope;
@@ -127,27 +128,15 @@ impl Answer {
 
     /// The same of the points of a history, relative to the largest value of each quantity; the last one is the answer.
     fn curve_widened(mut self, relative: f64) -> Self {
-        let quantities: [fn(&mut CurveRow) -> &mut Estimate; 3] = [
-            |row| &mut row.normal_force,
-            |row| &mut row.indentation_depth,
-            |row| match &mut row.contact {
-                Contact::Radius(size) | Contact::Area(size) => size,
-            },
-        ];
         let curve = &mut self.fields.curve;
-        for of in quantities {
-            let values = curve.iter_mut().map(|row| of(row).value.abs());
-            let largest = values.fold(0.0, f64::max);
-            let found = curve.iter_mut().map(of).filter(|found| found.error > 0.0);
-            found.for_each(|found| found.error += relative * largest);
+        for column in &mut curve.columns {
+            let widened = relative * column.largest();
+            let found = column.values.iter_mut().filter(|found| found.error > 0.0);
+            found.for_each(|found| found.error += widened);
         }
-        if let Some(last) = curve.last() {
-            self.normal_force = last.normal_force;
-            self.indentation_depth = Some(last.indentation_depth);
-            if let Contact::Area(area) = last.contact {
-                self.contact_area = Some(area);
-            }
-        }
+        self.normal_force = curve.last(FORCE).unwrap_or(self.normal_force);
+        self.indentation_depth = curve.last(DEPTH);
+        self.contact_area = curve.last(AREA);
         self
     }
 }

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use indenters::Surface as _;
 
-use super::answer::{Answer, Contact, CurveRow};
+use super::answer::Answer;
 use super::body::{Body, Revolution};
+use super::curve::{AREA, DEPTH, RADIUS};
 use super::problem::Problem;
 
 /// Mean slope of the surface in contact above which linear theory is no longer accurate.
@@ -23,10 +24,8 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
              its answers are rough"
         ));
     }
-    let curve = answer.fields.curve.iter();
-    let deepest = curve.map(|point| point.indentation_depth.value);
     let last = answer.indentation_depth.map_or(0.0, |depth| depth.value);
-    let depth = deepest.fold(last, f64::max);
+    let depth = answer.fields.curve.largest(DEPTH).max(last);
     if let Body::Revolution(Revolution::Sphere(sphere)) = body
         && depth > DEEPEST * sphere.radius()
     {
@@ -52,11 +51,8 @@ pub(super) fn mean_slope(body: &Body, answer: &Answer) -> Option<f64> {
     if let Body::Periodic(surface) = body {
         return Some(surface.rms_slope());
     }
-    let of_row = |row: &CurveRow| match row.contact {
-        Contact::Radius(radius) => radius.value,
-        Contact::Area(area) => (area.value / PI).sqrt(),
-    };
-    let widest = answer.fields.curve.iter().map(of_row).fold(0.0, f64::max);
+    let curve = &answer.fields.curve;
+    let widest = curve.largest(RADIUS).max((curve.largest(AREA) / PI).sqrt());
     let ends = answer.contact_box.as_ref().map(|contact| contact.x);
     let Some(ends) = ends.or((widest > 0.0).then_some([-widest, widest])) else {
         return answer.friction_coefficient.map(|friction| friction.value);

@@ -3,12 +3,13 @@
 use std::f64::consts::PI;
 
 use friction_analytic::indentation_pressure;
-use mdr_core::work_along;
+use mdr_core::{CurvePoint, work_along};
 use numerics::Estimate;
 
 use super::analytic::{pressed, stiffness};
-use super::answer::{Answer, Contact, CurveRow};
+use super::answer::Answer;
 use super::body::{Body, Revolution};
+use super::curve::{self, CurveColumn};
 use super::half_space::Simple;
 use super::mdr;
 use super::problem::{Motion, Problem};
@@ -33,7 +34,7 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
             if let (Motion::Pressing(load), false) =
                 (problem.motion, problem.simple == Some(Simple::Elastic))
             {
-                answer.fields.curve = since_touch(problem, body, load.duration());
+                answer.fields.curve = mdr::curve_of(&since_touch(problem, body, load.duration()));
             }
             pressure_of_revolution(problem, body, &answer)
         }
@@ -48,42 +49,38 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     {
         let options = mdr::following(problem, WORK);
         let work = work_along(&**body, &*problem.material, &problem.history, &options);
-        for (row, work) in answer
-            .fields
-            .curve
-            .iter_mut()
-            .zip(work.into_iter().flatten())
-        {
-            row.work = Some(work);
-        }
+        let column = work.map(|values| CurveColumn {
+            name: curve::WORK,
+            values,
+        });
+        answer.fields.curve.columns.extend(column);
     }
     answer
 }
 
 /// The contact at times that are dense after touch, where the most happens; those at which a quantity underflows are left
 /// out.
-fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurveRow> {
-    let row = |time: f64| {
+fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
+    let point = |time: f64| {
         let answer = pressed(body, &*problem.material, problem.motion.control(), time);
         let answer = answer.and_then(Answer::finite);
         let answer = answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy));
         let answer = answer.ok()?;
         let contact = answer.contact_box?;
-        Some(CurveRow {
+        Some(CurvePoint {
             time,
             indentation_depth: answer.indentation_depth?,
             normal_force: answer.normal_force,
-            contact: Contact::Radius(Estimate {
+            contact_radius: Estimate {
                 value: contact.x[1],
                 error: contact.error,
-            }),
-            work: None,
+            },
         })
     };
     let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
     let time = |index: usize| duration * (index as f64 / N_TIMES as f64).powi(4);
     let times = (0..=N_TIMES).map(time).filter(|time| *time >= shortest);
-    times.filter_map(row).collect()
+    times.filter_map(point).collect()
 }
 
 /// G/(2 (1 − ν)) times the pressure of unit modulus, along a diameter.
