@@ -7,7 +7,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
-use viscofriction::scene::{Layer, LoadPoint, Source};
+use viscofriction::scene::{Layer, LoadPoint, Method, Source};
 use viscofriction::solve::with_fields;
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
@@ -127,7 +127,9 @@ pub(crate) fn solve_loads<'py>(
         Ok(matches!(problem.body, Body::Revolution(_)).then_some(problem))
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
-    let answers = background::all(py, count, threads, progress, move |index| {
+    let is_quick = |problem: &Problem| matches!(choose(problem), Ok(Method::Analytic));
+    let is_quick = count == 1 && problems[0].as_ref().is_some_and(is_quick);
+    let work = move |index: usize| {
         let solve = |problem: &Problem| {
             let answer = solve(problem)?;
             Ok(if fields {
@@ -141,7 +143,13 @@ pub(crate) fn solve_loads<'py>(
             // It was built before.
             None => scenes.problem(index).ok().map(|problem| solve(&problem)),
         }
-    })?;
+    };
+    let answers = if is_quick {
+        // Sooner done than a thread is begun.
+        vec![py.detach(|| work(0))]
+    } else {
+        background::all(py, count, threads, progress, work)?
+    };
     // The curve of a history that came as arrays is asked for as arrays.
     let has_text = count == 1 && loads.history.is_none();
     to_python(py, answers.into_iter().flatten().collect(), has_text)
