@@ -138,9 +138,8 @@ pub(crate) fn resolve<S, O>(
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
-    let [friction, force, depth, area, peak] = std::array::from_fn(|index| Estimate {
-        value: refined.value.quantities[index],
-        error: refined.error[index],
+    let [friction, force, depth, area, peak] = std::array::from_fn(|index| {
+        Estimate::new(refined.value.quantities[index], refined.error[index])
     });
     Ok(ContactEstimate {
         friction_coefficient: friction,

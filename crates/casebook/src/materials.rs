@@ -10,10 +10,7 @@ use crate::{Case, group};
 /// The material of a lone spring \[Pa], a lone dashpot \[Pa s], and branches of modulus \[Pa] and relaxation time \[s].
 #[must_use]
 pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
-    let branch = |&(modulus, relaxation_time)| RelaxationBranch {
-        modulus,
-        relaxation_time,
-    };
+    let branch = |&(modulus, time)| RelaxationBranch::new(modulus, time);
     let branches = branches.iter().map(branch).collect();
     let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches);
     Prony::new(relaxation.expect("moduli")).expect("a material")

@@ -185,10 +185,10 @@ fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = over_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
-    Estimate {
-        value: radius * (radius * angular.value),
-        error: radius * (radius * angular.error),
-    }
+    Estimate::new(
+        radius * (radius * angular.value),
+        radius * (radius * angular.error),
+    )
 }
 
 /// The moment, if it is known well enough.

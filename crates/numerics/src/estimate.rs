@@ -14,6 +14,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// A number and its absolute error.
+    #[must_use]
+    pub const fn new(value: f64, error: f64) -> Self {
+        Self { value, error }
+    }
+
     /// A number without error.
     #[must_use]
     pub const fn exact(value: f64) -> Self {
@@ -62,10 +68,10 @@ mod tests {
 
     #[test]
     fn errors_add_up_and_are_compared_with_the_modulus() {
-        let estimates = [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate { value, error });
+        let estimates =
+            [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate::new(value, error));
         let sum = estimates.into_iter().sum::<Estimate>();
-        let (value, error) = (6.0, 2.25);
-        assert_eq!(sum * -3.0, Estimate { value, error }, "of {estimates:?}");
+        assert_eq!(sum * -3.0, Estimate::new(6.0, 2.25), "of {estimates:?}");
         let within = |relative_error: f64| estimates[1].is_within(relative_error);
         assert_eq!([0.099, 0.1].map(within), [false, true], "of 0.5 in -5");
         let overflown = Estimate::exact(f64::INFINITY);

@@ -44,10 +44,7 @@ pub(crate) struct ScalingFactor {
 
 impl ScalingFactor {
     pub(crate) const fn estimate(&self) -> Estimate {
-        Estimate {
-            value: self.scaling_factor,
-            error: self.error,
-        }
+        Estimate::new(self.scaling_factor, self.error)
     }
 }
 

@@ -243,10 +243,7 @@ impl Grids<'_> {
         let depth = bars::given_depth(self.problem.loading.control);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
-            friction_coefficient: Estimate {
-                value: friction.value,
-                error: friction.error + iteration,
-            },
+            friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
             error_parts: ErrorParts {
                 iteration: Some(iteration),
                 ..ErrorParts::of_elements(friction.error)

@@ -90,10 +90,7 @@ pub fn slide<'w>(
     }
     let values = motion.values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
-        std::array::from_fn(|k| Estimate {
-            value: values[k],
-            error: error[k],
-        });
+        std::array::from_fn(|k| Estimate::new(values[k], error[k]));
     Ok(Sliding {
         friction_coefficient,
         error_parts,

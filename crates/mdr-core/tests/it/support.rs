@@ -191,12 +191,8 @@ pub(crate) fn assert_close(
     scale: f64,
     context: &dyn Debug,
 ) {
-    let error = tolerance * expected.abs().max(scale);
-    let value = actual;
-    assert_agree(
-        [Estimate { value, error }, Estimate::exact(expected)],
-        context,
-    );
+    let expected = Estimate::new(expected, tolerance * expected.abs().max(scale));
+    assert_agree([Estimate::exact(actual), expected], context);
 }
 
 /// Asserts that two numbers agree within the sum of their errors.

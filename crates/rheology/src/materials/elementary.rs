@@ -137,10 +137,7 @@ impl Material for KelvinVoigt {
 impl Material for Maxwell {
     /// G(t) = G e^(−G t/η).
     fn relaxation(&self) -> RelaxationSpectrum {
-        let branch = RelaxationBranch {
-            modulus: self.shear_modulus,
-            relaxation_time: self.viscosity / self.shear_modulus,
-        };
+        let branch = RelaxationBranch::new(self.shear_modulus, self.viscosity / self.shear_modulus);
         RelaxationSpectrum::legal(0.0, 0.0, vec![branch])
     }
 

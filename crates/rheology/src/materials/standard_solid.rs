@@ -139,10 +139,7 @@ impl StandardSolid {
 
 impl Material for StandardSolid {
     fn relaxation(&self) -> RelaxationSpectrum {
-        let branch = RelaxationBranch {
-            modulus: self.parameters.maxwell_modulus,
-            relaxation_time: self.relaxation_time(),
-        };
+        let branch = RelaxationBranch::new(self.parameters.maxwell_modulus, self.relaxation_time());
         RelaxationSpectrum::legal(self.parameters.equilibrium_modulus, 0.0, vec![branch])
     }
 

@@ -51,10 +51,7 @@ impl RelaxationSpectrum {
         let decays = branches.iter().map(|b| (b.modulus, b.relaxation_time));
         let names = ["branches", "modulus", "relaxation_time"];
         let branches = normal_form(names, decays.collect())?.into_iter();
-        let branches = branches.map(|(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
+        let branches = branches.map(|(modulus, time)| RelaxationBranch::new(modulus, time));
         let spectrum = Self::legal(equilibrium_modulus, viscosity, branches.collect());
         let sum = spectrum.spring_moduli();
         if sum == 0.0 && viscosity == 0.0 {
@@ -192,6 +189,15 @@ impl RelaxationSpectrum {
 }
 
 impl RelaxationBranch {
+    /// A branch of a modulus \[Pa] and a relaxation time, \[s].
+    #[must_use]
+    pub const fn new(modulus: f64, relaxation_time: f64) -> Self {
+        Self {
+            modulus,
+            relaxation_time,
+        }
+    }
+
     /// Viscosity G_k τ_k of the dashpot, [Pa s].
     #[must_use]
     pub fn viscosity(&self) -> f64 {

@@ -107,8 +107,8 @@ fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Row> {
     let limit = limit(&profile, &solid, contact)?;
     let load = SlidingLoad::new(limit.normal_force, velocity)?;
     // The next order is the speed over that at which the limit ends, some 1e-4.
-    let (value, error) = (limit.half_space, 1e-3 * limit.half_space);
-    judged(&profile, &solid, &load, Estimate { value, error }, 0.0)
+    let expected = Estimate::new(limit.half_space, 1e-3 * limit.half_space);
+    judged(&profile, &solid, &load, expected, 0.0)
 }
 
 /// Slow sliding, v τ (1 + γ)/γ = 1e-4 a: friction by the exact elastic limit.
