@@ -110,14 +110,10 @@ impl Footprint {
         }
     }
 
-    pub(crate) const fn boundary_reached(&self, sliding_distance: f64) -> BemError {
-        let ([x_min, x_max], [y_min, y_max]) = (self.x, self.y);
+    pub(crate) const fn boundary_reached(self, sliding_distance: f64) -> BemError {
         BemError::ContactReachesBoundary {
             sliding_distance,
-            x_min,
-            x_max,
-            y_min,
-            y_max,
+            footprint: self,
         }
     }
 

@@ -114,7 +114,6 @@ pub enum MaterialTable {
         /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
         path: PathBuf,
         /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
-        #[serde(skip_serializing_if = "Option::is_none")]
         poisson_ratio: Option<f64>,
     },
 }
