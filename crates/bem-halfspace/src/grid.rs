@@ -2,7 +2,7 @@
 
 use crate::BemError;
 use crate::mirror::Mirror;
-use numerics::positive;
+use numerics::{positive, whole_part};
 
 /// More elements than this would not fit into the memory of a large machine.
 const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
@@ -105,10 +105,5 @@ pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
             limit: MAX_ELEMENTS,
         });
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 <= elements <= 2^28"
-    )]
-    Ok(elements.max(0.0) as usize)
+    Ok(whole_part(elements))
 }

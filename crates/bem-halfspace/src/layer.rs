@@ -12,7 +12,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule};
+use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule, whole_part};
 use rheology::Material;
 
 use crate::influence;
@@ -325,12 +325,7 @@ impl Correction {
     }
 
     fn at(&self, rho: f64) -> f64 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a distance is not negative, and beyond the last panel it does not matter by how much"
-        )]
-        let panel = self.0.get((rho / SHORT_PANEL) as usize);
+        let panel = self.0.get(whole_part(rho / SHORT_PANEL));
         panel.map_or_else(|| -rho.recip(), |panel| panel.at(rho))
     }
 }

@@ -1,5 +1,7 @@
 //! Pressure on the elements of a grid.
 
+use numerics::whole_part;
+
 use crate::bounds::Bounds;
 use crate::{BemError, Grid};
 
@@ -51,12 +53,6 @@ impl PressureField {
         if !(row >= 0.0 && row < rows as f64 && column >= 0.0 && column < columns as f64) {
             return 0.0;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "inside the field"
-        )]
-        let index = row as usize * columns + column as usize;
-        self.pressure[index]
+        self.pressure[whole_part(row) * columns + whole_part(column)]
     }
 }

@@ -7,6 +7,7 @@
 //!
 //! The paper writes Definition 2 with d instead of `h_0 + d`; its proof of Theorem 3 uses `h_0 + d`.
 
+use crate::table::at_least;
 use crate::{IndenterError, RigidLine};
 use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
@@ -116,14 +117,9 @@ pub fn leading_edge_with(
         .iter()
         .map(|x| finite("height of the line", line.height(*x)))
         .collect::<Result<_, _>>()?;
-    let ([.., end], [first, ..], [.., highest]) = (&breaks[..], &heights[..], &heights[..]) else {
-        return Err(IndenterError::TooFew {
-            list: "monotone_breaks",
-            needed: 1,
-            length: 0,
-        });
-    };
-    let mut backwards = vec![[*end, *end]];
+    at_least(1, "monotone_breaks", breaks.len())?;
+    let last = breaks.len() - 1;
+    let mut backwards = vec![[breaks[last]; 2]];
     // Minimum over all breaks to the right of the piece.
     let mut later = f64::INFINITY;
     for (ends, heights) in breaks.windows(2).zip(heights.windows(2)).rev() {
@@ -144,8 +140,8 @@ pub fn leading_edge_with(
     backwards.reverse();
     Ok(LeadingEdge {
         intervals: backwards,
-        lowest: later.min(*first),
-        highest: *highest,
+        lowest: later.min(heights[0]),
+        highest: heights[last],
     })
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn check_table(
             second_length: heights.len(),
         });
     }
-    at_least_two(list, length)?;
+    at_least(2, list, length)?;
     for (name, values) in [(list, positions), ("heights", heights)] {
         for value in values {
             finite(name, *value)?;
@@ -30,8 +30,11 @@ pub(crate) fn check_table(
     increasing(list, positions)
 }
 
-pub(crate) fn at_least_two(list: &'static str, length: usize) -> Result<(), IndenterError> {
-    let needed = 2;
+pub(crate) fn at_least(
+    needed: usize,
+    list: &'static str,
+    length: usize,
+) -> Result<(), IndenterError> {
     if length >= needed {
         return Ok(());
     }

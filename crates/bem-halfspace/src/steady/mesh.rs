@@ -9,7 +9,7 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use indenters::Surface;
-use numerics::{in_range, positive};
+use numerics::{in_range, positive, whole_part};
 
 use crate::bounds::Bounds;
 use crate::mirror::Mirror;
@@ -176,13 +176,7 @@ impl Mesh {
     fn image(&self, column: usize) -> usize {
         // The whole distance between the two is an integer, because the phase is 0 or 1/2.
         let distance = 2.0 * (self.origin[1] + column as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number of columns"
-        )]
-        let distance = distance.round() as usize;
-        column - distance
+        column - whole_part(distance.round())
     }
 
     fn has_image(&self, element: &Element) -> bool {

@@ -181,16 +181,6 @@ pub(crate) fn carried(field: &PressureField) -> f64 {
     pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
-/// A small count, of a whole number.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "small counts"
-)]
-pub(crate) fn count(whole: f64) -> usize {
-    whole as usize
-}
-
 /// Works on so many threads.
 pub(crate) fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();

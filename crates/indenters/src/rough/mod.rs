@@ -14,6 +14,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
+use crate::table::at_least;
 pub use self_affine::SelfAffine;
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
@@ -45,13 +46,7 @@ impl PeriodicSurface {
     pub fn new(period: [f64; 2], waves: Vec<Wave>) -> Result<Self, IndenterError> {
         positive("period along x", period[0])?;
         positive("period along y", period[1])?;
-        if waves.is_empty() {
-            return Err(IndenterError::TooFew {
-                list: "waves",
-                needed: 1,
-                length: 0,
-            });
-        }
+        at_least(1, "waves", waves.len())?;
         for wave in &waves {
             let allowed = "other than 0 along x or y: a mean height changes nothing";
             in_range("number of waves", 0.0, wave.numbers != [0, 0], allowed)?;
