@@ -8,8 +8,6 @@ use bem_halfspace::{
 };
 use casebook::SquareContact;
 
-const MAX_ITERATIONS: usize = 500;
-
 /// A contact at a given force.
 #[derive(Debug)]
 pub struct ContactScene {
@@ -57,7 +55,7 @@ impl ContactScene {
         };
         let options = ContactOptions {
             tolerance,
-            max_iterations: MAX_ITERATIONS,
+            ..ContactOptions::default()
         };
         let mut state = ContactState::new(&self.convolution);
         Ok((solve_contact(&problem, &mut state, &options)?, state))

@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 use viscofriction::Watch;
-use viscofriction::numerics::whole_part;
 
 /// A bar over `steps` steps of a task, with the time that is left.
 pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
@@ -53,8 +52,13 @@ impl Watch for Told {
         true
     }
 
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a part is between 0 and 1"
+    )]
     fn done(&self, part: f64) {
-        self.0.set_position(whole_part(part * WHOLE as f64) as u64);
+        self.0.set_position((part * WHOLE as f64) as u64);
     }
 }
 
