@@ -72,7 +72,6 @@ enum Command {
 }
 
 /// Does what the command line asks for.
-#[must_use]
 pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures { check: true, .. } => figures::check(),

@@ -25,7 +25,6 @@ pub struct Footprint {
 
 impl Footprint {
     /// The square of half width `radius` around the lowest point.
-    #[must_use]
     pub const fn square(radius: f64) -> Self {
         Self {
             x: [-radius, radius],

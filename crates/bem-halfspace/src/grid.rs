@@ -61,25 +61,21 @@ impl Grid {
     }
 
     /// Number of elements [n_x, n_y].
-    #[must_use]
     pub const fn shape(&self) -> [usize; 2] {
         self.shape
     }
 
     /// Edges of an element [Δx, Δy], \[m].
-    #[must_use]
     pub const fn spacing(&self) -> [f64; 2] {
         self.spacing
     }
 
     /// Number of elements.
-    #[must_use]
     pub const fn n_elements(&self) -> usize {
         self.shape[0] * self.shape[1]
     }
 
     /// Area of an element, \[m²].
-    #[must_use]
     pub fn element_area(&self) -> f64 {
         self.spacing[0] * self.spacing[1]
     }

@@ -38,13 +38,11 @@ impl PressureField {
     }
 
     /// Largest pressure of an element, \[Pa].
-    #[must_use]
     pub fn largest(&self) -> f64 {
         self.pressure.iter().copied().fold(0.0, f64::max)
     }
 
     /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
-    #[must_use]
     pub fn at(&self, position: [f64; 2]) -> f64 {
         let [rows, columns] = self.grid.shape();
         let index =

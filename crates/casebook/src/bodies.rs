@@ -53,7 +53,6 @@ impl Axisymmetric for GaussianDip {
 }
 
 /// The body of revolution Σ c r^p of pairs of coefficient and exponent.
-#[must_use]
 pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
     let terms = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
         coefficient,
@@ -64,7 +63,6 @@ pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
 
 impl Case {
     /// The body of revolution that the input `shape` of the row names.
-    #[must_use]
     pub fn body(&self) -> Box<dyn Axisymmetric> {
         let input = |name| self.input(name);
         let shape = self.input_text("shape");
@@ -86,7 +84,6 @@ impl Case {
     }
 
     /// The cubic line ε (x³/3 − 3x²/2 + 2x) of group FRI-03 on [0, 3], or the same run through backwards, in a `unit` \[m].
-    #[must_use]
     pub fn cubic(&self, unit: f64) -> impl RigidLine + use<> {
         let (epsilon, reversed) = (self.input("eps"), self.has_input("direction"));
         let turned = move |x: f64| if reversed { 3.0 - x / unit } else { x / unit };

@@ -64,7 +64,6 @@ impl HeightMap {
     }
 
     /// Where the surface begins and ends along x and along y, seen from its lowest point, \[m].
-    #[must_use]
     pub fn extent(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))
     }

@@ -32,7 +32,6 @@ pub struct LeadingEdge {
 
 impl LeadingEdge {
     /// Largest indentation depth \[m] for which a contact line exists.
-    #[must_use]
     pub fn available_depth(&self) -> f64 {
         self.highest - self.lowest
     }
@@ -83,7 +82,6 @@ pub struct ContactLine {
 
 impl ContactLine {
     /// Sum of the lengths of the intervals, \[m].
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.intervals.iter().map(|[start, end]| end - start).sum()
     }

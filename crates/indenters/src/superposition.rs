@@ -60,7 +60,6 @@ impl Superposition {
     }
 
     /// The terms by increasing exponent.
-    #[must_use]
     pub fn terms(&self) -> &[PowerTerm] {
         &self.terms
     }

@@ -30,7 +30,6 @@ impl ErrorParts {
     };
 
     /// An error of elements only.
-    #[must_use]
     pub const fn of_elements(error: f64) -> Self {
         Self {
             discretisation: Some(error),
@@ -39,13 +38,11 @@ impl ErrorParts {
     }
 
     /// Whether no part is known.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
     /// The parts by their names in JSON and CSV.
-    #[must_use]
     pub const fn named(&self) -> [(&'static str, Option<f64>); 4] {
         [
             ("discretisation", self.discretisation),
@@ -56,7 +53,6 @@ impl ErrorParts {
     }
 
     /// Sum of the known parts.
-    #[must_use]
     pub fn sum(&self) -> f64 {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }

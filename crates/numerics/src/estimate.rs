@@ -15,19 +15,16 @@ pub struct Estimate {
 
 impl Estimate {
     /// A number and its absolute error.
-    #[must_use]
     pub const fn new(value: f64, error: f64) -> Self {
         Self { value, error }
     }
 
     /// A number without error.
-    #[must_use]
     pub const fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
     }
 
     /// Whether the value is finite and its error at most the relative one.
-    #[must_use]
     pub fn is_within(&self, relative_error: f64) -> bool {
         self.value.is_finite() && self.error <= relative_error * self.value.abs()
     }

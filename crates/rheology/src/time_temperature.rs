@@ -43,7 +43,6 @@ impl WlfShift {
     }
 
     /// The constants C₁ and C₂ \[K].
-    #[must_use]
     pub const fn constants(&self) -> [f64; 2] {
         [self.c1, self.c2]
     }

@@ -113,13 +113,11 @@ impl<'a> March<'a> {
 
     /// Number of values in the memory of an element: one per retardation element of the material, one more for free
     /// flow, none for an elastic material.
-    #[must_use]
     pub const fn n_fields(&self) -> usize {
         self.window.n_fields
     }
 
     /// Number of elements of the half space that are followed.
-    #[must_use]
     pub fn n_elements(&self) -> usize {
         self.window.convolution.grid().n_elements()
     }

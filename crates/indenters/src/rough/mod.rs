@@ -57,19 +57,16 @@ impl PeriodicSurface {
     }
 
     /// The periods along x and y, \[m].
-    #[must_use]
     pub const fn period(&self) -> [f64; 2] {
         self.period
     }
 
     /// The waves.
-    #[must_use]
     pub fn waves(&self) -> &[Wave] {
         &self.waves
     }
 
     /// Largest numbers of waves in the periods along x and y.
-    #[must_use]
     pub fn largest_numbers(&self) -> [usize; 2] {
         [0, 1].map(|axis| {
             let waves = self.waves.iter();
@@ -79,7 +76,6 @@ impl PeriodicSurface {
     }
 
     /// Root mean square of |∇h|.
-    #[must_use]
     pub fn rms_slope(&self) -> f64 {
         // Waves of opposite numbers are one; those that are given twice count as independent.
         let square = |wave: &Wave| {
@@ -90,7 +86,6 @@ impl PeriodicSurface {
     }
 
     /// Wave vector of a wave along x and y, \[1/m].
-    #[must_use]
     pub fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
         [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])
     }

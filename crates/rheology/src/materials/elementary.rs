@@ -43,7 +43,6 @@ macro_rules! elementary {
 
             $(
                 $(#[$parameter_doc])*
-                #[must_use]
                 pub const fn $parameter(&self) -> f64 {
                     self.$parameter
                 }

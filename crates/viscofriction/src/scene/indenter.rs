@@ -132,7 +132,6 @@ pub struct Term {
 
 impl Indenter {
     /// The key of the table.
-    #[must_use]
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("indenter.{name}")

@@ -141,14 +141,12 @@ const fn incompressible() -> f64 {
 
 impl MaterialTable {
     /// The key of the table.
-    #[must_use]
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("material.{name}")
     }
 
     /// Poisson ratio ν; none of a file that keeps its own.
-    #[must_use]
     pub const fn poisson_ratio(&self) -> Option<f64> {
         match self {
             Self::Viscous { poisson_ratio, .. }
