@@ -192,7 +192,6 @@ pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
 }
 
 /// A folder for the files of one result; nobody else writes into it as long as this value lives.
-#[derive(Debug)]
 pub(crate) struct OutputFolder {
     path: PathBuf,
     overwrite: bool,

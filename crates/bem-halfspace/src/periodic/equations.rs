@@ -23,7 +23,6 @@ const NUMBERS_PER_ELEMENT: usize = 12;
 const MOST_KEPT: usize = 30;
 
 /// Lists of one contact and its neighbours.
-#[derive(Debug)]
 pub(super) struct Equations {
     pub(super) kernel: Kernel,
     far: Option<FarLoads>,

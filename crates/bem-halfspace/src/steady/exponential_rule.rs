@@ -18,7 +18,6 @@ const UPWARD: f64 = 60.0;
 const HEADROOM: usize = 40;
 
 /// Points on [0, 1] or around it, and the Legendre coefficients of the polynomial through values at them.
-#[derive(Debug)]
 pub(super) struct ExponentialRule {
     pub(super) nodes: Vec<f64>,
     /// Coefficient of each degree per value, by degree.

@@ -39,7 +39,6 @@ struct Element {
 
 /// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
 /// 2 (1 − ν) J(Δx/v) P Δx/(4πD) of an element, which is P Δx²/(4πηvD) for the dashpot.
-#[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
     pub(super) loading: GridLoading,

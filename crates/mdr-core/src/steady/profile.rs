@@ -42,7 +42,6 @@ pub(super) struct Resolution {
 }
 
 /// The part of a line that can touch, from the front to the rear.
-#[derive(Debug)]
 pub(super) struct Profile {
     pub(super) pieces: Vec<Piece>,
     /// From its front to its rear, \[m].
@@ -53,7 +52,6 @@ pub(super) struct Profile {
 }
 
 /// A stretch over which the line only rises or only falls.
-#[derive(Debug)]
 pub(super) struct Piece {
     /// The compression it imposes when the lowest point of the line is one depth deep; while the pieces are made, relative to
     /// that of the anchor.

@@ -26,7 +26,6 @@ const EQUAL: f64 = 1e-6;
 const WIDE: f64 = 100.0;
 
 /// The picture of a sweep, as SVG and as PNG.
-#[derive(Debug)]
 pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,

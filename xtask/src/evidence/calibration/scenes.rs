@@ -8,7 +8,6 @@ use viscofriction::solve::{Body, Problem};
 use crate::random::Random;
 
 /// A scene.
-#[derive(Debug)]
 pub(super) struct Scene {
     pub(super) label: Label,
     pub(super) file: scene::Scene,
