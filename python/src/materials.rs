@@ -16,7 +16,6 @@ use viscofriction::solve::{Expansion, HalfSpace, half_space};
 use crate::solving::{mapped, read};
 use crate::tables::{table, wrong};
 
-/// The half space of a table `[material.…]`.
 fn of_table(table: toml::Table, folder: &Path) -> PyResult<HalfSpace> {
     let table = MaterialTable::try_from(table).map_err(wrong)?;
     half_space(&table, folder, read).map_err(wrong)

@@ -10,7 +10,6 @@ use serde::Serialize;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
-/// Prints a line.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }

@@ -154,7 +154,6 @@ impl ContactBox {
         bounds.cut((load, columns), &mut self.state.load);
     }
 
-    /// Copies the load into a field with `columns` columns.
     pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {
         let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
         let field = &mut field[rows.start * columns..rows.end * columns];

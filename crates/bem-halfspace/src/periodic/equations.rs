@@ -195,7 +195,6 @@ impl Equations {
     }
 }
 
-/// Whether an element or one of its eight neighbours is in contact.
 fn has_neighbour(contact: &[bool], columns: usize, element: usize) -> bool {
     let rows = contact.len() / columns;
     let (row, column) = (element / columns, element % columns);

@@ -236,7 +236,6 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Rows that a step or a later one needs.
     fn rows_needed(&self, step: usize) -> Range<usize> {
         self.route.rows_from(step, self.layout.followed()[0])
     }
@@ -286,7 +285,6 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.followed();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));

@@ -237,7 +237,6 @@ pub(crate) fn at_depth(depth: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::at_depth(depth, velocity).expect("a load")
 }
 
-/// The load after sliding over a distance \[m].
 pub(crate) fn after(load: SlidingLoad, distance: f64) -> SlidingLoad {
     load.after(distance).expect("a distance")
 }

@@ -45,7 +45,6 @@ pub(crate) fn material(viscosity: f64) -> Viscous {
     Viscous::new(viscosity).expect("a positive viscosity")
 }
 
-/// A power profile.
 pub(crate) fn power(exponent: f64) -> PowerProfile {
     PowerProfile::new(0.4, exponent).expect("a power profile")
 }

@@ -92,6 +92,11 @@ impl CreepSpectrum {
         &self.elements
     }
 
+    /// Whether nothing depends on time.
+    pub fn is_elastic(&self) -> bool {
+        self.elements.is_empty() && self.fluidity == 0.0
+    }
+
     fn recoverable_compliance(&self) -> f64 {
         let elements: f64 = self.elements.iter().map(|e| e.compliance).sum();
         self.instantaneous_compliance + elements

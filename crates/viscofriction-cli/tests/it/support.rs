@@ -95,7 +95,6 @@ impl Folder {
         fs::write(self.path(file), contents).expect("the file can be written");
     }
 
-    /// The text of a file.
     #[track_caller]
     pub(crate) fn text(&self, file: &str) -> String {
         fs::read_to_string(self.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"))

@@ -7,7 +7,6 @@ use viscofriction::solve::{Body, Problem};
 
 use crate::random::Random;
 
-/// A scene.
 pub(super) struct Scene {
     pub(super) label: Label,
     pub(super) file: scene::Scene,
