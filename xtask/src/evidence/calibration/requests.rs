@@ -116,6 +116,6 @@ fn error(random: &mut Random, logarithms: [f64; 2]) -> Accuracy {
     Accuracy::RelativeError(10_f64.powf(random.between(logarithms)))
 }
 
-fn elements<const N: usize>(random: &mut Random, counts: &[usize; N]) -> Accuracy {
+fn elements(random: &mut Random, counts: &[usize]) -> Accuracy {
     Accuracy::Elements(random.choice(counts))
 }
