@@ -1,8 +1,8 @@
-//! The bodies of revolution that rows name.
+//! The bodies of revolution that rows name, and surfaces of formulas.
 
 use indenters::{
     AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm,
-    ProfilePoint, RigidLine, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    ProfilePoint, RigidLine, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
 
 use crate::Case;
@@ -48,6 +48,38 @@ impl Axisymmetric for GaussianDip {
     }
 
     fn profile_exponent(&self) -> f64 {
+        2.0
+    }
+}
+
+/// A smooth surface with these mirrors, of which a function of \[x, y] gives the height and its gradient.
+#[derive(Debug, Clone, Copy)]
+pub struct Formula<F> {
+    mirrors: [bool; 2],
+    surface: F,
+}
+
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
+    /// The surface with the heights and gradients of a function.
+    pub const fn new(mirrors: [bool; 2], surface: F) -> Self {
+        Self { mirrors, surface }
+    }
+}
+
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
+    fn height(&self, position: [f64; 2]) -> f64 {
+        (self.surface)(position).0
+    }
+
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        (self.surface)(position).1
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        self.mirrors
+    }
+
+    fn apex_exponent(&self) -> f64 {
         2.0
     }
 }

@@ -13,11 +13,12 @@ mod materials;
 mod rough;
 
 pub use assertions::{NEGATIVE, NOT_POSITIVE, refused, refuses};
-pub use bodies::{GaussianDip, superposition};
+pub use bodies::{Formula, GaussianDip, superposition};
 pub use contacts::{SquareContact, deviation};
 pub use materials::{model, prony, standard_solid};
 pub use rough::{RoughCase, rough_cases};
 
+use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::Value;
 
@@ -29,6 +30,11 @@ pub fn fixed_cases(cases: u32) -> Config {
         failure_persistence: None,
         ..Config::default()
     }
+}
+
+/// Numbers between 10^-n and 10^n, alike in every decade.
+pub fn decades(n: f64) -> impl Strategy<Value = f64> {
+    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
 }
 
 /// One row of the casebook.

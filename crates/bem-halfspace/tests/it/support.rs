@@ -10,7 +10,7 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     Footprint, Grid, GridOptions, solve_contact,
 };
-pub(crate) use casebook::prony;
+pub(crate) use casebook::{Formula, prony};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use numerics::{Estimate, Request};
 use rayon::ThreadPoolBuilder;
@@ -197,36 +197,6 @@ pub(crate) fn cone(slope: f64) -> PowerProfile {
 
 pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {
     power(coefficient, 2.0)
-}
-
-/// A smooth surface with these mirrors, of which a function of [x, y] gives the height and its gradient.
-pub(crate) struct Formula<F> {
-    mirrors: [bool; 2],
-    surface: F,
-}
-
-impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
-    pub(crate) fn new(mirrors: [bool; 2], surface: F) -> Self {
-        Self { mirrors, surface }
-    }
-}
-
-impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
-    fn height(&self, position: [f64; 2]) -> f64 {
-        (self.surface)(position).0
-    }
-
-    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-        (self.surface)(position).1
-    }
-
-    fn mirrors(&self) -> [bool; 2] {
-        self.mirrors
-    }
-
-    fn apex_exponent(&self) -> f64 {
-        2.0
-    }
 }
 
 pub(crate) fn under_force(force: f64, velocity: f64) -> SlidingLoad {

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use casebook::{Case, standard_solid};
-pub(crate) use casebook::{fixed_cases, prony};
+pub(crate) use casebook::{decades, fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
     Axisymmetric, Control, FlatCone, Hyperboloid, PowerProfile, RigidLine, RoundTippedCone,
@@ -13,7 +13,6 @@ use mdr_core::{
     HistoryPoint, MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady,
 };
 use numerics::Estimate;
-use proptest::prelude::*;
 use rheology::{Material, Prony, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
@@ -22,11 +21,6 @@ pub(crate) const DEPTH: f64 = 0.1;
 
 /// Relative error asked of stationary states.
 pub(crate) const ASKED: f64 = 1e-8;
-
-/// A length, modulus or time between 10^-n and 10^n.
-pub(crate) fn decades(n: f64) -> impl Strategy<Value = f64> {
-    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
-}
 
 pub(crate) fn load(normal_force: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::new(normal_force, velocity).expect("a positive force and speed")

@@ -5,6 +5,7 @@ use bem_halfspace::indent::{IndentStep, indent_history_on_grid};
 use bem_halfspace::slide::{SlideRow, slide_on_grid};
 use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions};
+use casebook::Formula;
 use friction_analytic::{
     ElasticContact, ElasticLimitFriction, FrictionError, half_space_power_friction,
     high_speed_friction, low_speed_friction,
@@ -122,35 +123,17 @@ pub(super) fn fast(gamma: f64) -> Result<Row> {
     at_limit(gamma, 1e4, high_speed_friction)
 }
 
-/// h = x² + (y/r)² on the elements of a grid that is as slender as the body.
-struct SlenderParaboloid {
-    aspect: f64,
-}
-
-impl Surface for SlenderParaboloid {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        x * x + (y / self.aspect).powi(2)
-    }
-
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [2.0 * x, 2.0 * y / self.aspect / self.aspect]
-    }
-
-    fn mirrors(&self) -> [bool; 2] {
-        [true; 2]
-    }
-
-    fn apex_exponent(&self) -> f64 {
-        2.0
-    }
-}
-
-/// Two estimates on elements of two shapes agree within their error bars.
+/// Two estimates of h = x² + (y/r)², on elements that are as slender as the body and of half the width, agree within their
+/// error bars.
 ///
 /// Under this force the contact is about as long as one, however wide.
 pub(super) fn slender(aspect: f64) -> Result<Row> {
     let load = SlidingLoad::new(aspect.max(1.0), 1.0)?;
-    let (body, material) = (SlenderParaboloid { aspect }, Viscous::new(1.0)?);
+    let body = Formula::new([true; 2], |[x, y]| {
+        let height = x * x + (y / aspect).powi(2);
+        (height, [2.0 * x, 2.0 * y / aspect / aspect])
+    });
+    let material = Viscous::new(1.0)?;
     let solve = |aspect| {
         let options = RefinementOptions { aspect, ..OPTIONS };
         Ok::<_, BemError>(steady_refined(&body, &material, &load, &options)?.friction_coefficient)
