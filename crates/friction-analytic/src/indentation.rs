@@ -14,7 +14,7 @@ use numerics::{Estimate, bracketed_root, in_range, not_negative};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
@@ -226,11 +226,8 @@ fn radius_of_moment(
     } else {
         [0.0, end]
     };
-    let radius = bracketed_root(excess, bracket).ok_or(FrictionError::OutOfRange {
-        quantity: "contact radius",
-        value: bracket[1],
-    })?;
-    Ok(Some(radius))
+    let failed = out_of_range("contact radius", bracket[1]);
+    bracketed_root(excess, bracket).ok_or(failed).map(Some)
 }
 
 /// Two radii between which the moment passes its target. The search starts at 1 m, which stands for "anywhere".

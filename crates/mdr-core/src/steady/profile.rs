@@ -13,7 +13,7 @@ use super::legendre::{
 use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
-use crate::element_heights::checked_height;
+use crate::element_heights::{checked_height, invalid_height};
 
 /// Positions at which the line is looked at, besides the nodes, along the whole range.
 const STATIONS: f64 = 64.0;
@@ -247,19 +247,11 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             let position = piece.position(k as f64 / DEGREE as f64 - 1.0);
             match (self.drop)(position) {
                 Err(error) => return error,
-                Ok(drop) if !drop.is_finite() => {
-                    return MdrError::InvalidHeight {
-                        position,
-                        value: -drop,
-                    };
-                }
+                Ok(drop) if !drop.is_finite() => return invalid_height(position, -drop),
                 Ok(_) => {}
             }
         }
-        MdrError::InvalidHeight {
-            position: piece.position(0.0),
-            value: f64::INFINITY,
-        }
+        invalid_height(piece.position(0.0), f64::INFINITY)
     }
 
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
