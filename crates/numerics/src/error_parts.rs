@@ -60,27 +60,28 @@ impl ErrorParts {
     /// Of a value that is so many times as large.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        let scaled = |part: Option<f64>| part.map(|part| factor * part);
-        Self {
-            discretisation: scaled(self.discretisation),
-            iteration: scaled(self.iteration),
-            time_stepping: scaled(self.time_stepping),
-            truncation: scaled(self.truncation),
-        }
+        self.each_with(Self::NONE, |part, _| part.map(|part| factor * part))
     }
 
     /// All parts of both; what both have is added.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        let both = |part: Option<f64>, other: Option<f64>| match (part, other) {
+        self.each_with(other, |part, other| match (part, other) {
             (Some(part), Some(other)) => Some(part + other),
             (part, other) => part.or(other),
-        };
+        })
+    }
+
+    fn each_with(
+        self,
+        other: Self,
+        joined: impl Fn(Option<f64>, Option<f64>) -> Option<f64>,
+    ) -> Self {
         Self {
-            discretisation: both(self.discretisation, other.discretisation),
-            iteration: both(self.iteration, other.iteration),
-            time_stepping: both(self.time_stepping, other.time_stepping),
-            truncation: both(self.truncation, other.truncation),
+            discretisation: joined(self.discretisation, other.discretisation),
+            iteration: joined(self.iteration, other.iteration),
+            time_stepping: joined(self.time_stepping, other.time_stepping),
+            truncation: joined(self.truncation, other.truncation),
         }
     }
 }

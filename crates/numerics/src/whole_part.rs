@@ -2,7 +2,6 @@
 
 /// The integer part of a number, as a count or an index; 0 for negative numbers and what is no number, the largest integer
 /// beyond it.
-#[must_use]
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
