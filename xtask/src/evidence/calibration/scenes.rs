@@ -236,8 +236,4 @@ impl Scene {
     pub(super) fn is_elastic(&self) -> bool {
         matches!(self.file.material, MaterialTable::Elastic { .. })
     }
-
-    pub(super) fn is_viscous(&self) -> bool {
-        matches!(self.file.material, MaterialTable::Viscous { .. })
-    }
 }
