@@ -47,7 +47,7 @@ pub struct Scene {
     /// The elastomer.
     pub material: MaterialTable,
     /// A layer bonded to a rigid base; without it a half space.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<Layer>,
     /// How the body is pressed and moved.
     pub load: Load,
