@@ -184,9 +184,6 @@ pub enum BemError {
 }
 
 /// Checks that a contact covers enough elements, along x or across it, whichever are fewer, for a meaningful friction.
-///
-/// # Errors
-/// [`BemError::GridTooCoarse`] otherwise.
 pub(crate) const fn check_contact_elements(elements: usize) -> Result<(), BemError> {
     let needed = 3;
     if elements >= needed {

@@ -82,9 +82,6 @@ impl Grid {
 }
 
 /// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
-///
-/// # Errors
-/// [`BemError::GridTooLarge`] when the number is beyond any grid.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
     // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
     whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())

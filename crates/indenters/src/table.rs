@@ -4,9 +4,6 @@ use crate::IndenterError;
 use numerics::finite;
 
 /// Checks that both lists are finite and equally long, have two rows, and that the positions, which have a name, increase.
-///
-/// # Errors
-/// The [`IndenterError`] of the first rule that is broken.
 pub(crate) fn check_table(
     list: &'static str,
     positions: &[f64],

@@ -33,9 +33,6 @@ pub(super) struct PictureFiles {
 
 impl PictureFiles {
     /// The files beside that of the rows.
-    ///
-    /// # Errors
-    /// [`WrongInput`] as of [`OutputFile::new`].
     pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let [svg, png] = ["svg", "png"].map(|extension| beside(rows, extension));
         Ok(Self {
