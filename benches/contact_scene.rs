@@ -8,8 +8,6 @@ use bem_halfspace::{
 };
 use casebook::SquareContact;
 
-const MAX_ITERATIONS: usize = 500;
-
 /// A contact at a given force.
 #[derive(Debug)]
 pub struct ContactScene {
@@ -57,7 +55,7 @@ impl ContactScene {
         };
         let options = ContactOptions {
             tolerance,
-            max_iterations: MAX_ITERATIONS,
+            ..ContactOptions::default()
         };
         let mut state = ContactState::new(&self.convolution);
         Ok((solve_contact(&problem, &mut state, &options)?, state))
@@ -70,7 +68,6 @@ const DIRECTIONS: usize = 16;
 /// Periodic self-affine heights over `n` × `n` elements of the unit square, with the root of the mean square slope 1: a
 /// sum of waves like that of Weierstrass and Mandelbrot, of the lengths 1/4, 1/5.6, 1/8 … down to eight elements, 16
 /// directions each, with amplitudes `q^(−H)` for the Hurst exponent H = 0.8.
-#[must_use]
 pub fn rough_heights(n: usize) -> Vec<f64> {
     let mut heights = vec![0.0; n * n];
     let mut square_slope = 0.0;

@@ -15,10 +15,8 @@ const PEAK: f64 = 0.042_091_691_145_751_2;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args();
     let body = PowerProfile::paraboloid(0.5)?;
-    let branch = |decade: f64| RelaxationBranch {
-        modulus: 1.0 + 0.1 * decade,
-        relaxation_time: 10.0_f64.powf(-2.5 + 0.4 * decade),
-    };
+    let branch =
+        |decade: f64| RelaxationBranch::new(1.0 + 0.1 * decade, 10.0_f64.powf(-2.5 + 0.4 * decade));
     let branches = (0..10).map(f64::from).map(branch).collect();
     let material = Prony::new(RelaxationSpectrum::new(1.0, 0.0, branches)?)?;
     let point = |index: i32| {
@@ -34,10 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     report_error("history/1000 segments", "peak force", [peak, PEAK]);
     let mut group = criterion.benchmark_group("history");
     group.bench_function("1000 segments, 10 branches", |bencher| bencher.iter(run));
-    let branch = RelaxationBranch {
-        modulus: 4.0,
-        relaxation_time: 1.0,
-    };
+    let branch = RelaxationBranch::new(4.0, 1.0);
     let solid = Prony::new(RelaxationSpectrum::new(1.0, 0.0, vec![branch])?)?;
     let differentiate = || force_derivatives(&body, &solid, &history);
     // Casebook-2.json, sphere on SLS at t = 1.

@@ -14,13 +14,14 @@ use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
-use benches::{ContactScene, rough_heights};
+use benches::{ContactScene, memory, rough_heights};
 use casebook::deviation;
 use cpu_time::ThreadTime;
 
 /// Why there is no timing.
 type Failure = Box<dyn Error + Send + Sync>;
 
+const UNKNOWN: &str = "the system does not say how much memory the process has";
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
 /// Solves on the wall are repeated at least that long, because other guests of the machine disturb short ones more, \[s].
@@ -123,9 +124,9 @@ fn report(scene: &Scene) -> Result<(), Failure> {
     let grid = scene.contact.convolution.grid();
     // Forgets the peak of making the scene.
     fs::write("/proc/self/clear_refs", "5")?;
-    let before = memory("VmRSS:")?;
+    let before = memory("VmRSS:").ok_or(UNKNOWN)?;
     let (contact, state, mut fastest) = solve(scene, scene.tolerance)?;
-    let bytes = (memory("VmHWM:")? - before) / grid.n_elements() as f64;
+    let bytes = (memory("VmHWM:").ok_or(UNKNOWN)? - before) / grid.n_elements() as f64;
     let mut pair = f64::INFINITY;
     for _ in 0..REPETITIONS {
         pair = pair.min(transform_pair(scene.padded)?);
@@ -176,14 +177,6 @@ fn transform_pair(edge: usize) -> Result<f64, Failure> {
         spent = start.elapsed().as_secs_f64();
     }
     Ok(spent / pairs)
-}
-
-/// A line of the memory that this process has, in bytes (Linux).
-fn memory(line: &str) -> Result<f64, Failure> {
-    let status = fs::read_to_string("/proc/self/status")?;
-    let found = status.lines().find_map(|text| text.strip_prefix(line));
-    let number = found.and_then(|text| text.split_whitespace().next());
-    Ok(1024.0 * number.ok_or("no such line")?.parse::<f64>()?)
 }
 
 /// Does the work in a pool of so many threads.

@@ -6,17 +6,15 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::RheologyError;
-use rheology::fit::{
-    Control, Ending, IdentifyOptions, MeasuredCurve, ModulusPoint, RelaxationPoint, identify,
-};
+use rheology::fit::{Control, Ending, IdentifyOptions, MeasuredCurve, RelaxationPoint, identify};
 use viscofriction::friction_analytic;
 use viscofriction::scene::MaterialTable;
 use viscofriction::solve::{Expansion, HalfSpace, half_space};
 
+use crate::moduli::points;
 use crate::solving::{mapped, read};
 use crate::tables::{table, wrong};
 
-/// The half space of a table `[material.…]`.
 fn of_table(table: toml::Table, folder: &Path) -> PyResult<HalfSpace> {
     let table = MaterialTable::try_from(table).map_err(wrong)?;
     half_space(&table, folder, read).map_err(wrong)
@@ -109,15 +107,7 @@ pub(crate) fn fit_oscillation<'py>(
     loss: PyReadonlyArray1<'py, f64>,
     options: Options,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (storage, loss) = (storage.as_array(), loss.as_array());
-    let moduli = storage.iter().zip(loss.iter());
-    let frequencies = angular_frequency.as_array();
-    let point = |(&angular_frequency, (&storage, &loss))| ModulusPoint {
-        angular_frequency,
-        storage,
-        loss,
-    };
-    let points = frequencies.iter().zip(moduli).map(point).collect();
+    let points = points(&[angular_frequency, storage, loss]);
     fitted(py, MeasuredCurve::oscillation(points), &options)
 }
 

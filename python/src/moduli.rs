@@ -67,6 +67,18 @@ fn moduli<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
     )
 }
 
+/// Points of angular frequencies, storage and loss moduli, as many as of the shortest column.
+pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoint> {
+    let [omega, storage, loss] = columns.each_ref().map(PyReadonlyArray1::as_array);
+    let moduli = storage.iter().zip(loss.iter());
+    let point = |(&angular_frequency, (&storage, &loss))| ModulusPoint {
+        angular_frequency,
+        storage,
+        loss,
+    };
+    omega.iter().zip(moduli).map(point).collect()
+}
+
 /// One isotherm as [`read_moduli`] returns it.
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
@@ -77,17 +89,9 @@ pub(crate) fn master_curve<'py>(
     isotherms: Vec<Given<'py>>,
     reference_temperature: f64,
 ) -> PyResult<(Vec<Column<'py>>, Vec<[f64; 2]>)> {
-    let isotherm = |(temperature, columns): &Given<'py>| {
-        let [omega, storage, loss] = columns.each_ref().map(PyReadonlyArray1::as_array);
-        let point = |index| ModulusPoint {
-            angular_frequency: omega[index],
-            storage: storage[index],
-            loss: loss[index],
-        };
-        Isotherm {
-            temperature: *temperature,
-            points: (0..omega.len()).map(point).collect(),
-        }
+    let isotherm = |(temperature, columns): &Given<'py>| Isotherm {
+        temperature: *temperature,
+        points: points(columns),
     };
     let isotherms: Vec<Isotherm> = isotherms.iter().map(isotherm).collect();
     let master = automatic_master_curve(&isotherms, reference_temperature).map_err(wrong)?;

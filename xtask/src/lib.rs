@@ -28,8 +28,6 @@ use {approx as _, either as _, matrixmultiply as _, zerocopy as _};
 
 pub use output::WrongInput;
 
-use scaling::Format;
-
 /// Friction of rigid indenters on viscous half spaces.
 #[derive(Debug, Parser)]
 #[command(name = "cargo xtask", bin_name = "cargo xtask")]
@@ -51,16 +49,13 @@ enum Command {
     },
     /// Compute the converged scaling factor s_p between the half space and the one-dimensional model.
     ScalingFactors {
-        /// Exponent p > 1/2 of the profile c r^p; may be given several times [default: 1 and 2].
-        #[arg(long = "exponent", value_name = "P")]
+        /// Exponent p > 1/2 of the profile c r^p; may be given several times.
+        #[arg(long = "exponent", value_name = "P", default_values_t = [1.0, 2.0])]
         exponents: Vec<f64>,
         /// Relative error asked for, between 1e-6 and 0.1; where 100 000 unknown pressures do not reach it, the command
         /// says how far it came.
         #[arg(long, default_value_t = 1e-3, value_name = "E")]
         relative_error: f64,
-        /// How the result is printed.
-        #[arg(long, value_enum, default_value_t = Format::Table)]
-        format: Format,
     },
     /// Compute the function s(p) that friction-analytic interpolates; takes long, and goes on where it was interrupted.
     ScalingTable {
@@ -77,7 +72,6 @@ enum Command {
 }
 
 /// Does what the command line asks for.
-#[must_use]
 pub fn execute() -> ExitCode {
     let outcome = match CommandLine::parse().command {
         Command::ReproduceFigures { check: true, .. } => figures::check(),
@@ -85,8 +79,7 @@ pub fn execute() -> ExitCode {
         Command::ScalingFactors {
             exponents,
             relative_error,
-            format,
-        } => scaling::print(&exponents, relative_error, format),
+        } => scaling::print(&exponents, relative_error),
         Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
         Command::Dependencies(options) => ci::write_dependencies(&options),

@@ -1,4 +1,4 @@
-//! Time and memory of this process.
+//! Time that this process takes.
 
 use std::time::Instant;
 
@@ -62,14 +62,4 @@ pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let [low, high] = [(values.len() - 1) / 2, values.len() / 2];
     0.5 * (values[low] + values[high])
-}
-
-/// Most memory that the process has had resident so far, \[MiB]; known on Linux only.
-pub(crate) fn peak_memory() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status
-        .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes / 1024.0)
 }

@@ -32,9 +32,14 @@ impl Random {
     }
 
     /// One of the items, each as likely as any other.
-    pub(crate) fn choice<T: Copy, const N: usize>(&mut self, items: &[T; N]) -> T {
-        let mark = self.uniform() * N as f64;
-        let index = (1..N).take_while(|&index| index as f64 <= mark).count();
-        items[index]
+    pub(crate) fn choice<T: Copy>(&mut self, items: &[T]) -> T {
+        let mark = self.uniform() * items.len() as f64;
+        let passed = |index: &usize| *index as f64 <= mark;
+        items[(1..items.len()).take_while(passed).count()]
+    }
+
+    /// One of the words between blanks.
+    pub(crate) fn word<'a>(&mut self, words: &'a str) -> &'a str {
+        self.choice(&words.split(' ').collect::<Vec<_>>())
     }
 }

@@ -7,10 +7,7 @@ use indenters::{SlidingLoad, Sphere};
 use rheology::{Prony, RelaxationBranch, RelaxationSpectrum};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let branch = |modulus, relaxation_time| RelaxationBranch {
-        modulus,
-        relaxation_time,
-    };
+    let branch = RelaxationBranch::new;
     let branches = vec![branch(1e7, 1e-3), branch(3e6, 1e-1)];
     let rubber = Prony::new(RelaxationSpectrum::new(1e6, 0.0, branches)?)?;
     let sphere = Sphere::new(5e-3)?;

@@ -33,13 +33,11 @@ impl Bands {
         self.shape[0].div_ceil(self.rows_per_band)
     }
 
-    /// The rows of a band.
     pub(crate) fn rows(&self, band: usize) -> Range<usize> {
         let start = band * self.rows_per_band;
         start..(start + self.rows_per_band).min(self.shape[0])
     }
 
-    /// The elements of a band.
     pub(crate) fn elements(&self, band: usize) -> Range<usize> {
         let rows = self.rows(band);
         rows.start * self.shape[1]..rows.end * self.shape[1]

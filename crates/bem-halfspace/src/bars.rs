@@ -140,15 +140,15 @@ pub(crate) fn resolve<S, O>(
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
-    let [friction, force, depth, area, peak] = std::array::from_fn(|index| Estimate {
-        value: refined.value.quantities[index],
-        error: refined.error[index],
+    let [friction, force, depth, area, peak] = std::array::from_fn(|index| {
+        Estimate::new(refined.value.quantities[index], refined.error[index])
     });
+    let [given_force, given_depth] = given(control);
     Ok(ContactEstimate {
         friction_coefficient: friction,
         error_parts: refined.parts[target],
-        normal_force: given_force(control).unwrap_or(force),
-        indentation_depth: Some(given_depth(control).unwrap_or(depth)),
+        normal_force: given_force.unwrap_or(force),
+        indentation_depth: Some(given_depth.unwrap_or(depth)),
         contact_area: area,
         peak_pressure: resolution.has_peak.then_some(peak),
         contact_box_error: of_box(refined.value.spacing),
@@ -170,18 +170,10 @@ impl From<NotReached> for BemError {
     }
 }
 
-/// The force that is given, exactly.
-pub(crate) fn given_force(control: Control) -> Option<Estimate> {
+/// Force and depth, exactly, as far as they are given.
+pub(crate) fn given(control: Control) -> [Option<Estimate>; 2] {
     match control {
-        Control::NormalForce(force) => Some(Estimate::exact(force)),
-        Control::IndentationDepth(_) => None,
-    }
-}
-
-/// The depth that is given, exactly.
-pub(crate) fn given_depth(control: Control) -> Option<Estimate> {
-    match control {
-        Control::NormalForce(_) => None,
-        Control::IndentationDepth(depth) => Some(Estimate::exact(depth)),
+        Control::NormalForce(force) => [Some(Estimate::exact(force)), None],
+        Control::IndentationDepth(depth) => [None, Some(Estimate::exact(depth))],
     }
 }

@@ -63,10 +63,6 @@ impl Bounds {
         self.rows().contains(&row) && self.columns().contains(&column)
     }
 
-    pub(crate) fn contains_all(&self, other: &Self) -> bool {
-        self.union(other) == *self
-    }
-
     pub(crate) const fn rows(&self) -> Range<usize> {
         self.lower[0]..self.upper[0]
     }
@@ -83,12 +79,6 @@ impl Bounds {
         self.shape()[0] * self.shape()[1]
     }
 
-    /// Position in a field with `columns` columns of a row of the box.
-    pub(crate) const fn row_range(&self, row: usize, columns: usize) -> Range<usize> {
-        let start = (self.lower[0] + row) * columns;
-        start + self.lower[1]..start + self.upper[1]
-    }
-
     /// Position of an element of the field in the box, row-major.
     pub(crate) const fn place(&self, [row, column]: [usize; 2]) -> usize {
         (row - self.lower[0]) * self.shape()[1] + column - self.lower[1]
@@ -97,7 +87,8 @@ impl Bounds {
     /// Copies what lies inside the box from a field with `columns` columns.
     pub(crate) fn cut(&self, (field, columns): (&[f64], usize), part: &mut [f64]) {
         for_each_row(part, self.shape()[1], |row, part| {
-            part.copy_from_slice(&field[self.row_range(row, columns)]);
+            let start = (self.lower[0] + row) * columns;
+            part.copy_from_slice(&field[start..][self.columns()]);
         });
     }
 

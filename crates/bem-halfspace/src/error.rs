@@ -5,6 +5,8 @@ use numerics::InvalidParameter;
 use rheology::RheologyError;
 use thiserror::Error;
 
+use crate::Footprint;
+
 /// Why there is no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BemError {
@@ -51,20 +53,14 @@ pub enum BemError {
     },
     /// The contact reaches the boundary of the footprint in which it was allowed.
     #[error(
-        "after sliding {sliding_distance} m the contact reaches the boundary of the footprint \
-         x {x_min}..{x_max}, y {y_min}..{y_max} m"
+        "after sliding {sliding_distance} m the contact reaches the boundary of the footprint x {}..{}, y {}..{} m",
+        .footprint.x[0], .footprint.x[1], .footprint.y[0], .footprint.y[1]
     )]
     ContactReachesBoundary {
         /// Sliding distance at which it happened, \[m]; 0 without sliding.
         sliding_distance: f64,
-        /// Footprint, \[m].
-        x_min: f64,
-        /// Footprint, \[m].
-        x_max: f64,
-        /// Footprint, \[m].
-        y_min: f64,
-        /// Footprint, \[m].
-        y_max: f64,
+        /// Footprint.
+        footprint: Footprint,
     },
     /// A vertical wall of the indenter is in contact: its slope, and with it the friction, is infinite.
     #[error(
@@ -188,9 +184,6 @@ pub enum BemError {
 }
 
 /// Checks that a contact covers enough elements, along x or across it, whichever are fewer, for a meaningful friction.
-///
-/// # Errors
-/// [`BemError::GridTooCoarse`] otherwise.
 pub(crate) const fn check_contact_elements(elements: usize) -> Result<(), BemError> {
     let needed = 3;
     if elements >= needed {

@@ -25,7 +25,6 @@ pub struct Footprint {
 
 impl Footprint {
     /// The square of half width `radius` around the lowest point.
-    #[must_use]
     pub const fn square(radius: f64) -> Self {
         Self {
             x: [-radius, radius],
@@ -110,14 +109,10 @@ impl Footprint {
         }
     }
 
-    pub(crate) const fn boundary_reached(&self, sliding_distance: f64) -> BemError {
-        let ([x_min, x_max], [y_min, y_max]) = (self.x, self.y);
+    pub(crate) const fn boundary_reached(self, sliding_distance: f64) -> BemError {
         BemError::ContactReachesBoundary {
             sliding_distance,
-            x_min,
-            x_max,
-            y_min,
-            y_max,
+            footprint: self,
         }
     }
 

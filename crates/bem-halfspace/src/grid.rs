@@ -2,7 +2,7 @@
 
 use crate::BemError;
 use crate::mirror::Mirror;
-use numerics::positive;
+use numerics::{positive, whole_part};
 
 /// More elements than this would not fit into the memory of a large machine.
 const MAX_ELEMENTS: f64 = (1_u64 << 28) as f64;
@@ -61,34 +61,27 @@ impl Grid {
     }
 
     /// Number of elements [n_x, n_y].
-    #[must_use]
     pub const fn shape(&self) -> [usize; 2] {
         self.shape
     }
 
     /// Edges of an element [Δx, Δy], \[m].
-    #[must_use]
     pub const fn spacing(&self) -> [f64; 2] {
         self.spacing
     }
 
     /// Number of elements.
-    #[must_use]
     pub const fn n_elements(&self) -> usize {
         self.shape[0] * self.shape[1]
     }
 
     /// Area of an element, \[m²].
-    #[must_use]
     pub fn element_area(&self) -> f64 {
         self.spacing[0] * self.spacing[1]
     }
 }
 
 /// Number of elements that covers a length; infinite and huge ratios are left to [`Grid::new`] to refuse.
-///
-/// # Errors
-/// [`BemError::GridTooLarge`] when the number is beyond any grid.
 pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemError> {
     // A whole ratio must not gain an element by rounding, or results would depend on the unit of length.
     whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
@@ -105,10 +98,5 @@ pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
             limit: MAX_ELEMENTS,
         });
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "0 <= elements <= 2^28"
-    )]
-    Ok(elements.max(0.0) as usize)
+    Ok(whole_part(elements))
 }

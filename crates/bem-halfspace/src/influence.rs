@@ -15,7 +15,6 @@ const MULTIPOLES_FROM: f64 = 256.0;
 /// `offset` is the position of the field point relative to the centre of the rectangle and `edges` its edges, both
 /// along x and y in \[m]. The surface of an elastic half space under the uniform pressure P moves by `P K / (4 π G)`,
 /// the surface of a viscous one at the rate `P K / (4 π η)`.
-#[must_use]
 pub fn influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     // Lengths in units of the longer edge neither overflow nor underflow when they are squared.
     let unit = edges[0].max(edges[1]);

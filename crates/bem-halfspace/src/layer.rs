@@ -12,7 +12,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule};
+use numerics::{InvalidParameter, LobattoRule, in_range, lobatto_rule, whole_part};
 use rheology::Material;
 
 use crate::influence;
@@ -70,7 +70,6 @@ impl<M: Material + ?Sized> Elastomer for Layer<'_, M> {
 
 /// Factor M(s) by which a layer on a rigid base gives way less to a wave of pressure than a half space, for s = |q|t ≥ 0 and
 /// −1 < ν ≤ 1/2, to rounding: `(1 − 2ν) s/(2 (1 − ν)²)` for long waves, 2 s³/3 where ν is 1/2, and 1 for short ones.
-#[must_use]
 pub fn layer_factor(s: f64, poisson_ratio: f64) -> f64 {
     if s > SHORTEST_WAVE {
         return 1.0 + deficit(s.min(1e3), poisson_ratio);
@@ -325,12 +324,7 @@ impl Correction {
     }
 
     fn at(&self, rho: f64) -> f64 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a distance is not negative, and beyond the last panel it does not matter by how much"
-        )]
-        let panel = self.0.get((rho / SHORT_PANEL) as usize);
+        let panel = self.0.get(whole_part(rho / SHORT_PANEL));
         panel.map_or_else(|| -rho.recip(), |panel| panel.at(rho))
     }
 }

@@ -1,5 +1,7 @@
 //! Pressure on the elements of a grid.
 
+use numerics::whole_part;
+
 use crate::bounds::Bounds;
 use crate::{BemError, Grid};
 
@@ -36,13 +38,11 @@ impl PressureField {
     }
 
     /// Largest pressure of an element, \[Pa].
-    #[must_use]
     pub fn largest(&self) -> f64 {
         self.pressure.iter().copied().fold(0.0, f64::max)
     }
 
     /// Pressure of the element at a `position` relative to the lowest point \[m]; zero outside the field, \[Pa].
-    #[must_use]
     pub fn at(&self, position: [f64; 2]) -> f64 {
         let [rows, columns] = self.grid.shape();
         let index =
@@ -51,12 +51,6 @@ impl PressureField {
         if !(row >= 0.0 && row < rows as f64 && column >= 0.0 && column < columns as f64) {
             return 0.0;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "inside the field"
-        )]
-        let index = row as usize * columns + column as usize;
-        self.pressure[index]
+        self.pressure[whole_part(row) * columns + whole_part(column)]
     }
 }

@@ -30,7 +30,6 @@ pub(crate) struct Layout {
 
 impl GridOptions {
     /// A grid with contacts solved to the default tolerance.
-    #[must_use]
     pub fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
         Self {
             spacing,

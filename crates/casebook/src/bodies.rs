@@ -1,8 +1,8 @@
-//! The bodies of revolution that rows name.
+//! The bodies of revolution that rows name, and surfaces of formulas.
 
 use indenters::{
     AnalyticLine, Axisymmetric, FlatCone, FlatPunch, Hyperboloid, PowerProfile, PowerTerm,
-    ProfilePoint, RigidLine, RoundTippedCone, Sphere, Superposition, TruncatedParaboloid,
+    ProfilePoint, RigidLine, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
 
 use crate::Case;
@@ -52,8 +52,39 @@ impl Axisymmetric for GaussianDip {
     }
 }
 
+/// A smooth surface with these mirrors, of which a function of \[x, y] gives the height and its gradient.
+#[derive(Debug, Clone, Copy)]
+pub struct Formula<F> {
+    mirrors: [bool; 2],
+    surface: F,
+}
+
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
+    /// The surface with the heights and gradients of a function.
+    pub const fn new(mirrors: [bool; 2], surface: F) -> Self {
+        Self { mirrors, surface }
+    }
+}
+
+impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
+    fn height(&self, position: [f64; 2]) -> f64 {
+        (self.surface)(position).0
+    }
+
+    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
+        (self.surface)(position).1
+    }
+
+    fn mirrors(&self) -> [bool; 2] {
+        self.mirrors
+    }
+
+    fn apex_exponent(&self) -> f64 {
+        2.0
+    }
+}
+
 /// The body of revolution Σ c r^p of pairs of coefficient and exponent.
-#[must_use]
 pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
     let terms = terms.iter().map(|&(coefficient, exponent)| PowerTerm {
         coefficient,
@@ -64,7 +95,6 @@ pub fn superposition(terms: &[(f64, f64)]) -> Superposition {
 
 impl Case {
     /// The body of revolution that the input `shape` of the row names.
-    #[must_use]
     pub fn body(&self) -> Box<dyn Axisymmetric> {
         let input = |name| self.input(name);
         let shape = self.input_text("shape");
@@ -86,7 +116,6 @@ impl Case {
     }
 
     /// The cubic line ε (x³/3 − 3x²/2 + 2x) of group FRI-03 on [0, 3], or the same run through backwards, in a `unit` \[m].
-    #[must_use]
     pub fn cubic(&self, unit: f64) -> impl RigidLine + use<> {
         let (epsilon, reversed) = (self.input("eps"), self.has_input("direction"));
         let turned = move |x: f64| if reversed { 3.0 - x / unit } else { x / unit };

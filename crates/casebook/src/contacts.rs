@@ -19,7 +19,6 @@ impl SquareContact {
     pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
 
     /// Hertz contact with the radius 0.3, with the apex so many elements from the middle along x and y.
-    #[must_use]
     pub fn hertz(n: usize, offset: f64) -> Self {
         let edge = 1.0 / n as f64;
         let middle = 0.5 * n as f64 + offset;
@@ -32,7 +31,6 @@ impl SquareContact {
     }
 
     /// A surface under the mean pressure 0.05 Pa.
-    #[must_use]
     pub const fn rough(heights: Vec<f64>) -> Self {
         Self {
             heights,
@@ -42,7 +40,6 @@ impl SquareContact {
 }
 
 /// Relative difference of two fields in the mean square.
-#[must_use]
 pub fn deviation(actual: &[f64], expected: &[f64]) -> f64 {
     let pairs = actual.iter().zip(expected);
     let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();

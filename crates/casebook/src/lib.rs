@@ -13,16 +13,16 @@ mod materials;
 mod rough;
 
 pub use assertions::{NEGATIVE, NOT_POSITIVE, refused, refuses};
-pub use bodies::{GaussianDip, superposition};
+pub use bodies::{Formula, GaussianDip, superposition};
 pub use contacts::{SquareContact, deviation};
 pub use materials::{model, prony, standard_solid};
 pub use rough::{RoughCase, rough_cases};
 
+use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngSeed};
 use serde_json::Value;
 
 /// So many random cases, the same in every run, and no file left behind.
-#[must_use]
 pub fn fixed_cases(cases: u32) -> Config {
     Config {
         cases,
@@ -32,12 +32,16 @@ pub fn fixed_cases(cases: u32) -> Config {
     }
 }
 
+/// Numbers between 10^-n and 10^n, alike in every decade.
+pub fn decades(n: f64) -> impl Strategy<Value = f64> {
+    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
+}
+
 /// One row of the casebook.
 #[derive(Debug, Clone)]
 pub struct Case(Value);
 
 /// The cases of one group, for example `"FRI-01"`; a panic without any: a test that checks nothing must fail.
-#[must_use]
 pub fn group(name: &str) -> Vec<Case> {
     let book: Value =
         serde_json::from_str(include_str!("../casebook.json")).expect("the casebook is valid JSON");
@@ -54,38 +58,32 @@ pub fn group(name: &str) -> Vec<Case> {
 
 impl Case {
     /// Full name, `group/case`.
-    #[must_use]
     pub fn id(&self) -> &str {
         self.0["id"].as_str().unwrap_or_default()
     }
 
     /// Whether an input of this name exists.
-    #[must_use]
     pub fn has_input(&self, name: &str) -> bool {
         !self.0["inputs"][name].is_null()
     }
 
     /// A numeric input.
-    #[must_use]
     pub fn input(&self, name: &str) -> f64 {
         number(&self.0["inputs"][name])
             .unwrap_or_else(|| panic!("{} has no number {name}", self.id()))
     }
 
     /// A list of numbers among the inputs.
-    #[must_use]
     pub fn input_list(&self, name: &str) -> Vec<f64> {
         list(&self.0["inputs"][name]).unwrap_or_else(|| panic!("{} has no list {name}", self.id()))
     }
 
     /// A text among the inputs, empty when absent.
-    #[must_use]
     pub fn input_text(&self, name: &str) -> &str {
         self.0["inputs"][name].as_str().unwrap_or_default()
     }
 
     /// A number among the expected values.
-    #[must_use]
     pub fn expected(&self, name: &str) -> Option<f64> {
         number(&self.0["expected"][name])
     }
@@ -98,19 +96,16 @@ impl Case {
     }
 
     /// A list of numbers among the expected values.
-    #[must_use]
     pub fn expected_list(&self, name: &str) -> Option<Vec<f64>> {
         list(&self.0["expected"][name])
     }
 
     /// The name of the error that a program must return, when the case asks for one.
-    #[must_use]
     pub fn expected_error(&self) -> Option<&str> {
         self.0["expected"]["error"].as_str()
     }
 
     /// Relative tolerance of the case.
-    #[must_use]
     pub fn relative_tolerance(&self) -> f64 {
         number(&self.0["rel_tol"]).unwrap_or(1e-12)
     }

@@ -8,12 +8,8 @@ use rheology::{
 use crate::{Case, group};
 
 /// The material of a lone spring \[Pa], a lone dashpot \[Pa s], and branches of modulus \[Pa] and relaxation time \[s].
-#[must_use]
 pub fn prony([equilibrium_modulus, viscosity]: [f64; 2], branches: &[(f64, f64)]) -> Prony {
-    let branch = |&(modulus, relaxation_time)| RelaxationBranch {
-        modulus,
-        relaxation_time,
-    };
+    let branch = |&(modulus, time)| RelaxationBranch::new(modulus, time);
     let branches = branches.iter().map(branch).collect();
     let relaxation = RelaxationSpectrum::new(equilibrium_modulus, viscosity, branches);
     Prony::new(relaxation.expect("moduli")).expect("a material")
@@ -34,7 +30,6 @@ pub fn standard_solid(
 }
 
 /// A model that rows name, `"P3"` or `"P10"`, by its numbers in group RHE-05.
-#[must_use]
 pub fn model(name: &str) -> Prony {
     let rows = group("RHE-05").into_iter();
     let mut rows = rows.filter(|row| row.has_input("Ge"));
@@ -44,7 +39,6 @@ pub fn model(name: &str) -> Prony {
 
 impl Case {
     /// The material whose moduli the row gives, or else that of the model that it names.
-    #[must_use]
     pub fn material(&self) -> Prony {
         if !self.has_input("Ge") {
             return model(self.input_text("model"));

@@ -25,7 +25,6 @@ pub struct RoughCase {
 }
 
 /// All cases of `"cases"`, in partial contact, or of `"full_contact"`.
-#[must_use]
 pub fn rough_cases(group: &str) -> Vec<RoughCase> {
     let book: Value = serde_json::from_str(include_str!("../rough.json")).expect("a valid table");
     let rows = book[group].as_array().expect("a group of cases");

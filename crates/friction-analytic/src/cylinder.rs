@@ -116,7 +116,6 @@ pub fn cylinder_sliding(
 impl CylinderSliding {
     /// Pressure at a distance from the lowest point of the cylinder, (5), \[Pa]; 0 outside the contact and at its ends. On
     /// a Kelvin–Voigt solid it is infinite at the front.
-    #[must_use]
     pub fn pressure(&self, x: f64) -> f64 {
         let [rear, front] = self.contact;
         let [ahead, behind] = [front - x, x - rear];

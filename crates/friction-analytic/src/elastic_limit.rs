@@ -112,7 +112,6 @@ fn limit(
     })
 }
 
-/// Depth of a contact that the body can have.
 fn checked_depth(
     body: &(impl Axisymmetric + ?Sized),
     contact: ElasticContact,

@@ -142,5 +142,10 @@ pub(crate) fn representable(quantity: &'static str, value: f64) -> Result<f64, F
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
-    Err(FrictionError::OutOfRange { quantity, value })
+    Err(out_of_range(quantity, value))
+}
+
+/// A result, or what leads to it, is beyond floating-point numbers.
+pub(crate) const fn out_of_range(quantity: &'static str, value: f64) -> FrictionError {
+    FrictionError::OutOfRange { quantity, value }
 }

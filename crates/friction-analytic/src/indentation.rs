@@ -14,7 +14,7 @@ use numerics::{Estimate, bracketed_root, in_range, not_negative};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 use crate::pieces::{accepted, ends_outside_apex, over_pieces};
 use crate::stationary::quotient;
 
@@ -185,10 +185,10 @@ fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = over_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
-    Estimate {
-        value: radius * (radius * angular.value),
-        error: radius * (radius * angular.error),
-    }
+    Estimate::new(
+        radius * (radius * angular.value),
+        radius * (radius * angular.error),
+    )
 }
 
 /// The moment, if it is known well enough.
@@ -226,11 +226,8 @@ fn radius_of_moment(
     } else {
         [0.0, end]
     };
-    let radius = bracketed_root(excess, bracket).ok_or(FrictionError::OutOfRange {
-        quantity: "contact radius",
-        value: bracket[1],
-    })?;
-    Ok(Some(radius))
+    let failed = out_of_range("contact radius", bracket[1]);
+    bracketed_root(excess, bracket).ok_or(failed).map(Some)
 }
 
 /// Two radii between which the moment passes its target. The search starts at 1 m, which stands for "anywhere".

@@ -295,10 +295,7 @@ fn finished(results: [f64; 3], errors: [f64; 3]) -> Result<PerssonSliding, Frict
         area_fraction,
         friction_coefficient,
         friction_coefficient_2006,
-    ] = [0, 1, 2].map(|index| Estimate {
-        value: results[index],
-        error: errors[index],
-    });
+    ] = [0, 1, 2].map(|index| Estimate::new(results[index], errors[index]));
     Ok(PerssonSliding {
         area_fraction,
         friction_coefficient,

@@ -13,7 +13,7 @@ use indenters::{RigidLine, SlidingLoad, leading_edge};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 use crate::stationary::depth_under_force;
 
 /// How far the rise of the contact may differ from the depth, relative to the depth, and be taken as equal: the contact is
@@ -94,10 +94,7 @@ impl Contact {
         let sum = |of: &dyn Fn([f64; 2]) -> f64| contact.iter().map(|ends| of(*ends)).sum();
         let rise = sum(&|[start, end]| line.height(end) - line.height(start));
         if !f64::is_finite(rise) {
-            return Err(FrictionError::OutOfRange {
-                quantity: "rise of the contact",
-                value: rise,
-            });
+            return Err(out_of_range("rise of the contact", rise));
         }
         let length = sum(&|[start, end]| end - start);
         Ok(Self {

@@ -94,21 +94,12 @@ pub fn slow_sliding(
     let error = QUADRATURE + THIRD * third / (shift * radius * radius) + SQUARE * square + apex;
     let steepness = slope * radius / body.line_height(radius);
     Ok(SlowSliding {
-        friction_coefficient: Estimate {
-            value: mu - of_rear - of_tip,
-            error: error * mu,
-        },
+        friction_coefficient: Estimate::new(mu - of_rear - of_tip, error * mu),
         normal_force: first.normal_force,
         elastic_error: DEPTH * steepness * second / (radius * radius),
         // The disc, less where the disc does not reach that is shifted by x_s.
-        contact_area: Estimate {
-            value: PI * radius * radius - 2.0 * radius * shift,
-            error: AREA * second,
-        },
-        rear: Estimate {
-            value: shift - radius,
-            error: REAR * second / radius,
-        },
+        contact_area: Estimate::new(PI * radius * radius - 2.0 * radius * shift, AREA * second),
+        rear: Estimate::new(shift - radius, REAR * second / radius),
     })
 }
 

@@ -44,7 +44,6 @@ impl StationarySliding {
     }
 
     /// Length of the contact line, \[m].
-    #[must_use]
     pub fn contact_length(&self) -> f64 {
         let intervals = self.contact_line.iter();
         intervals.map(|[start, end]| end - start).sum()
@@ -52,7 +51,6 @@ impl StationarySliding {
 }
 
 /// Stationary indentation depth, \[m]: the one of the load, or F_N/(4 η v), (12), which does not depend on the shape.
-#[must_use]
 pub fn stationary_depth(material: &Viscous, load: &SlidingLoad) -> f64 {
     match load.control() {
         Control::IndentationDepth(depth) => depth,

@@ -19,7 +19,7 @@ use indenters::{PowerProfile, SlidingLoad};
 use rheology::Viscous;
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 use crate::power::Shape;
 use crate::stationary::depth_under_force;
 
@@ -113,11 +113,8 @@ pub fn cone_depth_by_equation_15(
     }
     let slid = load.velocity() * not_negative("time", time)? / scales.length;
     let fraction = bracketed_root(|q| missing_logarithm(q) - slid, [0.0, 1.0]);
-    let fraction = fraction.ok_or(FrictionError::OutOfRange {
-        quantity: "sliding distance",
-        value: slid,
-    })?;
-    Ok(scales.depth * fraction)
+    let failed = out_of_range("sliding distance", slid);
+    Ok(scales.depth * fraction.ok_or(failed)?)
 }
 
 impl Scales {

@@ -15,7 +15,7 @@ use numerics::{bracketed_root, positive};
 use rheology::{KelvinVoigt, Maxwell};
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 use crate::pieces::{accepted, over_pieces};
 use crate::power::Shape;
 
@@ -125,10 +125,7 @@ fn maxwell_paraboloid(ratio: f64) -> Result<[f64; 3], FrictionError> {
         let [one, two, _] = phi(z);
         z * two / one - ratio
     };
-    let failed = FrictionError::OutOfRange {
-        quantity: "contact length",
-        value: ratio,
-    };
+    let failed = out_of_range("contact length", ratio);
     // x_r < x_r − x_l < 2 x_r.
     let z = bracketed_root(excess, [ratio, 2.0 * ratio * (1.0 + SMALL)]).ok_or(failed)?;
     let [one, two, rest] = phi(z);

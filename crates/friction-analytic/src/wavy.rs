@@ -17,7 +17,7 @@ use numerics::{in_range, positive};
 use rheology::{ComplexModulus, Material};
 
 use crate::FrictionError;
-use crate::error::representable;
+use crate::error::{out_of_range, representable};
 
 /// A sinusoidal line in motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,12 +71,8 @@ fn complex_modulus(
     material: &(impl Material + ?Sized),
     frequency: f64,
 ) -> Result<ComplexModulus, FrictionError> {
-    let out_of_range = |_| FrictionError::OutOfRange {
-        quantity: "angular frequency",
-        value: frequency,
-    };
     let modulus = material.relaxation().complex_modulus(frequency);
-    modulus.map_err(out_of_range)
+    modulus.map_err(|_| out_of_range("angular frequency", frequency))
 }
 
 /// One wave hᵢ cos(qᵢ · x + φᵢ) of a surface; its phase plays no role for the friction.

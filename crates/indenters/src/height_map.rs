@@ -4,9 +4,9 @@
 //! h = (1 − s)(1 − t) h_ij + s (1 − t) h_(i+1)j + (1 − s) t h_i(j+1) + s t h_(i+1)(j+1)        0 ≤ s, t ≤ 1 in a cell
 //! ```
 
-use crate::table::at_least_two;
+use crate::table::at_least;
 use crate::{IndenterError, Surface};
-use numerics::{finite, positive};
+use numerics::{finite, positive, whole_part};
 
 /// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
 ///
@@ -34,8 +34,8 @@ impl HeightMap {
         spacing: [f64; 2],
         mut heights: Vec<f64>,
     ) -> Result<Self, IndenterError> {
-        at_least_two("rows of heights", shape[0])?;
-        at_least_two("columns of heights", shape[1])?;
+        at_least(2, "rows of heights", shape[0])?;
+        at_least(2, "columns of heights", shape[1])?;
         let first_length = shape[0].saturating_mul(shape[1]);
         if heights.len() != first_length {
             return Err(IndenterError::LengthMismatch {
@@ -64,7 +64,6 @@ impl HeightMap {
     }
 
     /// Where the surface begins and ends along x and along y, seen from its lowest point, \[m].
-    #[must_use]
     pub fn extent(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))
     }
@@ -80,12 +79,7 @@ impl HeightMap {
         if !(place >= 0.0 && place <= last as f64) {
             return None;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "inside the grid"
-        )]
-        let cell = (place.floor() as usize).min(last - 1);
+        let cell = whole_part(place).min(last - 1);
         Some((cell, place - cell as f64))
     }
 

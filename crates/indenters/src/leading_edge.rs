@@ -7,6 +7,7 @@
 //!
 //! The paper writes Definition 2 with d instead of `h_0 + d`; its proof of Theorem 3 uses `h_0 + d`.
 
+use crate::table::at_least;
 use crate::{IndenterError, RigidLine};
 use numerics::{InvalidParameter, bracketed_root, finite, positive};
 
@@ -31,7 +32,6 @@ pub struct LeadingEdge {
 
 impl LeadingEdge {
     /// Largest indentation depth \[m] for which a contact line exists.
-    #[must_use]
     pub fn available_depth(&self) -> f64 {
         self.highest - self.lowest
     }
@@ -82,7 +82,6 @@ pub struct ContactLine {
 
 impl ContactLine {
     /// Sum of the lengths of the intervals, \[m].
-    #[must_use]
     pub fn length(&self) -> f64 {
         self.intervals.iter().map(|[start, end]| end - start).sum()
     }
@@ -116,14 +115,9 @@ pub fn leading_edge_with(
         .iter()
         .map(|x| finite("height of the line", line.height(*x)))
         .collect::<Result<_, _>>()?;
-    let ([.., end], [first, ..], [.., highest]) = (&breaks[..], &heights[..], &heights[..]) else {
-        return Err(IndenterError::TooFew {
-            list: "monotone_breaks",
-            needed: 1,
-            length: 0,
-        });
-    };
-    let mut backwards = vec![[*end, *end]];
+    at_least(1, "monotone_breaks", breaks.len())?;
+    let last = breaks.len() - 1;
+    let mut backwards = vec![[breaks[last]; 2]];
     // Minimum over all breaks to the right of the piece.
     let mut later = f64::INFINITY;
     for (ends, heights) in breaks.windows(2).zip(heights.windows(2)).rev() {
@@ -144,8 +138,8 @@ pub fn leading_edge_with(
     backwards.reverse();
     Ok(LeadingEdge {
         intervals: backwards,
-        lowest: later.min(*first),
-        highest: *highest,
+        lowest: later.min(heights[0]),
+        highest: heights[last],
     })
 }
 

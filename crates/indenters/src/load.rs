@@ -96,25 +96,21 @@ impl SlidingLoad {
     }
 
     /// Force or depth.
-    #[must_use]
     pub const fn control(&self) -> Control {
         self.control
     }
 
     /// Sliding speed v, \[m/s].
-    #[must_use]
     pub const fn velocity(&self) -> f64 {
         self.velocity
     }
 
     /// Sliding distance since first touch, \[m]; none for the stationary state.
-    #[must_use]
     pub const fn sliding_distance(&self) -> Option<f64> {
         self.sliding_distance
     }
 
     /// Normal force F_N, \[N]; none where the depth is prescribed.
-    #[must_use]
     pub fn normal_force(&self) -> Option<f64> {
         self.require_normal_force().ok()
     }
@@ -165,13 +161,11 @@ impl PressingLoad {
     }
 
     /// Force or depth.
-    #[must_use]
     pub const fn control(&self) -> Control {
         self.control
     }
 
     /// Time since first touch, \[s].
-    #[must_use]
     pub const fn duration(&self) -> f64 {
         self.duration
     }

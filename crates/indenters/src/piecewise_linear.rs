@@ -51,13 +51,11 @@ impl PiecewiseLinearProfile {
     }
 
     /// Radii of the table, \[m].
-    #[must_use]
     pub fn radii(&self) -> &[f64] {
         &self.radii
     }
 
     /// Heights of the table, \[m].
-    #[must_use]
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }

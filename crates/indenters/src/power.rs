@@ -62,19 +62,16 @@ impl PowerProfile {
     }
 
     /// Coefficient c, [m^(1−p)].
-    #[must_use]
     pub const fn coefficient(&self) -> f64 {
         self.coefficient
     }
 
     /// Exponent p.
-    #[must_use]
     pub const fn exponent(&self) -> f64 {
         self.exponent
     }
 
     /// Stretch κ(p) of the equivalent line, (9).
-    #[must_use]
     pub const fn stretch(&self) -> f64 {
         self.stretch
     }
@@ -82,7 +79,6 @@ impl PowerProfile {
     /// Position x > 0 \[m] at which the equivalent line has the `height` ≥ 0 \[m]: `x = (height / (κ c))^(1/p)`.
     ///
     /// For large p the power c x^p overflows long before x does.
-    #[must_use]
     pub fn line_position(&self, height: f64) -> f64 {
         if height == 0.0 {
             return 0.0;

@@ -23,13 +23,11 @@ impl SampledLine {
     }
 
     /// Positions of the table, \[m].
-    #[must_use]
     pub fn positions(&self) -> &[f64] {
         &self.positions
     }
 
     /// Heights of the table, \[m].
-    #[must_use]
     pub fn heights(&self) -> &[f64] {
         &self.heights
     }

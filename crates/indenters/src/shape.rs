@@ -30,7 +30,6 @@ macro_rules! shape {
 
             $(
                 $(#[$parameter_doc])*
-                #[must_use]
                 pub const fn $getter(&self) -> f64 {
                     self.$parameter
                 }

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::power::scaled_power;
+use crate::table::at_least;
 use crate::{Axisymmetric, IndenterError, LinePoint, ProfilePoint, stretch, surface_of_revolution};
 use numerics::{in_range, positive};
 
@@ -44,12 +45,8 @@ impl Superposition {
             in_range("coefficient", term.coefficient, holds, "finite and not 0")?;
         }
         terms.sort_by(|one, other| one.exponent.total_cmp(&other.exponent));
-        let leading = terms.first().ok_or(IndenterError::TooFew {
-            list: "terms",
-            needed: 1,
-            length: 0,
-        })?;
-        positive("coefficient of the lowest exponent", leading.coefficient)?;
+        at_least(1, "terms", terms.len())?;
+        positive("coefficient of the lowest exponent", terms[0].coefficient)?;
         for pair in terms.windows(2) {
             let [before, exponent] = [pair[0].exponent, pair[1].exponent];
             let allowed = "different from the exponents of the other terms";
@@ -63,7 +60,6 @@ impl Superposition {
     }
 
     /// The terms by increasing exponent.
-    #[must_use]
     pub fn terms(&self) -> &[PowerTerm] {
         &self.terms
     }

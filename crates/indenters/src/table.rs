@@ -4,9 +4,6 @@ use crate::IndenterError;
 use numerics::finite;
 
 /// Checks that both lists are finite and equally long, have two rows, and that the positions, which have a name, increase.
-///
-/// # Errors
-/// The [`IndenterError`] of the first rule that is broken.
 pub(crate) fn check_table(
     list: &'static str,
     positions: &[f64],
@@ -21,7 +18,7 @@ pub(crate) fn check_table(
             second_length: heights.len(),
         });
     }
-    at_least_two(list, length)?;
+    at_least(2, list, length)?;
     for (name, values) in [(list, positions), ("heights", heights)] {
         for value in values {
             finite(name, *value)?;
@@ -30,8 +27,11 @@ pub(crate) fn check_table(
     increasing(list, positions)
 }
 
-pub(crate) fn at_least_two(list: &'static str, length: usize) -> Result<(), IndenterError> {
-    let needed = 2;
+pub(crate) fn at_least(
+    needed: usize,
+    list: &'static str,
+    length: usize,
+) -> Result<(), IndenterError> {
     if length >= needed {
         return Ok(());
     }

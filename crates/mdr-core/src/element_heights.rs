@@ -246,13 +246,8 @@ pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, 
         .map(|x| (line.height(x), x))
         .filter(|(height, _)| height.is_finite())
         .min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
-    match lowest {
-        Some((_, position)) => Ok(position),
-        None => Err(MdrError::InvalidHeight {
-            position: rear,
-            value: line.height(rear),
-        }),
-    }
+    let failed = || invalid_height(rear, line.height(rear));
+    lowest.map(|(_, position)| position).ok_or_else(failed)
 }
 
 /// The lowest point within one spacing of the lowest sample, by golden section.
@@ -277,10 +272,12 @@ pub(crate) fn checked_height(
 ) -> Result<f64, MdrError> {
     let height = line.height(position);
     if height.is_nan() || height == f64::NEG_INFINITY {
-        return Err(MdrError::InvalidHeight {
-            position,
-            value: height,
-        });
+        return Err(invalid_height(position, height));
     }
     Ok(height)
+}
+
+/// The line has a height there that is none.
+pub(crate) const fn invalid_height(position: f64, value: f64) -> MdrError {
+    MdrError::InvalidHeight { position, value }
 }

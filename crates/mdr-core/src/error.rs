@@ -183,9 +183,6 @@ pub enum MdrError {
 const MIN_CONTACT: usize = 3;
 
 /// Refuses a contact of too few elements.
-///
-/// # Errors
-/// [`MdrError::TooCoarse`] for fewer than [`MIN_CONTACT`].
 pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrError> {
     if n_contact >= MIN_CONTACT {
         return Ok(());
@@ -198,9 +195,6 @@ pub(crate) fn enough_elements(n_contact: usize, spacing: f64) -> Result<(), MdrE
 }
 
 /// Checks a computed `value` that belongs to a `time`.
-///
-/// # Errors
-/// [`MdrError::NonFinite`] naming `quantity` when it is infinite or not a number.
 pub(crate) fn finite(quantity: &'static str, value: f64, time: f64) -> Result<f64, MdrError> {
     if value.is_finite() {
         return Ok(value);

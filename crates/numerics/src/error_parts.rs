@@ -30,7 +30,6 @@ impl ErrorParts {
     };
 
     /// An error of elements only.
-    #[must_use]
     pub const fn of_elements(error: f64) -> Self {
         Self {
             discretisation: Some(error),
@@ -39,13 +38,11 @@ impl ErrorParts {
     }
 
     /// Whether no part is known.
-    #[must_use]
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
     /// The parts by their names in JSON and CSV.
-    #[must_use]
     pub const fn named(&self) -> [(&'static str, Option<f64>); 4] {
         [
             ("discretisation", self.discretisation),
@@ -56,7 +53,6 @@ impl ErrorParts {
     }
 
     /// Sum of the known parts.
-    #[must_use]
     pub fn sum(&self) -> f64 {
         self.named().iter().filter_map(|(_, part)| *part).sum()
     }
@@ -64,27 +60,28 @@ impl ErrorParts {
     /// Of a value that is so many times as large.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        let scaled = |part: Option<f64>| part.map(|part| factor * part);
-        Self {
-            discretisation: scaled(self.discretisation),
-            iteration: scaled(self.iteration),
-            time_stepping: scaled(self.time_stepping),
-            truncation: scaled(self.truncation),
-        }
+        self.each_with(Self::NONE, |part, _| part.map(|part| factor * part))
     }
 
     /// All parts of both; what both have is added.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
-        let both = |part: Option<f64>, other: Option<f64>| match (part, other) {
+        self.each_with(other, |part, other| match (part, other) {
             (Some(part), Some(other)) => Some(part + other),
             (part, other) => part.or(other),
-        };
+        })
+    }
+
+    fn each_with(
+        self,
+        other: Self,
+        joined: impl Fn(Option<f64>, Option<f64>) -> Option<f64>,
+    ) -> Self {
         Self {
-            discretisation: both(self.discretisation, other.discretisation),
-            iteration: both(self.iteration, other.iteration),
-            time_stepping: both(self.time_stepping, other.time_stepping),
-            truncation: both(self.truncation, other.truncation),
+            discretisation: joined(self.discretisation, other.discretisation),
+            iteration: joined(self.iteration, other.iteration),
+            time_stepping: joined(self.time_stepping, other.time_stepping),
+            truncation: joined(self.truncation, other.truncation),
         }
     }
 }

@@ -14,14 +14,17 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// A number and its absolute error.
+    pub const fn new(value: f64, error: f64) -> Self {
+        Self { value, error }
+    }
+
     /// A number without error.
-    #[must_use]
     pub const fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
     }
 
     /// Whether the value is finite and its error at most the relative one.
-    #[must_use]
     pub fn is_within(&self, relative_error: f64) -> bool {
         self.value.is_finite() && self.error <= relative_error * self.value.abs()
     }
@@ -62,10 +65,10 @@ mod tests {
 
     #[test]
     fn errors_add_up_and_are_compared_with_the_modulus() {
-        let estimates = [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate { value, error });
+        let estimates =
+            [(3.0, 0.25), (-5.0, 0.5)].map(|(value, error)| Estimate::new(value, error));
         let sum = estimates.into_iter().sum::<Estimate>();
-        let (value, error) = (6.0, 2.25);
-        assert_eq!(sum * -3.0, Estimate { value, error }, "of {estimates:?}");
+        assert_eq!(sum * -3.0, Estimate::new(6.0, 2.25), "of {estimates:?}");
         let within = |relative_error: f64| estimates[1].is_within(relative_error);
         assert_eq!([0.099, 0.1].map(within), [false, true], "of 0.5 in -5");
         let overflown = Estimate::exact(f64::INFINITY);

@@ -108,7 +108,6 @@ fn step(
 }
 
 /// The inverse of a symmetric positive matrix of `n` rows, row by row; none where it is singular to rounding.
-#[must_use]
 pub fn inverse(matrix: &[f64], n: usize) -> Option<Vec<f64>> {
     let scale: Vec<f64> = (0..n).map(|k| matrix[k * n + k].sqrt().recip()).collect();
     // With a unit diagonal, so that units do not matter.

@@ -9,7 +9,6 @@
 const NEWTON_STEPS: usize = 8;
 
 /// P_0(t), P_1(t), … of as many degrees as the array is long.
-#[must_use]
 pub fn legendre_values<const N: usize>(t: f64) -> [f64; N] {
     let mut pair = [0.0, 1.0];
     std::array::from_fn(|degree| {
@@ -35,7 +34,6 @@ pub struct LobattoRule {
 }
 
 /// The Gauss–Lobatto rule of at least two points.
-#[must_use]
 pub fn lobatto_rule(n_points: usize) -> LobattoRule {
     let degree = n_points.max(2) - 1;
     let n = degree as f64;

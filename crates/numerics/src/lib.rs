@@ -34,6 +34,7 @@ mod progress;
 mod quadrature;
 mod refinement;
 mod root;
+mod whole_part;
 
 pub use error_parts::ErrorParts;
 pub use estimate::Estimate;
@@ -47,3 +48,4 @@ pub use refinement::{
     Accuracy, Goal, NotReached, Quantity, Refined, Request, no_other_error, refine,
 };
 pub use root::{bracketed_root, golden_section, try_bracketed_root};
+pub use whole_part::whole_part;

@@ -33,7 +33,6 @@ pub struct Progress<'a> {
 
 impl<'a> Progress<'a> {
     /// Nothing is done of what is expected.
-    #[must_use]
     pub const fn new(watch: &'a dyn Watch, expected: f64) -> Self {
         let done = 0.0;
         Self {

@@ -43,10 +43,7 @@ pub fn integrate_from_ends(
             break;
         }
     }
-    Estimate {
-        value: previous,
-        error,
-    }
+    Estimate::new(previous, error)
 }
 
 /// Integrates `integrand(x)` over an interval; see [`integrate_from_ends`].

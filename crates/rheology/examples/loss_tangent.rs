@@ -4,10 +4,7 @@
 use rheology::{Material, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 fn main() -> Result<(), RheologyError> {
-    let branch = |modulus, relaxation_time| RelaxationBranch {
-        modulus,
-        relaxation_time,
-    };
+    let branch = RelaxationBranch::new;
     let branches = vec![branch(5e5, 1e-1), branch(5e6, 1e-3), branch(3e8, 1e-6)];
     let rubber = Prony::new(RelaxationSpectrum::new(1e6, 0.0, branches)?)?;
     let mut largest: f64 = 0.0;

@@ -52,14 +52,12 @@ impl ExponentialStep {
     }
 
     /// What one unit of input adds to the output of its step: α \[1/Pa].
-    #[must_use]
     pub fn response(&self) -> f64 {
         let gains: f64 = self.fields.iter().map(|field| field.gain).sum();
         self.direct + gains
     }
 
     /// Number of stored values per point.
-    #[must_use]
     pub fn n_fields(&self) -> usize {
         self.fields.len()
     }

@@ -43,7 +43,6 @@ impl WlfShift {
     }
 
     /// The constants C₁ and C₂ \[K].
-    #[must_use]
     pub const fn constants(&self) -> [f64; 2] {
         [self.c1, self.c2]
     }
@@ -137,9 +136,8 @@ impl RelaxationSpectrum {
     /// [`RheologyError::InvalidParameter`] when the factor, or a time, is not finite and greater than zero.
     pub fn shifted(&self, shift_factor: f64) -> Result<Self, RheologyError> {
         positive("shift_factor", shift_factor)?;
-        let branches = self.branches().iter().map(|branch| RelaxationBranch {
-            modulus: branch.modulus,
-            relaxation_time: branch.relaxation_time * shift_factor,
+        let branches = self.branches().iter().map(|branch| {
+            RelaxationBranch::new(branch.modulus, branch.relaxation_time * shift_factor)
         });
         Self::new(
             self.equilibrium_modulus(),

@@ -56,7 +56,6 @@ enum Command {
 }
 
 /// Does what the command line asks for.
-#[must_use]
 pub fn execute() -> ExitCode {
     let result = match CommandLine::parse().command {
         Command::Run(options) => run::run(&options),

@@ -10,7 +10,6 @@ use serde::Serialize;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
-/// Prints a line.
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }
@@ -192,7 +191,6 @@ pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
 }
 
 /// A folder for the files of one result; nobody else writes into it as long as this value lives.
-#[derive(Debug)]
 pub(crate) struct OutputFolder {
     path: PathBuf,
     overwrite: bool,

@@ -27,7 +27,6 @@ const ROUNDING: f64 = 1e-9;
 
 impl Axis {
     /// Linear axis.
-    #[must_use]
     pub fn linear(label: impl Into<String>, range: [f64; 2]) -> Self {
         Self {
             label: label.into(),
@@ -37,7 +36,6 @@ impl Axis {
     }
 
     /// Logarithmic axis; the range must be positive.
-    #[must_use]
     pub fn log10(label: impl Into<String>, range: [f64; 2]) -> Self {
         Self {
             scale: Scale::Log10,
@@ -46,7 +44,6 @@ impl Axis {
     }
 
     /// Logarithmic axis over the whole decades around positive values; one decade when there are none.
-    #[must_use]
     pub fn decades(label: impl Into<String>, values: impl Iterator<Item = f64>) -> Self {
         let [low, high] = values.fold([f64::INFINITY, 0.0_f64], |[low, high], value| {
             [low.min(value), high.max(value)]

@@ -41,7 +41,6 @@ pub(crate) struct Panel<'a> {
 
 impl Chart {
     /// Series without title, and with the legend where there is room.
-    #[must_use]
     pub fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self {
             title: None,
@@ -54,7 +53,6 @@ impl Chart {
     }
 
     /// A field without title and series.
-    #[must_use]
     pub fn map(x: Axis, y: Axis, field: Field) -> Self {
         Self {
             field: Some(field),

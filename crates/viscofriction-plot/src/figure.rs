@@ -22,7 +22,6 @@ impl Figure {
     }
 
     /// Figure of a single chart.
-    #[must_use]
     pub fn single(chart: Chart) -> Self {
         Self::new([chart], 1)
     }

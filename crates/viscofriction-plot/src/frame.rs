@@ -156,7 +156,6 @@ impl<'a> AxisEdge<'a> {
         Ok(found)
     }
 
-    /// Pixel of a value.
     fn pixel(&self, value: f64) -> Pixel {
         self.at(self.axis.fraction(value))
     }

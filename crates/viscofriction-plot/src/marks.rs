@@ -65,7 +65,6 @@ fn draw_error_bar(canvas: &mut Canvas, [upper, lower]: [Pixel; 2], series: &Seri
     }
 }
 
-/// Draws a marker centred on a pixel.
 pub(crate) fn draw_marker(
     canvas: &mut Canvas,
     [x, y]: Pixel,

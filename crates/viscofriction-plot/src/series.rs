@@ -77,13 +77,11 @@ pub enum Fill {
 
 impl Line {
     /// Line of usual width.
-    #[must_use]
     pub const fn thick(dash: Dash) -> Self {
         Self { dash, width: 1.8 }
     }
 
     /// Line of half the usual width.
-    #[must_use]
     pub const fn thin(dash: Dash) -> Self {
         Self { dash, width: 0.9 }
     }
@@ -91,7 +89,6 @@ impl Line {
 
 impl Marker {
     /// White marker with coloured outline on every point.
-    #[must_use]
     pub const fn open(shape: Shape) -> Self {
         Self {
             shape,
@@ -101,7 +98,6 @@ impl Marker {
     }
 
     /// Coloured marker on every point.
-    #[must_use]
     pub const fn filled(shape: Shape) -> Self {
         Self {
             fill: Fill::Filled,
@@ -112,7 +108,6 @@ impl Marker {
 
 impl Series {
     /// Line without markers, label or error bars.
-    #[must_use]
     pub const fn line(points: Vec<[f64; 2]>, line: Line, colour: Colour) -> Self {
         Self {
             label: None,
@@ -125,7 +120,6 @@ impl Series {
     }
 
     /// Markers without line, label or error bars.
-    #[must_use]
     pub fn markers(points: Vec<[f64; 2]>, marker: Marker, colour: Colour) -> Self {
         Self {
             line: None,

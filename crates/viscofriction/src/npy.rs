@@ -4,7 +4,6 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 const VERSION: [u8; 2] = [1, 0];
 
 /// An array as NumPy reads it (format 1.0), little-endian, the last index fastest.
-#[must_use]
 pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
     let lengths: String = shape.iter().map(|length| format!("{length},")).collect();
     let mut header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({lengths}), }}");

@@ -11,7 +11,6 @@ pub struct WrongInput(pub String);
 pub type ReadFile = fn(&Path) -> Result<Vec<u8>, WrongInput>;
 
 /// The line at which a record of a CSV file begins, counted from 1; empty lines before it belong to its position.
-#[must_use]
 pub fn line_of_record(contents: &[u8], position: Option<&csv::Position>) -> usize {
     let start = position.map_or(0, csv::Position::byte);
     let start = usize::try_from(start).unwrap_or(usize::MAX);
@@ -22,7 +21,6 @@ pub fn line_of_record(contents: &[u8], position: Option<&csv::Position>) -> usiz
 }
 
 /// The line of an offset in a text, counted from 1.
-#[must_use]
 pub fn line_of(text: &[u8], offset: usize) -> usize {
     let before = text.iter().take(offset);
     1 + before.filter(|byte| **byte == b'\n').count()

@@ -25,7 +25,6 @@ pub(super) struct Row {
 }
 
 /// The approach to stationarity of one profile, and the pressure at its end.
-#[derive(Debug)]
 pub(super) struct Approach {
     pub(super) rows: Vec<Row>,
     pub(super) pressure: PressureField,

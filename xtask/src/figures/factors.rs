@@ -2,7 +2,6 @@
 
 use anyhow::Result;
 use bem_halfspace::slide::Transient;
-use numerics::Estimate;
 use serde::{Deserialize, Serialize};
 
 use crate::scaling::{MAX_UNKNOWNS, scaling_factor};
@@ -45,8 +44,24 @@ pub(super) struct Row {
 
 pub(super) fn compute() -> Result<Vec<Row>> {
     in_parallel("scaling factors", &PAPER, |&(exponent, paper)| {
-        let factor = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?;
-        row(exponent, paper, factor.estimate())
+        let converged = scaling_factor(exponent, RELATIVE_ERROR, MAX_UNKNOWNS)?.value;
+        let plain = Plain::new(exponent, PLAIN_ELEMENTS)?;
+        let stationary = plain.transient.stationary(DRIFT_TOLERANCE)?;
+        let mean_slope = plain.transient.last().friction_coefficient / plain.theory;
+        let far = stationary.friction_coefficient / plain.theory;
+        Ok(Row {
+            exponent,
+            paper,
+            plain: plain.ratio,
+            time_level_bias: mean_slope - plain.ratio,
+            distance_bias: far - mean_slope,
+            grid_bias: converged.value - far,
+            converged: converged.value,
+            error: converged.error,
+            plain_elements: PLAIN_ELEMENTS,
+            plain_lengths: PLAIN_LENGTHS,
+            plain_drift: stationary.drift,
+        })
     })
 }
 
@@ -71,25 +86,4 @@ impl Plain {
             theory,
         })
     }
-}
-
-/// The plain simulation beside a converged factor.
-fn row(exponent: f64, paper: f64, converged: Estimate) -> Result<Row> {
-    let plain = Plain::new(exponent, PLAIN_ELEMENTS)?;
-    let stationary = plain.transient.stationary(DRIFT_TOLERANCE)?;
-    let mean_slope = plain.transient.last().friction_coefficient / plain.theory;
-    let far = stationary.friction_coefficient / plain.theory;
-    Ok(Row {
-        exponent,
-        paper,
-        plain: plain.ratio,
-        time_level_bias: mean_slope - plain.ratio,
-        distance_bias: far - mean_slope,
-        grid_bias: converged.value - far,
-        converged: converged.value,
-        error: converged.error,
-        plain_elements: PLAIN_ELEMENTS,
-        plain_lengths: PLAIN_LENGTHS,
-        plain_drift: stationary.drift,
-    })
 }

@@ -23,7 +23,6 @@ use friction_over_speed::{CONE, PARABOLOID};
 pub(crate) use check::check;
 
 /// The data of all figures.
-#[derive(Debug)]
 struct Data {
     loss_tangent: Vec<loss_tangent::Row>,
     cone: Vec<friction_over_speed::Row>,

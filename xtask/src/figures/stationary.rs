@@ -30,7 +30,6 @@ pub(super) struct Row {
 }
 
 /// The stationary contact of one profile; lengths in contact lengths of the one-dimensional model.
-#[derive(Debug)]
 pub(super) struct Contact {
     pub(super) exponent: f64,
     /// Elements along that length.

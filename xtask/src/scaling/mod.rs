@@ -6,12 +6,9 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use bem_halfspace::steady::RefinementOptions;
-use clap::ValueEnum;
-use comfy_table::Table;
 use numerics::Estimate;
-use serde::Serialize;
 
-use crate::output::{WrongInput, markdown_table, to_csv};
+use crate::output::{WrongInput, markdown_table};
 use crate::scene::{Scene, as_far_as_reached};
 use crate::tasks::in_parallel;
 pub(crate) use table::{Node, generate as generate_table};
@@ -21,52 +18,33 @@ const STEEP: f64 = 4.0;
 /// Unknown pressures for which an answer is worth waiting.
 pub(crate) const MAX_UNKNOWNS: usize = 100_000;
 
-/// How the factors are printed.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum Format {
-    Table,
-    Csv,
-    Json,
-}
-
 /// s_p, and what it took.
-#[derive(Debug, Clone, Serialize)]
 pub(crate) struct ScalingFactor {
     exponent: f64,
     /// Friction of the half space over that of the line.
-    scaling_factor: f64,
-    /// Absolute.
-    error: f64,
+    pub(crate) value: Estimate,
     /// Unknown pressures on the finest grid.
     unknowns: usize,
     seconds: f64,
 }
 
-impl ScalingFactor {
-    pub(crate) const fn estimate(&self) -> Estimate {
-        Estimate {
-            value: self.scaling_factor,
-            error: self.error,
-        }
-    }
-}
-
-/// Computes the factors and prints them as they are asked for.
-pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
-    let exponents = if exponents.is_empty() {
-        &[1.0, 2.0]
-    } else {
-        exponents
-    };
+/// Computes the factors and prints them as a table.
+pub(crate) fn print(exponents: &[f64], relative_error: f64) -> Result<()> {
     validate(exponents, relative_error)?;
     let rows = in_parallel("scaling factors", exponents, |&exponent| {
         scaling_factor(exponent, relative_error, MAX_UNKNOWNS)
     })?;
-    match format {
-        Format::Table => println!("{}", table(&rows)),
-        Format::Csv => print!("{}", to_csv(&rows)?),
-        Format::Json => println!("{}", serde_json::to_string_pretty(&rows)?),
-    }
+    let lines = rows.iter().map(|row| {
+        [
+            row.exponent.to_string(),
+            format!("{:.6}", row.value.value),
+            format!("{:.1e}", row.value.error),
+            row.unknowns.to_string(),
+            format!("{:.3}", row.seconds),
+        ]
+    });
+    let header = ["p", "s_p", "error", "unknowns", "seconds"];
+    println!("{}", markdown_table(header, lines));
     Ok(())
 }
 
@@ -83,19 +61,6 @@ fn validate(exponents: &[f64], relative_error: f64) -> Result<(), WrongInput> {
         return Ok(());
     };
     Err(WrongInput(problem))
-}
-
-fn table(rows: &[ScalingFactor]) -> Table {
-    let lines = rows.iter().map(|row| {
-        [
-            row.exponent.to_string(),
-            format!("{:.6}", row.scaling_factor),
-            format!("{:.1e}", row.error),
-            row.unknowns.to_string(),
-            format!("{:.3}", row.seconds),
-        ]
-    });
-    markdown_table(["p", "s_p", "error", "unknowns", "seconds"], lines)
 }
 
 /// Computes s_p to the relative error asked for with at most about `max_unknowns`.
@@ -121,17 +86,17 @@ pub(crate) fn scaling_factor(
     let unknowns = finest.map(|finest| finest.unknowns);
     let friction = as_far_as_reached(half_space)
         .with_context(|| format!("scaling factor of p = {exponent}"))?;
-    let (scaling_factor, error) = (friction.value / line, friction.error / line);
+    let value = Estimate::new(friction.value / line, friction.error / line);
     let Some(unknowns) = unknowns else {
+        let Estimate { value, error } = value;
         bail!(
-            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {scaling_factor} \
+            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {value} \
              with an error of {error:.1e}"
         )
     };
     Ok(ScalingFactor {
         exponent,
-        scaling_factor,
-        error,
+        value,
         unknowns,
         seconds: start.elapsed().as_secs_f64(),
     })

@@ -75,5 +75,5 @@ fn exponent(index: usize) -> f64 {
 fn node(exponent: f64) -> Result<Node> {
     let relative_error = if exponent < CUSP { CUSP_ERROR } else { ERROR };
     let factor = scaling_factor(exponent, relative_error, MAX_UNKNOWNS)?;
-    Ok(Node::new(exponent, factor.estimate()))
+    Ok(Node::new(exponent, factor.value))
 }

@@ -9,7 +9,6 @@ use crate::support::{Evidence, Row, number};
 fn quick_evidence_over_the_speeds_is_as_it_should_be() {
     let evidence = Evidence::quick("speed-range", "speed-range");
     the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(&evidence);
-    friction_has_one_maximum_over_the_speed(&evidence);
     the_viscous_law_holds_between_its_borders(&evidence);
 }
 
@@ -25,11 +24,6 @@ fn curve(evidence: &Evidence, exponent: f64) -> Vec<Row> {
     rows
 }
 
-fn assert_within([actual, expected]: [f64; 2], allowed: f64, what: &str) {
-    let off = (actual - expected).abs();
-    assert!(off <= allowed, "{what}: {actual} and not {expected}");
-}
-
 /// Exact ends (FRI-05) and the plateau. A decade and a half beyond each end of the plateau, its neighbours still move
 /// the ratio by some per cent of its change; three decades beyond, by some thousandths.
 fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(evidence: &Evidence) {
@@ -43,31 +37,10 @@ fn the_ratio_goes_from_one_half_over_the_viscous_plateau_to_one(evidence: &Evide
         ] {
             let bar = number(row, "ratio_error");
             let what = format!("p = {exponent}, vτ/a = {}", row["speed"]);
-            let is_narrow = bar <= 2.01e-2 * number(row, "ratio");
-            assert!(is_narrow, "{what}: error bar {bar}");
-            assert_within([number(row, "ratio"), expected], bar + allowed, &what);
-        }
-    }
-}
-
-/// Up to its only maximum friction rises with the speed, beyond it falls, in both models.
-fn friction_has_one_maximum_over_the_speed(evidence: &Evidence) {
-    for exponent in [1.0, 2.0] {
-        let rows = curve(evidence, exponent);
-        for (column, bar) in [("line", "line_error"), ("half_space", "half_space_error")] {
-            let [values, bars] = [column, bar].map(|column| {
-                let numbers = rows.iter().map(|row| number(row, column));
-                numbers.collect::<Vec<f64>>()
-            });
-            let steps = 0..values.len();
-            let top = steps.max_by(|one, other| values[*one].total_cmp(&values[*other]));
-            let top = top.expect("a largest value");
-            for step in 1..values.len() {
-                let rise = values[step] - values[step - 1];
-                let rise = if step <= top { rise } else { -rise };
-                let is_right = rise >= -(bars[step] + bars[step - 1]);
-                assert!(is_right, "p = {exponent}, {column}, {step}: {values:?}");
-            }
+            let ratio = number(row, "ratio");
+            assert!(bar <= 2.01e-2 * ratio, "{what}: error bar {bar}");
+            let off = (ratio - expected).abs();
+            assert!(off <= bar + allowed, "{what}: {ratio} and not {expected}");
         }
     }
 }

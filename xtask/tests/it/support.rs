@@ -28,7 +28,6 @@ pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 
-/// A path as an argument.
 pub(crate) fn argument(path: &Path) -> &str {
     path.to_str().expect("a path in Unicode")
 }
@@ -46,7 +45,6 @@ pub(crate) fn number(row: &Row, column: &str) -> f64 {
 /// What a quick run of an experiment left behind.
 pub(crate) struct Evidence {
     pub(crate) folder: PathBuf,
-    /// What it printed.
     pub(crate) printed: String,
 }
 

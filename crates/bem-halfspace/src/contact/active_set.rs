@@ -151,7 +151,6 @@ impl ActiveSet {
         });
     }
 
-    /// Lists the values of a field in a band.
     pub(crate) fn gather_in(&self, band: usize, field: &[f64], list: &mut [f64]) {
         for run in self.runs(band) {
             list[run.places()].copy_from_slice(&field[run.elements()]);

@@ -49,12 +49,10 @@ impl MirrorWeights {
         self.of_row(element) * self.of_column(element)
     }
 
-    /// That of the row of an element.
     pub(super) fn of_row(&self, element: usize) -> f64 {
         weight(self.mirrors[0], element < self.columns)
     }
 
-    /// That of the column of an element.
     pub(super) fn of_column(&self, element: usize) -> f64 {
         weight(self.mirrors[1], element.is_multiple_of(self.columns))
     }

@@ -220,7 +220,6 @@ mod tests {
         patterns.to_vec()
     }
 
-    /// The matrix of the preconditioner on a contact.
     fn matrix(preconditioner: &mut Preconditioner, contact: &ActiveSet, n: usize) -> DMatrix<f64> {
         let [mut one, mut result] = [0, 1].map(|_| vec![0.0; contact.len()]);
         let mut field = vec![0.0; n];

@@ -66,7 +66,8 @@ fn solve_around(
 
 /// Whether a box can be used again: the bounds are inside, and it is not much larger than a new one.
 fn can_be_reused(inner: &ContactBox, bounds: &Bounds, outer: &Bounds) -> bool {
-    inner.bounds.contains_all(bounds) && inner.bounds.n_elements() <= 2 * outer.n_elements()
+    inner.bounds.union(bounds) == inner.bounds
+        && inner.bounds.n_elements() <= 2 * outer.n_elements()
 }
 
 /// Computes the displacement of the whole grid; where it penetrates outside the box, the box grows.

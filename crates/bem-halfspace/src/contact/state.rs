@@ -29,7 +29,6 @@ pub struct ContactState {
 
 impl ContactState {
     /// A state without pressure for the grid of `convolution`.
-    #[must_use]
     pub fn new(convolution: &Convolution) -> Self {
         let n = convolution.grid().n_elements();
         Self {
@@ -45,7 +44,6 @@ impl ContactState {
     }
 
     /// Pressure P ≥ 0, \[Pa], row-major.
-    #[must_use]
     pub fn pressure(&self) -> &[f64] {
         &self.load
     }
@@ -57,13 +55,11 @@ impl ContactState {
     }
 
     /// Indices of the elements in contact after a solve, increasing.
-    #[must_use]
     pub fn contact(&self) -> &[usize] {
         &self.contact
     }
 
     /// Displacement of the surface under the pressure of the last solve, without what it was before, \[m], row-major.
-    #[must_use]
     pub fn displacement(&self) -> &[f64] {
         &self.displacement
     }
@@ -158,7 +154,6 @@ impl ContactBox {
         bounds.cut((load, columns), &mut self.state.load);
     }
 
-    /// Copies the load into a field with `columns` columns.
     pub(super) fn give_load_to(&self, field: &mut [f64], columns: usize) {
         let (rows, width) = (self.bounds.rows(), self.bounds.shape()[1]);
         let field = &mut field[rows.start * columns..rows.end * columns];

@@ -52,14 +52,12 @@ impl Convolution {
     /// Influence on a half space that is free of load outside the grid.
     ///
     /// Zero padding to at least 2n − 1 makes the circular convolution of the Fourier transform the free one.
-    #[must_use]
     pub fn new(grid: &Grid) -> Self {
         Self::free(grid, Base::default())
     }
 
     /// The same on what is given, of which only the thickness and the Poisson ratio matter, with \[m] for the unit of the
     /// grid.
-    #[must_use]
     pub fn on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
         Self::free(grid, Base::of(elastomer))
     }
@@ -77,14 +75,12 @@ impl Convolution {
     /// A wave of pressure with the wave vector q moves the surface by the same wave times `2π/|q|`
     /// (Johnson 1985, eq. 13.7). The mean pressure moves an infinite half space by an infinite amount; displacements
     /// are measured from their own mean instead.
-    #[must_use]
     pub fn periodic(grid: &Grid) -> Self {
         Self::repeated(grid, Base::default())
     }
 
     /// The same on what is given, see [`on`](Self::on). A layer gives way to the mean pressure too, and its displacements are
     /// those from the surface at rest.
-    #[must_use]
     pub fn periodic_on(elastomer: &(impl Elastomer + ?Sized), grid: &Grid) -> Self {
         Self::repeated(grid, Base::of(elastomer))
     }
@@ -162,13 +158,11 @@ impl Convolution {
     }
 
     /// The grid of the pressure and of the result.
-    #[must_use]
     pub const fn grid(&self) -> &Grid {
         &self.grid
     }
 
     /// Buffers for [`apply`](Self::apply). With the feature `rayon`, for the threads of the current pool.
-    #[must_use]
     pub fn workspace(&self) -> ConvolutionWorkspace {
         ConvolutionWorkspace(Workspace::new(&self.transform, self.grid.shape()))
     }

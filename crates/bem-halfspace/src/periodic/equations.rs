@@ -23,7 +23,6 @@ const NUMBERS_PER_ELEMENT: usize = 12;
 const MOST_KEPT: usize = 30;
 
 /// Lists of one contact and its neighbours.
-#[derive(Debug)]
 pub(super) struct Equations {
     pub(super) kernel: Kernel,
     far: Option<FarLoads>,
@@ -196,7 +195,6 @@ impl Equations {
     }
 }
 
-/// Whether an element or one of its eight neighbours is in contact.
 fn has_neighbour(contact: &[bool], columns: usize, element: usize) -> bool {
     let rows = contact.len() / columns;
     let (row, column) = (element / columns, element % columns);

@@ -105,10 +105,7 @@ fn estimate(states: &[PeriodicSliding]) -> Option<PeriodicEstimate> {
         let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
         let change = (value - middle).abs().max(0.5 * (middle - coarse).abs());
         let residual = fine.residual * value.abs();
-        Estimate {
-            value,
-            error: SAFETY * change + residual,
-        }
+        Estimate::new(value, SAFETY * change + residual)
     };
     let slopes = of(|state| state.friction_coefficient);
     let dissipation = of(|state| state.friction_from_dissipation);

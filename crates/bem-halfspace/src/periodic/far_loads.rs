@@ -29,7 +29,6 @@ const TOLERANCE: f64 = 1e-2;
 const MOST: usize = 40;
 const KEPT: usize = 15;
 
-#[derive(Debug)]
 pub(super) struct FarLoads {
     columns: usize,
     kernel: Kernel,

@@ -68,7 +68,6 @@ impl Sliding {
 }
 
 /// Products with the waves of one grid and symbols by row of the transform.
-#[derive(Debug)]
 pub(super) struct Kernel {
     waves: Waves,
     /// |q| û/p̂ at the centre of an element.

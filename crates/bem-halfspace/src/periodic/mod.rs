@@ -58,13 +58,11 @@ impl PeriodicLoad {
     }
 
     /// Mean pressure over the period, \[Pa].
-    #[must_use]
     pub const fn mean_pressure(&self) -> f64 {
         self.mean_pressure
     }
 
     /// Sliding speed v, \[m/s].
-    #[must_use]
     pub const fn velocity(&self) -> f64 {
         self.velocity
     }

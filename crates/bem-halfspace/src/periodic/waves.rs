@@ -10,7 +10,6 @@ use crate::layer::Base;
 use crate::plane_transform::{PlaneTransform, Workspace};
 
 /// The waves that fit on a grid, with buffers for their transforms.
-#[derive(Debug)]
 pub(super) struct Waves {
     transform: PlaneTransform,
     workspace: Workspace,

@@ -118,7 +118,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             },
             control: self.load.control(),
             // Nothing is dissipated in an elastic half space, where the depth stands for the friction.
-            target: if self.is_elastic() {
+            target: if self.creep.is_elastic() {
                 Target::Depth
             } else {
                 Target::Friction
@@ -126,7 +126,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             has_peak: peak_has_limit(self.surface, self.elastomer),
         };
         let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
-        if self.is_elastic() {
+        if self.creep.is_elastic() {
             // There is none but what the elements make of it.
             let friction = &mut estimate.friction_coefficient;
             friction.error = friction.value.abs();
@@ -136,10 +136,6 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             estimate.indentation_depth = None;
         }
         Ok(estimate)
-    }
-
-    fn is_elastic(&self) -> bool {
-        self.creep.elements().is_empty() && self.creep.fluidity() == 0.0
     }
 
     /// At a depth the body reaches the boundary of its footprint.
@@ -174,7 +170,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         Ok(OnGrid {
             quantities,
             other_error: ErrorParts {
-                iteration: (!self.is_elastic()).then(iteration),
+                iteration: (!self.creep.is_elastic()).then(iteration),
                 truncation,
                 ..ErrorParts::NONE
             },
@@ -202,7 +198,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         }
         let load = self.load.after(self.distance())?;
         let end = self.over_distance(&load, options, tell)?;
-        if self.is_elastic() {
+        if self.creep.is_elastic() {
             return Ok(end);
         }
         let state = end.0.stationary(DRIFT)?;

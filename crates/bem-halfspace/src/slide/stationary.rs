@@ -38,7 +38,6 @@ impl Transient {
     ///
     /// # Panics
     /// Never for a transient of this crate: it has at least one step.
-    #[must_use]
     pub fn last(&self) -> &SlideRow {
         &self.rows[self.rows.len() - 1]
     }

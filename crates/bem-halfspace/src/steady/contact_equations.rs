@@ -26,7 +26,6 @@ const LARGEST_MATRIX: usize = 4000;
 const MOST_DIRECTIONS: usize = 150;
 
 /// Loads of the elements of a contact and the depth, in the units of the mesh.
-#[derive(Debug)]
 pub(super) struct EquationSolution {
     pub(super) loads: Vec<f64>,
     pub(super) depth: f64,

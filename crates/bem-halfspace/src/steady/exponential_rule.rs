@@ -8,7 +8,7 @@
 //! exponential are modified spherical Bessel functions (NIST DLMF 10.54.2). The error is at most that of the polynomial,
 //! whatever the rate, because the weight is positive with the sum 1 − e^(−rate).
 
-use numerics::{LobattoRule, legendre_values, lobatto_rule};
+use numerics::{LobattoRule, legendre_values, lobatto_rule, whole_part};
 
 /// Points of the longest rule.
 pub(super) const MAX_POINTS: usize = 12;
@@ -18,7 +18,6 @@ const UPWARD: f64 = 60.0;
 const HEADROOM: usize = 40;
 
 /// Points on [0, 1] or around it, and the Legendre coefficients of the polynomial through values at them.
-#[derive(Debug)]
 pub(super) struct ExponentialRule {
     pub(super) nodes: Vec<f64>,
     /// Coefficient of each degree per value, by degree.
@@ -101,12 +100,7 @@ fn legendre_moments(rate: f64, count: usize) -> [f64; MAX_POINTS] {
             moments[n + 1] = moments[n - 1] - (2 * n + 1) as f64 / z * moments[n];
         }
     } else {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "0 <= z <= 60"
-        )]
-        let start = count + HEADROOM + 2 * z as usize;
+        let start = count + HEADROOM + 2 * whole_part(z);
         // Ratios i_n/i_(n−1) = z/(2n + 1 + z i_(n+1)/i_n), all positive.
         let mut ratio = 0.0;
         let mut ratios = [0.0; MAX_POINTS];

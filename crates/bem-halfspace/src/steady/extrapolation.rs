@@ -11,10 +11,7 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
     let once = eliminate(values, order);
     let twice = eliminate(&once, next_order(order));
     let value = values.last().copied().unwrap_or(f64::MAX);
-    let unknown = Estimate {
-        value,
-        error: value.abs(),
-    };
+    let unknown = Estimate::new(value, value.abs());
     let first = judge(&once, values).filter(|_| order >= 1.0);
     match (first, judge(&twice, &once)) {
         (Some(first), Some(second)) if second.error >= 0.5 * first.error => first,
@@ -44,10 +41,7 @@ fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
     };
     let changes = (value - before).abs().max(0.5 * (before - earlier).abs());
     let elimination = (value - eliminated.last()?).abs();
-    Some(Estimate {
-        value: *value,
-        error: changes + 0.25 * elimination,
-    })
+    Some(Estimate::new(*value, changes + 0.25 * elimination))
 }
 
 /// Removes the error of one order from a sequence; two values are used up.

@@ -18,7 +18,6 @@ use crate::rectangle::{FAR, PlaneKernel, integrate, product_asinh};
 /// Integral of ln(ξ + r) over a rectangle with `edges` [a, b]; `offset` [ξ, y] leads from its centre to the field point.
 ///
 /// Lengths are ratios to some unit; another unit adds a constant times the area, which is the constant in u.
-#[must_use]
 pub fn wake_influence(offset: [f64; 2], edges: [f64; 2]) -> f64 {
     let [x, y] = [offset[0], offset[1].abs()];
     let [a, b] = edges;

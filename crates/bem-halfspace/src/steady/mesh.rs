@@ -9,7 +9,7 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 
 use indenters::Surface;
-use numerics::{in_range, positive};
+use numerics::{in_range, positive, whole_part};
 
 use crate::bounds::Bounds;
 use crate::mirror::Mirror;
@@ -39,7 +39,6 @@ struct Element {
 
 /// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
 /// 2 (1 − ν) J(Δx/v) P Δx/(4πD) of an element, which is P Δx²/(4πηvD) for the dashpot.
-#[derive(Debug)]
 pub(super) struct Mesh {
     pub(super) options: SteadyOptions,
     pub(super) loading: GridLoading,
@@ -176,13 +175,7 @@ impl Mesh {
     fn image(&self, column: usize) -> usize {
         // The whole distance between the two is an integer, because the phase is 0 or 1/2.
         let distance = 2.0 * (self.origin[1] + column as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number of columns"
-        )]
-        let distance = distance.round() as usize;
-        column - distance
+        column - whole_part(distance.round())
     }
 
     fn has_image(&self, element: &Element) -> bool {

@@ -84,7 +84,6 @@ pub struct SteadyOptions {
 impl SteadyOptions {
     /// A grid with the lowest point over the centre of an element, solved to a tolerance of 1e-9 with at most 500 active
     /// sets.
-    #[must_use]
     pub const fn new(spacing: [f64; 2], footprint: Footprint) -> Self {
         Self {
             spacing,

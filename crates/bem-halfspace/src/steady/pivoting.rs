@@ -100,7 +100,6 @@ struct Violation {
 }
 
 /// How the number of violations falls.
-#[derive(Debug)]
 struct Progress {
     fewest: usize,
     /// Pivots since there were fewest.

@@ -228,7 +228,7 @@ impl Grids<'_> {
 
     /// The normal force that is given, or the limit of those at the depth.
     fn force(&self, refinements: &[Refinement]) -> Estimate {
-        let given = bars::given_force(self.problem.loading.control);
+        let [given, _] = bars::given(self.problem.loading.control);
         given.unwrap_or_else(|| limit(refinements, self.order, |r| r.normal_force))
     }
 
@@ -240,13 +240,10 @@ impl Grids<'_> {
         finest: Solved,
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
-        let depth = bars::given_depth(self.problem.loading.control);
+        let [_, depth] = bars::given(self.problem.loading.control);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
-            friction_coefficient: Estimate {
-                value: friction.value,
-                error: friction.error + iteration,
-            },
+            friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
             error_parts: ErrorParts {
                 iteration: Some(iteration),
                 ..ErrorParts::of_elements(friction.error)

@@ -40,7 +40,6 @@ struct Panel {
 }
 
 /// A retardation element over the length of one element of the grid.
-#[derive(Debug)]
 struct Retardation {
     rate: f64,
     compliance: f64,
@@ -51,7 +50,6 @@ struct Retardation {
 }
 
 /// Displacements by all retardation elements along a row of the table.
-#[derive(Debug)]
 pub(super) struct RetardedPotential {
     delays: Vec<Retardation>,
     rules: [ExponentialRule; POINTS.len()],

@@ -50,13 +50,11 @@ pub struct SteadySliding {
 
 impl SteadySliding {
     /// Whether the equations of this contact were factorised; if not, they were solved by iteration with transforms.
-    #[must_use]
     pub const fn is_factorised(&self) -> bool {
         self.factorised
     }
 
     /// How much the residual that is left may change the friction coefficient.
-    #[must_use]
     pub fn iteration_error(&self) -> f64 {
         self.residual * self.mean_slope
     }

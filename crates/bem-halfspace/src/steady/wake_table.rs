@@ -84,7 +84,6 @@ impl WakeTable {
         row as f64 - self.reach[0] as f64 + self.creep.shift
     }
 
-    /// Values of a kernel along a row.
     fn along(&self, row: usize, kernel: impl Fn([f64; 2], [f64; 2]) -> f64) -> Vec<f64> {
         let x = self.offset(row);
         let value = |column| kernel([x, column as f64 * self.aspect], [1.0, self.aspect]);

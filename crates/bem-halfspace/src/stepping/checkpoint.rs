@@ -29,7 +29,6 @@ pub struct MarchState {
 
 impl MarchState {
     /// Number of steps made.
-    #[must_use]
     pub const fn steps_done(&self) -> usize {
         self.steps_done
     }
@@ -37,7 +36,6 @@ impl MarchState {
 
 impl March<'_> {
     /// The state from which a later run can continue.
-    #[must_use]
     pub fn state(&self) -> MarchState {
         let Bounds { lower, upper } = self.contact_box.bounds;
         let rows = self.rows_needed(self.steps_done);

@@ -113,13 +113,11 @@ impl<'a> March<'a> {
 
     /// Number of values in the memory of an element: one per retardation element of the material, one more for free
     /// flow, none for an elastic material.
-    #[must_use]
     pub const fn n_fields(&self) -> usize {
         self.window.n_fields
     }
 
     /// Number of elements of the half space that are followed.
-    #[must_use]
     pub fn n_elements(&self) -> usize {
         self.window.convolution.grid().n_elements()
     }
@@ -238,7 +236,6 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Rows that a step or a later one needs.
     fn rows_needed(&self, step: usize) -> Range<usize> {
         self.route.rows_from(step, self.layout.followed()[0])
     }
@@ -288,7 +285,6 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// A box around the lowest of the heights.
     fn box_at_lowest(&self, heights: &[f64]) -> Result<ContactBox, BemError> {
         let [_, columns] = self.layout.followed();
         let lowest = (0..heights.len()).min_by(|a, b| heights[*a].total_cmp(&heights[*b]));

@@ -56,7 +56,6 @@ impl Window {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
-    /// The memory of `rows`.
     pub(super) fn memory(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.memory[rows.start * per_row..rows.end * per_row]

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use bem_halfspace::slide::Transient;
 use bem_halfspace::steady::SteadyOptions;
 use bem_halfspace::{ContactOptions, Control, Convolution, Grid, influence};
-use casebook::fixed_cases;
+use casebook::{decades, fixed_cases};
 use indenters::Surface;
 use proptest::prelude::*;
 use rheology::Compressible;
@@ -18,10 +18,6 @@ use crate::support::{
 
 /// One unit of length \[m] and stress \[Pa].
 type Units = [f64; 2];
-
-fn decades(n: f64) -> impl Strategy<Value = f64> {
-    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
-}
 
 fn units() -> impl Strategy<Value = Units> {
     [decades(12.0), decades(12.0)]

@@ -5,10 +5,11 @@ use std::iter::repeat_n;
 
 use bem_halfspace::slide::{MotionRow, follow};
 use bem_halfspace::{Control, GridOptions};
+use numerics::whole_part;
 use rheology::Material;
 
 use crate::support::{
-    after, assert_all_close, assert_close, assert_near, count, every_kind_of_material, motions,
+    after, assert_all_close, assert_close, assert_near, every_kind_of_material, motions,
     paraboloid, prony, slid, squares, three_elements, tight, under_force,
 };
 
@@ -49,7 +50,7 @@ fn slide_moves_by_whole_elements() {
 
 /// Friction and depth after a distance of 2 by steps of the given length, in elements of which 16 have the length 1.
 fn by_parts(part: f64) -> [f64; 2] {
-    let [n_steps, last] = [32.0, 2.0].map(|elements: f64| count((elements / part).round()));
+    let [n_steps, last] = [32.0, 2.0].map(|elements: f64| whole_part((elements / part).round()));
     let x = |k: usize| 2.0 * k as f64 / n_steps as f64;
     let path = (1..=n_steps).map(|k| (x(k) / VELOCITY, x(k)));
     let rows = moved(path, &solid(), &squares(1.0 / 16.0, 1.6));

@@ -7,13 +7,14 @@ use std::f64::consts::PI;
 use bem_halfspace::{Contact, ContactState, Control, Convolution, Grid};
 use casebook::{Case, group};
 use indenters::{FlatPunch, Surface};
+use numerics::whole_part;
 
-use crate::support::{Pressing, assert_close, assert_near, cone, count, paraboloid};
+use crate::support::{Pressing, assert_close, assert_near, cone, paraboloid};
 
 #[test]
 fn contact_at_given_depth_or_force_is_the_unique_discrete_solution() {
     for case in group("BEM-04") {
-        let n = count(case.input("N"));
+        let n = whole_part(case.input("N"));
         let surface = match case.input_text("shape") {
             "paraboloid" => paraboloid(0.5 / case.input("R")),
             _ => cone(case.input("slope")),
@@ -58,7 +59,7 @@ fn the_force_follows_from_the_flat_punch() {
 #[test]
 fn stiffness_of_a_square_punch() {
     for case in group("BEM-03").iter().filter(|case| case.has_input("N")) {
-        let n = count(case.input("N"));
+        let n = whole_part(case.input("N"));
         let (contact, state) = contact([n, n], &vec![0.0; n * n], Control::IndentationDepth(1.0));
         case.check("F_over_GdL", contact.normal_force / n as f64);
         if case.expected("p_centre_over_G").is_some() {
@@ -138,14 +139,14 @@ fn contact_with(body: &Body, offset: f64, spacing: f64) -> (Contact, ContactStat
     let before = margin + (offset / spacing).ceil();
     let behind = (margin - (offset / spacing).floor()).max(0.0);
     let columns = 2.0 * margin + 1.0;
-    let shape = [before + behind + 1.0, columns].map(count);
+    let shape = [before + behind + 1.0, columns].map(whole_part);
     let grid = Grid::new(shape, [spacing; 2]).expect("a valid grid");
     let pressing = Pressing::new(Convolution::new(&grid), |[row, column]| {
         let x = (row - before) * spacing + offset;
         body.0.height([x, (column - margin) * spacing])
     });
     let (contact, state) = pressing.solve(Control::IndentationDepth(body.1));
-    (contact, state, count(before * columns + margin))
+    (contact, state, whole_part(before * columns + margin))
 }
 
 fn order(errors: [f64; 2], refinement: f64) -> f64 {

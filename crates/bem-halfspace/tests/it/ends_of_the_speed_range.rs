@@ -43,16 +43,10 @@ fn slow_sliding_is_that_of_the_expansion_to_second_order() {
         let found = scene.steady(2e-3);
         assert_bars_agree(&what, found.friction_coefficient, slow.friction_coefficient);
         assert_bars_agree(&what, found.contact_area, slow.contact_area);
-        let rear = Estimate {
-            value: found.finest.contact_x[0],
-            error: found.contact_box_error,
-        };
+        let rear = Estimate::new(found.finest.contact_x[0], found.contact_box_error);
         assert_bars_agree(&what, rear, slow.rear);
         let depth = scene.body.line_height(contact.contact_radius);
-        let depth = Estimate {
-            value: depth,
-            error: slow.elastic_error * depth,
-        };
+        let depth = Estimate::new(depth, slow.elastic_error * depth);
         let found_depth = found.indentation_depth.expect("a depth");
         assert_bars_agree(&what, found_depth, depth);
         // The first order alone, and the whole disc, are well outside.
@@ -85,10 +79,7 @@ fn the_ends_of_the_speed_range_are_reached_to_the_error_asked_for() {
                 high_speed_friction(&scene.body, &scene.material, contact)
             };
             let limit = limit.expect("a limit").half_space;
-            let limit = Estimate {
-                value: limit,
-                error: 2.0 * apart * limit,
-            };
+            let limit = Estimate::new(limit, 2.0 * apart * limit);
             assert_bars_agree(&what, found, limit);
         }
     }

@@ -10,7 +10,7 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution,
     Footprint, Grid, GridOptions, HistoryPoint, solve_contact,
 };
-pub(crate) use casebook::prony;
+pub(crate) use casebook::{Formula, prony};
 use indenters::{PowerProfile, SlidingLoad, Surface};
 use numerics::{Estimate, Request};
 use rayon::ThreadPoolBuilder;
@@ -181,16 +181,6 @@ pub(crate) fn carried(field: &PressureField) -> f64 {
     pressure.iter().sum::<f64>() * field.grid.element_area()
 }
 
-/// A small count, of a whole number.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "small counts"
-)]
-pub(crate) fn count(whole: f64) -> usize {
-    whole as usize
-}
-
 /// Works on so many threads.
 pub(crate) fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
@@ -209,36 +199,6 @@ pub(crate) fn paraboloid(coefficient: f64) -> PowerProfile {
     power(coefficient, 2.0)
 }
 
-/// A smooth surface with these mirrors, of which a function of [x, y] gives the height and its gradient.
-pub(crate) struct Formula<F> {
-    mirrors: [bool; 2],
-    surface: F,
-}
-
-impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Formula<F> {
-    pub(crate) fn new(mirrors: [bool; 2], surface: F) -> Self {
-        Self { mirrors, surface }
-    }
-}
-
-impl<F: Fn([f64; 2]) -> (f64, [f64; 2]) + Send + Sync> Surface for Formula<F> {
-    fn height(&self, position: [f64; 2]) -> f64 {
-        (self.surface)(position).0
-    }
-
-    fn gradient(&self, position: [f64; 2]) -> [f64; 2] {
-        (self.surface)(position).1
-    }
-
-    fn mirrors(&self) -> [bool; 2] {
-        self.mirrors
-    }
-
-    fn apex_exponent(&self) -> f64 {
-        2.0
-    }
-}
-
 pub(crate) fn under_force(force: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::new(force, velocity).expect("a load")
 }
@@ -247,7 +207,6 @@ pub(crate) fn at_depth(depth: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::at_depth(depth, velocity).expect("a load")
 }
 
-/// The load after sliding over a distance \[m].
 pub(crate) fn after(load: SlidingLoad, distance: f64) -> SlidingLoad {
     load.after(distance).expect("a distance")
 }

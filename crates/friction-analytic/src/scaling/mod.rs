@@ -56,10 +56,10 @@ pub fn half_space_power_friction(
 ) -> Result<Estimate, FrictionError> {
     let line = power_sliding(profile, material, load)?;
     let factor = scaling_factor(profile.exponent())?;
-    Ok(Estimate {
-        value: factor.value * line.friction_coefficient,
-        error: factor.error * line.friction_coefficient + factor.value * line.error,
-    })
+    Ok(Estimate::new(
+        factor.value * line.friction_coefficient,
+        factor.error * line.friction_coefficient + factor.value * line.error,
+    ))
 }
 
 /// Lagrange's polynomial in ln(2p − 1) through the nodes.

@@ -14,6 +14,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
+use crate::table::at_least;
 pub use self_affine::SelfAffine;
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
@@ -45,13 +46,7 @@ impl PeriodicSurface {
     pub fn new(period: [f64; 2], waves: Vec<Wave>) -> Result<Self, IndenterError> {
         positive("period along x", period[0])?;
         positive("period along y", period[1])?;
-        if waves.is_empty() {
-            return Err(IndenterError::TooFew {
-                list: "waves",
-                needed: 1,
-                length: 0,
-            });
-        }
+        at_least(1, "waves", waves.len())?;
         for wave in &waves {
             let allowed = "other than 0 along x or y: a mean height changes nothing";
             in_range("number of waves", 0.0, wave.numbers != [0, 0], allowed)?;
@@ -62,19 +57,16 @@ impl PeriodicSurface {
     }
 
     /// The periods along x and y, \[m].
-    #[must_use]
     pub const fn period(&self) -> [f64; 2] {
         self.period
     }
 
     /// The waves.
-    #[must_use]
     pub fn waves(&self) -> &[Wave] {
         &self.waves
     }
 
     /// Largest numbers of waves in the periods along x and y.
-    #[must_use]
     pub fn largest_numbers(&self) -> [usize; 2] {
         [0, 1].map(|axis| {
             let waves = self.waves.iter();
@@ -84,7 +76,6 @@ impl PeriodicSurface {
     }
 
     /// Root mean square of |∇h|.
-    #[must_use]
     pub fn rms_slope(&self) -> f64 {
         // Waves of opposite numbers are one; those that are given twice count as independent.
         let square = |wave: &Wave| {
@@ -95,7 +86,6 @@ impl PeriodicSurface {
     }
 
     /// Wave vector of a wave along x and y, \[1/m].
-    #[must_use]
     pub fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
         [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])
     }

@@ -1,6 +1,7 @@
 //! Esri's ASCII grid: names and numbers, then the heights in rows, the upper one first.
 
 use super::{Topography, text_of};
+use numerics::whole_part;
 
 const DEFAULT_MISSING: f64 = -9999.0;
 
@@ -31,12 +32,7 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         let count = heights.len();
         return Err(format!("{count} heights for {columns} × {rows} points"));
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "their product is the number of heights"
-    )]
-    let shape = [columns as usize, rows as usize];
+    let shape = [columns, rows].map(whole_part);
     let known = |height: f64| {
         if height.to_bits() == missing.to_bits() {
             f64::NAN

@@ -1,6 +1,7 @@
 //! Rows of x, y and z in metres, in any order; points of the grid that are left out are missing.
 
 use super::{Topography, text_of};
+use numerics::whole_part;
 
 /// Part of a spacing by which a point may miss its place in the grid.
 const MISS: f64 = 0.01;
@@ -29,12 +30,7 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
                 "a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}"
             ));
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "in the grid"
-        )]
-        let [row, column] = steps.map(|step| step.round() as usize);
+        let [row, column] = steps.map(|step| whole_part(step.round()));
         heights[row * ny + column] = height;
     }
     let (shape, spacing) = ([nx, ny], [dx, dy]);
@@ -58,10 +54,5 @@ fn axis(mut values: Vec<f64>) -> Result<(f64, f64, usize), String> {
     if !(range > 0.0 && count.is_finite()) {
         return Err(format!("coordinates from {first} to {last}"));
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "1 to 1e6"
-    )]
-    Ok((first, range / count, count as usize + 1))
+    Ok((first, range / count, whole_part(count) + 1))
 }

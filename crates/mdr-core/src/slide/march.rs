@@ -143,7 +143,7 @@ impl March {
             return Err(self.line.reached(front, self.depth, time));
         }
         // The slopes of a contact that ends inside the line sum up to nothing on springs.
-        if is_elastic(&self.creep) && rear > 0 {
+        if self.creep.is_elastic() && rear > 0 {
             sums.mean_slope = CompensatedSum::default();
         }
         Ok(Some(Stepped {
@@ -262,9 +262,4 @@ fn mean_slopes(slopes: &[f64], elastic_share: f64) -> Vec<f64> {
     let before = rear.chain(slopes);
     let mean = |(slope, before): (&f64, &f64)| slope - 0.5 * elastic_share * (slope - before);
     slopes.iter().zip(before).map(mean).collect()
-}
-
-/// Whether nothing of a material depends on time.
-pub(super) fn is_elastic(creep: &CreepSpectrum) -> bool {
-    creep.elements().is_empty() && creep.fluidity() == 0.0
 }

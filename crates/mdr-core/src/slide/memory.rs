@@ -13,12 +13,11 @@
 
 use rheology::{Compressible, CreepSpectrum, ExponentialStep, Material, Prony, RetardationElement};
 
-use super::march::is_elastic;
 use crate::MdrError;
 
 /// Whether a step changes the memory of a material: not without memory, nor without a spring that acts at once.
 pub(super) fn has_memory(creep: &CreepSpectrum) -> bool {
-    !is_elastic(creep) && creep.instantaneous_compliance() > 0.0
+    !creep.is_elastic() && creep.instantaneous_compliance() > 0.0
 }
 
 /// The material whose memory is ahead by what a step \[s] does; none for one without memory or without a spring.

@@ -12,7 +12,6 @@ use rheology::Material;
 use crate::MdrError;
 use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
-use march::is_elastic;
 use memory::{ahead, has_memory};
 use on_grid::march;
 pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
@@ -90,10 +89,7 @@ pub fn slide<'w>(
     }
     let values = motion.values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
-        std::array::from_fn(|k| Estimate {
-            value: values[k],
-            error: error[k],
-        });
+        std::array::from_fn(|k| Estimate::new(values[k], error[k]));
     Ok(Sliding {
         friction_coefficient,
         error_parts,
@@ -171,7 +167,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             let above = last.indentation_depth - (self.line.height(front.value) - self.lowest);
             outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
         }
-        let is_elastic = is_elastic(&self.material.creep());
+        let is_elastic = self.material.creep().is_elastic();
         vec![
             Quantity {
                 rounding: if is_elastic { 0.0 } else { ROUNDING * slope },
@@ -197,7 +193,7 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             ..ErrorParts::NONE
         };
         let mut parts: Vec<ErrorParts> = (0..4).map(part).collect();
-        if has_steep_kinks(self.line) && !is_elastic(&self.material.creep()) {
+        if has_steep_kinks(self.line) && !self.material.creep().is_elastic() {
             for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
                 part.discretisation = Some(unresolved);
             }

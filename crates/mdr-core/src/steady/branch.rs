@@ -15,7 +15,6 @@ const LAYER: f64 = 4.0;
 pub(super) const MAX_TERMS: usize = DEGREE + 30;
 
 /// Stress e of a branch over one piece.
-#[derive(Debug)]
 pub(super) struct BranchStress {
     /// The smooth part p.
     pub(super) smooth: [f64; MAX_TERMS],

@@ -19,7 +19,6 @@ use crate::MdrError;
 const SENSITIVITY: f64 = 8.0;
 
 /// The foundation at one speed; all times are distances.
-#[derive(Debug)]
 pub(super) struct Foundation {
     /// Unit of all stresses, so that their squares stay numbers: the modulus at once, or η₀ v of a lone dashpot over 1 m,
     /// \[Pa].
@@ -52,7 +51,6 @@ pub(super) struct Layer {
 }
 
 /// What the foundation does under one segment.
-#[derive(Debug)]
 pub(super) struct Passage {
     smooth: [f64; MAX_TERMS],
     n_terms: usize,
@@ -70,7 +68,6 @@ pub(super) struct Passage {
 }
 
 /// A part of the surface that nothing touches, since it was last left.
-#[derive(Debug)]
 pub(super) struct Recovery {
     /// Displacement when it was left, in depths.
     pub(super) displacement: f64,

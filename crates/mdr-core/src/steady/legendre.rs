@@ -9,7 +9,6 @@ pub(super) const DEGREE: usize = 10;
 pub(super) type Polynomial = [f64; DEGREE + 1];
 
 /// Interpolation at the Gauss–Lobatto nodes: −1, 1 and the zeros of P'_n.
-#[derive(Debug)]
 pub(super) struct Interpolation {
     nodes: Polynomial,
     /// Row k gives the coefficient c_k from the values at the nodes.

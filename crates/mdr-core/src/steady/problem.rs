@@ -181,12 +181,11 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
             Control::NormalForce(_) => [relative_error * depth, 0.0],
             Control::IndentationDepth(_) => [0.0, relative_error * force],
         };
-        let estimate = |value, error| Estimate { value, error };
         Ok(SteadySliding {
-            friction_coefficient: estimate(friction, friction_error),
-            indentation_depth: estimate(depth, depth_error),
-            normal_force: estimate(force, force_error),
-            ends: ends.map(|end| estimate(end, 0.0)),
+            friction_coefficient: Estimate::new(friction, friction_error),
+            indentation_depth: Estimate::new(depth, depth_error),
+            normal_force: Estimate::new(force, force_error),
+            ends: ends.map(Estimate::exact),
             contacts: sums.contacts,
             n_pieces: sums.n_pieces,
         })

@@ -13,7 +13,7 @@ use super::legendre::{
 use super::range::Range;
 use super::segment::Segment;
 use crate::MdrError;
-use crate::element_heights::checked_height;
+use crate::element_heights::{checked_height, invalid_height};
 
 /// Positions at which the line is looked at, besides the nodes, along the whole range.
 const STATIONS: f64 = 64.0;
@@ -42,7 +42,6 @@ pub(super) struct Resolution {
 }
 
 /// The part of a line that can touch, from the front to the rear.
-#[derive(Debug)]
 pub(super) struct Profile {
     pub(super) pieces: Vec<Piece>,
     /// From its front to its rear, \[m].
@@ -53,7 +52,6 @@ pub(super) struct Profile {
 }
 
 /// A stretch over which the line only rises or only falls.
-#[derive(Debug)]
 pub(super) struct Piece {
     /// The compression it imposes when the lowest point of the line is one depth deep; while the pieces are made, relative to
     /// that of the anchor.
@@ -249,19 +247,11 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             let position = piece.position(k as f64 / DEGREE as f64 - 1.0);
             match (self.drop)(position) {
                 Err(error) => return error,
-                Ok(drop) if !drop.is_finite() => {
-                    return MdrError::InvalidHeight {
-                        position,
-                        value: -drop,
-                    };
-                }
+                Ok(drop) if !drop.is_finite() => return invalid_height(position, -drop),
                 Ok(_) => {}
             }
         }
-        MdrError::InvalidHeight {
-            position: piece.position(0.0),
-            value: f64::INFINITY,
-        }
+        invalid_height(piece.position(0.0), f64::INFINITY)
     }
 
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {

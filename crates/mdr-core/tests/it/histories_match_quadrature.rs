@@ -105,8 +105,8 @@ fn assert_bars(curve: &[CurvePoint], expected: &[[f64; 3]], reference: f64, name
             let point = points.find(|point| (point.time - row[0]).abs() <= 1e-15 * row[0]);
             let point = point.unwrap_or_else(|| panic!("{name}: no point at {}", row[0]));
             let got = [point.normal_force, point.contact_radius][column - 1];
-            let (value, error) = (row[column], reference * scale);
-            assert_agree([got, Estimate { value, error }], &(name, row));
+            let expected = Estimate::new(row[column], reference * scale);
+            assert_agree([got, expected], &(name, row));
             assert!(got.error <= 1e-10 * scale, "{name} at {row:?}: {got:?}");
         }
     }
@@ -167,9 +167,8 @@ fn points_in_between_change_nothing() {
             let mut others = fine.iter();
             let same = others.find(|other| other.time.total_cmp(&point.time).is_eq());
             let value = same.expect("a knot").normal_force.value;
-            let error = 1e-11 * 8e-3;
-            let force = Estimate::exact(point.normal_force.value);
-            assert_agree([force, Estimate { value, error }], &(name, solid, point));
+            let force = Estimate::new(point.normal_force.value, 1e-11 * 8e-3);
+            assert_agree([force, Estimate::exact(value)], &(name, solid, point));
         }
     }
 }
@@ -232,8 +231,7 @@ fn depth_under_a_force_that_does_not_fall() {
     for (point, expected) in curve[1..].iter().zip(expected) {
         let got = [point.contact_radius, point.indentation_depth];
         for (got, value) in got.into_iter().zip(expected) {
-            let error = 1e-14 * value;
-            assert_agree([got, Estimate { value, error }], point);
+            assert_agree([got, Estimate::new(value, 1e-14 * value)], point);
             assert!(got.error <= 1e-12 * value, "{point:?}");
         }
     }

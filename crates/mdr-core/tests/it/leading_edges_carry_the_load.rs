@@ -40,9 +40,8 @@ fn friction_and_ends_of_the_cubic_agree_with_the_casebook() {
             (row.contact[1], intervals[intervals.len() - 1], 1.0),
             (row.contact_length, lengths, 0.5 * intervals.len() as f64),
         ] {
-            let error = 1.0001 * allowed / n;
-            let expected = Estimate::exact(expected);
-            assert_agree([Estimate { value, error }, expected], &case.id());
+            let expected = Estimate::new(expected, 1.0001 * allowed / n);
+            assert_agree([Estimate::exact(value), expected], &case.id());
         }
 
         let load = load_for_depth(depth_of(&case));

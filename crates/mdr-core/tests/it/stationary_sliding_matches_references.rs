@@ -60,10 +60,10 @@ fn every_foundation_comes_out_within_its_error() {
                 }
             }
             let value = case.expected("mu").expect("a friction coefficient");
-            let error = 1e-11 * value + 1e-13;
+            let expected = Estimate::new(value, 1e-11 * value + 1e-13);
             for relative_error in [1e-2, 1e-4, 1e-6] {
                 let friction = solve(&case, relative_error).friction_coefficient;
-                assert_agree([friction, Estimate { value, error }], &case.id());
+                assert_agree([friction, expected], &case.id());
                 assert!(friction.error <= relative_error * value, "{friction:?}");
             }
         }
@@ -87,10 +87,9 @@ fn a_dashpot_obeys_the_theorems() {
             let exact = axisymmetric_sliding(&*body, &dashpot, &load).expect("a theorem");
             let state = slid(&EquivalentLine(&*body), &dashpot, &load);
             assert_close([state.indentation_depth.value, depth], 1e-13, 0.0, &state);
-            let value = exact.friction_coefficient;
-            let error = 1e-12 * value;
-            let got = state.friction_coefficient;
-            assert_agree([got, Estimate { value, error }], &state);
+            let expected = exact.friction_coefficient;
+            let expected = Estimate::new(expected, 1e-12 * expected);
+            assert_agree([state.friction_coefficient, expected], &state);
         }
     }
 }

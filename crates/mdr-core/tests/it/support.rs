@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use casebook::{Case, standard_solid};
-pub(crate) use casebook::{fixed_cases, prony};
+pub(crate) use casebook::{decades, fixed_cases, prony};
 use friction_analytic::power_sliding;
 use indenters::{
     Axisymmetric, Control, FlatCone, HistoryPoint, Hyperboloid, PowerProfile, RigidLine,
@@ -11,7 +11,6 @@ use indenters::{
 };
 use mdr_core::{MdrError, SlideOptions, SteadySliding, Transient, slide_on_grid, steady};
 use numerics::Estimate;
-use proptest::prelude::*;
 use rheology::{Material, Prony, Viscous};
 
 /// The viscosity, force and speed of casebook FRI-01; their stationary depth is 0.1.
@@ -20,11 +19,6 @@ pub(crate) const DEPTH: f64 = 0.1;
 
 /// Relative error asked of stationary states.
 pub(crate) const ASKED: f64 = 1e-8;
-
-/// A length, modulus or time between 10^-n and 10^n.
-pub(crate) fn decades(n: f64) -> impl Strategy<Value = f64> {
-    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
-}
 
 pub(crate) fn load(normal_force: f64, velocity: f64) -> SlidingLoad {
     SlidingLoad::new(normal_force, velocity).expect("a positive force and speed")
@@ -43,7 +37,6 @@ pub(crate) fn material(viscosity: f64) -> Viscous {
     Viscous::new(viscosity).expect("a positive viscosity")
 }
 
-/// A power profile.
 pub(crate) fn power(exponent: f64) -> PowerProfile {
     PowerProfile::new(0.4, exponent).expect("a power profile")
 }
@@ -189,12 +182,8 @@ pub(crate) fn assert_close(
     scale: f64,
     context: &dyn Debug,
 ) {
-    let error = tolerance * expected.abs().max(scale);
-    let value = actual;
-    assert_agree(
-        [Estimate { value, error }, Estimate::exact(expected)],
-        context,
-    );
+    let expected = Estimate::new(expected, tolerance * expected.abs().max(scale));
+    assert_agree([Estimate::exact(actual), expected], context);
 }
 
 /// Asserts that two numbers agree within the sum of their errors.

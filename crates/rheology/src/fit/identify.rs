@@ -157,10 +157,7 @@ impl Problem<'_> {
         let mut moduli: Vec<f64> = nnls(&matrix, &target)?.data.into();
         let spring = is_solid.then(|| moduli.pop()).flatten();
         let branches = moduli.into_iter().zip(times);
-        let branches = branches.map(|(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
+        let branches = branches.map(|(modulus, time)| RelaxationBranch::new(modulus, time));
         Ok(Series {
             spring,
             branches: branches.collect(),

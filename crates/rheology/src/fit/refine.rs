@@ -47,10 +47,9 @@ impl Series {
     /// A series of the same form.
     fn at(&self, logarithms: &[f64]) -> Self {
         let (spring, branches) = logarithms.split_at(usize::from(self.spring.is_some()));
-        let branches = branches.chunks_exact(2).map(|pair| RelaxationBranch {
-            modulus: pair[0].exp(),
-            relaxation_time: pair[1].exp(),
-        });
+        let branches = branches
+            .chunks_exact(2)
+            .map(|pair| RelaxationBranch::new(pair[0].exp(), pair[1].exp()));
         Self {
             spring: spring.first().map(|modulus| modulus.exp()),
             branches: branches.collect(),
@@ -95,15 +94,11 @@ impl Series {
         let spring = self.spring.map(|modulus| modulus * row.spring());
         spring.into_iter().for_each(&mut put);
         let mut value = spring.unwrap_or_default();
-        for &RelaxationBranch {
-            modulus,
-            relaxation_time,
-        } in &self.branches
-        {
-            let [response, by_log_time] = row.branch(relaxation_time);
-            value += modulus * response;
-            put(modulus * response);
-            put(modulus * by_log_time);
+        for branch in &self.branches {
+            let [response, by_log_time] = row.branch(branch.relaxation_time);
+            value += branch.modulus * response;
+            put(branch.modulus * response);
+            put(branch.modulus * by_log_time);
         }
         value
     }

@@ -84,10 +84,7 @@ impl Continuous<'_> {
             let log_rate = index * step;
             step * ((self.log_density)(log_rate) - k * log_rate).exp()
         };
-        let branch = |index: f64| RelaxationBranch {
-            modulus: moment(0.0, index),
-            relaxation_time: (-index * step).exp(),
-        };
+        let branch = |index: f64| RelaxationBranch::new(moment(0.0, index), (-index * step).exp());
         let indices = successors(Some(first), |index| Some(index + 1.0));
         let inner = indices.take_while(|&index| index <= last).map(branch);
         let mut branches: Vec<RelaxationBranch> = inner.collect();
@@ -97,10 +94,7 @@ impl Continuous<'_> {
             return RelaxationSpectrum::new(slow, viscosity, branches);
         }
         let modulus = sum(|k| moment(0.0, last + f64::from(k)));
-        branches.push(RelaxationBranch {
-            modulus,
-            relaxation_time: viscosity / modulus,
-        });
+        branches.push(RelaxationBranch::new(modulus, viscosity / modulus));
         RelaxationSpectrum::new(slow, 0.0, branches)
     }
 

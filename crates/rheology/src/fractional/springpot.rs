@@ -63,7 +63,6 @@ impl Springpot {
     }
 
     /// Loss tangent tan(π a/2), the same at every frequency.
-    #[must_use]
     pub fn loss_tangent(&self) -> f64 {
         (0.5 * PI * self.exponent).tan()
     }

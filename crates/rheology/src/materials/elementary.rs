@@ -43,7 +43,6 @@ macro_rules! elementary {
 
             $(
                 $(#[$parameter_doc])*
-                #[must_use]
                 pub const fn $parameter(&self) -> f64 {
                     self.$parameter
                 }
@@ -137,10 +136,7 @@ impl Material for KelvinVoigt {
 impl Material for Maxwell {
     /// G(t) = G e^(−G t/η).
     fn relaxation(&self) -> RelaxationSpectrum {
-        let branch = RelaxationBranch {
-            modulus: self.shear_modulus,
-            relaxation_time: self.viscosity / self.shear_modulus,
-        };
+        let branch = RelaxationBranch::new(self.shear_modulus, self.viscosity / self.shear_modulus);
         RelaxationSpectrum::legal(0.0, 0.0, vec![branch])
     }
 

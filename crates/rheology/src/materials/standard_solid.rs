@@ -69,31 +69,26 @@ impl StandardSolid {
     }
 
     /// The moduli and the viscosity that it was made of.
-    #[must_use]
     pub const fn parameters(&self) -> StandardSolidParameters {
         self.parameters
     }
 
     /// Modulus of the first instant G₁ + G₂, \[Pa].
-    #[must_use]
     pub fn glass_modulus(&self) -> f64 {
         self.parameters.equilibrium_modulus + self.parameters.maxwell_modulus
     }
 
     /// Stiffness ratio γ = G₁/G₂.
-    #[must_use]
     pub fn stiffness_ratio(&self) -> f64 {
         self.parameters.equilibrium_modulus / self.parameters.maxwell_modulus
     }
 
     /// Time τ = η/G₂ in which the stress relaxes at constant strain, \[s].
-    #[must_use]
     pub fn relaxation_time(&self) -> f64 {
         self.parameters.viscosity / self.parameters.maxwell_modulus
     }
 
     /// Time λ = η/G₁ + η/G₂ in which the strain creeps at constant stress, \[s].
-    #[must_use]
     pub fn retardation_time(&self) -> f64 {
         self.parameters.viscosity / self.parameters.equilibrium_modulus + self.relaxation_time()
     }
@@ -108,7 +103,6 @@ impl StandardSolid {
     }
 
     /// Where the loss tangent is largest, Ω² = γ/(1 + γ), and how large: 1/(2 √(γ (1 + γ))).
-    #[must_use]
     pub fn loss_peak(&self) -> LossPeak {
         let gamma = self.stiffness_ratio();
         LossPeak {
@@ -121,7 +115,6 @@ impl StandardSolid {
     /// paper; `None` from γ = [`Self::LARGEST_VISCOUS_RATIO`] up.
     ///
     /// The bounds are the roots of (1 + γ) Ω² − Ω + γ = 0.
-    #[must_use]
     pub fn viscous_window(&self) -> Option<[f64; 2]> {
         let gamma = self.stiffness_ratio();
         let margin = Self::LARGEST_VISCOUS_RATIO - gamma;
@@ -139,10 +132,7 @@ impl StandardSolid {
 
 impl Material for StandardSolid {
     fn relaxation(&self) -> RelaxationSpectrum {
-        let branch = RelaxationBranch {
-            modulus: self.parameters.maxwell_modulus,
-            relaxation_time: self.relaxation_time(),
-        };
+        let branch = RelaxationBranch::new(self.parameters.maxwell_modulus, self.relaxation_time());
         RelaxationSpectrum::legal(self.parameters.equilibrium_modulus, 0.0, vec![branch])
     }
 

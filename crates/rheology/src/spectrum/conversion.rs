@@ -47,9 +47,8 @@ impl CreepSpectrum {
         let decays = elements.map(|e| (e.retardation_time, e.compliance));
         let poles = poles(self.instantaneous_compliance(), decays);
         let roots = roots(&poles, self.fluidity());
-        let branches = roots.into_iter().map(|root| RelaxationBranch {
-            modulus: root.relative_inverse_slope / root.position,
-            relaxation_time: root.position,
+        let branches = roots.into_iter().map(|root| {
+            RelaxationBranch::new(root.relative_inverse_slope / root.position, root.position)
         });
         let viscosity = if self.instantaneous_compliance() > 0.0 {
             0.0

@@ -78,21 +78,23 @@ impl CreepSpectrum {
     }
 
     /// Compliance J₀ of the first instant, \[1/Pa].
-    #[must_use]
     pub const fn instantaneous_compliance(&self) -> f64 {
         self.instantaneous_compliance
     }
 
     /// Fluidity 1/η_f of the free flow, [1/(Pa s)]; 0 for a solid.
-    #[must_use]
     pub const fn fluidity(&self) -> f64 {
         self.fluidity
     }
 
     /// The Kelvin–Voigt elements in increasing order of time.
-    #[must_use]
     pub fn elements(&self) -> &[RetardationElement] {
         &self.elements
+    }
+
+    /// Whether nothing depends on time.
+    pub fn is_elastic(&self) -> bool {
+        self.elements.is_empty() && self.fluidity == 0.0
     }
 
     fn recoverable_compliance(&self) -> f64 {
@@ -101,7 +103,6 @@ impl CreepSpectrum {
     }
 
     /// Compliance J(∞), \[1/Pa]; infinite for a fluid.
-    #[must_use]
     pub fn equilibrium_compliance(&self) -> f64 {
         if self.fluidity > 0.0 {
             return f64::INFINITY;
@@ -110,7 +111,6 @@ impl CreepSpectrum {
     }
 
     /// Rate 1/η_f + Σ J_k/λ_k of the creep compliance at t = 0, [1/(Pa s)].
-    #[must_use]
     pub fn initial_fluidity(&self) -> f64 {
         let rates = self.elements.iter().map(RetardationElement::fluidity);
         self.fluidity + rates.sum::<f64>()
@@ -154,7 +154,6 @@ impl CreepSpectrum {
 
 impl RetardationElement {
     /// Fluidity J_k/λ_k of the dashpot, [1/(Pa s)].
-    #[must_use]
     pub fn fluidity(&self) -> f64 {
         self.compliance / self.retardation_time
     }

@@ -51,10 +51,7 @@ impl RelaxationSpectrum {
         let decays = branches.iter().map(|b| (b.modulus, b.relaxation_time));
         let names = ["branches", "modulus", "relaxation_time"];
         let branches = normal_form(names, decays.collect())?.into_iter();
-        let branches = branches.map(|(modulus, relaxation_time)| RelaxationBranch {
-            modulus,
-            relaxation_time,
-        });
+        let branches = branches.map(|(modulus, time)| RelaxationBranch::new(modulus, time));
         let spectrum = Self::legal(equilibrium_modulus, viscosity, branches.collect());
         let sum = spectrum.spring_moduli();
         if sum == 0.0 && viscosity == 0.0 {
@@ -79,19 +76,16 @@ impl RelaxationSpectrum {
     }
 
     /// Modulus G_∞ of the lone spring, \[Pa], what is left after a long time; 0 for a fluid.
-    #[must_use]
     pub const fn equilibrium_modulus(&self) -> f64 {
         self.equilibrium_modulus
     }
 
     /// Viscosity η₀ of the lone dashpot, [Pa s].
-    #[must_use]
     pub const fn viscosity(&self) -> f64 {
         self.viscosity
     }
 
     /// The Maxwell branches in increasing order of time.
-    #[must_use]
     pub fn branches(&self) -> &[RelaxationBranch] {
         &self.branches
     }
@@ -102,7 +96,6 @@ impl RelaxationSpectrum {
     }
 
     /// Modulus G(0) of the first instant, \[Pa]; infinite with a lone dashpot.
-    #[must_use]
     pub fn glass_modulus(&self) -> f64 {
         if self.viscosity > 0.0 {
             return f64::INFINITY;
@@ -111,7 +104,6 @@ impl RelaxationSpectrum {
     }
 
     /// Limit η₀ + Σ G_k τ_k of G''/ω at low frequency, [Pa s].
-    #[must_use]
     pub fn zero_shear_viscosity(&self) -> f64 {
         let branches = self.branches.iter().map(RelaxationBranch::viscosity);
         self.viscosity + branches.sum::<f64>()
@@ -192,8 +184,15 @@ impl RelaxationSpectrum {
 }
 
 impl RelaxationBranch {
+    /// A branch of a modulus \[Pa] and a relaxation time, \[s].
+    pub const fn new(modulus: f64, relaxation_time: f64) -> Self {
+        Self {
+            modulus,
+            relaxation_time,
+        }
+    }
+
     /// Viscosity G_k τ_k of the dashpot, [Pa s].
-    #[must_use]
     pub fn viscosity(&self) -> f64 {
         self.modulus * self.relaxation_time
     }

@@ -25,7 +25,6 @@ pub(super) enum Existing {
 }
 
 /// An open file and what it has; nobody else writes it as long as it is open.
-#[derive(Debug)]
 pub(super) struct SweepFile {
     path: PathBuf,
     table: RowTable,

@@ -162,12 +162,10 @@ fn compute(
     taken
 }
 
-/// Checks what would be a file of rows.
 pub(crate) fn check_rows(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
     file::RowTable::new(file, contents).map(|_| ())
 }
 
-/// Wrong input in a file of rows.
 fn wrong_row(path: &Path, line: usize, problem: &str) -> WrongInput {
     WrongInput(format!("{}:{line}: {problem}", path.display()))
 }

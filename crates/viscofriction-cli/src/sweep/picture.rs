@@ -26,7 +26,6 @@ const EQUAL: f64 = 1e-6;
 const WIDE: f64 = 100.0;
 
 /// The picture of a sweep, as SVG and as PNG.
-#[derive(Debug)]
 pub(super) struct PictureFiles {
     svg: OutputFile,
     png: OutputFile,
@@ -34,9 +33,6 @@ pub(super) struct PictureFiles {
 
 impl PictureFiles {
     /// The files beside that of the rows.
-    ///
-    /// # Errors
-    /// [`WrongInput`] as of [`OutputFile::new`].
     pub(super) fn new(rows: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let [svg, png] = ["svg", "png"].map(|extension| beside(rows, extension));
         Ok(Self {

@@ -4,7 +4,7 @@ use std::fs;
 
 use viscofriction::Estimate;
 
-use crate::support::{Folder, assert_agree, assert_close, estimate, example, number, rows};
+use crate::support::{Folder, assert_agree, assert_close, estimate, example, rows};
 
 /// Scene | what it is compared with, if that is another scene | quantities, each with its exact value unless it is compared
 /// with that scene, and the part of it that the error bars may be, as of [`assert_agree`].
@@ -88,29 +88,6 @@ fn answers_are_those_of_closed_forms_and_of_other_methods() {
             let what = format!("{field} of {parts}");
             assert_agree(what, estimate(&result, field), expected, part);
         }
-    }
-}
-
-/// The depth of a force is the depth at which that force is found.
-#[test]
-fn force_and_depth_lead_to_each_other() {
-    let folder = Folder::new("force-and-depth");
-    for (material, distance) in [("solid", ""), ("viscous", ", sliding_distance = 1.0")] {
-        let solve = format!("method = \"bem-steady\", relative_error = 2e-3{distance}");
-        let under = |load: &str| {
-            let load = format!("{load}, velocity = 0.05");
-            folder.answer(&format!("paraboloid; {material}; {load}; {solve}"))
-        };
-        let held = under("indentation_depth = 1e-4");
-        let force = estimate(&held, "normal_force");
-        let pressed = under(&format!("normal_force = {:?}", force.value));
-        let [of_depth, mut of_force] =
-            [&held, &pressed].map(|result| estimate(result, "friction_coefficient"));
-        // The friction grows slower than the force.
-        of_force.error += of_depth.value * force.error / force.value;
-        assert_agree(material, of_depth, of_force, 0.1);
-        // The depth under a force is that of one grid, which is off by less than the force by twice the error asked for.
-        assert_close(material, number(&pressed, "indentation_depth"), 1e-4, 1e-2);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Random valid scenes over many decades are answered by the cheapest method of the one-dimensional model to the error asked
 //! for, and alike in other units.
 
+use casebook::{decades, fixed_cases};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use viscofriction::Estimate;
 
 use crate::support::{Folder, estimate, number};
@@ -19,10 +19,6 @@ fn in_units(text: &str, units: [f64; 3]) -> String {
         scene += &format!("{:?}{rest}", numbers[0] * factor);
     }
     scene
-}
-
-fn decades(n: f64) -> impl Strategy<Value = f64> {
-    (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
 }
 
 /// c r^p with the coefficient 1 m^(1 − p).
@@ -80,12 +76,7 @@ fn material() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 100,
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(fixed_cases(100))]
 
     #[test]
     fn any_scene_is_answered_to_its_error_in_any_units(

@@ -38,10 +38,9 @@ impl Case {
             let expansion = pot.expand([1e-3, 1e5], 1e-6).expect("an expansion");
             (expansion.spectrum, Rheology::PowerLaw)
         } else {
-            let branches = of_material[1..].chunks(2).map(|pair| RelaxationBranch {
-                modulus: pair[0],
-                relaxation_time: pair[1],
-            });
+            let branches = of_material[1..]
+                .chunks(2)
+                .map(|pair| RelaxationBranch::new(pair[0], pair[1]));
             let spectrum = RelaxationSpectrum::new(of_material[0], 0.0, branches.collect());
             (spectrum.expect("a spectrum"), Rheology::StandardSolid)
         };

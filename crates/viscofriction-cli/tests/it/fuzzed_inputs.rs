@@ -7,10 +7,11 @@ use std::fs;
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
+use casebook::fixed_cases;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use proptest::test_runner::{RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 use viscofriction_cli::{InputKind, check_input};
 
 use crate::support::{example, measured, npy};
@@ -84,12 +85,7 @@ fn names_place(message: &str, file: &Path, contents: &[u8]) -> bool {
 /// Checks files with one to four mutations each, and how many of them are accepted.
 fn fuzz(kind: InputKind, files: &[(PathBuf, Vec<u8>)], cases: u32, expected: RangeInclusive<u32>) {
     let accepted = Cell::new(0);
-    let mut runner = TestRunner::new(ProptestConfig {
-        cases,
-        rng_seed: RngSeed::Fixed(2014),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    });
+    let mut runner = TestRunner::new(fixed_cases(cases));
     let mutation = (select(&MUTATIONS[..]), any::<Index>(), any::<Index>());
     let strategy = (any::<Index>(), vec(mutation, 1..5));
     let outcome = runner.run(&strategy, |(file, mutations)| {

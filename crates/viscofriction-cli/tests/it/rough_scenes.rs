@@ -4,22 +4,14 @@ use serde_json::Value;
 
 use crate::support::{Folder, assert_close, number, rows};
 
-const SURFACE: &str = "[indenter.self-affine]
-period = [2.0, 1.0]
-hurst_exponent = 0.8
-rms_slope = 0.1
-longest_wavelength = 1.0
-shortest_wavelength = 0.25
-seed = 3
-[material.standard-solid]
-equilibrium_modulus = 0.25
-maxwell_modulus = 2.25
-viscosity = 2.25
-[solve]
-relative_error = 0.1
-[load]
-velocity = 0.03
-";
+/// But for the load.
+const SURFACE: &str =
+    "indenter.self-affine = { period = [2.0, 1.0], hurst_exponent = 0.8, rms_slope = 0.1, \
+    longest_wavelength = 1.0, shortest_wavelength = 0.25, seed = 3 }
+material.standard-solid = { equilibrium_modulus = 0.25, maxwell_modulus = 2.25, viscosity = 2.25 }
+solve.relative_error = 0.1
+load.velocity = 0.03
+load.";
 
 fn answer(folder: &Folder, mean_pressure: f64) -> Value {
     let scene = format!("{SURFACE}mean_pressure = {mean_pressure}\n");
@@ -74,8 +66,8 @@ mean_pressure = 1.0 | indenter.self-affine.
 #[test]
 fn what_a_rough_surface_cannot_do_is_refused() {
     let folder = Folder::new("rough-refused");
-    let solid = "standard-solid]\nequilibrium_modulus = 0.25\nmaxwell_modulus = 2.25\n";
-    let fluid = SURFACE.replace(solid, "viscous]\n");
+    let solid = "standard-solid = { equilibrium_modulus = 0.25, maxwell_modulus = 2.25,";
+    let fluid = SURFACE.replace(solid, "viscous = {");
     let [shortest, longer] =
         ["0.25", "3.0"].map(|length| format!("shortest_wavelength = {length}"));
     let no_waves = SURFACE.replace(&shortest, &longer);

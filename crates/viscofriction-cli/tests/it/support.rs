@@ -95,7 +95,6 @@ impl Folder {
         fs::write(self.path(file), contents).expect("the file can be written");
     }
 
-    /// The text of a file.
     #[track_caller]
     pub(crate) fn text(&self, file: &str) -> String {
         fs::read_to_string(self.path(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
@@ -206,10 +205,10 @@ pub(crate) fn number(result: &Value, field: &str) -> f64 {
 /// A quantity with its error.
 #[track_caller]
 pub(crate) fn estimate(result: &Value, field: &str) -> Estimate {
-    Estimate {
-        value: number(result, field),
-        error: number(result, &format!("{field}_error")),
-    }
+    Estimate::new(
+        number(result, field),
+        number(result, &format!("{field}_error")),
+    )
 }
 
 /// Requires that two values differ by their errors at most, which together are less than a part of the second one, or of

@@ -15,7 +15,6 @@ pub(super) struct Row {
 }
 
 /// Rows of one temperature.
-#[derive(Debug)]
 pub(super) struct Group {
     /// Where it begins.
     pub(super) line: usize,

@@ -44,7 +44,6 @@ impl SceneError {
         }
     }
 
-    /// A parameter of a table is refused.
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
         Self::Value {
             key: format!("{table}.{}", refused.parameter),

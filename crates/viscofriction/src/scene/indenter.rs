@@ -88,7 +88,6 @@ pub enum Indenter {
         /// extensions asc, gsf, sur, x3p and xyz a measured surface, whose highest points touch first.
         file: PathBuf,
         /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own.
-        #[serde(skip_serializing_if = "Option::is_none")]
         spacing: Option<[f64; 2]>,
         /// Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
         #[serde(default)]
@@ -116,7 +115,6 @@ pub struct SelfAffineSurface {
     /// Shortest wave length, \[m].
     pub shortest_wavelength: f64,
     /// Wave length above which the spectrum is constant, \[m]; without it there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub roll_off_wavelength: Option<f64>,
     /// Another seed draws another surface.
     pub seed: u64,
@@ -134,7 +132,6 @@ pub struct Term {
 
 impl Indenter {
     /// The key of the table.
-    #[must_use]
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("indenter.{name}")

@@ -14,23 +14,17 @@ use super::SceneError;
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Normal force > 0, \[N]; or `indentation_depth`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_force: Option<f64>,
     /// Depth of the lowest point > 0, \[m]; or `normal_force`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub indentation_depth: Option<f64>,
     /// Mean pressure > 0 over the period of a periodic surface, \[Pa], which takes nothing else.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_pressure: Option<f64>,
     /// Sliding speed ≥ 0 towards positive x, \[m/s]; 0 with `solve.duration` is pure indentation.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub velocity: Option<f64>,
     /// Instead of force or depth and speed: depth or force over time, straight from point to point; two points of the same
     /// time are a jump.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub history: Option<Vec<LoadPoint>>,
     /// The same as a CSV file beside the scene file, with the columns time_s and indentation_depth_m or normal_force_n.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub history_file: Option<PathBuf>,
 }
 
@@ -41,10 +35,8 @@ pub struct LoadPoint {
     /// Time ≥ 0, \[s]; not before that of the point before.
     pub time: f64,
     /// Normal force ≥ 0, \[N]; or `indentation_depth`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal_force: Option<f64>,
     /// Depth of the lowest point below the undeformed surface, \[m], of either sign; or `normal_force`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub indentation_depth: Option<f64>,
 }
 

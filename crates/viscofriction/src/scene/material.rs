@@ -114,7 +114,6 @@ pub enum MaterialTable {
         /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
         path: PathBuf,
         /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
-        #[serde(skip_serializing_if = "Option::is_none")]
         poisson_ratio: Option<f64>,
     },
 }
@@ -142,14 +141,12 @@ const fn incompressible() -> f64 {
 
 impl MaterialTable {
     /// The key of the table.
-    #[must_use]
     pub fn key(&self) -> String {
         let name: &str = self.into();
         format!("material.{name}")
     }
 
     /// Poisson ratio ν; none of a file that keeps its own.
-    #[must_use]
     pub const fn poisson_ratio(&self) -> Option<f64> {
         match self {
             Self::Viscous { poisson_ratio, .. }

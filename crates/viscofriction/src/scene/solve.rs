@@ -69,7 +69,6 @@ pub enum Model {
 
 impl Model {
     /// The name in a scene file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
@@ -95,13 +94,11 @@ const RELATIVE_ERROR: f64 = 1e-3;
 
 impl Method {
     /// The name in a scene file.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// The one model that the method is of; none of closed forms, which there are of both.
-    #[must_use]
     pub const fn model(self) -> Option<Model> {
         match self {
             Self::Analytic => None,
@@ -113,7 +110,6 @@ impl Method {
 
 impl Solve {
     /// The model that the answer belongs to: the one given, or that of the method, or the half space.
-    #[must_use]
     pub fn checked_model(&self) -> Model {
         let of_method = self.method.and_then(Method::model);
         self.model.or(of_method).unwrap_or(Model::HalfSpace)

@@ -33,13 +33,11 @@ impl Source {
     }
 
     /// The file.
-    #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
     /// Where the files are that a scene names.
-    #[must_use]
     pub fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(Path::new(""))
     }
@@ -59,7 +57,6 @@ impl Source {
     }
 
     /// The error with file and line.
-    #[must_use]
     pub fn locate(&self, error: &SceneError) -> WrongInput {
         let line = match error {
             SceneError::Syntax { line, .. } => *line,

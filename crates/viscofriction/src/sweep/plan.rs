@@ -65,7 +65,6 @@ impl Plan {
     }
 
     /// Number of points, all combinations of the values.
-    #[must_use]
     pub fn n_points(&self) -> usize {
         self.vary.iter().map(|vary| vary.values.len()).product()
     }
@@ -76,7 +75,6 @@ impl Plan {
     }
 
     /// The values of a point; the last key is fastest.
-    #[must_use]
     pub fn values(&self, point: usize) -> Vec<f64> {
         let mut rest = point;
         let mut values: Vec<f64> = Vec::new();
@@ -140,7 +138,6 @@ impl Plan {
 }
 
 /// The names of the columns.
-#[must_use]
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
     let before = before.chain(["method", "model"]).map(str::to_owned);
@@ -160,7 +157,6 @@ pub struct Row {
 
 impl Row {
     /// Whether the point has no answer.
-    #[must_use]
     pub fn failed(&self) -> bool {
         self.fields.last().is_some_and(|why| !why.is_empty())
     }
@@ -191,7 +187,6 @@ fn written(value: f64) -> String {
 }
 
 /// What tells a row from every other: sweep, point counted from 1, number of points, values.
-#[must_use]
 pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
     let numbers = [point + 1, plan.n_points()].map(|number| number.to_string());
     let mut fields = vec![plan.fingerprint.clone()];

@@ -114,7 +114,6 @@ impl FromStr for Shard {
 
 impl Shard {
     /// Whether a point, counted from 0, belongs to this shard.
-    #[must_use]
     pub const fn holds(self, point: usize) -> bool {
         point % self.count == self.number - 1
     }

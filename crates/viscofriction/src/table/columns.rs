@@ -33,7 +33,6 @@ pub(crate) enum Quantity {
 }
 
 /// What tables of one kind hold.
-#[derive(Debug)]
 pub(crate) struct Vocabulary {
     /// All names, for messages.
     pub(crate) names: &'static str,

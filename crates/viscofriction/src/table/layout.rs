@@ -123,7 +123,6 @@ fn unquoted(cell: &str) -> &str {
 
 const MARKS: [char; 2] = ['#', '%'];
 
-/// Whether a line is a comment.
 pub(crate) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(MARKS) || line.trim_start().starts_with("//")
 }

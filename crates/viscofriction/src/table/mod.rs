@@ -47,7 +47,6 @@ pub(crate) struct Meaning<'a> {
 }
 
 /// A line that is not empty.
-#[derive(Debug)]
 pub(crate) struct Line<'a> {
     /// Counted from 1.
     pub(crate) number: usize,
@@ -56,7 +55,6 @@ pub(crate) struct Line<'a> {
 }
 
 /// A column with a known name.
-#[derive(Debug)]
 pub(crate) struct Column<'a> {
     pub(crate) quantity: Quantity,
     pub(crate) deformation: Option<Deformation>,

@@ -1,6 +1,6 @@
 //! By which methods a scene is solved, and how accurately.
 
-use viscofriction::scene::{Accuracy, Method, Model};
+use viscofriction::scene::{Accuracy, MaterialTable, Method, Model};
 
 use super::scenes::Scene;
 use crate::evidence::request::{Request, presses};
@@ -92,7 +92,7 @@ fn line(random: &mut Random, extent: &Extent) -> Vec<Request> {
 }
 
 fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Request> {
-    let marches = if scene.is_viscous() {
+    let marches = if matches!(scene.file.material, MaterialTable::Viscous { .. }) {
         &extent.marches_on_dashpot
     } else {
         &extent.marches
@@ -116,6 +116,6 @@ fn error(random: &mut Random, logarithms: [f64; 2]) -> Accuracy {
     Accuracy::RelativeError(10_f64.powf(random.between(logarithms)))
 }
 
-fn elements<const N: usize>(random: &mut Random, counts: &[usize; N]) -> Accuracy {
+fn elements(random: &mut Random, counts: &[usize]) -> Accuracy {
     Accuracy::Elements(random.choice(counts))
 }

@@ -7,8 +7,6 @@ use viscofriction::solve::{Body, Problem};
 
 use crate::random::Random;
 
-/// A scene.
-#[derive(Debug)]
 pub(super) struct Scene {
     pub(super) label: Label,
     pub(super) file: scene::Scene,
@@ -40,35 +38,16 @@ const MOTIONS: [Motion; 6] = {
     motions[1] = Motion::FromFirstTouch;
     motions
 };
+/// Kinds of bodies and materials, some more often than others.
+const BODIES: &str = "power power cusp cone paraboloid sphere superposition flat-cone round-tipped-cone hyperboloid \
+                      truncated-paraboloid";
 /// Bodies whose motion from first touch is known.
-const KNOWN_FROM_FIRST_TOUCH: [&str; 2] = ["cone", "paraboloid"];
-const BODIES: [&str; 11] = [
-    "power",
-    "power",
-    "cusp",
-    "cone",
-    "paraboloid",
-    "sphere",
-    "superposition",
-    "flat-cone",
-    "round-tipped-cone",
-    "hyperboloid",
-    "truncated-paraboloid",
-];
+const KNOWN_FROM_FIRST_TOUCH: &str = "cone paraboloid";
 /// Bodies with an edge, at which the friction of a dashpot is infinite.
 const WITH_EDGE: [&str; 2] = ["flat-cone", "truncated-paraboloid"];
 /// The dashpot more often: every method solves it.
-const MATERIALS: [&str; 8] = [
-    "viscous",
-    "viscous",
-    "viscous",
-    "elastic",
-    "kelvin-voigt",
-    "maxwell",
-    "standard-solid",
-    "prony",
-];
-const WITHOUT_DASHPOT: [&str; 4] = ["elastic", "maxwell", "standard-solid", "prony"];
+const MATERIALS: &str = "viscous viscous viscous elastic kelvin-voigt maxwell standard-solid prony";
+const WITHOUT_DASHPOT: &str = "elastic maxwell standard-solid prony";
 /// Depth over the length of a contact within a flat end.
 const FLAT: f64 = 0.1;
 /// Part of the stationary scenes that are held at a depth instead of under a force.
@@ -84,14 +63,14 @@ pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
     };
     let motion = sample.random.choice(&MOTIONS);
     let body = match motion {
-        Motion::FromFirstTouch => sample.random.choice(&KNOWN_FROM_FIRST_TOUCH),
-        _ => sample.random.choice(&BODIES),
+        Motion::FromFirstTouch => sample.random.word(KNOWN_FROM_FIRST_TOUCH),
+        _ => sample.random.word(BODIES),
     };
     let indenter = format!("{{ {} }}", sample.body(body));
     let material = match motion {
         Motion::FromFirstTouch => "viscous",
-        Motion::Stationary if WITH_EDGE.contains(&body) => sample.random.choice(&WITHOUT_DASHPOT),
-        _ => sample.random.choice(&MATERIALS),
+        Motion::Stationary if WITH_EDGE.contains(&body) => sample.random.word(WITHOUT_DASHPOT),
+        _ => sample.random.word(MATERIALS),
     };
     let keys = sample.material(material);
     let compressible = sample.random.between([-0.9, 0.5]);
@@ -256,9 +235,5 @@ impl Scene {
     /// Whether the half space has no friction, whatever slides over it.
     pub(super) fn is_elastic(&self) -> bool {
         matches!(self.file.material, MaterialTable::Elastic { .. })
-    }
-
-    pub(super) fn is_viscous(&self) -> bool {
-        matches!(self.file.material, MaterialTable::Viscous { .. })
     }
 }

@@ -120,10 +120,10 @@ struct Crossing {
 impl Crossing {
     /// The speed, if friction has a relative error.
     fn with_error(&self, relative_error: f64) -> Estimate {
-        Estimate {
-            value: self.speed,
-            error: self.speed * (1.0 + ALLOWED) * relative_error / self.slope.abs(),
-        }
+        Estimate::new(
+            self.speed,
+            self.speed * (1.0 + ALLOWED) * relative_error / self.slope.abs(),
+        )
     }
 }
 
@@ -146,10 +146,7 @@ impl Border {
             // The slope is that between speeds that are far from each other.
             let speed = self.between()?.speed;
             let next = Crossing { speed, slope }.with_error(error);
-            border = Estimate {
-                value: next.value,
-                error: next.error + (next.value - border.value).abs(),
-            };
+            border = Estimate::new(next.value, next.error + (next.value - border.value).abs());
         }
         Ok(border)
     }

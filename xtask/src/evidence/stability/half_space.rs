@@ -6,6 +6,7 @@ use bem_halfspace::indent::indent_history_on_grid;
 use bem_halfspace::slide::{SlideRow, slide_on_grid};
 use bem_halfspace::steady::{RefinementOptions, steady_refined};
 use bem_halfspace::{BemError, Footprint, GridOptions};
+use casebook::Formula;
 use friction_analytic::{
     ElasticContact, ElasticLimitFriction, FrictionError, half_space_power_friction,
     high_speed_friction, low_speed_friction,
@@ -108,8 +109,8 @@ fn at_limit(gamma: f64, velocity: f64, limit: Limit) -> Result<Row> {
     let limit = limit(&profile, &solid, contact)?;
     let load = SlidingLoad::new(limit.normal_force, velocity)?;
     // The next order is the speed over that at which the limit ends, some 1e-4.
-    let (value, error) = (limit.half_space, 1e-3 * limit.half_space);
-    judged(&profile, &solid, &load, Estimate { value, error }, 0.0)
+    let expected = Estimate::new(limit.half_space, 1e-3 * limit.half_space);
+    judged(&profile, &solid, &load, expected, 0.0)
 }
 
 /// Slow sliding, v τ (1 + γ)/γ = 1e-4 a: friction by the exact elastic limit.
@@ -123,35 +124,17 @@ pub(super) fn fast(gamma: f64) -> Result<Row> {
     at_limit(gamma, 1e4, high_speed_friction)
 }
 
-/// h = x² + (y/r)² on the elements of a grid that is as slender as the body.
-struct SlenderParaboloid {
-    aspect: f64,
-}
-
-impl Surface for SlenderParaboloid {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        x * x + (y / self.aspect).powi(2)
-    }
-
-    fn gradient(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [2.0 * x, 2.0 * y / self.aspect / self.aspect]
-    }
-
-    fn mirrors(&self) -> [bool; 2] {
-        [true; 2]
-    }
-
-    fn apex_exponent(&self) -> f64 {
-        2.0
-    }
-}
-
-/// Two estimates on elements of two shapes agree within their error bars.
+/// Two estimates of h = x² + (y/r)², on elements that are as slender as the body and of half the width, agree within their
+/// error bars.
 ///
 /// Under this force the contact is about as long as one, however wide.
 pub(super) fn slender(aspect: f64) -> Result<Row> {
     let load = SlidingLoad::new(aspect.max(1.0), 1.0)?;
-    let (body, material) = (SlenderParaboloid { aspect }, Viscous::new(1.0)?);
+    let body = Formula::new([true; 2], |[x, y]| {
+        let height = x * x + (y / aspect).powi(2);
+        (height, [2.0 * x, 2.0 * y / aspect / aspect])
+    });
+    let material = Viscous::new(1.0)?;
     let solve = |aspect| {
         let options = RefinementOptions { aspect, ..OPTIONS };
         Ok::<_, BemError>(steady_refined(&body, &material, &load, &options)?.friction_coefficient)

@@ -2,11 +2,12 @@
 
 use anyhow::{Context, Result};
 use bem_halfspace::steady::SteadySliding;
+use benches::memory;
 use serde::Serialize;
 
 use super::Table;
 use crate::evidence::fit::exponent;
-use crate::meter::{measure as metered, peak_memory};
+use crate::meter::measure as metered;
 use crate::output::points;
 use crate::scene::{Scene, refined_to};
 use crate::tasks::in_turn;
@@ -62,7 +63,7 @@ pub(super) fn measure(largest: f64) -> Result<(Table, String)> {
             contact_sets: solution.iterations,
             seconds: cost.seconds,
             processor_seconds: cost.processor_seconds,
-            peak_memory_mib: peak_memory(),
+            peak_memory_mib: memory("VmHWM:").map(|bytes| bytes / (1 << 20) as f64),
             relative_deviation: solution.friction_coefficient / limit - 1.0,
         })
     })?;

@@ -1,10 +1,8 @@
 //! Contacts of one instant on a given grid.
 
 use anyhow::Result;
-use bem_halfspace::{
-    Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
-    solve_contact,
-};
+use bem_halfspace::ContactState;
+use benches::ContactScene;
 use casebook::{SquareContact, deviation};
 use indenters::rough::SelfAffine;
 use viscofriction::scene::Model;
@@ -31,9 +29,7 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
             ..row()
         };
         measured.add(run, || {
-            let convolution = Convolution::new(&grid(edge)?);
-            let body = SquareContact::hertz(edge, 0.0);
-            let (contact, state) = solve(&convolution, &body, TOLERANCE)?;
+            let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
             let depth = [contact.indentation_depth];
             Ok(found(&state, &depth, &[SquareContact::HERTZ_DEPTH]))
         });
@@ -51,10 +47,8 @@ pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
         roll_off_wavelength: 0.25,
         seed: 0,
     };
-    let heights = surface.surface()?.heights([edge; 2])?;
-    let body = SquareContact::rough(heights);
-    let convolution = Convolution::periodic(&grid(edge)?);
-    let (contact, exact) = solve(&convolution, &body, REFERENCE_TOLERANCE)?;
+    let scene = ContactScene::periodic(surface.surface()?.heights([edge; 2])?)?;
+    let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
     for tolerance in TOLERANCES {
         let run = Row {
             scene: "rough surface",
@@ -66,7 +60,7 @@ pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
             ..row()
         };
         measured.add(run, || {
-            let (_, state) = solve(&convolution, &body, tolerance)?;
+            let (_, state) = scene.solve(tolerance)?;
             Ok(found(&state, state.pressure(), exact.pressure()))
         });
     }
@@ -87,28 +81,4 @@ fn found(state: &ContactState, values: &[f64], exact: &[f64]) -> Found {
         error_bar: None,
         unknowns: state.pressure().len(),
     }
-}
-
-fn grid(edge: usize) -> Result<Grid> {
-    Ok(Grid::new([edge; 2], [1.0 / edge as f64; 2])?)
-}
-
-/// Solves a contact from a cold start.
-fn solve(
-    convolution: &Convolution,
-    body: &SquareContact,
-    tolerance: f64,
-) -> Result<(Contact, ContactState)> {
-    let problem = ContactProblem {
-        convolution,
-        separation: &body.heights,
-        compliance: SquareContact::COMPLIANCE,
-        control: Control::NormalForce(body.force),
-    };
-    let options = ContactOptions {
-        tolerance,
-        ..ContactOptions::default()
-    };
-    let mut state = ContactState::new(convolution);
-    Ok((solve_contact(&problem, &mut state, &options)?, state))
 }

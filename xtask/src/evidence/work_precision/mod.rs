@@ -16,7 +16,6 @@ use scenes::{QUICK_SCENES, SCENES, Scene};
 use series::{Measured, Row};
 
 /// How much is measured.
-#[derive(Debug)]
 struct Extent {
     scenes: &'static [Scene],
     /// Runs of each method, from the coarsest on.
