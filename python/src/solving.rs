@@ -7,6 +7,7 @@ use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, P
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::indenters::HeightMap;
+use viscofriction::indenters::rough::PeriodicSurface;
 use viscofriction::scene::{Layer, LoadPoint, Method, Source};
 use viscofriction::solve::with_fields;
 use viscofriction::sweep::{Plan, Vary, header, identity};
@@ -22,7 +23,7 @@ type Column = fn(&mut Scene, f64);
 struct Scenes {
     scene: Scene,
     folder: PathBuf,
-    heights: Option<HeightMap>,
+    surface: Option<Surface>,
     columns: Vec<(Column, Vec<f64>)>,
 }
 
@@ -33,8 +34,10 @@ impl Scenes {
             column(&mut scene, values[index]);
         }
         let mut problem = Problem::new(&scene, &self.folder, read).map_err(wrong)?;
-        if let Some(heights) = &self.heights {
-            problem.body = Body::HeightMap(heights.clone());
+        match &self.surface {
+            Some(Surface::Wall(map)) => problem.body = Body::HeightMap(map.clone()),
+            Some(Surface::Periodic(waves)) => problem.body = Body::Periodic(waves.clone()),
+            None => {}
         }
         choose(&problem).map_err(wrong)?;
         Ok(problem)
@@ -66,8 +69,8 @@ pub(crate) struct Loads<'py> {
     scene: Bound<'py, PyDict>,
     /// Where the files are that the scene names.
     folder: PathBuf,
-    /// Of the body, where the scene holds any other in its place, and their spacing.
-    heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2])>,
+    /// Of the body, where the scene holds any other in its place, and their spacing; of a periodic one the shortest wave.
+    heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2], Option<f64>)>,
     /// Arrays of one length by their names.
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
     /// A history in the place of that of the scene: the control, times, and its values.
@@ -83,7 +86,8 @@ pub(crate) struct Loads<'py> {
 impl Loads<'_> {
     fn scenes(&self) -> PyResult<Scenes> {
         let heights = self.heights.as_ref();
-        let heights = heights.map(|(heights, spacing)| map(heights, *spacing));
+        let surface =
+            heights.map(|(heights, spacing, shortest)| surface(heights, *spacing, *shortest));
         let columns = self.columns.iter().map(|(name, values)| {
             let values = values.as_array().to_vec();
             Ok((column(name)?, values))
@@ -101,7 +105,7 @@ impl Loads<'_> {
         Ok(Scenes {
             scene,
             folder: self.folder.clone(),
-            heights: heights.transpose()?,
+            surface: surface.transpose()?,
             columns: columns.collect::<PyResult<_>>()?,
         })
     }
@@ -155,12 +159,28 @@ pub(crate) fn solve_loads<'py>(
     to_python(py, answers.into_iter().flatten().collect(), has_text)
 }
 
-fn map(heights: &PyReadonlyArray2<'_, f64>, spacing: [f64; 2]) -> PyResult<HeightMap> {
+/// A body of heights.
+enum Surface {
+    Wall(HeightMap),
+    Periodic(PeriodicSurface),
+}
+
+fn surface(
+    heights: &PyReadonlyArray2<'_, f64>,
+    spacing: [f64; 2],
+    shortest: Option<f64>,
+) -> PyResult<Surface> {
     let heights = heights.as_array();
     let shape = [heights.nrows(), heights.ncols()];
     // Row by row, whatever the strides.
     let heights = heights.iter().copied().collect();
-    HeightMap::new(shape, spacing, heights).map_err(wrong)
+    let map = HeightMap::new(shape, spacing, heights).map_err(wrong)?;
+    Ok(match shortest {
+        Some(shortest) => {
+            Surface::Periodic(PeriodicSurface::through(&map, shortest).map_err(wrong)?)
+        }
+        None => Surface::Wall(map),
+    })
 }
 
 fn to_python(

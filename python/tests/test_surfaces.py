@@ -185,3 +185,25 @@ def test_a_topography_of_the_real_package_is_the_same(expected: dict[str, Any]) 
     sizes = tuple(1e6 * step * count for step, count in zip(SPACING, HEIGHTS.shape, strict=True))
     found = pressed(vf.HeightMap.from_topography(package.Topography(1e6 * HEIGHTS, sizes, unit="µm")))
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
+
+
+def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
+    """Two waves on two grids are one surface, which under a large pressure has the closed form of full contact."""
+    solid = vf.StandardSolid(0.25, 2.25, 2.25)
+
+    def answer(rows: int, columns: int, pressure: float) -> vf.Answer:
+        x, y = np.meshgrid(np.arange(rows) / rows, np.arange(columns) / columns, indexing="ij")
+        heights = 0.02 * np.cos(2 * np.pi * (x + 2 * y)) + 0.01 * np.cos(2 * np.pi * (3 * x - y) + 1.0)
+        road = vf.HeightMap(heights, (2.0 / rows, 1.0 / columns), periodic=True)
+        return vf.slide(road, solid, mean_pressure=pressure, velocity=0.1, relative_error=0.02)
+
+    one, other = answer(16, 8, 0.02), answer(20, 15, 0.02)
+    assert one.mu == pytest.approx(other.mu, rel=1e-9) and one.area_fraction < 0.1
+    full = answer(16, 8, 100.0)
+    assert full.area_fraction == 1.0 and full.mu == pytest.approx(full.persson["friction_coefficient"], rel=1e-10)
+    with pytest.raises(ValueError, match="only of a periodic surface"):
+        vf.HeightMap(np.eye(4), 1.0, shortest_wavelength=1.0)
+    with pytest.raises(ValueError, match="short enough for a wave"):
+        vf.slide(vf.HeightMap(np.eye(4), 1.0, periodic=True, shortest_wavelength=9.0), solid, mean_pressure=1.0, velocity=1.0)
+    smooth = vf.HeightMap(np.eye(4), 1.0, periodic=True, shortest_wavelength=2.5)
+    assert "periodic" in repr(smooth) and vf.slide(smooth, solid, mean_pressure=1e3, velocity=1.0).area_fraction == 1.0

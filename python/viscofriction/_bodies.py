@@ -176,35 +176,52 @@ class HeightMapFile(Body):
 
     The extension says the format: asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
     (ISO 25178-72), xyz (points of a grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
-    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out.
+    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out. The body ends with a wall at the
+    edges of the file, or with ``periodic`` repeats itself, as the sum of waves through its heights that are not shorter than
+    ``shortest_wavelength`` [m].
     """
 
     file: str | os.PathLike[str]
     fill_missing: bool = False
     level: bool = False
+    periodic: bool = False
+    shortest_wavelength: float | None = None
     _kind = "height-map"
 
     def _table(self) -> dict[str, Any]:
         keys = super()._table()[self._kind]
-        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
+        edges = "periodic" if keys.pop("periodic") else "wall"
+        return {self._kind: keys | {"file": os.path.abspath(self.file), "edges": edges}}
 
 
 class HeightMap(Body):
     """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
 
-    It ends at the edge of the grid with a wall. ``spacing`` is (dx, dy) [m], or one number for both. Any layout, and float32,
-    will do.
+    It ends at the edge of the grid with a wall; or with ``periodic`` it repeats itself, as the sum of waves through its heights
+    that are not shorter than ``shortest_wavelength`` [m], and takes a mean pressure. ``spacing`` is (dx, dy) [m], or one number
+    for both. Any layout, and float32, will do.
     """
 
     _kind = "height-map"
 
-    def __init__(self, heights: ArrayLike, spacing: float | tuple[float, float]) -> None:
+    def __init__(
+        self,
+        heights: ArrayLike,
+        spacing: float | tuple[float, float],
+        *,
+        periodic: bool = False,
+        shortest_wavelength: float | None = None,
+    ) -> None:
         self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2)
         pair = spacing if isinstance(spacing, Sequence) else (spacing, spacing)
         steps = numbers("spacing", pair, dimensions=1)
         if steps.shape != (2,) or not (steps > 0).all():
             raise ValueError(f"spacing must be one or two numbers greater than 0, but is {spacing}")
         self.spacing: tuple[float, float] = (float(steps[0]), float(steps[1]))
+        if shortest_wavelength is not None and not periodic:
+            raise ValueError("shortest_wavelength: only of a periodic surface waves are left out")
+        #: Of a periodic surface the length [m] of the shortest waves; None of one that ends.
+        self.shortest_wavelength: float | None = (shortest_wavelength or 0.0) if periodic else None
 
     @classmethod
     def from_topography(cls, topography: Any) -> HeightMap:
@@ -219,8 +236,12 @@ class HeightMap(Body):
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape
-        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing})"
+        periodic = "" if self.shortest_wavelength is None else ", periodic"
+        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing}{periodic})"
 
     def _table(self) -> dict[str, Any]:
         # Its place in the scene, which the heights then take.
-        return Paraboloid(1.0)._table()
+        if self.shortest_wavelength is None:
+            return Paraboloid(1.0)._table()
+        dx, dy = (count * step for count, step in zip(self.heights.shape, self.spacing, strict=True))
+        return SelfAffine((dx, dy), 0.5, 1.0, min(dx, dy), min(dx, dy), 0)._table()

@@ -157,7 +157,7 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     heights = None
     body = table.get("indenter")
     if isinstance(body, HeightMap):
-        heights = (body.heights, body.spacing)
+        heights = (body.heights, body.spacing, body.shortest_wavelength)
     for key, kind in (("indenter", Body), ("material", Material)):
         value = table.get(key)
         if isinstance(value, kind):

@@ -63,6 +63,21 @@ impl HeightMap {
         })
     }
 
+    /// Heights along x and along y.
+    pub const fn shape(&self) -> [usize; 2] {
+        self.shape
+    }
+
+    /// Distances of neighbouring heights along x and y, \[m].
+    pub const fn spacing(&self) -> [f64; 2] {
+        self.spacing
+    }
+
+    /// Heights above the lowest \[m], row-major with y fastest.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
     /// Where the surface begins and ends along x and along y, seen from its lowest point, \[m].
     pub fn extent(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))

@@ -5,6 +5,7 @@
 //! ```
 
 mod self_affine;
+mod through;
 
 use std::f64::consts::TAU;
 

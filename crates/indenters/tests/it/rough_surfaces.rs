@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use casebook::assert_matches;
-use indenters::IndenterError;
 use indenters::rough::{PeriodicSurface, SelfAffine, Wave};
+use indenters::{HeightMap, IndenterError};
 
 const RANDOM: SelfAffine = SelfAffine {
     period: [2.0, 1.0],
@@ -144,6 +144,44 @@ fn impossible_spectra_are_refused() {
         let message = asked.surface().expect_err(name).to_string();
         assert!(message.starts_with(name), "{message} instead of {name}");
     }
+}
+
+/// On its own grid a map is met at every point, but for waves of two elements; and a sum of waves is found again.
+#[test]
+fn a_periodic_map_is_a_sum_of_waves() {
+    let surface = RANDOM.surface().expect("a surface");
+    for [rows, columns] in [[128, 64], [101, 75]] {
+        let heights = surface.heights([rows, columns]).expect("heights");
+        let spacing = [2.0 / rows as f64, 1.0 / columns as f64];
+        let map = HeightMap::new([rows, columns], spacing, heights).expect("a map");
+        let found = PeriodicSurface::through(&map, 0.0).expect("waves");
+        assert_eq!(found.waves().len(), surface.waves().len(), "as many waves");
+        for wave in found.waves() {
+            let is_same = |other: &&Wave| {
+                let numbers = other.numbers;
+                numbers == wave.numbers || numbers.map(|number| -number) == wave.numbers
+            };
+            let same = surface.waves().iter().find(is_same).expect("the same wave");
+            let phase = if same.numbers == wave.numbers {
+                same.phase
+            } else {
+                -same.phase
+            };
+            let turned = (wave.phase - phase) / TAU;
+            let off = (turned - turned.round()).abs() * TAU
+                + (wave.amplitude / same.amplitude - 1.0).abs();
+            assert!(off < 1e-9, "{wave:?}, {same:?}");
+        }
+        let smooth = PeriodicSurface::through(&map, 0.1).expect("longer waves");
+        let longest = smooth.waves().iter().map(|wave| smooth.wave_vector(wave));
+        let shortest = longest
+            .map(|[x, y]| TAU / x.hypot(y))
+            .fold(f64::INFINITY, f64::min);
+        assert!((0.1..0.11).contains(&shortest), "shortest wave {shortest}");
+        PeriodicSurface::through(&map, 3.0).expect_err("no wave is so long");
+    }
+    let flat = HeightMap::new([4, 4], [1.0; 2], vec![1.0; 16]).expect("a map");
+    PeriodicSurface::through(&flat, 0.0).expect_err("a plane");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Scenes of rough surfaces that slide.
 
+use std::f64::consts::TAU;
+
 use serde_json::Value;
 
 use crate::support::{Folder, assert_close, number, rows};
@@ -52,6 +54,39 @@ fn partial_contact_has_two_frictions_within_their_bars() {
     let columns: Vec<&str> = header.split(',').collect();
     for name in ["area_fraction", "persson_friction_coefficient"] {
         assert!(columns.contains(&name), "no {name} in {columns:?}");
+    }
+}
+
+/// The same two waves, written on two grids.
+#[test]
+fn a_periodic_map_is_the_same_surface_on_any_grid() {
+    let folder = Folder::new("rough-map");
+    let wave = |x: f64, y: f64, phase: f64| 0.02 * (TAU * (x + y) + phase).cos();
+    let answers = [[16, 8], [20, 15]].map(|[rows, columns]| {
+        let part = |index: usize, of: usize| index as f64 / of as f64;
+        let height = |i: usize, j: usize| {
+            let (x, y) = (part(i, rows), part(j, columns));
+            wave(x, 2.0 * y, 0.3) + 0.5 * wave(3.0 * x, -y, 1.0)
+        };
+        let line = |i| {
+            (0..columns)
+                .map(|j| height(i, j).to_string())
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        let lines: Vec<String> = (0..rows).map(line).collect();
+        folder.write("map.csv", lines.join("\n"));
+        let spacing = [2.0 * part(1, rows), part(1, columns)];
+        let (before, after) = SURFACE.split_once("\n").expect("lines");
+        assert!(before.starts_with("indenter.self-affine"), "{before}");
+        let map = format!("file = \"map.csv\", spacing = {spacing:?}, edges = \"periodic\"");
+        let scene = format!("indenter.height-map = {{ {map} }}\n{after}mean_pressure = 0.02\n");
+        folder.write("map.toml", scene);
+        folder.json("map.toml")
+    });
+    for name in ["friction_coefficient", "area_fraction"] {
+        let [one, other] = [0, 1].map(|index: usize| number(&answers[index], name));
+        assert_close(name, one, other, 1e-9);
     }
 }
 

@@ -81,7 +81,7 @@ pub enum Indenter {
         /// CSV file with the columns radius_m and height_m, beside the scene file; both begin with 0, radii increase.
         file: PathBuf,
     },
-    /// A surface from a grid of heights, bilinear between them; it ends at the edge of the grid.
+    /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
     HeightMap {
         /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column
         /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x. With the
@@ -95,9 +95,25 @@ pub enum Indenter {
         /// Take the plane of least squares out of a measured surface.
         #[serde(default)]
         level: bool,
+        /// What is beyond the grid.
+        #[serde(default)]
+        edges: Edges,
+        /// Waves shorter than this are left out of a periodic surface, \[m]; without it none that the grid knows.
+        shortest_wavelength: Option<f64>,
     },
     /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
     SelfAffine(SelfAffineSurface),
+}
+
+/// What is beyond a grid of heights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edges {
+    /// The body ends with a wall.
+    #[default]
+    Wall,
+    /// The same grid, for ever; it takes load.mean_pressure.
+    Periodic,
 }
 
 /// A random self-affine surface, whose waves are drawn by the seed.

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
 pub use files::{height_map, history, profile};
-pub use indenter::{Indenter, SelfAffineSurface, Term};
+pub use indenter::{Edges, Indenter, SelfAffineSurface, Term};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint};
 pub use material::{Branch, MaterialTable};

@@ -12,7 +12,7 @@ use indenters::{
 };
 use numerics::{in_range, positive};
 
-use crate::scene::{Indenter, SceneError, SelfAffineSurface, Term, height_map, profile};
+use crate::scene::{Edges, Indenter, SceneError, SelfAffineSurface, Term, height_map, profile};
 use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
@@ -123,9 +123,14 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, 
             spacing,
             fill_missing,
             level,
+            edges,
+            shortest_wavelength,
         } => {
-            let change = [*fill_missing, *level];
-            return map(&folder.join(file), *spacing, change, read).map(Body::HeightMap);
+            let file = folder.join(file);
+            let map = map(&file, *spacing, [*fill_missing, *level], read)?;
+            return with_edges(map, *edges, *shortest_wavelength).map_err(|(key, problem)| {
+                SceneError::at(format!("indenter.height-map.{key}"), problem)
+            });
         }
         Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
     };
@@ -199,12 +204,30 @@ fn map(
             height_map(file, &contents()?, spacing).map_err(wrong)?
         }
     };
-    if map.extent().into_iter().flatten().any(|end| end == 0.0) {
-        let problem =
-            "the lowest height lies on the edge of the map, where the contact would end with it";
-        return Err(in_file(problem.to_owned()));
-    }
     Ok(map)
+}
+
+/// A map that ends at its edges or repeats itself; or a key and what is wrong with it.
+fn with_edges(
+    map: HeightMap,
+    edges: Edges,
+    shortest_wavelength: Option<f64>,
+) -> Result<Body, (&'static str, String)> {
+    match (edges, shortest_wavelength) {
+        (Edges::Periodic, shortest) => PeriodicSurface::through(&map, shortest.unwrap_or(0.0))
+            .map(Body::Periodic)
+            .map_err(|error| ("shortest_wavelength", error.to_string())),
+        (Edges::Wall, Some(_)) => {
+            let problem = "only of edges = \"periodic\" waves are left out";
+            Err(("shortest_wavelength", problem.to_owned()))
+        }
+        (Edges::Wall, None) if map.extent().into_iter().flatten().any(|end| end == 0.0) => {
+            let problem = "the lowest height lies on the edge of the map, where the contact would end with it; \
+                           edges = \"periodic\" repeats the map";
+            Err(("file", problem.to_owned()))
+        }
+        (Edges::Wall, None) => Ok(Body::HeightMap(map)),
+    }
 }
 
 /// The extension, where it is that of a measured surface.
