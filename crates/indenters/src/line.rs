@@ -5,7 +5,7 @@ use auto_impl::auto_impl;
 use crate::Axisymmetric;
 use numerics::bracketed_root;
 
-/// Halvings of an interval whose slopes contradict its heights before it is taken as it is.
+/// Halvings of an interval whose slopes contradict its heights, all together, before it is taken as it is.
 const MAX_BISECTIONS: u32 = 40;
 
 /// A continuous rigid line h̃(x) on a closed interval, which moves towards positive x.
@@ -99,7 +99,8 @@ fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
         if heading.signum() * entry < 0.0 || !line.height(left).is_finite() {
             breaks.push(left);
         }
-        breaks.extend(turning_point(line, [left, right], 0));
+        let mut bisections = 0;
+        breaks.extend(turning_point(line, [left, right], &mut bisections));
         heading = first_not_zero([end, entry, heading]);
     }
     breaks.sort_by(f64::total_cmp);
@@ -146,7 +147,7 @@ fn as_float(count: usize) -> f64 {
 fn turning_point(
     line: &(impl RigidLine + ?Sized),
     [left, right]: [f64; 2],
-    bisections: u32,
+    bisections: &mut u32,
 ) -> Option<f64> {
     let inside = inside([left, right]);
     let [start, end] = inside.map(|x| line.slope(x));
@@ -155,10 +156,11 @@ fn turning_point(
     }
     let rise = line.height(right) - line.height(left);
     let contradicts = rise * start < 0.0 || rise * end < 0.0;
-    if !contradicts || bisections == MAX_BISECTIONS {
+    if !contradicts || *bisections == MAX_BISECTIONS {
         return None;
     }
+    *bisections += 1;
     let middle = 0.5 * (left + right);
-    turning_point(line, [left, middle], bisections + 1)
-        .or_else(|| turning_point(line, [middle, right], bisections + 1))
+    turning_point(line, [left, middle], bisections)
+        .or_else(|| turning_point(line, [middle, right], bisections))
 }

@@ -109,4 +109,13 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn the_table_is_given_back_and_not_continued() {
+        for &[exponent, value, error] in NODES.iter() {
+            let found = scaling_factor(exponent).unwrap();
+            assert_eq!(found, Estimate { value, error }, "p = {exponent}");
+        }
+        casebook::refuses("exponent", &[0.5, 64.1, f64::NAN], scaling_factor);
+    }
 }

@@ -6,7 +6,7 @@ use friction_analytic::{
     power_indentation_after_impulse, power_sliding, sliding_distance_to_depth, stationary_depth,
     transient_sliding, wavy_surface_sliding,
 };
-use indenters::{Cylinder, IndenterError, Sphere};
+use indenters::{Cylinder, IndenterError, SlidingLoad, Sphere};
 use rheology::{KelvinVoigt, Prony};
 
 use crate::support::{material_and_load, power, viscous, with_depth};
@@ -70,6 +70,8 @@ fn numbers_that_must_be_positive_are_named() {
     }
     let amplitude = |x| slide_over(&[wave(x, [1.0, 0.0])]);
     refuses("amplitude", NOT_POSITIVE, amplitude);
+    let velocity = |x| wavy_surface_sliding(&[wave(1.0, [1.0, 0.0])], &solid(), x);
+    refuses("velocity", NOT_POSITIVE, velocity);
     let vector = |x| slide_over(&[wave(1.0, [x, x])]);
     refuses("length of a wave vector", &[0.0, f64::NAN], vector);
 }
@@ -77,10 +79,22 @@ fn numbers_that_must_be_positive_are_named() {
 #[test]
 fn waves_that_interfere_are_refused() {
     refused("number of waves", slide_over(&[]));
-    for other in [[2.0, 0.0], [-2.0, -0.0]] {
-        let waves = [[2.0, 0.0], other].map(|wave_vector| wave(1e-3, wave_vector));
-        refused("wave vector", slide_over(&waves));
+    for [x, y] in [[2.0, 0.0], [0.0, 2.0], [2.0, 3.0], [2.0, -3.0]] {
+        for other in [[x, y], [-x, -y]] {
+            let waves = [[x, y], other].map(|wave_vector| wave(1e-3, wave_vector));
+            refused("wave vector", slide_over(&waves));
+        }
     }
+}
+
+#[test]
+fn loads_of_another_kind_are_refused() {
+    let ((material, load), cone) = (with_depth(0.1), power(1.0, 1.0));
+    let passing = power_sliding(&cone, &material, &load.after(2.0).unwrap());
+    assert!(passing.is_err(), "{passing:?}");
+    let held = SlidingLoad::at_depth(0.1, 1.0).unwrap();
+    let sinking = transient_sliding(&cone, &material, &held, 1.0);
+    assert!(sinking.is_err(), "{sinking:?}");
 }
 
 #[test]
@@ -174,4 +188,15 @@ fn contacts_beyond_the_body_are_refused() {
     let falling = superposition(&[(1.0, 1.0), (-1.0, 2.0)]);
     let result = indentation_after_impulse(&falling, &material, 1e6);
     assert_matches!(result, Err(FrictionError::OutOfRange { quantity, .. }) if quantity == "contact radius");
+    // h̃ = (π/2) x − 2 x² + 0.15 π x³ falls from 0.47 to 2.4, and is higher again at 4.
+    let dented = superposition(&[(1.0, 1.0), (-1.0, 2.0), (0.2, 3.0)]);
+    let contact_radius = 4.0;
+    let beyond = ElasticContact {
+        contact_radius,
+        ..beyond
+    };
+    let elastic = low_speed_friction(&dented, &solid(), beyond);
+    assert!(elastic.is_err(), "{elastic:?}");
+    let viscous = indentation_after_impulse(&dented, &material, 150.0);
+    assert!(viscous.is_err(), "{viscous:?}");
 }

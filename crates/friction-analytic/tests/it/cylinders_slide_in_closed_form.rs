@@ -64,6 +64,9 @@ fn cylinders_match_the_casebook_and_twelve_decades_of_speed() {
         }
         let slope = 2.0 * larger.friction_coefficient;
         assert_close!(slope => state.friction_coefficient, within 1e-14; "half as steep");
+        assert_close!(larger.line_load => state.line_load, within 1e-14; "twice as long, half as steep");
+        let compressible = slide(&Compressible::new(&solid, 0.2).unwrap(), velocity).unwrap();
+        assert_close!(compressible.line_load => state.line_load / 1.6, within 1e-14; "compressible");
         let names = ["P", "x0_over_l", "muR_over_l"].into_iter();
         for (name, value) in names.zip(numbers(&state, gamma)) {
             case.check_within(name, value, 1e-13);
@@ -149,6 +152,8 @@ fn a_cylinder_needs_one_relaxation_time_a_length_and_a_speed() {
     });
     let maxwell = Maxwell::new(1.0, 1.0).unwrap();
     refused("equilibrium_modulus", slide(&maxwell, 1.0));
-    let two = prony([1.0, 0.0], &[(1.0, 1.0), (1.0, 2.0)]);
-    refused("number of relaxing elements", slide(&two, 1.0));
+    let branches = prony([1.0, 0.0], &[(1.0, 1.0), (1.0, 2.0)]);
+    for two in [branches, prony([1.0, 1.0], &[(1.0, 1.0)])] {
+        refused("number of relaxing elements", slide(&two, 1.0));
+    }
 }

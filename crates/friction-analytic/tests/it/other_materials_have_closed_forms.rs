@@ -9,7 +9,7 @@ use friction_analytic::{
     maxwell_sliding, wavy_sliding, wavy_surface_sliding,
 };
 use indenters::PowerProfile;
-use rheology::{KelvinVoigt, Maxwell, Prony};
+use rheology::{Compressible, KelvinVoigt, Maxwell, Prony};
 
 use crate::support::power;
 
@@ -27,9 +27,12 @@ fn scene(case: &Case) -> (PowerProfile, SlidingContact) {
     (profile, contact)
 }
 
+/// How much stiffer and more viscous the foundations are than in the casebook, where G = 1.
+const STIFFER: f64 = 4.0;
+
 fn check(case: &Case, state: &ViscoelasticSliding) {
     case.check("x_l", state.contact[0]);
-    case.check("F", state.normal_force);
+    case.check("F", state.normal_force / STIFFER);
     case.check("mu", state.friction_coefficient);
     if case.expected("d").is_some() {
         case.check("d", state.indentation_depth);
@@ -39,7 +42,8 @@ fn check(case: &Case, state: &ViscoelasticSliding) {
 #[test]
 fn kelvin_voigt_foundations_match_the_casebook() {
     for case in casebook::group("MDR-03") {
-        let material = KelvinVoigt::new(case.input("G"), case.input("eta")).unwrap();
+        let [modulus, viscosity] = ["G", "eta"].map(|name| STIFFER * case.input(name));
+        let material = KelvinVoigt::new(modulus, viscosity).unwrap();
         let (profile, contact) = scene(&case);
         let state = kelvin_voigt_sliding(&profile, &material, contact);
         check(&case, &state.unwrap());
@@ -50,7 +54,7 @@ fn kelvin_voigt_foundations_match_the_casebook() {
 #[test]
 fn maxwell_foundations_match_the_casebook_without_cancellation() {
     for case in casebook::group("MDR-04") {
-        let modulus = case.input("G");
+        let modulus = STIFFER * case.input("G");
         let material = Maxwell::new(modulus, modulus * case.input("tau")).unwrap();
         let (profile, contact) = scene(&case);
         let state = maxwell_sliding(&profile, &material, contact).unwrap();
@@ -62,7 +66,7 @@ fn maxwell_foundations_match_the_casebook_without_cancellation() {
 
 #[test]
 fn a_wavy_line_in_full_contact_matches_the_casebook() {
-    let material = model("P3");
+    let material = compressible(model("P3"));
     for case in casebook::group("FRI-06") {
         let line = WavyLine {
             amplitude: case.input("g0"),
@@ -70,19 +74,26 @@ fn a_wavy_line_in_full_contact_matches_the_casebook() {
             velocity: case.input("v"),
         };
         let state = wavy_sliding(line, &material).unwrap();
-        case.check("Fh_per_length", state.friction_per_length);
+        case.check("Fh_per_length", SOFTER * state.friction_per_length);
         case.check("d_m_limit", state.least_depth);
         case.check("mu_limit", state.largest_friction_coefficient);
     }
 }
 
+/// 2 (1 − ν) of materials that are incompressible in the casebook.
+const SOFTER: f64 = 1.6;
+
+fn compressible(material: Prony) -> Compressible {
+    Compressible::new(&material, 0.2).unwrap()
+}
+
 /// The material of a row of VIS-03; some name it without its numbers.
-fn material(case: &Case) -> Prony {
-    if case.has_input("Ge") {
+fn material(case: &Case) -> Compressible {
+    compressible(if case.has_input("Ge") {
         case.material()
     } else {
         prony([2e5, 0.0], &[(1e6, 0.02)])
-    }
+    })
 }
 
 fn waves(case: &Case) -> Vec<SurfaceWave> {
@@ -114,32 +125,16 @@ fn waves(case: &Case) -> Vec<SurfaceWave> {
 fn waves_in_full_contact_with_a_half_space_match_the_casebook() {
     for case in casebook::group("VIS-03") {
         let state = wavy_surface_sliding(&waves(&case), &material(&case), case.input("v")).unwrap();
-        case.check("tau_f", state.friction_stress);
+        case.check("tau_f", SOFTER * state.friction_stress);
         if case.expected("mu_at_limit").is_some() {
-            case.check("p_mean_min", state.full_contact_pressure);
+            case.check("p_mean_min", SOFTER * state.full_contact_pressure);
             case.check("mu_at_limit", state.friction_coefficient);
         } else {
             // The casebook samples the pressure, whose amplitudes need not meet.
             let sampled = case.expected("p_mean_min").unwrap();
-            let pressure = state.full_contact_pressure;
+            let pressure = SOFTER * state.full_contact_pressure;
             let is_enough = pressure >= sampled * (1.0 - 1e-3);
             assert!(is_enough, "{}: {pressure} below {sampled}", case.id());
         }
     }
-}
-
-#[test]
-fn waves_across_the_motion_press_and_do_not_rub() {
-    let case = &casebook::group("VIS-03")[0];
-    let along = waves(case)[0];
-    let [k, _] = along.wave_vector;
-    let across = SurfaceWave {
-        wave_vector: [0.0, k],
-        ..along
-    };
-    let [alone, both] = [vec![along], vec![along, across]]
-        .map(|waves| wavy_surface_sliding(&waves, &material(case), case.input("v")).unwrap());
-    assert_close!(both.friction_stress => alone.friction_stress, within 0.0);
-    let [less, more] = [alone, both].map(|state| state.full_contact_pressure);
-    assert!(more > less, "{more} and {less} without the wave across");
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use casebook::{assert_close, assert_matches, prony, refused};
+use casebook::{assert_close, assert_matches, prony, refused, refuses};
 use friction_analytic::{
     FrictionError, PerssonSliding, RoughLoad, SelfAffineSpectrum, SurfaceWave, persson_of_spectrum,
     persson_of_waves,
@@ -124,12 +124,37 @@ fn many_waves_have_the_friction_of_the_spectrum() {
 #[test]
 fn an_elastic_material_has_the_area_of_its_modulus_and_no_friction() {
     let elastic = Elastic::new(0.25).expect("a material");
-    let state = persson_of_spectrum(&SPECTRUM, &elastic, load(PRESSURE, 1.0), 1e-10);
-    let state = state.expect("an area");
-    assert!(state.friction_coefficient.value.abs() < 1e-300, "{state:?}");
-    // G = (E* slope/σ₀)²/8 with 2π ∫ q³ C dq = slope² and E* = 1, and erf(1/(2 √G)) = erf(1/√2).
-    let expected = 0.682_689_492_137_085_9;
-    assert_close!(state.area_fraction.value => expected, within 1e-10);
+    for spectrum in [SPECTRUM, with(0.8, 0.1), with(0.3, 0.05)] {
+        let state = persson_of_spectrum(&spectrum, &elastic, load(PRESSURE, 1.0), 1e-10);
+        let state = state.expect("an area");
+        assert!(state.friction_coefficient.value.abs() < 1e-300, "{state:?}");
+        // G = (E* slope/σ₀)²/8 with 2π ∫ q³ C dq = slope² and E* = 1, and erf(1/(2 √G)) = erf(1/√2).
+        let expected = 0.682_689_492_137_085_9;
+        assert_close!(state.area_fraction.value => expected, within 1e-10);
+    }
+}
+
+/// Another exponent and another roll-off.
+fn with(hurst_exponent: f64, roll_off_wavelength: f64) -> SelfAffineSpectrum {
+    SelfAffineSpectrum {
+        hurst_exponent,
+        roll_off_wavelength,
+        ..SPECTRUM
+    }
+}
+
+/// However many waves of a length there are, all of them meet the same area.
+#[test]
+fn a_wave_is_the_sum_of_its_parts() {
+    let [whole, parts] = [(0.1, 1), (0.05, 4)].map(|(amplitude, n_waves)| {
+        let wave = SurfaceWave {
+            amplitude,
+            wave_vector: [5.0, 3.0],
+        };
+        let state = persson_of_waves(&vec![wave; n_waves], &material(), load(PRESSURE, 0.1));
+        state.expect("a friction").friction_coefficient.value
+    });
+    assert_close!(parts => whole, within 1e-14);
 }
 
 #[test]
@@ -146,6 +171,9 @@ fn what_the_theory_cannot_take_is_refused() {
     let rows = [
         (flat, good, "rms_slope"),
         (narrow, good, "longest_wavelength"),
+        (with(1.0, 0.25), good, "hurst_exponent"),
+        (with(0.8, 0.3), good, "roll_off_wavelength"),
+        (with(0.8, 0.01), good, "roll_off_wavelength"),
         (SPECTRUM, load(0.0, 1.0), "mean_pressure"),
         (SPECTRUM, load(1.0, -1.0), "velocity"),
     ];
@@ -155,4 +183,6 @@ fn what_the_theory_cannot_take_is_refused() {
     }
     let none = persson_of_waves(&[], &material(), good);
     assert_matches!(none, Err(FrictionError::InvalidParameter(_)));
+    let theory = |error| persson_of_spectrum(&SPECTRUM, &material(), good, error);
+    refuses("relative_error", &[1e-12, 1.0, f64::NAN], theory);
 }

@@ -1,9 +1,11 @@
-//! The force of ramps of the depth on any material, and the pressure under bodies of revolution.
+//! The force of ramps of the depth on any material, the pressure under bodies of revolution, and thin layers.
 
 use std::f64::consts::{PI, TAU};
 
 use casebook::{NOT_POSITIVE, assert_close, model, prony, refused, refuses};
-use friction_analytic::{DepthRamp, impulse_to_depth, indentation_pressure, ramp_force};
+use friction_analytic::{
+    DepthRamp, ThinLayer, impulse_to_depth, indentation_pressure, ramp_force, winkler_line_force,
+};
 use indenters::{Axisymmetric, FlatPunch, Sphere};
 use numerics::integrate;
 use rheology::{Compressible, Material};
@@ -109,4 +111,42 @@ fn pressing_refuses_what_has_no_number() {
     };
     refuses("time", NOT_POSITIVE, |time| ramp(1.0, time));
     refuses("indentation_depth", NOT_POSITIVE, |depth| ramp(depth, 1.0));
+}
+
+/// F = 2π K ∫ (d − h) r dr on the foundation. In the film p' = −(3G/t³) (1/r) ∫₀^r (d − h) s ds, and F = −π ∫ p' r² dr.
+#[test]
+fn thin_layers_carry_what_their_equations_say() {
+    let layer = |poisson_ratio| ThinLayer::new(3.0, poisson_ratio, 0.2);
+    let [foundation, film] = [0.2, 0.5].map(|ratio| layer(ratio).unwrap());
+    for p in [0.7, 2.0, 5.0] {
+        let (profile, depth) = (power(0.4, p), 0.05);
+        let height = |r: f64| profile.profile_height(r);
+        let pressure = |r: f64| TAU * r * 40.0 * (depth - height(r));
+        let flow = |r: f64| PI * r.powi(3) * 1125.0 * (0.5 * depth - height(r) / (p + 2.0));
+        let [pressed, squeezed] = [
+            foundation.press_winkler(&profile, depth).unwrap(),
+            film.press_film(&profile, depth).unwrap(),
+        ];
+        for (state, integrand) in [
+            (pressed, &pressure as &dyn Fn(f64) -> f64),
+            (squeezed, &flow),
+        ] {
+            let end = state.contact_radius;
+            assert!(
+                integrand(end).abs() < 1e-12,
+                "{state:?} ends where p = {p} does not"
+            );
+            let force = integrate(integrand, [0.0, end], 1e-12).value;
+            assert_close!(state.normal_force => force, within 1e-10; "{p}");
+        }
+    }
+    let dashpot = Compressible::new(&viscous(1.0), 0.2).unwrap();
+    let line = winkler_line_force(&dashpot, 0.2, 7.0);
+    assert_close!(line.unwrap() => 7.0 * 0.6 * 0.2 / 0.64, within 1e-15);
+    refuses("poisson_ratio", &[-1.0, 0.500_1, f64::NAN], layer);
+    refused(
+        "poisson_ratio",
+        foundation.press_film(&power(1.0, 2.0), 1.0),
+    );
+    refused("poisson_ratio", film.winkler_modulus());
 }

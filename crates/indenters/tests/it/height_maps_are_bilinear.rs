@@ -49,6 +49,7 @@ fn what_lies_below_a_height_is_inside_its_rectangle() {
         (0.0, [[-1.0, 1.0], [-0.5, 0.5]]),
         (1.6, [[-1.0, 1.0], [-1.0, 1.0]]),
         (2.1, [[-1.0, 2.0], [-1.0, 1.0]]),
+        (30.0, [[-1.0, 2.0], [-1.0, 1.0]]),
     ] {
         assert_eq!(map(1.0).extent_below(height), expected, "below {height}");
     }

@@ -1,9 +1,9 @@
-use casebook::{NOT_POSITIVE, assert_matches, refused, refuses};
+use casebook::{NOT_POSITIVE, assert_close, assert_matches, refused, refuses};
 use indenters::{
     AnalyticLine, Axisymmetric, Cylinder, FlatCone, FlatPunch, Hyperboloid, IndenterError,
-    PiecewiseLinearProfile, PowerProfile, PowerTerm, RoundTippedCone, SampledLine, SlidingLoad,
-    Sphere, Superposition, TruncatedParaboloid, contact_line, contact_radius, inverse_abel,
-    leading_edge, stretch,
+    PiecewiseLinearProfile, PowerProfile, PowerTerm, PressingLoad, RoundTippedCone, SampledLine,
+    SlidingLoad, Sphere, Superposition, TruncatedParaboloid, contact_line, contact_radius,
+    inverse_abel, leading_edge, stretch,
 };
 
 use crate::support::out_of_domain;
@@ -30,6 +30,14 @@ fn every_parameter_of_every_shape_is_checked() {
     refuses("slope", bad, |x| Hyperboloid::new(1.0, x));
     refuses("normal_force", bad, |x| SlidingLoad::new(x, 1.0));
     refuses("velocity", bad, |x| SlidingLoad::new(1.0, x));
+    let load = SlidingLoad::new(2.0, 1.0).unwrap();
+    assert_eq!(load.normal_force(), Some(2.0), "{load:?}");
+    refuses("sliding_distance", bad, |x| load.after(x));
+    refuses("duration", bad, |x| PressingLoad::new(load.control(), x));
+    refuses("slope", bad, PowerProfile::pyramid);
+    // F = 0.7453 E* d²/s instead of (2/π) E* d²/s.
+    let pyramid = PowerProfile::pyramid(0.3).unwrap().coefficient();
+    assert_close!(pyramid * 0.7453 => std::f64::consts::FRAC_2_PI * 0.3, within 1e-15);
 }
 
 #[test]
@@ -150,4 +158,7 @@ fn lines_need_a_finite_domain_and_finite_heights() {
     let slope = |x: f64| if x < 0.5 { 1.0 } else { -1.0 };
     let pole = AnalyticLine::new(|x| 1.0 / (x - 0.5).powi(2), slope, [0.0, 1.0]).unwrap();
     refused(height, leading_edge(&pole));
+    // Its slope contradicts its height everywhere, which must not be searched for ever.
+    let wrong = AnalyticLine::new(|x| -x, |_| 1.0, [0.0, 1.0]).unwrap();
+    assert!(leading_edge(&wrong).is_ok(), "{wrong:?}");
 }

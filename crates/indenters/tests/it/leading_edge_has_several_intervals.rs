@@ -1,7 +1,7 @@
 use casebook::{Case, assert_close, assert_matches, fixed_cases};
 use indenters::{
-    EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line, leading_edge,
-    leading_edge_with,
+    AnalyticLine, EquivalentLine, IndenterError, PowerProfile, RigidLine, contact_line,
+    leading_edge, leading_edge_with,
 };
 use proptest::prelude::*;
 
@@ -57,24 +57,6 @@ fn the_edge_of_the_cubic_does_not_depend_on_the_sampling() {
 }
 
 #[test]
-fn points_of_a_table_agree_with_the_casebook() {
-    let rows = casebook::group("FRI-03").into_iter();
-    for case in rows.filter(|case| case.expected_list("A").is_some()) {
-        let heights = case.input_list("h");
-        let positions: Vec<f64> = (0..heights.len()).map(|i| i as f64).collect();
-        let edge = leading_edge(&sampled(&positions, &heights)).unwrap();
-        let end = edge.intervals[edge.intervals.len() - 1][1];
-        let is_leading = |x: &f64| {
-            let mut intervals = edge.intervals.iter();
-            intervals.any(|[start, open]| start <= x && x < open) || *x >= end
-        };
-        let leading: Vec<f64> = positions.into_iter().filter(is_leading).collect();
-        assert_eq!(Some(leading), case.expected_list("A"), "{}", case.id());
-        case.check("h0", edge.lowest);
-    }
-}
-
-#[test]
 fn at_a_vertex_the_slope_looks_forward() {
     let line = sampled(&[0.0, 1.0, 3.0], &[0.0, 2.0, 1.0]);
     for (x, expected) in [(0.0, 2.0), (1.0, -0.5), (3.0, -0.5)] {
@@ -89,6 +71,18 @@ fn sampled_lines_are_cut_between_their_points() {
     let contact = contact_line(&line, 1.5).unwrap();
     assert_eq!(contact.intervals, [[1.0, 2.0], [4.0, 4.5]], "{contact:?}");
     assert_close!(contact.length() => 1.5, within 1e-15);
+    assert_close!(leading_edge(&line).unwrap().available_depth() => 3.0, within 0.0);
+    assert_eq!(line.kinks(), [1.0, 3.0, 4.0], "{line:?}");
+}
+
+#[test]
+fn the_edge_of_a_level_stretch_is_its_end() {
+    let level = |x: f64| (x.abs() - 0.3).max(0.0);
+    let slope = |x: f64| if x.abs() > 0.3 { x.signum() } else { 0.0 };
+    let line = AnalyticLine::new(level, slope, [-1.0, 1.0]).unwrap();
+    let edge = leading_edge_with(&line, 100).unwrap();
+    let is_end = edge.intervals.len() == 1 && (0.28..=0.3).contains(&edge.intervals[0][0]);
+    assert!(is_end, "{edge:?}");
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Periodic surfaces are the same on every grid, and random ones have the spectrum asked for.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-use casebook::assert_matches;
+use casebook::{NOT_POSITIVE, assert_matches, refuses};
 use indenters::rough::{PeriodicSurface, SelfAffine, Wave};
 use indenters::{HeightMap, IndenterError};
 
@@ -44,6 +45,8 @@ fn heights_are_the_sum_of_the_waves_on_any_grid() {
     // Two elements are needed per shortest wave.
     let few = surface.heights([6, 9]).expect_err("too few elements");
     assert_eq!(few.parameter, "elements along x", "{few}");
+    let few = surface.heights([7, 6]).expect_err("too few elements");
+    assert_eq!(few.parameter, "elements along y", "{few}");
 }
 
 #[test]
@@ -94,6 +97,14 @@ fn amplitudes_depend_on_the_wave_vector_and_the_seed_only() {
     let is_changed = |wave: &Wave| find(wave).phase.to_bits() != wave.phase.to_bits();
     assert!(other.waves().iter().all(is_changed), "another seed");
     assert_eq!(other.waves().len(), all.waves().len(), "as many waves");
+    // One of two opposite waves with 2 <= |(m, 2 n)| <= 25, each with its own phase.
+    let period = [1.0, 0.5];
+    let narrow = of(SelfAffine { period, ..RANDOM });
+    let is_part = |[m, n]: &[i32; 2]| (4..=625).contains(&(m * m + 4 * n * n));
+    let numbers = (-25..=25).flat_map(|m| (-25..=25).map(move |n| [m, n]));
+    let phases = narrow.waves().iter().map(|wave| wave.phase.to_bits());
+    let counts = [narrow.waves().len(), BTreeSet::from_iter(phases).len()];
+    assert_eq!(counts, [numbers.filter(is_part).count() / 2; 2], "waves");
 }
 
 /// The mean squares of amplitudes fall like the spectrum, and are constant above the roll-off wave length.
@@ -188,4 +199,14 @@ fn a_periodic_map_is_a_sum_of_waves() {
 fn a_surface_needs_waves() {
     let nothing = PeriodicSurface::new([1.0; 2], Vec::new());
     assert_matches!(nothing, Err(IndenterError::TooFew { .. }));
+    let new = |length, wave| PeriodicSurface::new([1.0, length], vec![wave]);
+    let (wave, bad) = (
+        RANDOM.surface().expect("a surface").waves()[0],
+        &[f64::NAN, f64::INFINITY],
+    );
+    refuses("period along y", NOT_POSITIVE, |length| new(length, wave));
+    refuses("amplitude", bad, |amplitude| {
+        new(1.0, Wave { amplitude, ..wave })
+    });
+    refuses("phase", bad, |phase| new(1.0, Wave { phase, ..wave }));
 }

@@ -92,6 +92,8 @@ fn a_cylinder_is_its_parabola_at_every_scale() {
         let cylinder = Cylinder::new(2.0 * scale).unwrap();
         assert_close!(cylinder.height([scale, 7.0]) => 0.25 * scale, within 1e-15);
         assert_close!(cylinder.gradient([scale, 7.0])[0] => 0.5, within 1e-15);
+        assert_close!(cylinder.apex_exponent() => 2.0, within 0.0);
+        assert_eq!(cylinder.mirrors(), [true; 2], "a cylinder");
     }
 }
 
@@ -113,6 +115,9 @@ fn a_body_of_revolution_knows_its_extent() {
             assert_close!(end.abs() => radius, within 1e-14; "below {height}");
         }
     }
+    let [inside, outside] = [0.29, 0.31].map(|x| punch.height([x, 0.0]));
+    let is_flat = inside.abs() <= 0.0 && outside.is_infinite();
+    assert!(is_flat, "{inside} and {outside} of the punch");
 }
 
 #[test]
@@ -122,7 +127,10 @@ fn only_mirrors_are_hidden_by_unmirrored() {
     let hidden = Unmirrored(&map);
     assert_eq!((map.mirrors(), hidden.mirrors()), ([true; 2], [false; 2]));
     assert_eq!(hidden.extent_below(0.5), map.extent_below(0.5));
+    let at = |body: &dyn Surface| (body.height([0.3, -0.6]), body.gradient([0.3, -0.6]));
+    assert_eq!(at(&hidden), at(&map), "the same surface");
     let sphere = Sphere::new(1.0).unwrap();
     let hidden = Unmirrored(&sphere);
     assert!(hidden.as_axisymmetric().is_none(), "it has mirrors");
+    assert_close!(hidden.apex_exponent() => 2.0, within 0.0);
 }

@@ -1,5 +1,3 @@
-use std::f64::consts::FRAC_2_PI;
-
 use casebook::{Case, assert_close};
 use rheology::{CreepSpectrum, Elastic, KelvinVoigt, Material, Maxwell, Viscous};
 
@@ -131,40 +129,10 @@ fn loss_tangent_of_a_fluid_survives_the_underflow_of_its_storage_modulus() {
     assert_same("tan δ at rest", at_rest(&fluid), f64::INFINITY);
     assert_same(
         "tan δ of a spring",
-        at_rest(&Elastic::new(2.0).unwrap()),
+        at_rest(&Elastic::new(1e-300).unwrap()),
         0.0,
     );
-}
-
-/// ∫ f d ln x over (−∞, ∞) by the trapezoidal rule with nodes half a step off x = `centre`.
-///
-/// The integrands are analytic within π/2 of the real axis and die out like 1/x at both ends: the step 0.2 errs by
-/// e^(−π²/0.2), the ends at e^±50 by 1e-20. A simple pole at the centre, half a step away on both sides, leaves its
-/// principal value.
-fn integral_over_logarithm(centre: f64, integrand: impl Fn(f64) -> f64) -> f64 {
-    let step = 0.2;
-    let nodes = (-250..250).map(|k| centre * (step * (f64::from(k) + 0.5)).exp());
-    nodes.map(integrand).sum::<f64>() * step
-}
-
-#[test]
-fn storage_and_loss_obey_kramers_and_kronig() {
-    for case in casebook::group("RHE-06") {
-        let material = case.material().relaxation();
-        let loss = |x: f64| material.complex_modulus(x).unwrap().loss;
-        if case.expected("int_Gloss_dlnw").is_some() {
-            case.check("int_Gloss_dlnw", integral_over_logarithm(1.0, loss));
-            continue;
-        }
-        let omega = case.input("omega");
-        // G' = G_∞ + 2/π P∫ G''(x) ω²/(ω² − x²) d ln x
-        let transform = integral_over_logarithm(omega, |x| {
-            let ratio = x / omega;
-            loss(x) / ((1.0 - ratio) * (1.0 + ratio))
-        });
-        let storage = material.equilibrium_modulus() + transform * FRAC_2_PI;
-        case.check("G_storage", storage);
-        let modulus = material.complex_modulus(omega).unwrap();
-        case.check("G_storage", modulus.storage);
-    }
+    // ω η/G of a solid that is as soft.
+    let soft = KelvinVoigt::new(1e-300, 1e-300).unwrap();
+    assert_close!(soft.loss_tangent(0.5).unwrap() => 0.5, within 1e-15);
 }

@@ -33,6 +33,7 @@ fn materials_refuse_moduli_viscosities_and_ratios_outside_their_range() {
         ([1e-200, 1e200, 1.0], "stiffness_ratio"),
         ([1e-200, 1e-200, 1e200], "relaxation_time"),
         ([1e-200, 1.0, 1e200], "retardation_time"),
+        ([1e-320, 1.0, 1e-20], "retardation_compliance"),
         ([f64::MAX, f64::MAX, 1.0], "glass_modulus"),
     ] {
         refused(name, standard_solid(numbers));
@@ -41,6 +42,7 @@ fn materials_refuse_moduli_viscosities_and_ratios_outside_their_range() {
     let compressible = |ratio| Compressible::new(&elastic, ratio);
     let bad = &[f64::NAN, f64::INFINITY, -1.0, -2.0, 0.500_001];
     refuses("poisson_ratio", bad, compressible);
+    assert_same("incompressible", elastic.half_space_factor(), 1.0);
     for (ratio, factor) in [(0.5, 1.0), (0.25, 1.5), (0.0, 2.0), (-0.5, 3.0)] {
         let factor_there = compressible(ratio).unwrap().half_space_factor();
         assert_same(&format!("ν = {ratio}"), factor_there, factor);
@@ -78,6 +80,7 @@ fn spectra_name_the_list_and_the_place_of_a_bad_number() {
     let time = "relaxation_time of branches[1]";
     refuses(time, NOT_POSITIVE, |x| branch(1.0, x));
     refused("glass_modulus", relaxing(f64::MAX, 0.0, [f64::MAX, 1.0]));
+    refused("zero_shear_viscosity", branch(1e200, 1e200));
     let element = |j, lambda| creeping(0.0, 0.0, [j, lambda]);
     let instantaneous = "instantaneous_compliance";
     refuses(instantaneous, NEGATIVE, |x| creeping(x, 0.0, one));
@@ -87,6 +90,7 @@ fn spectra_name_the_list_and_the_place_of_a_bad_number() {
     refuses(time, NOT_POSITIVE, |x| element(1.0, x));
     let sum = creeping(f64::MAX, 0.0, [f64::MAX, 1.0]);
     refused("recoverable_compliance", sum);
+    refused("initial_fluidity", element(1e200, 1e-200));
     let nothing = RelaxationSpectrum::new(0.0, 0.0, Vec::new());
     assert_eq!(nothing, Err(RheologyError::NoStiffness), "no stiffness");
     let rigid = element(0.0, 1.0);
@@ -118,6 +122,11 @@ fn fractional_elements_and_their_expansions_refuse_what_has_no_series() {
     refuses("relaxation_time", NOT_POSITIVE, |x| maxwell([1.0, x, 0.5]));
     refuses("exponent", &no_exponent, |x| maxwell([1.0, 1.0, x]));
     let springpot = Springpot::new(1.0, 0.5).unwrap();
+    refuses("time", NEGATIVE, |x| springpot.relaxation_modulus(x));
+    refuses("time", NEGATIVE, |x| springpot.creep_compliance(x));
+    let (omega, element) = ("angular_frequency", maxwell([1.0, 1.0, 0.5]).unwrap());
+    refuses(omega, NEGATIVE, |x| springpot.complex_modulus(x));
+    refuses(omega, NEGATIVE, |x| element.complex_modulus(x));
     let expand = |low, high, error| springpot.expand([low, high], error);
     refuses("lowest_frequency", NOT_POSITIVE, |x| expand(x, 1.0, 1e-3));
     refuses("highest_frequency", NOT_POSITIVE, |x| expand(1.0, x, 1e-3));
@@ -133,6 +142,8 @@ fn shifts_refuse_constants_and_temperatures_outside_their_range() {
     refuses("c2", NOT_POSITIVE, |x| wlf([1.0, x], 20.0));
     let infinite = &[f64::NAN, f64::INFINITY];
     refuses("temperature", infinite, |x| wlf([1.0, 1.0], x));
+    let law = wlf([1.0, 1.0], 20.0).unwrap();
+    refuses("temperature", infinite, |x| law.log10_factor(x));
     refuses("activation_energy", NOT_POSITIVE, |x| arrhenius(x, 300.0));
     let reference = "reference_temperature";
     refuses(reference, NOT_POSITIVE, |x| arrhenius(1.0, x));
@@ -163,6 +174,8 @@ proptest! {
             for omega in [0.0, omega] {
                 let modulus = solid.complex_modulus(omega).unwrap();
                 answers.extend([modulus.storage, modulus.loss, solid.loss_tangent(omega).unwrap()]);
+                let compliance = solid.complex_compliance(omega).unwrap();
+                answers.extend([compliance.storage, compliance.loss]);
             }
             prop_assert!(answers.iter().all(|x| !x.is_nan()), "{:?}: {:?}", solid, answers);
         }

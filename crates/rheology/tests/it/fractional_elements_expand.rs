@@ -17,6 +17,8 @@ fn springpot_has_its_closed_forms() {
         case.check_within("tan_delta", springpot.loss_tangent(), 1e-14);
         case.check_within("G_t", springpot.relaxation_modulus(t).unwrap(), 1e-14);
         case.check_within("J_t", springpot.creep_compliance(t).unwrap(), 1e-14);
+        let soft = Springpot::new(0.25 * case.input("K"), case.input("a")).unwrap();
+        case.check_within("J_t", 0.25 * soft.creep_compliance(t).unwrap(), 1e-14);
         // The same numbers from the series: what is right over the band of frequencies is right in time.
         let expansion = springpot.expand([1e-3, 1e3], 1e-10).unwrap();
         let series = &expansion.spectrum;

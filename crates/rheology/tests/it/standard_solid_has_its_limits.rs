@@ -22,23 +22,6 @@ fn no_frequency_overflows() {
     }
 }
 
-/// Retardation time τ (1 + γ)/γ, delayed compliance 1/(γ (1 + γ)), and J(τ) by both, over fifteen decades of γ.
-#[test]
-fn creep_keeps_its_digits_for_any_ratio_of_the_moduli() {
-    for exponent in -12..=3 {
-        let gamma = 10_f64.powi(exponent);
-        let solid = solid([gamma, 1.0, 1.0]);
-        let creep = solid.creep();
-        let (element, rate) = (creep.elements()[0], gamma / (1.0 + gamma));
-        let compliance = 1.0 / (gamma * (1.0 + gamma));
-        assert_close!(element.retardation_time => 1.0 / rate, within 2e-15; "γ = {gamma:e}");
-        assert_close!(element.compliance => compliance, within 2e-15; "γ = {gamma:e}");
-        let expected = 1.0 / (1.0 + gamma) - (-rate).exp_m1() * compliance;
-        let at_tau = solid.creep_compliance(1.0).unwrap();
-        assert_close!(at_tau => expected, within 2e-15; "γ = {gamma:e}");
-    }
-}
-
 #[test]
 fn loss_peak_and_viscous_window_match_the_closed_forms() {
     for case in casebook::group("RHE-02") {

@@ -29,8 +29,9 @@ fn coefficients_keep_their_digits_at_any_ratio_of_step_and_time() {
 /// Steps of a constant load add up to the creep compliance, however long they are.
 #[test]
 fn constant_load_creeps_exactly_for_any_step() {
-    for model in ["P3", "P10"] {
-        let creep = named_spectrum(model).to_creep().unwrap();
+    let fluid = spectrum(0.0, 0.0, &[1.0, 2.0, 0.5], &[0.1, 3.0, 40.0]);
+    for model in [named_spectrum("P3"), named_spectrum("P10"), fluid] {
+        let creep = model.to_creep().unwrap();
         for time_step in [1e-9, 1e-3, 1.0, 1e5] {
             let step = ExponentialStep::creep(&creep, time_step).unwrap();
             let mut state = vec![0.0; step.n_fields()];
@@ -40,7 +41,7 @@ fn constant_load_creeps_exactly_for_any_step() {
                 let exact = exact.unwrap();
                 assert_close!(
                     displacement => exact,
-                    within 1e-14; "{model}: J after {count} steps of {time_step}"
+                    within 1e-14; "{model:?}: J after {count} steps of {time_step}"
                 );
             }
         }

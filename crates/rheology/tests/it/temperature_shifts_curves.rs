@@ -1,5 +1,5 @@
 use casebook::{assert_close, assert_matches};
-use rheology::{ArrheniusShift, RheologyError, WlfShift};
+use rheology::{ArrheniusShift, Material, RheologyError, Viscous, WlfShift};
 
 use crate::support::named_spectrum;
 
@@ -10,7 +10,10 @@ fn wlf_matches_exact_numbers_about_any_reference() {
         let law = WlfShift::new([c1, c2], 20.0).unwrap();
         let shift = law.log10_factor(20.0 + difference);
         if case.expected_error().is_some() {
-            assert_matches!(shift, Err(RheologyError::BelowWlfPole { .. }));
+            let about = law.about(20.0 + difference).map(|law| law.constants()[1]);
+            for result in [shift, about] {
+                assert_matches!(result, Err(RheologyError::BelowWlfPole { pole, .. }) if (pole - 20.0 + c2).abs() < 1e-13);
+            }
             continue;
         }
         let shift = shift.unwrap();
@@ -29,10 +32,12 @@ fn wlf_matches_exact_numbers_about_any_reference() {
 fn wlf_constants_come_back_from_their_shifts() {
     let law = WlfShift::new([8.86, 101.6], 50.0).unwrap();
     let shifts = [10.0, 30.0, 50.0, 70.0, 120.0].map(|t| [t, law.log10_factor(t).unwrap()]);
-    let [c1, c2] = WlfShift::through(&shifts, 50.0).unwrap().constants();
     // The two equations are a few hundred times worse conditioned than the shifts.
-    assert_close!(c1 => 8.86, within 1e-12);
-    assert_close!(c2 => 101.6, within 1e-12);
+    for enough in [&shifts, &shifts[1..4]] {
+        let [c1, c2] = WlfShift::through(enough, 50.0).unwrap().constants();
+        assert_close!(c1 => 8.86, within 1e-12);
+        assert_close!(c2 => 101.6, within 1e-12);
+    }
     let too_few = WlfShift::through(&shifts[1..3], 50.0).unwrap_err();
     let message = "at least 2 points are needed, but there are 1";
     assert_eq!(too_few.to_string(), message, "one besides 50");
@@ -49,8 +54,10 @@ fn arrhenius_shifts_by_its_activation_energy() {
 /// G*(ω, T) = G*(a_T ω, T_r)
 #[test]
 fn a_shift_multiplies_every_time() {
-    let cold = named_spectrum("P10");
+    let dashpot = Viscous::new(3.0).unwrap().relaxation();
+    let cold = named_spectrum("P10").in_parallel_with(&dashpot).unwrap();
     let shifted = cold.shifted(1e-3).unwrap();
+    assert_close!(shifted.viscosity() => 3e-3, within 1e-15);
     for omega in [1e-3, 1.0, 1e6] {
         let here = shifted.complex_modulus(omega).unwrap();
         let there = cold.complex_modulus(1e-3 * omega).unwrap();
@@ -120,6 +127,18 @@ mod isotherms {
             let exact = material.complex_modulus(point.angular_frequency).unwrap();
             assert_close!(point.storage => exact.storage, within 1e-12);
             assert_close!(point.loss => exact.loss, within 1e-12);
+        }
+    }
+
+    #[test]
+    fn points_that_meet_are_averaged() {
+        let two = &isotherms(0.0)[..2];
+        let master = shifted_master_curve(two, 42.0, |_| Ok(0.0)).unwrap();
+        assert_eq!(master.points.len(), 25, "every point meets another");
+        let pairs = two[0].points.iter().zip(&two[1].points);
+        for (mean, (one, other)) in master.points.iter().zip(pairs) {
+            assert_close!(mean.storage => 0.5 * (one.storage + other.storage), within 1e-15);
+            assert_close!(mean.loss => 0.5 * (one.loss + other.loss), within 1e-15);
         }
     }
 
