@@ -3,7 +3,7 @@
     python viscoindent.py [FOLDER]
 
 FOLDER is a clone of https://github.com/yu-efremov/ViscoIndent; without it one is made in a temporary folder. Needs the package
-viscofriction, and numpy, scipy and matplotlib, which ViscoIndent imports. One thread; the least time of several runs.
+viscofriction, and numpy, scipy and matplotlib, which ViscoIndent imports. The least time of several runs, one thread each.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ SOLIDS = ((1e3, 4e3, 0.3), (1e3, 4e3, 3.0), (500.0, 2e3, 0.03))
 
 
 def least_time(run: Callable[[], Any], runs: int = 15) -> tuple[float, Any]:
-    """Seconds of processor time, and what the run gives."""
+    """Seconds, and what the run gives."""
     times = []
     for _ in range(runs):
-        start = time.process_time()
+        start = time.perf_counter()
         result = run()
-        times.append(time.process_time() - start)
+        times.append(time.perf_counter() - start)
     return min(times), result
 
 

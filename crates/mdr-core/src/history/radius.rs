@@ -63,8 +63,8 @@ impl Radii {
         // cos(order · angle) at the angles π (2 node + 1)/(2 n).
         let cosine = |n: usize| (0.5 * PI * n as f64 / ORDER as f64).cos();
         let table: [f64; 4 * ORDER] = std::array::from_fn(cosine);
-        let cosine = |order, node| table[order * (2 * node + 1) % (4 * ORDER)];
-        let cosines = std::array::from_fn(|order| std::array::from_fn(|node| cosine(order, node)));
+        let cosine = |node, order| table[order * (2 * node + 1) % (4 * ORDER)];
+        let cosines = std::array::from_fn(|node| std::array::from_fn(|order| cosine(node, order)));
         let mut open = vec![([0.0, deepest], [0.0, largest])];
         while let Some((depths, radii_there)) = open.pop() {
             let [[low, high], [inner, outer]] = [depths, radii_there];
@@ -215,17 +215,13 @@ impl Piece {
         let [low, high] = depths;
         let mut above = outer;
         let values: [f64; ORDER] = std::array::from_fn(|node| {
-            let depth = low + 0.5 * (high - low) * (1.0 + cosines[1][node]);
+            let depth = low + 0.5 * (high - low) * (1.0 + cosines[node][1]);
             above = radius(body, depth, [inner, above]);
             above
         });
-        let mut series: [f64; ORDER] = std::array::from_fn(|order| {
-            let terms = values.iter().zip(&cosines[order]);
-            let sum: f64 = terms.map(|(value, cosine)| value * cosine).sum();
-            2.0 / ORDER as f64 * sum
-        });
+        let mut series = sum_of_rows(&values.map(|value| 2.0 / ORDER as f64 * value), cosines);
         series[0] *= 0.5;
-        let coefficients = powers(&series);
+        let coefficients = sum_of_rows(&series, &CHEBYSHEV);
         let piece = Self {
             depths,
             coefficients,
@@ -234,23 +230,32 @@ impl Piece {
     }
 }
 
-/// From Chebyshev polynomials to powers.
-fn powers(series: &[f64; ORDER]) -> [f64; ORDER] {
-    let mut coefficients = [0.0; ORDER];
-    let (mut before, mut this) = ([0.0; ORDER], [0.0; ORDER]);
-    this[0] = 1.0;
-    for (order, factor) in series.iter().enumerate() {
-        for (sum, power) in coefficients.iter_mut().zip(this) {
-            *sum += factor * power;
+/// Row by row the coefficients of the Chebyshev polynomials over powers.
+const CHEBYSHEV: [[f64; ORDER]; ORDER] = {
+    let mut rows = [[0.0; ORDER]; ORDER];
+    (rows[0][0], rows[1][1]) = (1.0, 1.0);
+    let mut row = 2;
+    while row < ORDER {
+        rows[row][0] = -rows[row - 2][0];
+        let mut power = 1;
+        while power <= row {
+            rows[row][power] = 2.0 * rows[row - 1][power - 1] - rows[row - 2][power];
+            power += 1;
         }
-        let twice = if order == 0 { 1.0 } else { 2.0 };
-        let next = std::array::from_fn(|power| {
-            let shifted = if power == 0 { 0.0 } else { this[power - 1] };
-            twice * shifted - before[power]
-        });
-        (before, this) = (this, next);
+        row += 1;
     }
-    coefficients
+    rows
+};
+
+/// Row after row, so that all columns are summed at once.
+fn sum_of_rows(factors: &[f64; ORDER], rows: &[[f64; ORDER]; ORDER]) -> [f64; ORDER] {
+    let mut sums = [0.0; ORDER];
+    for (factor, row) in factors.iter().zip(rows) {
+        for (sum, value) in sums.iter_mut().zip(row) {
+            *sum += factor * value;
+        }
+    }
+    sums
 }
 
 /// The radius between two others at which the line has a height; the outer one where it is lower up to there, as a punch
