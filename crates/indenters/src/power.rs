@@ -78,10 +78,16 @@ impl PowerProfile {
 
     /// Position x > 0 \[m] at which the equivalent line has the `height` ≥ 0 \[m]: `x = (height / (κ c))^(1/p)`.
     ///
-    /// For large p the power c x^p overflows long before x does.
+    /// The ratio may leave the range of numbers long before x does.
     pub fn line_position(&self, height: f64) -> f64 {
         if height == 0.0 {
             return 0.0;
+        }
+        let ratio = height / self.stretch / self.coefficient;
+        if ratio.is_normal() {
+            let is_paraboloid = self.exponent.total_cmp(&2.0).is_eq();
+            let power = || ratio.powf(self.exponent.recip());
+            return if is_paraboloid { ratio.sqrt() } else { power() };
         }
         ((height.ln() - self.stretch.ln() - self.coefficient.ln()) / self.exponent).exp()
     }

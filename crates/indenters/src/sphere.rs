@@ -54,13 +54,15 @@ impl Axisymmetric for Sphere {
     /// x = R tanh y with y tanh y = h̃/R, by Newton's method from both limits.
     fn closed_radius(&self, height: f64) -> Option<f64> {
         let ratio = height / self.radius;
-        let mut y = (ratio * (1.0 + ratio / 3.0).min(ratio + 0.5 / ratio.max(0.5))).sqrt();
+        // The beginning of the series of y², or y ≈ ratio far from the apex.
+        let series = 1.0 + ratio * (1.0 / 3.0 + 4.0 / 45.0 * ratio);
+        let mut y = (ratio * series.min(ratio + 0.5 / ratio.max(0.5))).sqrt();
         for _ in 0..8 {
             let tanh = y.tanh();
             let step = (y * tanh - ratio) / (tanh + y * (1.0 - tanh * tanh));
             y -= step;
             if step.abs() <= 1e-9 * y {
-                return Some(self.radius * y.tanh());
+                return Some(self.radius * (tanh - step * (1.0 - tanh * tanh)));
             }
         }
         None
