@@ -224,7 +224,9 @@ class HeightMap(Body):
         self.shortest_wavelength: float | None = (shortest_wavelength or 0.0) if periodic else None
 
     @classmethod
-    def from_topography(cls, topography: Any) -> HeightMap:
+    def from_topography(
+        cls, topography: Any, *, periodic: bool = False, shortest_wavelength: float | None = None
+    ) -> HeightMap:
         """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
         scaled = topography.to_unit("m") if topography.unit is not None else topography
         measured = scaled.heights()
@@ -232,7 +234,7 @@ class HeightMap(Body):
             raise ValueError("heights: points are missing; interpolate them first, topography.interpolate_undefined_data()")
         heights = np.asarray(measured)
         dx, dy = map(float, scaled.pixel_size)
-        return cls(heights.max() - heights, (dx, dy))
+        return cls(heights.max() - heights, (dx, dy), periodic=periodic, shortest_wavelength=shortest_wavelength)
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape
