@@ -42,10 +42,8 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static s
     {
         return Err("a value that no row before has at this temperature");
     }
-    let free = groups
-        .iter_mut()
-        .rev()
-        .filter(|group| !group.rows.contains_key(&key));
+    let latest = groups.iter_mut().rev();
+    let free = latest.filter(|group| !group.rows.contains_key(&key));
     let near = free.filter_map(|group| Some((distance(group)?, group)));
     match near.min_by(|one, other| one.0.total_cmp(&other.0)) {
         Some((_, group)) => {

@@ -40,10 +40,7 @@ struct HistoryTableRow {
 }
 
 /// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`.
-///
-/// # Errors
-/// File, line and what is wrong there.
-pub fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
+pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
     let mut before = 0.0;

@@ -12,10 +12,7 @@ use crate::text::{ReadFile, WrongInput};
 
 impl Load {
     /// The points of the history; none where the load is constant. A file is in `folder` and read by `read`.
-    ///
-    /// # Errors
-    /// [`SceneError`] for the first point that is out of order or range, and for a history beside anything else.
-    pub fn checked_history(
+    pub(crate) fn checked_history(
         &self,
         folder: &Path,
         read: ReadFile,

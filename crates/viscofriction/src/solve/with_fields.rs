@@ -71,10 +71,7 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
             time,
             indentation_depth: answer.indentation_depth?,
             normal_force: answer.normal_force,
-            contact_radius: Estimate {
-                value: contact.x[1],
-                error: contact.error,
-            },
+            contact_radius: Estimate::new(contact.x[1], contact.error),
         })
     };
     let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
