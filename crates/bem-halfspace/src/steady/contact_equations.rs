@@ -161,8 +161,8 @@ impl<'mesh> ContactEquations<'mesh> {
     fn correct(&mut self, residual: &[f64]) -> (Vec<f64>, f64) {
         let control = self.mesh.control();
         let mut loads = self.preconditioner.loads(residual, &self.region);
-        let depth = -control.load * self.total(&loads)
-            / (control.depth + control.load * self.total(&self.lowered));
+        let stiffness = control.depth + control.load * self.total(&self.lowered);
+        let depth = -control.load * self.total(&loads) / stiffness;
         add(&mut loads, depth, &self.lowered);
         (loads, depth)
     }

@@ -128,11 +128,7 @@ pub fn steady_line<'w>(
         friction_coefficient: known.friction_coefficient,
         error_parts: known.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: if creep.base().is_layer() {
-            known.indentation_depth
-        } else {
-            None
-        },
+        indentation_depth: (known.indentation_depth).filter(|_| creep.base().is_layer()),
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::of_box(known.options.spacing[0]),
@@ -174,18 +170,13 @@ fn with_elements(
     strip: f64,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let Problem {
-        surface,
-        loading,
-        plan,
-        has_peak,
-        ..
-    } = problem;
+    let (loading, plan) = (&problem.loading, &problem.plan);
     let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
-    let resolution = resolution(request, loading.control, plan.apex_exponent, *has_peak);
+    let (control, exponent) = (loading.control, plan.apex_exponent);
+    let resolution = resolution(request, control, exponent, problem.has_peak);
     let mut known = bars::resolve(&resolution, |elements, _| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
-        let state = solve(*surface, loading, &options, &mut Reuse::default())?;
+        let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
         Ok(state.on_grid(options, None))
     })?;
     known.contact_area.value /= strip;

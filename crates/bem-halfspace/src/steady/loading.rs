@@ -101,12 +101,8 @@ impl Loading {
 
     /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
     pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
-        let width = if self.strip.is_some() {
-            dy
-        } else {
-            factor * dy
-        };
-        [factor * dx, width]
+        let scaled = [factor * dx, factor * dy];
+        self.strip.map_or(scaled, |_| [factor * dx, dy])
     }
 
     /// The problem on a grid.

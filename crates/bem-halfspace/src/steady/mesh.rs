@@ -164,10 +164,8 @@ impl Mesh {
         let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
         self.elements
             .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
-        let last = (0..self.shape[1])
-            .rev()
-            .find(|&column| has_image(column))
-            .unwrap_or(0);
+        let mut columns = (0..self.shape[1]).rev();
+        let last = columns.find(|&column| has_image(column)).unwrap_or(0);
         self.limits[1] = [self.image(last), last];
     }
 
@@ -240,11 +238,8 @@ impl Mesh {
 
     /// 2 for an element with a mirror image, which it represents, otherwise 1.
     pub(super) fn weight(&self, element: usize) -> f64 {
-        if self.has_image(&self.elements[element]) {
-            2.0
-        } else {
-            1.0
-        }
+        let has_image = self.has_image(&self.elements[element]);
+        if has_image { 2.0 } else { 1.0 }
     }
 
     /// Height of an element where its gap is evaluated.
@@ -264,10 +259,9 @@ impl Mesh {
 
     /// The low elements, without loads.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
-        (0..self.n_elements())
-            .filter(|&element| self.height(element) < GUESSED_HEIGHT)
-            .map(|element| (element, 0.0))
-            .collect()
+        let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
+        let low = (0..self.n_elements()).filter(is_low);
+        low.map(|element| (element, 0.0)).collect()
     }
 
     /// Force or depth that is asked for.
@@ -305,9 +299,8 @@ impl Mesh {
     pub(super) fn opening(&self, loads: &[f64], gaps: &[f64]) -> f64 {
         let gap = |row: usize, column: usize| {
             let beside = self.in_row(row, column..=column).next();
-            beside
-                .filter(|one| loads[*one] <= 0.0)
-                .map_or(0.0, |one| gaps[one])
+            let open = beside.filter(|one| loads[*one] <= 0.0);
+            open.map_or(0.0, |one| gaps[one])
         };
         let (mut sum, mut normal) = (0.0, 0.0);
         for (index, load) in loads.iter().enumerate().filter(|(_, load)| **load > 0.0) {

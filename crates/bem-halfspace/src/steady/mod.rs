@@ -142,10 +142,9 @@ fn solve(
         };
         // Only the kernel of a dashpot is the same on both grids.
         let mut other = Reuse::default();
-        let coarse_reuse = if loading.creep.only_flows() {
-            &mut *reuse
-        } else {
-            &mut other
+        let coarse_reuse = match loading.creep.only_flows() {
+            true => &mut *reuse,
+            false => &mut other,
         };
         // Without a solution on the coarse grid the fine one starts from its own guess.
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();
@@ -162,8 +161,7 @@ fn solve(
 /// The loaded elements of another solution, seen on this mesh.
 fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
     let unit = mesh.loading.pressure_unit();
-    (0..mesh.n_elements())
-        .map(|element| (element, other.pressure.at(mesh.position(element)) / unit))
-        .filter(|(_, load)| *load > 0.0)
-        .collect()
+    let load = |element| (element, other.pressure.at(mesh.position(element)) / unit);
+    let loads = (0..mesh.n_elements()).map(load);
+    loads.filter(|(_, load)| *load > 0.0).collect()
 }

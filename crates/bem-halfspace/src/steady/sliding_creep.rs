@@ -68,12 +68,10 @@ impl SlidingCreep {
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
+        let material = elastomer.material();
         Ok(Self {
-            spectrum: elastomer.material().creep(),
-            half_space_factor: positive(
-                "half-space factor",
-                elastomer.material().half_space_factor(),
-            )?,
+            spectrum: material.creep(),
+            half_space_factor: positive("half-space factor", material.half_space_factor())?,
             velocity: positive("velocity", velocity)?,
             base: Base::of(elastomer),
         })
@@ -89,10 +87,9 @@ impl SlidingCreep {
     /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
     /// not sink for ever.
     pub(super) const fn fluidity(&self) -> f64 {
-        if self.base.is_layer() {
-            0.0
-        } else {
-            self.spectrum.fluidity()
+        match self.base.is_layer() {
+            true => 0.0,
+            false => self.spectrum.fluidity(),
         }
     }
 
@@ -106,10 +103,9 @@ impl SlidingCreep {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         let memory = self.velocity * times.fold(0.0, f64::max);
-        if self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
-            memory.max(self.base.reach())
-        } else {
-            memory
+        match self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
+            true => memory.max(self.base.reach()),
+            false => memory,
         }
     }
 
@@ -154,10 +150,8 @@ impl SlidingCreep {
     fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
         let delays = self.spectrum.elements().iter().map(|element| {
-            let rate = positive(
-                "length / (velocity × retardation time)",
-                time / element.retardation_time,
-            )?;
+            let rate = time / element.retardation_time;
+            let rate = positive("length / (velocity × retardation time)", rate)?;
             let share = -element.compliance * (-rate).exp_m1();
             Ok(Delay { rate, share })
         });
