@@ -72,8 +72,7 @@ pub fn indent(
     if let Control::IndentationDepth(_) = control {
         // The same contact on springs of another modulus.
         let ratio = material.relaxation_modulus(time)? * compliance;
-        let force = &mut pressed.normal_force;
-        (force.value, force.error) = (ratio * force.value, ratio * force.error);
+        pressed.normal_force = pressed.normal_force * ratio;
     }
     Ok(pressed)
 }

@@ -49,9 +49,8 @@ pub fn force_derivatives(
     material: &(impl Material + ?Sized),
     history: &[HistoryPoint],
 ) -> Result<ForceDerivatives, MdrError> {
-    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
     let points = checked(history)?;
-    if let Control::NormalForce(force) = first.control {
+    if let Control::NormalForce(force) = history[0].control {
         let allowed = "a depth, whose force is differentiated";
         in_range("control", force, false, allowed)?;
     }
