@@ -28,10 +28,8 @@ pub(super) struct Group {
 const DRIFT: f64 = 1.0;
 
 /// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
-/// frequencies may come in any order, and so may the temperatures.
-///
-/// # Errors
-/// What was expected, when the latest isotherm has a row of this frequency and temperature.
+/// frequencies may come in any order, and so may the temperatures; says what was expected when the latest isotherm has a row
+/// of this frequency and temperature.
 pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static str> {
     let key = row.at.to_bits();
     let distance = |group: &Group| group.distance(&row);

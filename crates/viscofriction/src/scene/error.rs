@@ -44,6 +44,12 @@ impl SceneError {
         }
     }
 
+    /// Refuses the first key of these that is given.
+    pub(crate) fn none_given(keys: &[(&str, Option<f64>)], problem: &str) -> Result<(), Self> {
+        let given = keys.iter().find(|(_, value)| value.is_some());
+        given.map_or(Ok(()), |(key, _)| Err(Self::at(*key, problem)))
+    }
+
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
         Self::Value {
             key: format!("{table}.{}", refused.parameter),

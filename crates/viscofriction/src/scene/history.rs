@@ -38,10 +38,8 @@ impl Load {
             ("load.mean_pressure", self.mean_pressure),
             ("load.velocity", self.velocity),
         ];
-        if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
-            let problem = "a history says how the body moves, and nothing slides; leave this out";
-            return Err(SceneError::at(key, problem));
-        }
+        let problem = "a history says how the body moves, and nothing slides; leave this out";
+        SceneError::none_given(&others, problem)?;
         // Whoever wrote a file reads the number of its row, counted from 0 like an index.
         let key = |index: usize, name: &str| match (of_file, name) {
             (true, _) => "load.history_file".to_owned(),

@@ -140,10 +140,7 @@ fn followed(scene: &Scene, last: &HistoryPoint) -> Result<Motion, SceneError> {
         ("solve.duration", scene.solve.duration),
         ("solve.sliding_distance", scene.solve.sliding_distance),
     ];
-    if let Some((key, _)) = times.into_iter().find(|(_, given)| given.is_some()) {
-        let problem = "a history ends with its last point; leave this out";
-        return Err(SceneError::at(key, problem));
-    }
+    SceneError::none_given(&times, "a history ends with its last point; leave this out")?;
     Ok(Motion::History(last.control))
 }
 

@@ -336,9 +336,10 @@ impl<'a> Table<'a> {
         if in_si > 0.0 && in_si.is_finite() {
             return Ok(in_si);
         }
-        let expected = match number > 0.0 {
-            true => "a number that is finite and greater than 0 in SI too",
-            false => "a number greater than 0",
+        let expected = if number > 0.0 {
+            "a number that is finite and greater than 0 in SI too"
+        } else {
+            "a number greater than 0"
         };
         Err(self.wrong(line, column, expected))
     }
