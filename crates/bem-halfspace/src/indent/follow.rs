@@ -178,9 +178,10 @@ impl Path {
     }
 
     fn control(&self, value: f64) -> Control {
-        match self.is_force {
-            true => Control::NormalForce(value),
-            false => Control::IndentationDepth(value),
+        if self.is_force {
+            Control::NormalForce(value)
+        } else {
+            Control::IndentationDepth(value)
         }
     }
 
@@ -195,9 +196,10 @@ impl Path {
     fn spring(&self, elastomer: &(impl Elastomer + ?Sized)) -> Result<Spring, BemError> {
         let [duration, _] = self.points[self.points.len() - 1];
         let load = PressingLoad::new(self.largest(), duration)?;
-        match self.is_force {
-            true => Spring::after(elastomer, &load),
-            false => Spring::new(elastomer, 1.0, false),
+        if self.is_force {
+            Spring::after(elastomer, &load)
+        } else {
+            Spring::new(elastomer, 1.0, false)
         }
     }
 

@@ -151,14 +151,12 @@ pub fn steady_line_on_grid(
     let profile: &dyn Surface = &profile;
     let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
     let strip = Strip::new(profile, &loading);
+    let footprint = strip.footprint(options.footprint);
     let grid = SteadyOptions {
         phase: [options.phase, 0.0],
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,
-        ..SteadyOptions::new(
-            [options.spacing, strip.length],
-            strip.footprint(options.footprint),
-        )
+        ..SteadyOptions::new([options.spacing, strip.length], footprint)
     };
     let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
     Ok(LineSliding::of(&state))

@@ -71,16 +71,14 @@ impl Mesh {
             let is_allowed = (-0.5..=0.5).contains(&value);
             in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
         }
+        let [x, y] = options.phase;
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
             loading: loading.on_grid(options.spacing)?,
             only_rising: loading.creep.only_flows(),
             shape: [behind + ahead + 1, right + left + 1],
-            origin: [
-                options.phase[0] - behind as f64,
-                options.phase[1] - right as f64,
-            ],
+            origin: [x - behind as f64, y - right as f64],
             mirror: Mirror::None,
             elements: Vec::new(),
             walls: Vec::new(),
@@ -94,9 +92,10 @@ impl Mesh {
             mesh.keep_front();
         }
         // Without such an element nothing can carry load.
+        let n_elements = mesh.n_elements() as f64;
         positive(
             "number of elements of the footprint that may touch",
-            mesh.elements.len() as f64,
+            n_elements,
         )?;
         let all = mesh.region(0..mesh.n_elements());
         mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);

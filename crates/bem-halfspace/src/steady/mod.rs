@@ -142,9 +142,10 @@ fn solve(
         };
         // Only the kernel of a dashpot is the same on both grids.
         let mut other = Reuse::default();
-        let coarse_reuse = match loading.creep.only_flows() {
-            true => &mut *reuse,
-            false => &mut other,
+        let coarse_reuse = if loading.creep.only_flows() {
+            &mut *reuse
+        } else {
+            &mut other
         };
         // Without a solution on the coarse grid the fine one starts from its own guess.
         reuse.solution = solve(surface, loading, &coarse, coarse_reuse).ok();

@@ -232,9 +232,10 @@ impl<'mesh> Search<'mesh> {
         let allowed = residual.max(self.mesh.options.tolerance);
         let violation = |(element, gap): (usize, f64)| {
             let in_tension = self.inside[element];
-            let (size, allowed) = match in_tension {
-                true => (-self.loads[element], 0.0),
-                false => (-gap, allowed),
+            let (size, allowed) = if in_tension {
+                (-self.loads[element], 0.0)
+            } else {
+                (-gap, allowed)
             };
             (size > allowed).then_some(Violation {
                 element,

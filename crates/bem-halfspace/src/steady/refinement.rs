@@ -148,9 +148,10 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
 }
 
 fn not_reached(friction: Estimate, force: Estimate, relative_error: f64) -> BemError {
-    let (quantity, Estimate { value, error }) = match force.is_within(relative_error) {
-        true => (NAMES[FRICTION], friction),
-        false => (NAMES[FORCE], force),
+    let (quantity, Estimate { value, error }) = if force.is_within(relative_error) {
+        (NAMES[FRICTION], friction)
+    } else {
+        (NAMES[FORCE], force)
     };
     BemError::NotReached {
         quantity,
@@ -240,6 +241,7 @@ impl Grids<'_> {
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
         let [_, depth] = bars::given(self.problem.loading.control);
+        let known = |of: fn(&Refinement) -> Average| limit(&refinements, self.order, of);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
             friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
@@ -248,12 +250,9 @@ impl Grids<'_> {
                 ..ErrorParts::of_elements(friction.error)
             },
             normal_force,
-            indentation_depth: Some(
-                depth.unwrap_or_else(|| limit(&refinements, self.order, |r| r.indentation_depth)),
-            ),
+            indentation_depth: depth.or_else(|| Some(known(|r| r.indentation_depth))),
             contact_area: limit(&refinements, AREA_ORDER, |r| r.contact_area),
-            peak_pressure: (self.problem.has_peak)
-                .then(|| limit(&refinements, self.order, |r| r.peak_pressure)),
+            peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
             contact_box_error: bars::of_box(dx.max(dy)),
             refinements,
             finest: finest.state,

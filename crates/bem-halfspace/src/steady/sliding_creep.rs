@@ -87,9 +87,10 @@ impl SlidingCreep {
     /// Fluidity 1/η_f of a half space, [1/(Pa s)]; 0 on a layer, where a load is not felt far ahead, so that the surface does
     /// not sink for ever.
     pub(super) const fn fluidity(&self) -> f64 {
-        match self.base.is_layer() {
-            true => 0.0,
-            false => self.spectrum.fluidity(),
+        if self.base.is_layer() {
+            0.0
+        } else {
+            self.spectrum.fluidity()
         }
     }
 
@@ -103,9 +104,10 @@ impl SlidingCreep {
         let elements = self.spectrum.elements().iter();
         let times = elements.map(|element| element.retardation_time);
         let memory = self.velocity * times.fold(0.0, f64::max);
-        match self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
-            true => memory.max(self.base.reach()),
-            false => memory,
+        if self.spectrum.fluidity() > 0.0 && self.base.is_layer() {
+            memory.max(self.base.reach())
+        } else {
+            memory
         }
     }
 
