@@ -11,7 +11,7 @@ use indenters::{RigidLine, SlidingLoad};
 use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
-use super::row::SlideRow;
+use super::on_grid::SlideRow;
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
 use crate::contact::Instant;
