@@ -14,7 +14,7 @@ use numerics::{in_range, positive, whole_part};
 use crate::bounds::Bounds;
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
-use crate::steady::loading::{Equation, GridLoading, Loading};
+use crate::steady::loading::{GridLoading, Loading};
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
@@ -187,16 +187,11 @@ impl Mesh {
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
-        let direct = self.kernel(rows, to.column.abs_diff(from.column));
+        let direct = self.table.at(rows, to.column.abs_diff(from.column));
         if !self.has_image(from) {
             return direct;
         }
-        direct + self.kernel(rows, to.column - self.image(from.column))
-    }
-
-    /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it.
-    pub(super) fn kernel(&self, rows: isize, columns: usize) -> f64 {
-        self.table.at(rows, columns)
+        direct + self.table.at(rows, to.column - self.image(from.column))
     }
 
     /// Row and column of an element and of its mirror image; itself where it has none.
@@ -263,14 +258,9 @@ impl Mesh {
         low.map(|element| (element, 0.0)).collect()
     }
 
-    /// Force or depth that is asked for.
-    pub(super) const fn control(&self) -> Equation {
-        self.loading.control
-    }
-
     /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
     pub(super) fn balance(&self, loads: &mut [f64]) {
-        let control = self.control();
+        let control = self.loading.control;
         if control.depth == 0.0 {
             let total = self.total_load(loads.iter().copied().enumerate());
             let scale = control.right / (control.load * total);
@@ -341,9 +331,10 @@ impl Mesh {
     /// Largest rise of the body over a loaded element, in units of the depth scale.
     pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
         let dx = self.options.spacing[0];
-        let rise = |&(element, _): &(usize, f64)| {
-            (self.elements[element].slope * dx / self.loading.depth_scale).abs()
-        };
-        loads.iter().map(rise).fold(0.0, f64::max)
+        let slopes = loads
+            .iter()
+            .map(|(element, _)| self.elements[*element].slope);
+        let rises = slopes.map(|slope| (slope * dx / self.loading.depth_scale).abs());
+        rises.fold(0.0, f64::max)
     }
 }

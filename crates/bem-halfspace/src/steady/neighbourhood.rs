@@ -47,9 +47,8 @@ struct Neighbourhood {
 impl Neighbourhood {
     fn new(mesh: &Mesh, gaps: &[f64], loads: &[f64], elements: Vec<usize>) -> Self {
         let n = elements.len();
-        let influence = DMatrix::from_fn(n, n, |to, from| {
-            mesh.influence(elements[to], elements[from])
-        });
+        let influence = |to, from| mesh.influence(elements[to], elements[from]);
+        let influence = DMatrix::from_fn(n, n, influence);
         let without = |to: usize| {
             let moved = (0..n).map(|from| influence[(to, from)] * loads[elements[from]]);
             gaps[elements[to]] - moved.sum::<f64>()
