@@ -51,10 +51,16 @@ impl SceneError {
     }
 
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
+        Self::value(format!("{table}.{}", refused.parameter), refused)
+    }
+
+    /// The number at a key is refused.
+    pub(crate) const fn value(key: String, refused: InvalidParameter) -> Self {
+        let InvalidParameter { value, allowed, .. } = refused;
         Self::Value {
-            key: format!("{table}.{}", refused.parameter),
-            value: refused.value,
-            allowed: refused.allowed,
+            key,
+            value,
+            allowed,
         }
     }
 }
@@ -62,10 +68,6 @@ impl SceneError {
 /// A parameter whose name is the whole key.
 impl From<InvalidParameter> for SceneError {
     fn from(refused: InvalidParameter) -> Self {
-        Self::Value {
-            key: refused.parameter.to_owned(),
-            value: refused.value,
-            allowed: refused.allowed,
-        }
+        Self::value(refused.parameter.to_owned(), refused)
     }
 }

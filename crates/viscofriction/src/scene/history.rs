@@ -64,11 +64,8 @@ fn checked(
     for (index, point) in points.iter().enumerate() {
         let number = |name: &'static str, value: f64, holds: bool, allowed: &'static str| {
             let holds = holds && value.is_finite();
-            in_range(name, value, holds, allowed).map_err(|_| SceneError::Value {
-                key: key(index, name),
-                value,
-                allowed,
-            })
+            let wrong = |refused| SceneError::value(key(index, name), refused);
+            in_range(name, value, holds, allowed).map_err(wrong)
         };
         let allowed = "finite, at least 0, and not before the time of the point before";
         before = number("time", point.time, point.time >= before, allowed)?;

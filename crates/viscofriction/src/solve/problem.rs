@@ -80,9 +80,10 @@ impl Problem {
             None => motion(scene, &body)?,
         };
         let elastomer = half_space(&scene.material, folder, read)?;
-        let thickness = scene.layer.map_or(Ok(f64::INFINITY), |layer| {
-            positive("layer.thickness", layer.thickness)
-        })?;
+        let thickness = match scene.layer {
+            Some(layer) => positive("layer.thickness", layer.thickness)?,
+            None => f64::INFINITY,
+        };
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let problem = Self {
             body,
