@@ -128,7 +128,7 @@ pub fn steady_line<'w>(
         friction_coefficient: known.friction_coefficient,
         error_parts: known.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: (known.indentation_depth).filter(|_| creep.base().is_layer()),
+        indentation_depth: known.indentation_depth.filter(|_| creep.base().is_layer()),
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::of_box(known.options.spacing[0]),

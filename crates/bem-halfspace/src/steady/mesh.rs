@@ -92,11 +92,8 @@ impl Mesh {
             mesh.keep_front();
         }
         // Without such an element nothing can carry load.
-        let n_elements = mesh.n_elements() as f64;
-        positive(
-            "number of elements of the footprint that may touch",
-            n_elements,
-        )?;
+        let parameter = "number of elements of the footprint that may touch";
+        positive(parameter, mesh.n_elements() as f64)?;
         let all = mesh.region(0..mesh.n_elements());
         mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
@@ -330,11 +327,8 @@ impl Mesh {
 
     /// Largest rise of the body over a loaded element, in units of the depth scale.
     pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
-        let dx = self.options.spacing[0];
-        let slopes = loads
-            .iter()
-            .map(|(element, _)| self.elements[*element].slope);
-        let rises = slopes.map(|slope| (slope * dx / self.loading.depth_scale).abs());
-        rises.fold(0.0, f64::max)
+        let (dx, unit) = (self.options.spacing[0], self.loading.depth_scale);
+        let rise = |&(element, _): &(usize, f64)| (self.elements[element].slope * dx / unit).abs();
+        loads.iter().map(rise).fold(0.0, f64::max)
     }
 }

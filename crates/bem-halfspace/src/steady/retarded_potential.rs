@@ -152,10 +152,8 @@ impl RetardedPotential {
     fn over_panel(&self, delay: &Retardation, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
         let rate = delay.rate * panel.length;
         let weights = self.rules[panel.rule].weights(rate);
-        (
-            (-rate).exp(),
-            weights.map(|weight| delay.compliance * weight),
-        )
+        let weights = weights.map(|weight| delay.compliance * weight);
+        ((-rate).exp(), weights)
     }
 
     fn at_nodes(&self, panel: &Panel, column: usize) -> [f64; MAX_POINTS] {

@@ -119,8 +119,7 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         }
     };
     let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
-    let along = inverses.iter().cycle().zip(factors);
-    along
-        .map(|(inverse, factor)| inverse * factor.conj())
-        .collect()
+    let pairs = inverses.iter().cycle().zip(factors);
+    let products = pairs.map(|(inverse, factor)| inverse * factor.conj());
+    products.collect()
 }
