@@ -162,9 +162,8 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
     }
     let smooth = quarter_turn(body, x, |r| slope_of_moment(body, r));
     let kinks = body.kinks().into_iter().filter(|kink| kink.radius < x);
-    let singular = kinks.map(|Kink { radius, slope_jump }| {
-        slope_jump * radius / ((x - radius) * (x + radius)).sqrt()
-    });
+    let leg = |b: f64| ((x - b) * (x + b)).sqrt();
+    let singular = kinks.map(|kink| kink.slope_jump * kink.radius / leg(kink.radius));
     smooth + singular.sum::<f64>()
 }
 
