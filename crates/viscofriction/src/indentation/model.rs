@@ -166,10 +166,8 @@ impl<'a> Model<'a> {
                     branches.partition_point(|one| one.relaxation_time < time * (1.0 - SAME));
                 let place = place.min(branches.len() - 1);
                 let part = modulus / branches[place].modulus * branches[place].relaxation_time;
-                [
-                    (modulus, &found.moduli[place]),
-                    (part, &found.relaxation_times[place]),
-                ]
+                let [moduli, times] = [&found.moduli, &found.relaxation_times];
+                [(modulus, &moduli[place]), (part, &times[place])]
             });
             return Ok([spring].into_iter().chain(rows).map(scaled).collect());
         }

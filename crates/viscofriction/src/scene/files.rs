@@ -146,7 +146,8 @@ fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
 
 /// One line of heights per x, one column per y, without names; or a line and what is wrong there.
 fn of_csv(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, (usize, String)> {
-    let mut reader = ReaderBuilder::new()
+    let mut builder = ReaderBuilder::new();
+    let mut reader = builder
         .has_headers(false)
         .trim(Trim::All)
         .from_reader(contents);

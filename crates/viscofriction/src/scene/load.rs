@@ -45,12 +45,12 @@ impl Load {
     /// period is a force on it.
     pub(crate) fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
         let at = |key: &str, problem: &str| Err(SceneError::at(format!("load.{key}"), problem));
+        let pressed = |key, force| Ok(Control::NormalForce(positive(key, force)?));
         let (force, depth) = (self.normal_force, self.indentation_depth);
         match (period, self.mean_pressure, force, depth) {
             (Some(area), Some(pressure), None, None) => {
                 let pressure = positive("load.mean_pressure", pressure)?;
-                let key = "load.mean_pressure times the period";
-                Ok(Control::NormalForce(positive(key, pressure * area)?))
+                pressed("load.mean_pressure times the period", pressure * area)
             }
             (Some(_), ..) => {
                 let problem = "a periodic surface takes a mean_pressure, and neither normal_force nor indentation_depth";
@@ -60,9 +60,7 @@ impl Load {
                 let problem = "only a periodic surface has a mean pressure; give normal_force or indentation_depth";
                 at("mean_pressure", problem)
             }
-            (None, None, Some(force), None) => {
-                Ok(Control::NormalForce(positive("load.normal_force", force)?))
-            }
+            (None, None, Some(force), None) => pressed("load.normal_force", force),
             (None, None, None, Some(depth)) => {
                 let depth = positive("load.indentation_depth", depth)?;
                 Ok(Control::IndentationDepth(depth))

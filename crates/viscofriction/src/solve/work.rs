@@ -102,10 +102,8 @@ fn line_contact<'a>(
         );
     };
     let is_line = method.model() == Some(Model::Line);
-    require(
-        !is_line,
-        "it needs a body of revolution, and a cylinder is none",
-    )?;
+    let of_revolution = "it needs a body of revolution, and a cylinder is none";
+    require(!is_line, of_revolution)?;
     require(
         problem.model == Model::HalfSpace,
         "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",

@@ -124,9 +124,8 @@ impl Quantity {
             "A" => return 1e-10,
             _ => 1.0,
         };
-        let prefixes = "pnumkMG"
-            .chars()
-            .zip([1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9]);
+        let factors = [1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9];
+        let prefixes = "pnumkMG".chars().zip(factors);
         let mut prefix = prefixes.filter(|(prefix, _)| unit.len() > 1 && unit.starts_with(*prefix));
         of_unit * prefix.next().map_or(1.0, |(_, factor)| factor)
     }
