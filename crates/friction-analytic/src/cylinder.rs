@@ -149,11 +149,8 @@ fn ratios_of_i(z: f64) -> [f64; 2] {
         return [1.0; 2];
     }
     let end = 2.0 * (0.5 * LARGEST_EXPONENT / z).sqrt().min(1.0).asin();
-    let integral = |power: i32| {
-        trapezoid(end, |theta| {
-            (-2.0 * z * (0.5 * theta).sin().powi(2)).exp() * theta.sin().powi(2 * power)
-        })
-    };
+    let weight = |theta: f64| (-2.0 * z * (0.5 * theta).sin().powi(2)).exp();
+    let integral = |power: i32| trapezoid(end, |theta| weight(theta) * theta.sin().powi(2 * power));
     let zeroth = integral(0);
     [
         z * integral(1) / zeroth,

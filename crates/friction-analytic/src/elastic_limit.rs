@@ -87,9 +87,8 @@ pub fn high_speed_friction(
     let glass = positive("glass_modulus", relaxation.glass_modulus())?;
     // α/G(0+) = Σ G_i/τ_i / G(0+).
     let branches = relaxation.branches().iter();
-    let rate: f64 = branches
-        .map(|branch| branch.modulus / glass / branch.relaxation_time)
-        .sum();
+    let rates = branches.map(|branch| branch.modulus / glass / branch.relaxation_time);
+    let rate: f64 = rates.sum();
     // ∫₀^a (d − h̃)² dx.
     let mut ends = ends_outside_apex(body, contact.contact_radius);
     ends.insert(0, 0.0);

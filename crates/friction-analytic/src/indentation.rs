@@ -185,10 +185,7 @@ fn moment(body: &(impl Axisymmetric + ?Sized), radius: f64) -> Estimate {
     let angles: Vec<f64> = radii.chain([0.0]).map(angle).collect();
     let angular = over_pieces(integrand, &angles);
     // One factor at a time, because the square alone underflows for small bodies.
-    Estimate::new(
-        radius * (radius * angular.value),
-        radius * (radius * angular.error),
-    )
+    angular * radius * radius
 }
 
 /// The moment, if it is known well enough.

@@ -52,8 +52,6 @@ fn slope_energy(
         let ends: Vec<f64> = [start].into_iter().chain(inside).chain([end]).collect();
         over_pieces(square, &ends)
     };
-    accepted(
-        "integral of the squared slope",
-        intervals.iter().map(energy).sum(),
-    )
+    let energy = intervals.iter().map(energy).sum();
+    accepted("integral of the squared slope", energy)
 }

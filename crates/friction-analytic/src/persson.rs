@@ -164,10 +164,8 @@ impl SelfAffineSpectrum {
 
     /// q⁴ C(q) at some q, from 2π ∫ q³ C dq = ⟨|∇h|²⟩.
     fn steepness(&self, q: f64) -> f64 {
-        let [ratio_long, ratio_short] = [
-            self.roll_off_wavelength / self.longest_wavelength,
-            self.roll_off_wavelength / self.shortest_wavelength,
-        ];
+        let waves = [self.longest_wavelength, self.shortest_wavelength];
+        let [ratio_long, ratio_short] = waves.map(|wave| self.roll_off_wavelength / wave);
         let power = 2.0 - 2.0 * self.hurst_exponent;
         let falling = (power * ratio_short.ln()).exp_m1() / power;
         let total = 0.25 * (1.0 - ratio_long.powi(4)) + falling;
@@ -200,10 +198,8 @@ impl Sliding {
         let modulus = self.relaxation.complex_modulus(q * cosine * self.velocity);
         modulus.map_or([f64::NAN; 2], |modulus| {
             let [storage, loss] = [modulus.storage, modulus.loss].map(|part| part * self.factor);
-            [
-                0.125 * (storage * storage + loss * loss),
-                0.5 * cosine * loss,
-            ]
+            let square = storage * storage + loss * loss;
+            [0.125 * square, 0.5 * cosine * loss]
         })
     }
 
@@ -291,14 +287,10 @@ fn finished(results: [f64; 3], errors: [f64; 3]) -> Result<PerssonSliding, Frict
     if results[1].to_bits() != 0 {
         representable("friction coefficient", results[1])?;
     }
-    let [
-        area_fraction,
-        friction_coefficient,
-        friction_coefficient_2006,
-    ] = [0, 1, 2].map(|index| Estimate::new(results[index], errors[index]));
+    let known = |index: usize| Estimate::new(results[index], errors[index]);
     Ok(PerssonSliding {
-        area_fraction,
-        friction_coefficient,
-        friction_coefficient_2006,
+        area_fraction: known(0),
+        friction_coefficient: known(1),
+        friction_coefficient_2006: known(2),
     })
 }

@@ -29,13 +29,12 @@ pub(crate) fn accepted(
     quantity: &'static str,
     integral: Estimate,
 ) -> Result<Estimate, FrictionError> {
-    let Estimate { value, error } = integral;
     if integral.is_within(ACCEPTED_ACCURACY) {
         return Ok(integral);
     }
     Err(FrictionError::NotConverged {
         quantity,
-        value,
-        error,
+        value: integral.value,
+        error: integral.error,
     })
 }

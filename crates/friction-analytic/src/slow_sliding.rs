@@ -77,19 +77,14 @@ pub fn slow_sliding(
     let per_square = FRAC_1_PI / (3.0 * known_moment(body, radius)?);
     let slope = body.line_slope(radius);
     let of_rear = per_square * second * slope * slope;
-    let tip = if exponent > 1.0 {
-        0.0
-    } else {
-        body.line_slope(0.0)
-    };
-    let of_tip = 4.0 * per_square * branches * tip * tip;
     let mu = first.half_space;
     let small = second / (shift * radius);
-    let apex = if exponent > 1.0 && exponent < 2.0 {
-        APEX * small.powf(2.0 * exponent - 1.0)
-    } else {
-        0.0
+    let [tip, apex] = match exponent {
+        cone if cone <= 1.0 => [body.line_slope(0.0), 0.0],
+        sharp if sharp < 2.0 => [0.0, APEX * small.powf(2.0 * exponent - 1.0)],
+        _ => [0.0; 2],
     };
+    let of_tip = 4.0 * per_square * branches * tip * tip;
     let square = (of_rear / mu).powi(2);
     let error = QUADRATURE + THIRD * third / (shift * radius * radius) + SQUARE * square + apex;
     let steepness = slope * radius / body.line_height(radius);
@@ -130,10 +125,8 @@ impl Moments {
         };
         // A spring remembers nothing, and there is no friction to expand.
         let shift = relaxation.zero_shear_viscosity() / modulus * velocity;
-        let shift = positive(
-            "zero_shear_viscosity × velocity / equilibrium_modulus",
-            shift,
-        )?;
+        let name = "zero_shear_viscosity × velocity / equilibrium_modulus";
+        let shift = positive(name, shift)?;
         let branches = moment(2);
         Ok(Self {
             shift,

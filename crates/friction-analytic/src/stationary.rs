@@ -79,10 +79,9 @@ pub(crate) fn depth_under_force(
 /// the quotient itself lies there.
 pub(crate) fn quotient(numerator: f64, [one, other]: [f64; 2]) -> f64 {
     // A numerator below one must not shrink first, one above must not grow first.
-    let [first, second] = if (numerator < 1.0) == (one < other) {
-        [one, other]
+    if (numerator < 1.0) == (one < other) {
+        numerator / one / other
     } else {
-        [other, one]
-    };
-    numerator / first / second
+        numerator / other / one
+    }
 }

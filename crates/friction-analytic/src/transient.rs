@@ -134,22 +134,21 @@ impl Scales {
     /// `slid` is the sliding distance over x_d.
     fn cone_at(&self, slid: f64) -> TransientSliding {
         let slope = self.depth / self.length;
-        let two_sided = is_two_sided(Shape::Cone, slid);
         // d/D, which is also the front end over x_d; while both flanks touch, its square is v t/x_d.
-        let fraction = if two_sided {
-            slid.sqrt()
+        let (fraction, rear, times) = if is_two_sided(Shape::Cone, slid) {
+            let fraction = slid.sqrt();
+            (fraction, -fraction, 2.0 * fraction)
         } else {
-            1.0 - missing_fraction(slid - Shape::Cone.lift_off())
+            (
+                1.0 - missing_fraction(slid - Shape::Cone.lift_off()),
+                0.0,
+                1.0,
+            )
         };
-        let front = self.length * fraction;
         TransientSliding {
             indentation_depth: self.depth * fraction,
-            contact_line: [if two_sided { -front } else { 0.0 }, front],
-            friction_coefficient: if two_sided {
-                2.0 * slope * fraction
-            } else {
-                slope
-            },
+            contact_line: [rear, fraction].map(|end| end * self.length),
+            friction_coefficient: times * slope,
         }
     }
 

@@ -136,18 +136,12 @@ fn maxwell_paraboloid(ratio: f64) -> Result<[f64; 3], FrictionError> {
         [part, ..] => part - one,
     };
     let square = |zeta: f64| (zeta * difference(zeta) / one).powi(2);
-    let ends: &[f64] = if z > LAYER {
-        &[0.0, LAYER, z]
-    } else {
-        &[0.0, z]
-    };
-    let work = accepted("friction work", over_pieces(square, ends))?;
+    let mut ends = vec![0.0, LAYER.min(z), z];
+    ends.dedup();
+    let work = accepted("friction work", over_pieces(square, &ends))?;
     // In units of x_r: l = 1/Y, w = 2 G k l² …, so that the friction of slope 2 k x_r is 2 ∫ / (Y load).
-    Ok([
-        1.0 - z / ratio,
-        load / ratio.powi(3),
-        4.0 * work.value / (load * ratio),
-    ])
+    let friction = 4.0 * work.value / (load * ratio);
+    Ok([1.0 - z / ratio, load / ratio.powi(3), friction])
 }
 
 /// Below this a difference is summed as a series.

@@ -161,12 +161,10 @@ pub fn abel_slope(body: &(impl Axisymmetric + ?Sized), x: f64) -> f64 {
         return apex_slope(body);
     }
     let smooth = quarter_turn(body, x, |r| slope_of_moment(body, r));
-    let kinks = body.kinks().into_iter();
-    let singular: f64 = kinks
-        .filter(|kink| kink.radius < x)
-        .map(|kink| kink.slope_jump * kink.radius / ((x - kink.radius) * (x + kink.radius)).sqrt())
-        .sum();
-    smooth + singular
+    let kinks = body.kinks().into_iter().filter(|kink| kink.radius < x);
+    let leg = |b: f64| ((x - b) * (x + b)).sqrt();
+    let singular = kinks.map(|kink| kink.slope_jump * kink.radius / leg(kink.radius));
+    smooth + singular.sum::<f64>()
 }
 
 /// (r h')' = h' + r h''.

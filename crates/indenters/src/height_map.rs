@@ -4,7 +4,7 @@
 //! h = (1 − s)(1 − t) h_ij + s (1 − t) h_(i+1)j + (1 − s) t h_i(j+1) + s t h_(i+1)(j+1)        0 ≤ s, t ≤ 1 in a cell
 //! ```
 
-use crate::table::at_least;
+use crate::table::{at_least, check_heights};
 use crate::{IndenterError, Surface};
 use numerics::{finite, positive, whole_part};
 
@@ -36,15 +36,7 @@ impl HeightMap {
     ) -> Result<Self, IndenterError> {
         at_least(2, "rows of heights", shape[0])?;
         at_least(2, "columns of heights", shape[1])?;
-        let first_length = shape[0].saturating_mul(shape[1]);
-        if heights.len() != first_length {
-            return Err(IndenterError::LengthMismatch {
-                first: "grid",
-                first_length,
-                second: "heights",
-                second_length: heights.len(),
-            });
-        }
+        check_heights("grid", shape[0].saturating_mul(shape[1]), &heights)?;
         positive("spacing along x", spacing[0])?;
         positive("spacing along y", spacing[1])?;
         for height in &heights {

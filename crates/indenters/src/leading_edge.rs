@@ -111,10 +111,9 @@ pub fn leading_edge_with(
         finite("end of the domain", end)?;
     }
     let breaks = line.monotone_breaks(samples);
-    let heights: Vec<f64> = breaks
-        .iter()
-        .map(|x| finite("height of the line", line.height(*x)))
-        .collect::<Result<_, _>>()?;
+    let heights = breaks.iter().map(|x| line.height(*x));
+    let heights = heights.map(|height| finite("height of the line", height));
+    let heights: Vec<f64> = heights.collect::<Result<_, _>>()?;
     at_least(1, "monotone_breaks", breaks.len())?;
     let last = breaks.len() - 1;
     let mut backwards = vec![[breaks[last]; 2]];

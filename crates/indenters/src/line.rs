@@ -86,7 +86,7 @@ fn find_breaks(line: &(impl RigidLine + ?Sized), samples: usize) -> Vec<f64> {
     breaks.retain(|x| *x > lower && *x < upper);
     breaks.insert(0, lower);
     breaks.push(upper);
-    let spacing = (upper - lower) / as_float(samples.max(1));
+    let spacing = (upper - lower) / samples.max(1) as f64;
     let stations = stations(&breaks, spacing);
     // Slope with which the last interval ended, zero as long as the line is level.
     let mut heading = 0.0_f64;
@@ -113,7 +113,7 @@ fn stations(fixed: &[f64], spacing: f64) -> Vec<f64> {
     let mut stations = Vec::new();
     for gap in fixed.windows(2) {
         stations.push(gap[0]);
-        let between = (1..).map(|step| gap[0] + as_float(step) * spacing);
+        let between = (1_usize..).map(|step| gap[0] + step as f64 * spacing);
         // No sliver is left before the end of the gap.
         stations.extend(between.take_while(|x| x + 0.5 * spacing < gap[1]));
     }
@@ -127,20 +127,8 @@ fn inside([left, right]: [f64; 2]) -> [f64; 2] {
 }
 
 fn first_not_zero(candidates: [f64; 3]) -> f64 {
-    let [first, second, third] = candidates;
-    match (first != 0.0, second != 0.0) {
-        (true, _) => first,
-        (false, true) => second,
-        (false, false) => third,
-    }
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a line is sampled at fewer than 2^53 points"
-)]
-fn as_float(count: usize) -> f64 {
-    count as f64
+    let found = candidates.into_iter().find(|slope| *slope != 0.0);
+    found.unwrap_or(candidates[2])
 }
 
 /// The position inside an interval without kinks at which the slope changes its sign.

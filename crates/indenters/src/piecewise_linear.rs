@@ -128,10 +128,9 @@ impl Axisymmetric for PiecewiseLinearProfile {
         }
         let kinks = self.kinks.iter().take_while(|kink| kink.radius < x);
         let singular = kinks.map(|kink| kink.slope_jump * (kink.radius / leg(x, kink.radius)));
-        let smooth = if x == 0.0 {
-            self.slopes[0] * std::f64::consts::FRAC_PI_2
-        } else {
-            self.turned_slope(x)
+        let smooth = match x {
+            0.0 => self.slopes[0] * std::f64::consts::FRAC_PI_2,
+            _ => self.turned_slope(x),
         };
         Some(LinePoint {
             height: x * smooth,

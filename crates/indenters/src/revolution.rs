@@ -78,12 +78,9 @@ pub fn gradient(body: &(impl Axisymmetric + ?Sized), [x, y]: [f64; 2]) -> [f64; 
         return [0.0, 0.0];
     }
     // A slope that overflows must not meet a zero.
-    [x, y].map(|along| {
-        if along == 0.0 {
-            0.0
-        } else {
-            slope * (along / radius)
-        }
+    [x, y].map(|along| match along {
+        0.0 => 0.0,
+        _ => slope * (along / radius),
     })
 }
 

@@ -38,8 +38,6 @@ fn half_step_series(x: f64) -> f64 {
         -39_325.0 / 33_554_432.0,
         -334_477.0 / 2_147_483_648.0,
     ];
-    COEFFICIENTS
-        .iter()
-        .rev()
-        .fold(0.0, |sum, coefficient| sum / x + coefficient)
+    let from_the_last = COEFFICIENTS.iter().rev();
+    from_the_last.fold(0.0, |sum, coefficient| sum / x + coefficient)
 }

@@ -9,22 +9,31 @@ pub(crate) fn check_table(
     positions: &[f64],
     heights: &[f64],
 ) -> Result<(), IndenterError> {
-    let length = positions.len();
-    if length != heights.len() {
-        return Err(IndenterError::LengthMismatch {
-            first: list,
-            first_length: length,
-            second: "heights",
-            second_length: heights.len(),
-        });
-    }
-    at_least(2, list, length)?;
+    check_heights(list, positions.len(), heights)?;
+    at_least(2, list, positions.len())?;
     for (name, values) in [(list, positions), ("heights", heights)] {
         for value in values {
             finite(name, *value)?;
         }
     }
     increasing(list, positions)
+}
+
+/// Checks that there are as many heights as a list, which has a name, needs.
+pub(crate) const fn check_heights(
+    first: &'static str,
+    first_length: usize,
+    heights: &[f64],
+) -> Result<(), IndenterError> {
+    if heights.len() == first_length {
+        return Ok(());
+    }
+    Err(IndenterError::LengthMismatch {
+        first,
+        first_length,
+        second: "heights",
+        second_length: heights.len(),
+    })
 }
 
 pub(crate) fn at_least(

@@ -37,10 +37,9 @@ impl Instant<'_> {
     /// f g falls by a factor of four or more: the number of passes is logarithmic, with a guess two or three.
     pub(crate) fn solve(&self, needed: f64, guess: f64) -> Level {
         let guessed = self.level(guess);
-        let mut level = self.level(if guessed.n_below == 0 {
-            self.touch_depths().fold(f64::INFINITY, f64::min) + needed
-        } else {
-            guessed.newton(needed)
+        let mut level = self.level(match guessed.n_below {
+            0 => self.touch_depths().fold(f64::INFINITY, f64::min) + needed,
+            _ => guessed.newton(needed),
         });
         while level.n_below > 0 {
             let before = level;

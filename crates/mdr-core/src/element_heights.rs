@@ -240,12 +240,10 @@ pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, 
     let mut candidates = line.kinks();
     candidates.extend([0.0, rear, front]);
     let inside = |x: &f64| x.is_finite() && *x >= rear && *x <= front;
-    let lowest = candidates
-        .into_iter()
-        .filter(inside)
-        .map(|x| (line.height(x), x))
-        .filter(|(height, _)| height.is_finite())
-        .min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    let places = candidates.into_iter().filter(inside);
+    let heights = places.map(|x| (line.height(x), x));
+    let known = heights.filter(|(height, _)| height.is_finite());
+    let lowest = known.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
     let failed = || invalid_height(rear, line.height(rear));
     lowest.map(|(_, position)| position).ok_or_else(failed)
 }
@@ -253,16 +251,10 @@ pub(crate) fn lowest_candidate(line: &(impl RigidLine + ?Sized)) -> Result<f64, 
 /// The lowest point within one spacing of the lowest sample, by golden section.
 fn refine_lowest(line: &(impl RigidLine + ?Sized), position: f64, spacing: f64) -> f64 {
     let [rear, front] = line.domain();
-    let bracket = [
-        (position - spacing).max(rear),
-        (position + spacing).min(front),
-    ];
-    let lowest = golden_section(|x| line.height(x), bracket);
-    if line.height(lowest) <= line.height(position) {
-        lowest
-    } else {
-        position
-    }
+    let [low, high] = [position - spacing, position + spacing];
+    let lowest = golden_section(|x| line.height(x), [low.max(rear), high.min(front)]);
+    let is_lower = line.height(lowest) <= line.height(position);
+    if is_lower { lowest } else { position }
 }
 
 /// Height of the line; `+∞` is allowed (no body there), `−∞` and NaN are not.

@@ -14,22 +14,8 @@ use rheology::{Elastic, Material};
 use crate::MdrError;
 use crate::steady::{Problem, SteadySliding};
 
-/// A contact without sliding.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[must_use]
-pub struct Pressed {
-    /// Indentation depth d of the lowest point, \[m]; exact where it is prescribed.
-    pub indentation_depth: Estimate,
-    /// Normal force F_N, \[N]; exact where it is prescribed.
-    pub normal_force: Estimate,
-    /// Rear and front end of the contact, \[m].
-    pub ends: [Estimate; 2],
-    /// Contact intervals `[rear, front]` by increasing position on the line, \[m]; what is between them is open.
-    pub contacts: Vec<[f64; 2]>,
-    /// Number of polynomials that stand for the line.
-    pub n_pieces: usize,
-}
+/// A contact without sliding; its friction coefficient is 0.
+pub type Pressed = SteadySliding;
 
 /// Presses a line into a material and waits until that has come to rest: an elastic one at once, any other solid on its
 /// equilibrium modulus.
@@ -72,8 +58,7 @@ pub fn indent(
     if let Control::IndentationDepth(_) = control {
         // The same contact on springs of another modulus.
         let ratio = material.relaxation_modulus(time)? * compliance;
-        let force = &mut pressed.normal_force;
-        (force.value, force.error) = (ratio * force.value, ratio * force.error);
+        pressed.normal_force = pressed.normal_force * ratio;
     }
     Ok(pressed)
 }
@@ -94,13 +79,11 @@ fn on_springs(
     };
     let state = problem.refine(control, relative_error, sought)?;
     Ok(Pressed {
-        indentation_depth: state.indentation_depth,
+        friction_coefficient: Estimate::exact(0.0),
         normal_force: match control {
             Control::NormalForce(force) => Estimate::exact(force),
             Control::IndentationDepth(_) => state.normal_force,
         },
-        ends: state.ends,
-        contacts: state.contacts,
-        n_pieces: state.n_pieces,
+        ..state
     })
 }

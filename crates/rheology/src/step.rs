@@ -66,11 +66,8 @@ impl ExponentialStep {
     ///
     /// Values of `state` beyond `n_fields() · history.len()` are ignored.
     pub fn history(&self, state: &[f64], history: &mut [f64]) {
-        debug_assert_eq!(
-            state.len(),
-            self.n_fields() * history.len(),
-            "shape of the state"
-        );
+        let n_values = self.n_fields() * history.len();
+        debug_assert_eq!(state.len(), n_values, "shape of the state");
         history.fill(0.0);
         if history.is_empty() {
             return;
@@ -86,11 +83,8 @@ impl ExponentialStep {
     ///
     /// Values of `state` beyond `n_fields() · input.len()` are left as they are.
     pub fn advance(&self, input: &[f64], state: &mut [f64]) {
-        debug_assert_eq!(
-            state.len(),
-            self.n_fields() * input.len(),
-            "shape of the state"
-        );
+        let n_values = self.n_fields() * input.len();
+        debug_assert_eq!(state.len(), n_values, "shape of the state");
         if input.is_empty() {
             return;
         }

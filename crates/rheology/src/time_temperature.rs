@@ -139,10 +139,7 @@ impl RelaxationSpectrum {
         let branches = self.branches().iter().map(|branch| {
             RelaxationBranch::new(branch.modulus, branch.relaxation_time * shift_factor)
         });
-        Self::new(
-            self.equilibrium_modulus(),
-            self.viscosity() * shift_factor,
-            branches.collect(),
-        )
+        let viscosity = self.viscosity() * shift_factor;
+        Self::new(self.equilibrium_modulus(), viscosity, branches.collect())
     }
 }

@@ -115,9 +115,8 @@ fn is_by_column(header: &str) -> Result<bool, String> {
 
 fn shape(header: &str) -> Result<[usize; 2], String> {
     let lengths = || {
-        let (tuple, _) = after(header, "'shape'")?
-            .strip_prefix('(')?
-            .split_once(')')?;
+        let tuple = after(header, "'shape'")?.strip_prefix('(')?;
+        let (tuple, _) = tuple.split_once(')')?;
         // A tuple may end with a comma.
         let lengths = tuple.trim().split_terminator(',');
         lengths.map(|length| length.trim().parse().ok()).collect()

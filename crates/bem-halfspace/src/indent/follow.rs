@@ -1,12 +1,12 @@
 //! A history with error bars, from several grids.
 
 use indenters::{Control, HistoryPoint, PressingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Estimate, Goal, Quantity, Request};
+use numerics::{Accuracy, ErrorParts, Estimate, Quantity, Request};
 use numerics::{in_range, not_negative, positive, refine};
 use rheology::Material as _;
 
 use super::history::refined;
-use super::press::{BYTES_PER_ELEMENT, ORDER, Spring, grid, n_followed};
+use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
 use crate::bars::{DEPTH, FORCE, reacts_at_once};
 use crate::contact::check_control;
@@ -14,8 +14,6 @@ use crate::{BemError, Elastomer, GridOptions};
 
 /// Elements along the largest contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 256;
-/// Of all steps of a history on the elements along x and y.
-const WORK: f64 = 2.0;
 /// Duration of a jump, as a part of that of the history.
 const JUMP: f64 = 1e-9;
 
@@ -70,14 +68,6 @@ pub fn follow<'w>(
     let request = request.into();
     let path = Path::new(history, reacts_at_once(elastomer))?;
     let plan = path.spring(elastomer)?.plan(&surface, path.largest())?;
-    let goal = Goal {
-        request,
-        largest: LARGEST_GRID,
-        order: ORDER,
-        work: WORK,
-        others: 0.0,
-        selection: 2.0,
-    };
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(grid(&plan, elements));
@@ -99,7 +89,12 @@ pub fn follow<'w>(
         let quantities = path.quantities(found).into_iter();
         Ok(quantities.map(of_steps).collect())
     };
-    let fine = refine(&goal, solve, |(found, _)| path.quantities(found), others)?;
+    let fine = refine(
+        &goal(request, LARGEST_GRID),
+        solve,
+        |(found, _)| path.quantities(found),
+        others,
+    )?;
     let worst = |place: usize| {
         let rows = fine.parts.iter().skip(place).step_by(PLACES.len());
         let worst = rows.max_by(|a, b| a.sum().total_cmp(&b.sum()));
@@ -249,10 +244,8 @@ impl Path {
     ) -> Vec<IndentPoint> {
         errors[FORCE + DEPTH - self.sought()] = 0.0;
         let point = |(step, values): (&HistoryPoint, [f64; 3])| {
-            let [contact_area, normal_force, indentation_depth] = PLACES.map(|place| Estimate {
-                value: values[place],
-                error: errors[place],
-            });
+            let known = |place: usize| Estimate::new(values[place], errors[place]);
+            let [contact_area, normal_force, indentation_depth] = PLACES.map(known);
             IndentPoint {
                 time: step.time,
                 normal_force,

@@ -123,13 +123,8 @@ fn intervals(times: &[f64]) -> impl Iterator<Item = [f64; 2]> {
 /// `n` equal steps to each of the times.
 fn subdivided(control: impl Fn(f64) -> Control, times: &[f64], n: usize) -> Vec<HistoryPoint> {
     let ends = intervals(times).flat_map(|[start, end]| {
-        (1..=n).map(move |k| {
-            if k == n {
-                end
-            } else {
-                start + (end - start) * (k as f64 / n as f64)
-            }
-        })
+        let inner = move |k| start + (end - start) * (k as f64 / n as f64);
+        (1..n).map(inner).chain([end])
     });
     let step = |time| HistoryPoint {
         time,

@@ -18,8 +18,8 @@ use crate::{BemError, Elastomer, GridOptions, Layer};
 /// Elements along the contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 512;
 /// Depth and force converge faster than that, cusps or not.
-pub(super) const ORDER: f64 = 1.0;
-/// Of a transform of the elements along x and y.
+const ORDER: f64 = 1.0;
+/// Of a transform of the elements along x and y, and of all steps of a history.
 const WORK: f64 = 2.0;
 
 /// Memory for an element in front of the mirrors, \[bytes].
@@ -193,8 +193,7 @@ impl Spring {
     ) -> Result<Self, BemError> {
         let material = elastomer.material();
         let (factor, duration) = (material.half_space_factor(), load.duration());
-        let creep = material.creep();
-        let is_elastic = creep.elements().is_empty() && creep.fluidity() == 0.0;
+        let is_elastic = material.creep().is_elastic();
         match load.control() {
             Control::NormalForce(_) => {
                 let compliance = factor * material.creep_compliance(duration)?;
@@ -256,6 +255,18 @@ impl Spring {
     }
 }
 
+/// On grids of up to so many elements along the contact.
+pub(super) const fn goal(request: Request, largest: usize) -> Goal {
+    Goal {
+        request,
+        largest,
+        order: ORDER,
+        work: WORK,
+        others: 0.0,
+        selection: 2.0,
+    }
+}
+
 fn estimate(
     surface: &dyn Surface,
     spring: &Spring,
@@ -264,14 +275,7 @@ fn estimate(
 ) -> Result<PressEstimate, BemError> {
     let plan = spring.plan(surface, control)?;
     let resolution = Resolution {
-        goal: Goal {
-            request,
-            largest: LARGEST_GRID,
-            order: ORDER,
-            work: WORK,
-            others: 0.0,
-            selection: 2.0,
-        },
+        goal: goal(request, LARGEST_GRID),
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),

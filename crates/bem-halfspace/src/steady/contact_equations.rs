@@ -57,7 +57,7 @@ fn is_factorised(n_unknowns: usize, n_places: usize) -> bool {
 
 fn factorise(mesh: &Mesh, contact: &[usize]) -> EquationSolution {
     let n = contact.len();
-    let control = mesh.control();
+    let control = mesh.loading.control;
     let matrix = |row, column| match (row < n, column < n) {
         (true, true) => mesh.influence(contact[row], contact[column]),
         (true, false) => -1.0,
@@ -133,7 +133,7 @@ impl<'mesh> ContactEquations<'mesh> {
 
     /// Loads and depth that satisfy the control, near the guess.
     fn start(&mut self, mut loads: Vec<f64>) -> (Vec<f64>, f64) {
-        let control = self.mesh.control();
+        let control = self.mesh.loading.control;
         if control.depth != 0.0 {
             let depth = (control.right - control.load * self.total(&loads)) / control.depth;
             return (loads, depth);
@@ -159,10 +159,10 @@ impl<'mesh> ContactEquations<'mesh> {
     /// The preconditioner with the control: loads and depth that cause about the given residual and leave the control as
     /// it is.
     fn correct(&mut self, residual: &[f64]) -> (Vec<f64>, f64) {
-        let control = self.mesh.control();
+        let control = self.mesh.loading.control;
         let mut loads = self.preconditioner.loads(residual, &self.region);
-        let depth = -control.load * self.total(&loads)
-            / (control.depth + control.load * self.total(&self.lowered));
+        let stiffness = control.depth + control.load * self.total(&self.lowered);
+        let depth = -control.load * self.total(&loads) / stiffness;
         add(&mut loads, depth, &self.lowered);
         (loads, depth)
     }

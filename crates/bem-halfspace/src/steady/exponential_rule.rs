@@ -79,13 +79,9 @@ impl ExponentialRule {
 
 /// The polynomial that is 1 at one of the nodes and 0 at the others.
 fn lagrange(nodes: &[f64], index: usize, x: f64) -> f64 {
-    let others = nodes
-        .iter()
-        .enumerate()
-        .filter(|(other, _)| *other != index);
-    others
-        .map(|(_, node)| (x - node) / (nodes[index] - node))
-        .product()
+    let others = nodes[..index].iter().chain(&nodes[index + 1..]);
+    let factors = others.map(|node| (x - node) / (nodes[index] - node));
+    factors.product()
 }
 
 /// rate · ∫_0^1 e^(−rate·s) P_n(2s − 1) ds = (−1)ⁿ 2z e^(−z) i_n(z), z = rate/2.

@@ -48,10 +48,8 @@ fn judge(limits: &[f64], eliminated: &[f64]) -> Option<Estimate> {
 fn eliminate(values: &[f64], order: f64) -> Vec<f64> {
     // 2^order − 1, which is small for the sharpest cusps.
     let gain = (order * std::f64::consts::LN_2).exp_m1();
-    values
-        .windows(3)
-        .map(|window| window[2] + (window[2] - window[0]) / gain)
-        .collect()
+    let limit = |window: &[f64]| window[2] + (window[2] - window[0]) / gain;
+    values.windows(3).map(limit).collect()
 }
 
 #[cfg(test)]

@@ -100,9 +100,6 @@ impl PlaneTransform {
 
 /// Offset of an index within a period, negative in its upper half.
 pub(super) const fn signed_offset(index: usize, period: usize) -> isize {
-    if index <= period / 2 {
-        index.cast_signed()
-    } else {
-        index.cast_signed() - period.cast_signed()
-    }
+    let is_lower = index <= period / 2;
+    index.cast_signed() - if is_lower { 0 } else { period.cast_signed() }
 }

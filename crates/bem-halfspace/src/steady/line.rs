@@ -128,11 +128,7 @@ pub fn steady_line<'w>(
         friction_coefficient: known.friction_coefficient,
         error_parts: known.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: if creep.base().is_layer() {
-            known.indentation_depth
-        } else {
-            None
-        },
+        indentation_depth: known.indentation_depth.filter(|_| creep.base().is_layer()),
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::of_box(known.options.spacing[0]),
@@ -155,14 +151,12 @@ pub fn steady_line_on_grid(
     let profile: &dyn Surface = &profile;
     let loading = Loading::per_length(profile, elastomer, load, options.footprint)?;
     let strip = Strip::new(profile, &loading);
+    let footprint = strip.footprint(options.footprint);
     let grid = SteadyOptions {
         phase: [options.phase, 0.0],
         tolerance: options.tolerance,
         max_iterations: options.max_iterations,
-        ..SteadyOptions::new(
-            [options.spacing, strip.length],
-            strip.footprint(options.footprint),
-        )
+        ..SteadyOptions::new([options.spacing, strip.length], footprint)
     };
     let state = solve(&strip, &loading, &grid, &mut Reuse::default())?;
     Ok(LineSliding::of(&state))
@@ -174,18 +168,13 @@ fn with_elements(
     strip: f64,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let Problem {
-        surface,
-        loading,
-        plan,
-        has_peak,
-        ..
-    } = problem;
+    let (loading, plan) = (&problem.loading, &problem.plan);
     let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
-    let resolution = resolution(request, loading.control, plan.apex_exponent, *has_peak);
+    let (control, exponent) = (loading.control, plan.apex_exponent);
+    let resolution = resolution(request, control, exponent, problem.has_peak);
     let mut known = bars::resolve(&resolution, |elements, _| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
-        let state = solve(*surface, loading, &options, &mut Reuse::default())?;
+        let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
         Ok(state.on_grid(options, None))
     })?;
     known.contact_area.value /= strip;

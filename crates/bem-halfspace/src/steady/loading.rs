@@ -42,9 +42,6 @@ const STRIP: f64 = 1e5;
 
 impl Loading {
     /// Under a force, D is the depth at which it is about carried; at a depth, D is that depth.
-    ///
-    /// # Errors
-    /// [`BemError::SlidingDistanceMissing`]; [`BemError::InvalidParameter`] for numbers out of range.
     pub(super) fn new(
         surface: &dyn Surface,
         elastomer: &(impl Elastomer + ?Sized),
@@ -74,10 +71,8 @@ impl Loading {
         })
     }
 
-    /// Under a force per length \[N/m] on a profile in plane strain, where contact is allowed from rear to front.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for a depth, a material that flows, or numbers out of range.
+    /// Under a force per length \[N/m] on a profile in plane strain, where contact is allowed from rear to front; refuses a
+    /// depth, and a material that flows.
     pub(super) fn per_length(
         profile: &dyn Surface,
         elastomer: &(impl Elastomer + ?Sized),
@@ -101,12 +96,8 @@ impl Loading {
 
     /// Edges of an element that is `factor` times as long; one that is a whole strip stays as wide.
     pub(super) fn scaled(&self, [dx, dy]: [f64; 2], factor: f64) -> [f64; 2] {
-        let width = if self.strip.is_some() {
-            dy
-        } else {
-            factor * dy
-        };
-        [factor * dx, width]
+        let scaled = [factor * dx, factor * dy];
+        self.strip.map_or(scaled, |_| [factor * dx, dy])
     }
 
     /// The problem on a grid.

@@ -14,7 +14,7 @@ use numerics::{in_range, positive, whole_part};
 use crate::bounds::Bounds;
 use crate::mirror::Mirror;
 use crate::steady::SteadyOptions;
-use crate::steady::loading::{Equation, GridLoading, Loading};
+use crate::steady::loading::{GridLoading, Loading};
 use crate::steady::plans::Plans;
 use crate::steady::region::Region;
 use crate::steady::wake_table::WakeTable;
@@ -71,16 +71,14 @@ impl Mesh {
             let is_allowed = (-0.5..=0.5).contains(&value);
             in_range("phase", value, is_allowed, "between -1/2 and 1/2")?;
         }
+        let [x, y] = options.phase;
         let [[behind, ahead], [right, left]] = options.footprint.elements(options.spacing)?;
         let mut mesh = Self {
             options: *options,
             loading: loading.on_grid(options.spacing)?,
             only_rising: loading.creep.only_flows(),
             shape: [behind + ahead + 1, right + left + 1],
-            origin: [
-                options.phase[0] - behind as f64,
-                options.phase[1] - right as f64,
-            ],
+            origin: [x - behind as f64, y - right as f64],
             mirror: Mirror::None,
             elements: Vec::new(),
             walls: Vec::new(),
@@ -94,10 +92,8 @@ impl Mesh {
             mesh.keep_front();
         }
         // Without such an element nothing can carry load.
-        positive(
-            "number of elements of the footprint that may touch",
-            mesh.elements.len() as f64,
-        )?;
+        let parameter = "number of elements of the footprint that may touch";
+        positive(parameter, mesh.n_elements() as f64)?;
         let all = mesh.region(0..mesh.n_elements());
         mesh.table = plans.cover(&mesh.loading.creep, mesh.aspect(), all.shape);
         Ok(mesh)
@@ -164,10 +160,8 @@ impl Mesh {
         let has_image = |column: usize| 2.0 * (origin + column as f64) <= column as f64;
         self.elements
             .retain(|element| origin + element.column as f64 >= 0.0 && has_image(element.column));
-        let last = (0..self.shape[1])
-            .rev()
-            .find(|&column| has_image(column))
-            .unwrap_or(0);
+        let mut columns = (0..self.shape[1]).rev();
+        let last = columns.find(|&column| has_image(column)).unwrap_or(0);
         self.limits[1] = [self.image(last), last];
     }
 
@@ -190,16 +184,11 @@ impl Mesh {
     pub(super) fn influence(&self, to: usize, from: usize) -> f64 {
         let [to, from] = [&self.elements[to], &self.elements[from]];
         let rows = to.row.cast_signed() - from.row.cast_signed();
-        let direct = self.kernel(rows, to.column.abs_diff(from.column));
+        let direct = self.table.at(rows, to.column.abs_diff(from.column));
         if !self.has_image(from) {
             return direct;
         }
-        direct + self.kernel(rows, to.column - self.image(from.column))
-    }
-
-    /// Displacement of an element by the unit load of another that lies `rows` behind it and `columns` beside it.
-    pub(super) fn kernel(&self, rows: isize, columns: usize) -> f64 {
-        self.table.at(rows, columns)
+        direct + self.table.at(rows, to.column - self.image(from.column))
     }
 
     /// Row and column of an element and of its mirror image; itself where it has none.
@@ -240,11 +229,8 @@ impl Mesh {
 
     /// 2 for an element with a mirror image, which it represents, otherwise 1.
     pub(super) fn weight(&self, element: usize) -> f64 {
-        if self.has_image(&self.elements[element]) {
-            2.0
-        } else {
-            1.0
-        }
+        let has_image = self.has_image(&self.elements[element]);
+        if has_image { 2.0 } else { 1.0 }
     }
 
     /// Height of an element where its gap is evaluated.
@@ -264,20 +250,14 @@ impl Mesh {
 
     /// The low elements, without loads.
     pub(super) fn first_guess(&self) -> Vec<(usize, f64)> {
-        (0..self.n_elements())
-            .filter(|&element| self.height(element) < GUESSED_HEIGHT)
-            .map(|element| (element, 0.0))
-            .collect()
-    }
-
-    /// Force or depth that is asked for.
-    pub(super) const fn control(&self) -> Equation {
-        self.loading.control
+        let is_low = |element: &usize| self.height(*element) < GUESSED_HEIGHT;
+        let low = (0..self.n_elements()).filter(is_low);
+        low.map(|element| (element, 0.0)).collect()
     }
 
     /// Scales loads that are those of the whole up to rounding or a tolerance, so that a given force is exact.
     pub(super) fn balance(&self, loads: &mut [f64]) {
-        let control = self.control();
+        let control = self.loading.control;
         if control.depth == 0.0 {
             let total = self.total_load(loads.iter().copied().enumerate());
             let scale = control.right / (control.load * total);
@@ -305,9 +285,8 @@ impl Mesh {
     pub(super) fn opening(&self, loads: &[f64], gaps: &[f64]) -> f64 {
         let gap = |row: usize, column: usize| {
             let beside = self.in_row(row, column..=column).next();
-            beside
-                .filter(|one| loads[*one] <= 0.0)
-                .map_or(0.0, |one| gaps[one])
+            let open = beside.filter(|one| loads[*one] <= 0.0);
+            open.map_or(0.0, |one| gaps[one])
         };
         let (mut sum, mut normal) = (0.0, 0.0);
         for (index, load) in loads.iter().enumerate().filter(|(_, load)| **load > 0.0) {
@@ -348,10 +327,8 @@ impl Mesh {
 
     /// Largest rise of the body over a loaded element, in units of the depth scale.
     pub(super) fn largest_rise(&self, loads: &[(usize, f64)]) -> f64 {
-        let dx = self.options.spacing[0];
-        let rise = |&(element, _): &(usize, f64)| {
-            (self.elements[element].slope * dx / self.loading.depth_scale).abs()
-        };
+        let (dx, unit) = (self.options.spacing[0], self.loading.depth_scale);
+        let rise = |&(element, _): &(usize, f64)| (self.elements[element].slope * dx / unit).abs();
         loads.iter().map(rise).fold(0.0, f64::max)
     }
 }

@@ -162,8 +162,7 @@ fn solve(
 /// The loaded elements of another solution, seen on this mesh.
 fn loads_of(other: &SteadySliding, mesh: &Mesh) -> Vec<(usize, f64)> {
     let unit = mesh.loading.pressure_unit();
-    (0..mesh.n_elements())
-        .map(|element| (element, other.pressure.at(mesh.position(element)) / unit))
-        .filter(|(_, load)| *load > 0.0)
-        .collect()
+    let load = |element| (element, other.pressure.at(mesh.position(element)) / unit);
+    let loads = (0..mesh.n_elements()).map(load);
+    loads.filter(|(_, load)| *load > 0.0).collect()
 }

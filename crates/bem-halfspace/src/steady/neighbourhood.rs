@@ -47,9 +47,8 @@ struct Neighbourhood {
 impl Neighbourhood {
     fn new(mesh: &Mesh, gaps: &[f64], loads: &[f64], elements: Vec<usize>) -> Self {
         let n = elements.len();
-        let influence = DMatrix::from_fn(n, n, |to, from| {
-            mesh.influence(elements[to], elements[from])
-        });
+        let influence = |to, from| mesh.influence(elements[to], elements[from]);
+        let influence = DMatrix::from_fn(n, n, influence);
         let without = |to: usize| {
             let moved = (0..n).map(|from| influence[(to, from)] * loads[elements[from]]);
             gaps[elements[to]] - moved.sum::<f64>()
@@ -66,15 +65,15 @@ impl Neighbourhood {
         for pivot in 0..PIVOTS {
             let loads = self.loads_inside(&inside);
             let violations = self.violations(&inside, &loads, allowed)?;
-            let Some(last) = violations.last() else {
+            if violations.is_empty() {
                 return Some(self.elements.iter().copied().zip(loads).collect());
-            };
-            let chosen = if pivot < BLOCKS {
-                &violations[..]
+            }
+            let from = if pivot < BLOCKS {
+                0
             } else {
-                std::slice::from_ref(last)
+                violations.len() - 1
             };
-            for &element in chosen {
+            for &element in &violations[from..] {
                 inside[element] = !inside[element];
             }
         }
@@ -97,9 +96,8 @@ impl Neighbourhood {
 
     /// Loads with no gap inside; 0 outside.
     fn loads_inside(&self, inside: &[bool]) -> Vec<f64> {
-        let contact: Vec<usize> = (0..inside.len())
-            .filter(|&element| inside[element])
-            .collect();
+        let contact = (0..inside.len()).filter(|element| inside[*element]);
+        let contact: Vec<usize> = contact.collect();
         let mut loads = vec![0.0; inside.len()];
         if !contact.is_empty() {
             let influence = |to, from| self.influence[(contact[to], contact[from])];

@@ -120,16 +120,12 @@ impl Progress {
             self.vain += 1;
         }
         let at_least = |threshold: f64| -> Vec<usize> {
-            violations
-                .iter()
-                .filter(|violation| violation.size >= threshold)
-                .map(|violation| violation.element)
-                .collect()
+            let large = violations.iter().filter(|one| one.size >= threshold);
+            large.map(|violation| violation.element).collect()
         };
         // Only neighbours of different kinds hinder each other.
-        let alike = violations
-            .windows(2)
-            .all(|pair| pair[0].in_tension == pair[1].in_tension);
+        let mut pairs = violations.windows(2);
+        let alike = pairs.all(|pair| pair[0].in_tension == pair[1].in_tension);
         if self.vain <= BLOCKS || alike && self.vain <= LARGER_ONES {
             at_least(0.0)
         } else if self.vain <= LARGER_ONES {
@@ -141,10 +137,8 @@ impl Progress {
             chosen.retain(|element| (element + self.vain).is_multiple_of(2));
             chosen
         } else {
-            let last = violations.last();
-            last.map(|violation| violation.element)
-                .into_iter()
-                .collect()
+            let last = violations.last().map(|violation| violation.element);
+            Vec::from_iter(last)
         }
     }
 }
@@ -196,9 +190,8 @@ impl<'mesh> Search<'mesh> {
 
     /// Solves the equations of the active set up to the tolerance.
     fn solve(&mut self) -> State {
-        let contact: Vec<usize> = (0..self.inside.len())
-            .filter(|&element| self.inside[element])
-            .collect();
+        let contact = (0..self.inside.len()).filter(|element| self.inside[*element]);
+        let contact: Vec<usize> = contact.collect();
         let start = contact.iter().map(|&element| self.loads[element]).collect();
         let tolerance = self.tolerance / PEAK;
         let solved = solve_equations(self.mesh, self.plans, &contact, start, tolerance);
@@ -239,24 +232,20 @@ impl<'mesh> Search<'mesh> {
         let allowed = residual.max(self.mesh.options.tolerance);
         let violation = |(element, gap): (usize, f64)| {
             let in_tension = self.inside[element];
-            let size = if in_tension {
-                -self.loads[element]
+            let (size, allowed) = if in_tension {
+                (-self.loads[element], 0.0)
             } else {
-                -gap
+                (-gap, allowed)
             };
-            (size > if in_tension { 0.0 } else { allowed }).then_some(Violation {
+            (size > allowed).then_some(Violation {
                 element,
                 size,
                 in_tension,
             })
         };
+        let violations = gaps.iter().copied().enumerate().filter_map(violation);
         State {
-            violations: gaps
-                .iter()
-                .copied()
-                .enumerate()
-                .filter_map(violation)
-                .collect(),
+            violations: violations.collect(),
             gaps,
             allowed,
             residual,
@@ -268,11 +257,8 @@ impl<'mesh> Search<'mesh> {
         if self.inside.iter().filter(|inside| **inside).count() < NEIGHBOURHOOD_FROM {
             return false;
         }
-        let violations: Vec<usize> = state
-            .violations
-            .iter()
-            .map(|violation| violation.element)
-            .collect();
+        let violations = state.violations.iter().map(|violation| violation.element);
+        let violations: Vec<usize> = violations.collect();
         let (gaps, allowed) = (&state.gaps, state.allowed);
         let solved = solve_neighbourhood(self.mesh, gaps, &self.loads, &violations, allowed);
         for &(element, load) in solved.iter().flatten() {
@@ -289,13 +275,9 @@ impl<'mesh> Search<'mesh> {
     }
 
     fn finish(self, residual: f64, iterations: usize, opening: f64) -> Solution {
-        let loads = self
-            .loads
-            .into_iter()
-            .enumerate()
-            .filter(|(_, load)| *load > 0.0);
+        let loads = self.loads.into_iter().enumerate();
         Solution {
-            loads: loads.collect(),
+            loads: loads.filter(|(_, load)| *load > 0.0).collect(),
             depth: self.depth,
             iterations,
             factorised: self.factorised,

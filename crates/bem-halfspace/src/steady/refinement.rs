@@ -241,6 +241,7 @@ impl Grids<'_> {
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
         let [_, depth] = bars::given(self.problem.loading.control);
+        let known = |of: fn(&Refinement) -> Average| limit(&refinements, self.order, of);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
             friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
@@ -249,12 +250,9 @@ impl Grids<'_> {
                 ..ErrorParts::of_elements(friction.error)
             },
             normal_force,
-            indentation_depth: Some(
-                depth.unwrap_or_else(|| limit(&refinements, self.order, |r| r.indentation_depth)),
-            ),
+            indentation_depth: depth.or_else(|| Some(known(|r| r.indentation_depth))),
             contact_area: limit(&refinements, AREA_ORDER, |r| r.contact_area),
-            peak_pressure: (self.problem.has_peak)
-                .then(|| limit(&refinements, self.order, |r| r.peak_pressure)),
+            peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
             contact_box_error: bars::of_box(dx.max(dy)),
             refinements,
             finest: finest.state,
@@ -284,13 +282,11 @@ impl Grids<'_> {
 
     /// Whether a refinement is within the limits; it has twice as many unknowns as the one before.
     fn allows(&self, refinement: i32, before: &Refinement) -> bool {
+        let Problem { plan, watch, .. } = self.problem;
         refinement < MAX_REFINEMENTS
             && self.n_elements(refinement) <= self.most_elements()
             && 2 * before.unknowns <= self.options.max_unknowns
-            && self
-                .problem
-                .watch
-                .allows(self.problem.plan.elements(refinement))
+            && watch.allows(plan.elements(refinement))
     }
 
     /// Elements of the footprint.
@@ -337,9 +333,8 @@ impl Grids<'_> {
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
-        let lengths = states
-            .iter()
-            .map(|state| state.contact_x[1] - state.contact_x[0]);
+        let ends = states.iter().map(|state| state.contact_x);
+        let lengths = ends.map(|[rear, front]| front - rear);
         let half_length = 0.5 * lengths.fold(f64::INFINITY, f64::min);
         let averages = Refinement {
             spacing: spacings.sum::<f64>() / states.len() as f64,
@@ -365,15 +360,13 @@ impl Grids<'_> {
 
     /// The solution on a grid, or on a slightly finer one where pivoting cycles.
     fn solve_near(&mut self, options: &SteadyOptions) -> Result<SteadySliding, BemError> {
-        let Problem {
-            surface, loading, ..
-        } = self.problem;
+        let (surface, loading) = (self.problem.surface, &self.problem.loading);
         let mut solve_on = |spacing| {
             let options = SteadyOptions {
                 spacing,
                 ..*options
             };
-            solve(*surface, loading, &options, &mut self.reuse)
+            solve(surface, loading, &options, &mut self.reuse)
         };
         let mut solution = solve_on(options.spacing);
         for finer in FINER {

@@ -45,10 +45,9 @@ impl Region {
     pub(super) fn fractions_from_rear(&self) -> Vec<f64> {
         let [rows, columns] = self.shape;
         let mut inside = vec![false; self.n_places()];
-        self.places
-            .iter()
-            .flatten()
-            .for_each(|place| inside[*place] = true);
+        for place in self.places.as_flattened() {
+            inside[*place] = true;
+        }
         let mut fractions = vec![0.0; self.n_places()];
         for column in 0..columns {
             let mut row = 0;

@@ -136,11 +136,8 @@ impl RetardedPotential {
                 length: pair[1] - pair[0],
                 rule,
             };
-            let steps: Vec<_> = self
-                .delays
-                .iter()
-                .map(|delay| self.over_panel(delay, &panel))
-                .collect();
+            let steps = self.delays.iter();
+            let steps: Vec<_> = steps.map(|delay| self.over_panel(delay, &panel)).collect();
             for column in 0..self.n_columns {
                 let potentials = self.at_nodes(&panel, column);
                 for (index, (decay, weights)) in steps.iter().enumerate() {
@@ -154,9 +151,8 @@ impl RetardedPotential {
     /// Decay over a panel, and weights of the potentials at its nodes in parts of the compliance.
     fn over_panel(&self, delay: &Retardation, panel: &Panel) -> (f64, [f64; MAX_POINTS]) {
         let rate = delay.rate * panel.length;
-        let weights = self.rules[panel.rule]
-            .weights(rate)
-            .map(|weight| delay.compliance * weight);
+        let weights = self.rules[panel.rule].weights(rate);
+        let weights = weights.map(|weight| delay.compliance * weight);
         ((-rate).exp(), weights)
     }
 
@@ -255,19 +251,15 @@ impl RetardedPotential {
 
     /// The part of it that comes from the last element passed.
     pub(super) fn increment(&self, column: usize) -> f64 {
-        self.increments[column..]
-            .iter()
-            .step_by(self.n_columns)
-            .sum()
+        let increments = self.increments[column..].iter();
+        increments.step_by(self.n_columns).sum()
     }
 }
 
 /// Distance of an interval from the points ±1/2, where the loaded element ends; `clearance` is that across.
 fn distance_from_edges([start, end]: [f64; 2], clearance: f64) -> f64 {
-    [-0.5, 0.5]
-        .map(|edge: f64| (start - edge).max(edge - end).max(0.0).hypot(clearance))
-        .into_iter()
-        .fold(f64::MAX, f64::min)
+    let distance = |edge: f64| (start - edge).max(edge - end).max(0.0).hypot(clearance);
+    distance(-0.5).min(distance(0.5))
 }
 
 /// The shortest of some rules for a panel at this distance in its own length; none that is too near.
@@ -278,13 +270,9 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
 /// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
 /// one of the rules. The clearances are those of the edges across, and of all other singularities.
 fn panels(x: f64, clearance: (f64, f64)) -> Vec<Panel> {
-    let mut ends = vec![x];
-    ends.extend(
-        [-0.5, 0.5]
-            .into_iter()
-            .filter(|edge| x < *edge && *edge < x + 1.0),
-    );
-    ends.push(x + 1.0);
+    let mut ends = vec![x, -0.5, 0.5, x + 1.0];
+    ends.retain(|end| (x..=x + 1.0).contains(end));
+    ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
         divide([pair[0], pair[1]], clearance, &mut panels);

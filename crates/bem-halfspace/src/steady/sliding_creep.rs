@@ -68,12 +68,10 @@ impl SlidingCreep {
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
+        let material = elastomer.material();
         Ok(Self {
-            spectrum: elastomer.material().creep(),
-            half_space_factor: positive(
-                "half-space factor",
-                elastomer.material().half_space_factor(),
-            )?,
+            spectrum: material.creep(),
+            half_space_factor: positive("half-space factor", material.half_space_factor())?,
             velocity: positive("velocity", velocity)?,
             base: Base::of(elastomer),
         })
@@ -154,10 +152,8 @@ impl SlidingCreep {
     fn parts(&self, length: f64) -> Result<ElementCreep, BemError> {
         let time = positive("length / velocity", length / self.velocity)?;
         let delays = self.spectrum.elements().iter().map(|element| {
-            let rate = positive(
-                "length / (velocity × retardation time)",
-                time / element.retardation_time,
-            )?;
+            let rate = time / element.retardation_time;
+            let rate = positive("length / (velocity × retardation time)", rate)?;
             let share = -element.compliance * (-rate).exp_m1();
             Ok(Delay { rate, share })
         });

@@ -86,9 +86,8 @@ impl SteadySliding {
     pub(super) fn new(mesh: &Mesh, solution: &Solution) -> Result<Self, BemError> {
         let loaded = mesh.loaded(&solution.loads);
         let bounds = checked_bounds(mesh, &loaded)?;
-        if let Some(([row, column], _)) =
-            loaded.iter().find(|(element, _)| mesh.faces_wall(*element))
-        {
+        let mut places = loaded.iter().map(|(element, _)| element);
+        if let Some([row, column]) = places.find(|place| mesh.faces_wall(**place)) {
             return Err(BemError::VerticalWall {
                 x: mesh.centre(0, *row),
                 y: mesh.centre(1, *column),
@@ -141,10 +140,7 @@ fn checked_bounds(mesh: &Mesh, loaded: &[([usize; 2], f64)]) -> Result<Bounds, B
         return Err(mesh.options.footprint.boundary_reached(0.0));
     }
     let [rows, columns] = bounds.shape();
-    check_contact_elements(if mesh.loading.is_strip {
-        rows
-    } else {
-        rows.min(columns)
-    })?;
+    let is_strip = mesh.loading.is_strip;
+    check_contact_elements(if is_strip { rows } else { rows.min(columns) })?;
     Ok(bounds)
 }

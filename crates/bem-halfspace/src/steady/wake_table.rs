@@ -106,9 +106,8 @@ impl WakeTable {
         let mut ahead = self.along(n_rows, wake_influence);
         for row in (0..n_rows).rev() {
             let here = self.wake_along(row, smaller);
-            self.add(row, |column| {
-                [-flow * here[column], flow * (ahead[column] - here[column])]
-            });
+            let crept = |column: usize| flow * (ahead[column] - here[column]);
+            self.add(row, |column| [-flow * here[column], crept(column)]);
             ahead = here;
         }
     }
@@ -130,9 +129,7 @@ impl WakeTable {
     fn add_instant(&mut self) {
         let instant = self.creep.instant;
         for row in 0..=2 * self.reach[0] {
-            let here = self.along(row, |offset, edges| {
-                self.creep.base.influence(offset, edges)
-            });
+            let here = self.along(row, |at, edges| self.creep.base.influence(at, edges));
             self.add(row, |column| [instant * here[column]; 2]);
         }
     }

@@ -109,12 +109,9 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
             let kept = delay.decay();
             difference * kept + -(-delay.rate).exp_m1()
         };
-        let recovered = creep
-            .delays
-            .iter()
-            .map(|delay| delayed(delay).inv() * delay.share)
-            .sum::<Complex<f64>>()
-            + creep.instant;
+        let delays = creep.delays.iter();
+        let shares = delays.map(|delay| delayed(delay).inv() * delay.share);
+        let recovered = shares.sum::<Complex<f64>>() + creep.instant;
         if creep.flow > 0.0 {
             difference / (difference * recovered + creep.flow)
         } else {
@@ -122,9 +119,7 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
         }
     };
     let inverses: Vec<Complex<f64>> = (0..length).map(inverse).collect();
-    factors
-        .iter()
-        .enumerate()
-        .map(|(index, factor)| inverses[index % length] * factor.conj())
-        .collect()
+    let pairs = inverses.iter().cycle().zip(factors);
+    let products = pairs.map(|(inverse, factor)| inverse * factor.conj());
+    products.collect()
 }

@@ -56,10 +56,9 @@ pub fn half_space_power_friction(
 ) -> Result<Estimate, FrictionError> {
     let line = power_sliding(profile, material, load)?;
     let factor = scaling_factor(profile.exponent())?;
-    Ok(Estimate::new(
-        factor.value * line.friction_coefficient,
-        factor.error * line.friction_coefficient + factor.value * line.error,
-    ))
+    let mut friction = factor * line.friction_coefficient;
+    friction.error += factor.value * line.error;
+    Ok(friction)
 }
 
 /// Lagrange's polynomial in ln(2p − 1) through the nodes.

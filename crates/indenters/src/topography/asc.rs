@@ -22,10 +22,8 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
     let [columns, rows] = [number(["ncols"; 2])?, number(["nrows"; 2])?];
     let spacing = [number(["cellsize", "dx"])?, number(["cellsize", "dy"])?];
     let missing = number(["nodata_value"; 2]).unwrap_or(DEFAULT_MISSING);
-    let heights: Result<Vec<f64>, String> = words
-        .map(|word| word.parse().map_err(|_| format!("a height '{word:.40}'")))
-        .collect();
-    let heights = heights?;
+    let heights = words.map(|word| word.parse().map_err(|_| format!("a height '{word:.40}'")));
+    let heights: Vec<f64> = heights.collect::<Result<_, String>>()?;
     if [columns, rows].iter().any(|count| count.fract() != 0.0)
         || columns * rows - heights.len() as f64 != 0.0
     {
@@ -33,14 +31,9 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         return Err(format!("{count} heights for {columns} × {rows} points"));
     }
     let shape = [columns, rows].map(whole_part);
-    let known = |height: f64| {
-        if height.to_bits() == missing.to_bits() {
-            f64::NAN
-        } else {
-            height
-        }
+    let height = |at: usize| {
+        let is_missing = heights[at].to_bits() == missing.to_bits();
+        if is_missing { f64::NAN } else { heights[at] }
     };
-    Ok(Topography::of_rows(shape, spacing, true, |at| {
-        known(heights[at])
-    }))
+    Ok(Topography::of_rows(shape, spacing, true, height))
 }

@@ -14,9 +14,7 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
     let found = |key: &str, otherwise: &'static str| {
         let mut pairs = head.lines().filter_map(|line| line.split_once('='));
         let found = pairs.find(|(name, _)| name.trim() == key);
-        found
-            .map_or(otherwise, |(_, value)| value.trim())
-            .to_owned()
+        found.map_or(otherwise, |(_, value)| value.trim())
     };
     let number = |key: &str| {
         let given = found(key, "1.0");
@@ -28,8 +26,8 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
         count.ok_or_else(|| format!("{key} = {given}"))
     };
     let shape = [count("XRes")?, count("YRes")?];
-    let unit = metres(&found("XYUnits", "m"))?;
-    let height = metres(&found("ZUnits", "m"))?;
+    let unit = metres(found("XYUnits", "m"))?;
+    let height = metres(found("ZUnits", "m"))?;
     let spacing = [
         unit * number("XReal")? / shape[0] as f64,
         unit * number("YReal")? / shape[1] as f64,

@@ -117,9 +117,6 @@ impl<'a> Contact<'a> {
     }
 
     /// Follows the body to a point, at a later time or at once.
-    ///
-    /// # Errors
-    /// [`MdrError::NotADisc`].
     pub(super) fn follow(&mut self, time: f64, depth: f64) -> Result<(), MdrError> {
         self.path.push(time, depth);
         let mut at = self.path.end();
@@ -268,9 +265,8 @@ impl<'a> Contact<'a> {
             let touched = self.gap(between([inner, edge]), at) <= allowed;
             let free = self.gap(between([edge, widest]), at) >= -allowed;
             if !(touched && free) {
-                return Err(MdrError::NotADisc {
-                    time: self.path.time(at),
-                });
+                let time = self.path.time(at);
+                return Err(MdrError::NotADisc { time });
             }
         }
         Ok(())
@@ -285,19 +281,29 @@ impl<'a> Contact<'a> {
     }
 
     /// A ring around the contact, which ends with the σ_k at the edge.
-    fn add(&mut self, motion: Motion, [from, to]: [Instant; 2], outer: f64) {
+    fn add(&mut self, motion: Motion, span: [Instant; 2], outer: f64) {
+        let leg = self.record(motion, span, [self.radius(), outer]);
+        self.rings.push(leg);
+        self.inside.extend_from_slice(&self.sums);
+        self.sums = self.sums_at(leg.to);
+    }
+
+    fn record(
+        &mut self,
+        motion: Motion,
+        [from, to]: [Instant; 2],
+        [inner, outer]: [f64; 2],
+    ) -> Leg {
         let leg = Leg {
             motion,
             from,
             to,
-            inner: self.radius(),
+            inner,
             outer,
             before: self.legs.len(),
         };
         self.legs.push(leg);
-        self.rings.push(leg);
-        self.inside.extend_from_slice(&self.sums);
-        self.sums = self.sums_at(to);
+        leg
     }
 
     fn shrink(&mut self, [at, end]: [Instant; 2], has_turned: bool) -> Result<Instant, MdrError> {
@@ -317,15 +323,16 @@ impl<'a> Contact<'a> {
             self.turned = Some(Motion::Again);
             edge = self.edge_inwards(to);
         }
-        let outer = self.radius();
+        let [inner, outer] = [edge.as_ref().map_or(0.0, |edge| edge.radius), self.radius()];
+        if inner < outer {
+            self.record(Motion::Leaving, [at, to], [inner, outer]);
+        }
         let Some(edge) = edge else {
-            self.leave([at, to], [0.0, outer]);
             self.rings.clear();
             self.inside.clear();
             self.sums.fill(0.0);
             return Ok(to);
         };
-        self.leave([at, to], [edge.radius, outer]);
         self.rings.truncate(edge.n_rings);
         self.inside.truncate(edge.n_rings * self.path.n_branches());
         let ring = &mut self.rings[edge.n_rings - 1];
@@ -335,19 +342,6 @@ impl<'a> Contact<'a> {
         self.sums = self.sums_at(to);
         self.check_load(to)?;
         Ok(to)
-    }
-
-    fn leave(&mut self, [from, to]: [Instant; 2], [inner, outer]: [f64; 2]) {
-        if inner < outer {
-            self.legs.push(Leg {
-                motion: Motion::Leaving,
-                from,
-                to,
-                inner,
-                outer,
-                before: self.legs.len(),
-            });
-        }
     }
 }
 

@@ -49,9 +49,8 @@ pub fn force_derivatives(
     material: &(impl Material + ?Sized),
     history: &[HistoryPoint],
 ) -> Result<ForceDerivatives, MdrError> {
-    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
     let points = checked(history)?;
-    if let Control::NormalForce(force) = first.control {
+    if let Control::NormalForce(force) = history[0].control {
         let allowed = "a depth, whose force is differentiated";
         in_range("control", force, false, allowed)?;
     }
@@ -89,13 +88,8 @@ pub fn force_derivatives(
 impl ForceDerivatives {
     fn push(&mut self, contact: Option<(&Approach, [f64; 3])>, factor: f64) {
         let n_branches = self.moduli.len();
-        let [
-            mut force,
-            mut by_depth,
-            mut by_stretch,
-            mut by_viscosity,
-            mut contact_radius,
-        ] = [0.0; 5];
+        let [mut force, mut by_depth, mut by_stretch] = [0.0; 3];
+        let [mut by_viscosity, mut contact_radius] = [0.0; 2];
         let mut columns = vec![[0.0; 2]; n_branches + 1];
         if let Some((approach, place)) = contact {
             let [radius, slope, depth] = place;

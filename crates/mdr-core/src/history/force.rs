@@ -95,10 +95,8 @@ impl Pressed<'_> {
             let recoverable =
                 creep.instantaneous_compliance() * force + delayed.iter().sum::<f64>();
             let depth = radii.depth_of_area((recoverable + flown) / factor);
-            let bar = |value: f64| Estimate {
-                value,
-                error: (1e-13 + 2.0 * self.options.modulus_error) * value,
-            };
+            let relative = 1e-13 + 2.0 * self.options.modulus_error;
+            let bar = |value: f64| Estimate::new(value, relative * value);
             curve.push(CurvePoint {
                 time,
                 indentation_depth: bar(depth),

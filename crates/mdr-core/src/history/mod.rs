@@ -87,14 +87,13 @@ pub fn indent_along(
 ) -> Result<Vec<CurvePoint>, MdrError> {
     not_negative("modulus_error", options.modulus_error)?;
     between_zero_and_one("relative_error", options.relative_error)?;
-    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
     let points = checked(history)?;
     if points.iter().all(|[_, value]| *value <= 0.0) {
         return Ok(points.into_iter().map(free).collect());
     }
     // As a pointer to it, a body of any size is one that can be an object.
     let (body, material): (&dyn Axisymmetric, &dyn Material) = (&body, &material);
-    let curve = match first.control {
+    let curve = match history[0].control {
         Control::IndentationDepth(_) => along_depth(body, material, &points, options)?,
         Control::NormalForce(_) => Pressed {
             body,
@@ -125,8 +124,8 @@ const fn free([time, depth]: [f64; 2]) -> CurvePoint {
 /// Times and depths, or times and forces.
 fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
     let is_force = |point: &HistoryPoint| matches!(point.control, Control::NormalForce(_));
-    let forces = is_force(&history[0]);
-    let mut before = history[0].time;
+    let first = history.first().ok_or(MdrError::Empty { list: "history" })?;
+    let mut before = first.time;
     let mut points = Vec::with_capacity(history.len());
     for point in history {
         let time = finite("time", point.time)?;
@@ -137,7 +136,12 @@ fn checked(history: &[HistoryPoint]) -> Result<Vec<[f64; 2]>, MdrError> {
             Control::NormalForce(force) => not_negative("normal_force", force)?,
         };
         let allowed = "a force at all points of a history, or a depth at all";
-        in_range("control", value, is_force(point) == forces, allowed)?;
+        in_range(
+            "control",
+            value,
+            is_force(point) == is_force(first),
+            allowed,
+        )?;
         points.push([time, value]);
     }
     Ok(points)
@@ -236,18 +240,13 @@ impl Bars {
         let rounding = ROUNDING * contact.terms + contact.load_error;
         // By a shift of the edge the force changes in second order only, because its elements carry nothing.
         let expansion = 2.0 * self.modulus_error * self.largest;
+        let edge_error = (ROUNDING + 2.0 * self.modulus_error) * contact.edge;
+        let radius_error = radius::TAIL * contact.radius + edge_error;
         CurvePoint {
             time,
             indentation_depth: Estimate::exact(depth),
-            normal_force: Estimate {
-                value: force,
-                error: self.factor * rounding + expansion,
-            },
-            contact_radius: Estimate {
-                value: contact.radius,
-                error: radius::TAIL * contact.radius
-                    + (ROUNDING + 2.0 * self.modulus_error) * contact.edge,
-            },
+            normal_force: Estimate::new(force, self.factor * rounding + expansion),
+            contact_radius: Estimate::new(contact.radius, radius_error),
         }
     }
 }

@@ -54,11 +54,8 @@ impl Path {
             rate: element.retardation_time.recip(),
             fluidity: element.fluidity(),
         });
-        let flow = Some(creep.fluidity()).filter(|fluidity| *fluidity > 0.0);
-        let flow = flow.map(|fluidity| Mode {
-            rate: 0.0,
-            fluidity,
-        });
+        let (rate, fluidity) = (0.0, creep.fluidity());
+        let flow = (fluidity > 0.0).then_some(Mode { rate, fluidity });
         Self {
             moduli: branches.iter().map(|[modulus, _]| *modulus).collect(),
             rates: branches.iter().map(|[_, rate]| *rate).collect(),
@@ -151,8 +148,8 @@ impl Path {
         if at.part >= 1.0 {
             return Cow::Borrowed(&here[n..2 * n]);
         }
-        let [step, rise] =
-            [self.step(at.segment), self.rise(at.segment)].map(|change| at.part * change);
+        let step = at.part * self.step(at.segment);
+        let rise = at.part * self.rise(at.segment);
         let later = self.rates.iter().zip(here).map(|(rate, before)| {
             let mean = mean_exponential(-rate * step);
             (1.0 - rate * step * mean) * before + rise * mean

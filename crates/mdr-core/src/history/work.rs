@@ -67,9 +67,8 @@ fn divided(history: &[HistoryPoint], parts: usize) -> Vec<HistoryPoint> {
     for pair in history.windows(2) {
         let [start, end] = [pair[0], pair[1]];
         for part in 0..parts {
-            points.extend(
-                RULE.map(|[place, _]| between(start, end, (part as f64 + place) / parts as f64)),
-            );
+            let places = RULE.map(|[place, _]| (part as f64 + place) / parts as f64);
+            points.extend(places.map(|place| between(start, end, place)));
         }
         points.push(end);
     }
@@ -131,10 +130,8 @@ fn given_force(curve: &[CurvePoint]) -> bool {
 fn bar(curve: &[CurvePoint]) -> f64 {
     let largest = |of: fn(&CurvePoint) -> f64| curve.iter().map(of).fold(0.0, f64::max);
     let way = |of: fn(&CurvePoint) -> f64| {
-        let steps = curve
-            .windows(2)
-            .map(|pair| (of(&pair[1]) - of(&pair[0])).abs());
-        steps.sum::<f64>()
+        let step = |pair: &[CurvePoint]| (of(&pair[1]) - of(&pair[0])).abs();
+        curve.windows(2).map(step).sum::<f64>()
     };
     if given_force(curve) {
         let force = |point: &CurvePoint| point.normal_force.value;

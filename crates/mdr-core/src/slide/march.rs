@@ -11,7 +11,7 @@ use indenters::{RigidLine, SlidingLoad};
 use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
-use super::row::SlideRow;
+use super::on_grid::SlideRow;
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
 use crate::contact::Instant;
@@ -248,10 +248,8 @@ fn fast_moduli(material: &(impl Material + ?Sized), velocity: f64, spacing: f64)
         let terms = branches.map(|b| b.modulus * weight(spacing, velocity * b.relaxation_time));
         terms.sum::<f64>() / material.half_space_factor()
     };
-    [
-        sum(|spacing, length| (spacing / length).min(1.0)),
-        sum(f64::min),
-    ]
+    let part = |spacing: f64, length: f64| (spacing / length).min(1.0);
+    [sum(part), sum(f64::min)]
 }
 
 /// Slopes [h̃(x + Δx) − h̃(x)]/Δx during a step that ends at x, and for the elastic share those around its end.

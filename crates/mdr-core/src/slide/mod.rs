@@ -3,7 +3,6 @@
 mod march;
 mod memory;
 mod on_grid;
-mod row;
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{ErrorParts, Estimate, Goal, Quantity, Request, refine};
@@ -14,8 +13,7 @@ use crate::element_heights::lowest_candidate;
 use crate::steady::{Problem, has_steep_kinks};
 use memory::{ahead, has_memory};
 use on_grid::march;
-pub use on_grid::{SlideOptions, Transient, slide_memory, slide_on_grid};
-pub use row::SlideRow;
+pub use on_grid::{SlideOptions, SlideRow, Transient, slide_memory, slide_on_grid};
 
 /// Elements along the contact after which a march is given up.
 const MOST_ELEMENTS: usize = 4096;

@@ -31,11 +31,8 @@ pub(super) struct BranchStress {
 
 /// The stress of a branch with `ratio` a and stress `start` = e(−1), driven by the rates G u'(t).
 pub(super) fn branch_stress(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {
-    if ratio < LAYER {
-        expanded(ratio, start, rates)
-    } else {
-        with_layer(ratio, start, rates)
-    }
+    let solution = if ratio < LAYER { expanded } else { with_layer };
+    solution(ratio, start, rates)
 }
 
 fn expanded(ratio: f64, start: f64, rates: &[f64]) -> BranchStress {

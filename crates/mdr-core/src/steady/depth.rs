@@ -27,11 +27,8 @@ pub(super) fn depth_of_load(
     let depth = |logarithm: f64| logarithm.exp().clamp(bracket[0], bracket[1]);
     let excess = |logarithm: f64| load(depth(logarithm)).map(|load| (load / target).ln());
     let root = try_bracketed_root(excess, bracket.map(f64::ln))?;
-    root.map(depth).ok_or(MdrError::NonFinite {
-        quantity: "normal force",
-        value: load(bracket[0])?,
-        time: 0.0,
-    })
+    root.map(depth)
+        .ok_or(not_found("normal force", load(bracket[0])?))
 }
 
 /// The depth \[m] at which `load` is as large as `target`, by the secant method in logarithms from a depth near it.
@@ -90,11 +87,15 @@ fn bracket(
         near = reached;
         far = reached * stride;
     }
-    Err(MdrError::NonFinite {
-        quantity: "indentation depth",
-        value: far,
+    Err(not_found("indentation depth", far))
+}
+
+const fn not_found(quantity: &'static str, value: f64) -> MdrError {
+    MdrError::NonFinite {
+        quantity,
+        value,
         time: 0.0,
-    })
+    }
 }
 
 /// The load at a depth, or at the largest depth that the line has.

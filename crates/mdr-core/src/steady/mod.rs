@@ -31,12 +31,12 @@ use crate::MdrError;
 pub(crate) use problem::Problem;
 pub(crate) use steep_kinks::has_steep_kinks;
 
-/// Stationary sliding of a rigid line.
+/// The contact of a rigid line that slides, in the stationary state, or is pressed.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct SteadySliding {
-    /// Friction coefficient μ = F_h/F_N.
+    /// Friction coefficient μ = F_h/F_N; 0 where nothing slides.
     pub friction_coefficient: Estimate,
     /// Indentation depth d of the lowest point, \[m]; exact where it is prescribed.
     pub indentation_depth: Estimate,

@@ -255,14 +255,10 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
     }
 
     fn is_resolved(&self, piece: &Piece) -> Result<bool, MdrError> {
-        let Resolution {
-            shortest_length,
-            tolerance,
-            ..
-        } = self.resolution;
+        let tolerance = self.resolution.tolerance;
         let (rise, length) = (piece.rise(), piece.segment.length);
         // The second matters for the dissipation of what relaxes within the piece, ∫ u'² dx.
-        let steep = length > SHORT * shortest_length
+        let steep = length > SHORT * self.resolution.shortest_length
             && piece.tail > tolerance * rise
             && piece.tail * rise * (self.length / length) > tolerance;
         Ok(piece.tail <= tolerance && !steep && self.agrees(piece)?)
@@ -277,8 +273,8 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
         while station <= share.ceil() {
             let t = 2.0 * (station * STRIDE).fract() - 1.0;
             let difference = (self.drop)(piece.position(t))? - value(piece.terms(), t);
-            let close = difference.abs() <= 8.0 * self.resolution.tolerance;
-            if !close {
+            let is_close = difference.abs() <= 8.0 * self.resolution.tolerance;
+            if !is_close {
                 return Ok(false);
             }
             station += 1.0;
@@ -293,11 +289,9 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
 fn remainder(coefficients: &Polynomial) -> f64 {
     let pair = |k: usize| coefficients[k].abs() + coefficients[k - 1].abs();
     let (last, before) = (pair(DEGREE), pair(DEGREE - 2));
-    if last < before {
-        let ratio = last / before;
-        last * ratio / (1.0 - ratio).max(LEAST_DECAY)
-    } else {
-        last
+    match last / before {
+        ratio if last < before => last * ratio / (1.0 - ratio).max(LEAST_DECAY),
+        _ => last,
     }
 }
 

@@ -72,17 +72,14 @@ pub(super) struct Edge {
 
 /// The vertical edge at the front end of a line, if it has one.
 pub(super) fn vertical_edge(line: &(impl RigidLine + ?Sized)) -> Result<Option<Edge>, MdrError> {
-    let [_, front] = line.domain();
-    if front.is_infinite() || checked_height(line, front)?.is_finite() {
+    let [_, position] = line.domain();
+    if position.is_infinite() || checked_height(line, position)?.is_finite() {
         return Ok(None);
     }
     let anchor = lowest_candidate(line)?;
-    let inside = front - EDGE * (front - anchor);
+    let inside = position - EDGE * (position - anchor);
     let height = checked_height(line, inside)? - checked_height(line, anchor)?;
-    Ok(Some(Edge {
-        position: front,
-        height,
-    }))
+    Ok(Some(Edge { position, height }))
 }
 
 /// The outermost position between `anchor` and `end` at which the line lies below the ceiling.

@@ -31,17 +31,14 @@ impl SteepKink {
     /// Those of a line, apart from x = 0, where a cusp is resolved as far as numbers reach.
     pub(super) fn of(line: &(impl RigidLine + ?Sized)) -> Vec<Self> {
         let kinks = line.kinks().into_iter().filter(|kink| *kink != 0.0);
-        kinks
-            .flat_map(|position| [-1.0, 1.0].map(|side| (position, side)))
-            .filter(|&(position, side)| is_steep(line, position, side))
-            .map(|(position, side)| {
-                let end = position + side * REACH * position.abs();
-                Self {
-                    position,
-                    side: [position.min(end), position.max(end)],
-                }
-            })
-            .collect()
+        let sides = kinks.flat_map(|position| [-1.0, 1.0].map(|side| (position, side)));
+        let steep = sides.filter(|&(position, side)| is_steep(line, position, side));
+        let kink = |(position, side): (f64, f64)| {
+            let end = position + side * REACH * position.abs();
+            let side = [position.min(end), position.max(end)];
+            Self { position, side }
+        };
+        steep.map(kink).collect()
     }
 
     /// Whether the steep side is in one of the contacts `[rear, front]`, or begins where that ends: what reaches beyond a

@@ -179,11 +179,11 @@ impl March<'_> {
     /// Counts a touch that comes too late by a compression, because positions are rounded, as an error; a dashpot does not
     /// jump at all.
     fn miss(&mut self, compression: f64, segment: &Segment, t: f64) {
+        let rate = segment.rate(t);
         let [carried, resisted] = if compression > LARGEST_MISS {
-            self.foundation.damping(segment.rate(t))
+            self.foundation.damping(rate)
         } else {
-            self.foundation
-                .resistance(segment.rate(t), self.profile.length)
+            self.foundation.resistance(rate, self.profile.length)
         };
         self.sums.load_error += compression.abs() * carried;
         self.sums.work_error += compression.abs() * resisted;

@@ -79,8 +79,8 @@ impl MeasuredCurve {
         let mut last = 0.0;
         for (index, point) in points.iter().enumerate() {
             let modulus = increasing("time", point.time, last)
-                .and_then(|_| positive("modulus", point.modulus))
-                .map_err(in_list("points", index))?;
+                .and_then(|_| positive("modulus", point.modulus));
+            let modulus = modulus.map_err(in_list("points", index))?;
             last = point.time;
             rows.push(Row {
                 quantity: Quantity::Relaxation,

@@ -89,16 +89,14 @@ fn joined(
     reference_temperature: f64,
     log10_factors: Vec<[f64; 2]>,
 ) -> Result<MasterCurve, RheologyError> {
-    let shifted = isotherms
-        .iter()
-        .zip(&log10_factors)
-        .flat_map(|(isotherm, [_, log])| {
-            let factor = 10_f64.powf(*log);
-            isotherm.points.iter().map(move |point| ModulusPoint {
-                angular_frequency: point.angular_frequency * factor,
-                ..*point
-            })
-        });
+    let pairs = isotherms.iter().zip(&log10_factors);
+    let shifted = pairs.flat_map(|(isotherm, [_, log])| {
+        let factor = 10_f64.powf(*log);
+        isotherm.points.iter().map(move |point| ModulusPoint {
+            angular_frequency: point.angular_frequency * factor,
+            ..*point
+        })
+    });
     let mut points: Vec<ModulusPoint> = shifted.collect();
     points.sort_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency));
     // Two isotherms may meet at one reduced frequency: there the mean of both is the measurement.

@@ -9,9 +9,6 @@ use nalgebra::{DMatrix, DVector};
 use crate::RheologyError;
 
 /// The x ≥ 0 that minimises |A x − b|, for a matrix without a column of zeros.
-///
-/// # Errors
-/// [`RheologyError::FitNotConverged`] when the active set does not settle.
 pub(super) fn nnls(
     matrix: &DMatrix<f64>,
     target: &DVector<f64>,
@@ -85,15 +82,14 @@ impl ActiveSet {
     /// which fraction of the distance.
     fn first_to_vanish(&self, minimum: &DVector<f64>) -> Option<(usize, f64)> {
         let moving = self.passive.iter().zip(minimum).enumerate();
-        moving
-            .filter(|(_, (_, goal))| **goal <= 0.0)
-            .map(|(place, (&i, goal))| {
-                let now = self.solution[i];
-                // One that stands at zero and has nowhere to go blocks at once.
-                let fraction = if now > 0.0 { now / (now - goal) } else { 0.0 };
-                (place, fraction)
-            })
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+        let falling = moving.filter(|(_, (_, goal))| **goal <= 0.0);
+        let fractions = falling.map(|(place, (&i, goal))| {
+            let now = self.solution[i];
+            // One that stands at zero and has nowhere to go blocks at once.
+            let fraction = if now > 0.0 { now / (now - goal) } else { 0.0 };
+            (place, fraction)
+        });
+        fractions.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 

@@ -47,12 +47,10 @@ impl Series {
     /// A series of the same form.
     fn at(&self, logarithms: &[f64]) -> Self {
         let (spring, branches) = logarithms.split_at(usize::from(self.spring.is_some()));
-        let branches = branches
-            .chunks_exact(2)
-            .map(|pair| RelaxationBranch::new(pair[0].exp(), pair[1].exp()));
+        let branch = |pair: &[f64]| RelaxationBranch::new(pair[0].exp(), pair[1].exp());
         Self {
             spring: spring.first().map(|modulus| modulus.exp()),
-            branches: branches.collect(),
+            branches: branches.chunks_exact(2).map(branch).collect(),
         }
     }
 

@@ -142,10 +142,7 @@ impl Material for Maxwell {
 
     /// J(t) = 1/G + t/η.
     fn creep(&self) -> CreepSpectrum {
-        CreepSpectrum::legal(
-            self.shear_modulus.recip(),
-            self.viscosity.recip(),
-            Vec::new(),
-        )
+        let [compliance, fluidity] = [self.shear_modulus, self.viscosity].map(f64::recip);
+        CreepSpectrum::legal(compliance, fluidity, Vec::new())
     }
 }

@@ -155,11 +155,10 @@ impl RelaxationSpectrum {
 
     /// tan δ from G''/ω and G'/ω: far below all 1/τ the squares of a fluid's G' underflow, these do not.
     fn loss_tangent_of_vanishing_storage(&self, omega: f64) -> f64 {
-        let over_branches = |part: fn([f64; 2]) -> f64| -> f64 {
-            let parts = self.branches.iter();
-            parts
-                .map(|b| b.viscosity() * part(debye(omega * b.relaxation_time)))
-                .sum()
+        let over_branches = |part: fn([f64; 2]) -> f64| {
+            let branches = self.branches.iter();
+            let parts = branches.map(|b| b.viscosity() * part(debye(omega * b.relaxation_time)));
+            parts.sum::<f64>()
         };
         let per_omega = over_branches(|[_, out_of_phase]| out_of_phase);
         if omega > 0.0 && self.equilibrium_modulus + per_omega > 0.0 {

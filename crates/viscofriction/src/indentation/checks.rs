@@ -138,15 +138,13 @@ pub(super) fn after(found: &Found, begin: &Start, statistics: &Statistics) -> Ve
         Some(_) => {}
     }
     let noise = depth::noise(&curve.time, &curve.force);
-    let drift = without_contact(statistics)
-        .into_iter()
-        .find_map(|residuals| {
-            let n = residuals.len() as f64;
-            let mean = residuals.iter().sum::<f64>() / n;
-            let least = (SIGNIFICANT * noise / n.sqrt()).max(DOUBTFUL * begin.peak);
-            (n >= 10.0 && mean.abs() > least).then_some(Flag::Drift(mean))
-        });
-    flags.extend(drift);
+    let mut sides = without_contact(statistics).into_iter();
+    flags.extend(sides.find_map(|residuals| {
+        let n = residuals.len() as f64;
+        let mean = residuals.iter().sum::<f64>() / n;
+        let least = (SIGNIFICANT * noise / n.sqrt()).max(DOUBTFUL * begin.peak);
+        (n >= 10.0 && mean.abs() > least).then_some(Flag::Drift(mean))
+    }));
     if presses_again(curve) {
         flags.push(Flag::PressedAgain);
     }

@@ -27,9 +27,8 @@ pub(super) fn median(mut values: Vec<f64>) -> f64 {
 /// The least and the largest.
 pub(super) fn ends(values: &[f64]) -> [f64; 2] {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
-    values
-        .iter()
-        .fold(ends, |[low, high], value| [value.min(low), value.max(high)])
+    let wider = |[low, high]: [f64; 2], value: &f64| [value.min(low), value.max(high)];
+    values.iter().fold(ends, wider)
 }
 
 /// The path without its noise.

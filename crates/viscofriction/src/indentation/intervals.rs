@@ -7,7 +7,7 @@
 //! with the loss ρ, ψ = ρ'/2, and τ points for every independent one, by the correlation of neighbouring ψ.
 
 use numerics::Estimate;
-use numerics::least_squares::{Range, inverse, minimise};
+use numerics::least_squares::{inverse, minimise};
 
 use super::Finding;
 use super::model::{Forces, Kind};
@@ -119,15 +119,12 @@ impl Statistics {
             held.map_or(f64::INFINITY, |sum| (sum - least).max(0.0) / self.rise)
                 .sqrt()
         };
-        let Range {
-            bounds,
-            largest_step,
-        } = found.ranges[parameter];
-        let end = if side < 0.0 { bounds[0] } else { bounds[1] };
+        let range = found.ranges[parameter];
+        let end = range.bounds[usize::from(side > 0.0)];
         let room = side * (end - best[parameter]);
         let [mut inner, mut outer] = [[0.0; 2], [f64::INFINITY; 2]];
         let step = NORMAL * self.deviation(parameter);
-        let mut step = step.min(largest_step).min(room);
+        let mut step = step.min(range.largest_step).min(room);
         for _ in 0..STEPS {
             let at = rise(best[parameter] + side * step);
             if (at - 1.0).abs() < CLOSE {

@@ -75,6 +75,7 @@ impl<'a> Model<'a> {
     ) -> Self {
         let time = &curve.time;
         let steps = time.windows(2).map(|pair| pair[1] - pair[0]);
+        let shortest = steps.fold(f64::INFINITY, f64::min);
         let [low, high] = ends(&curve.depth);
         Self {
             body,
@@ -83,10 +84,7 @@ impl<'a> Model<'a> {
             poisson_ratio: options.poisson_ratio,
             tilt: options.tilt,
             middle: 0.5 * (low + high),
-            times: [
-                steps.fold(f64::INFINITY, f64::min),
-                time[time.len() - 1] - time[0],
-            ],
+            times: [shortest, time[time.len() - 1] - time[0]],
         }
     }
 
@@ -102,11 +100,9 @@ impl<'a> Model<'a> {
         let Kind::Branches(n) = self.kind else {
             return self.power_law(parameters[0].exp(), parameters[1]);
         };
-        let branch = |k: usize| RelaxationBranch {
-            modulus: parameters[1 + 2 * k].exp(),
-            relaxation_time: parameters[2 + 2 * k].exp(),
-        };
-        RelaxationSpectrum::new(parameters[0].exp(), 0.0, (0..n).map(branch).collect())
+        let pairs = parameters[1..=2 * n].chunks_exact(2);
+        let branches = pairs.map(|pair| RelaxationBranch::new(pair[0].exp(), pair[1].exp()));
+        RelaxationSpectrum::new(parameters[0].exp(), 0.0, branches.collect())
     }
 
     /// K = G₁ Γ(1 − β), because G(1 s) of a springpot is K/Γ(1 − β).
@@ -117,8 +113,6 @@ impl<'a> Model<'a> {
         Ok(expansion.spectrum)
     }
 
-    /// # Errors
-    /// Where the parameters have no force.
     pub(super) fn forces(&self, parameters: &[f64]) -> Result<Forces, MdrError> {
         let spectrum = self.spectrum(parameters)?;
         let place = self.contact_point();
@@ -172,10 +166,8 @@ impl<'a> Model<'a> {
                     branches.partition_point(|one| one.relaxation_time < time * (1.0 - SAME));
                 let place = place.min(branches.len() - 1);
                 let part = modulus / branches[place].modulus * branches[place].relaxation_time;
-                [
-                    (modulus, &found.moduli[place]),
-                    (part, &found.relaxation_times[place]),
-                ]
+                let [moduli, times] = [&found.moduli, &found.relaxation_times];
+                [(modulus, &moduli[place]), (part, &times[place])]
             });
             return Ok([spring].into_iter().chain(rows).map(scaled).collect());
         }

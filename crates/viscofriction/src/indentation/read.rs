@@ -18,28 +18,16 @@ static CURVES: Vocabulary = Vocabulary {
     optional: &[],
 };
 
-const KNOWN: [(Quantity, Option<Deformation>, &str); 8] = [
+const KNOWN: [(Quantity, Option<Deformation>, &str); 12] = [
     (Time, None, "t time zeit"),
-    (
-        Force,
-        None,
-        "F force load kraft normalforce vdeflection(force)",
-    ),
-    (
-        Depth,
-        None,
-        "d depth indentation indentationdepth eindringtiefe δ delta",
-    ),
-    (
-        Piezo,
-        None,
-        "z piezo piezoposition zpiezo displacement zsensor",
-    ),
-    (
-        Height,
-        None,
-        "height measuredheight height(measured) smoothedmeasuredheight",
-    ),
+    (Force, None, "F force load kraft normalforce"),
+    (Force, None, "vdeflection(force)"),
+    (Depth, None, "d depth indentation indentationdepth"),
+    (Depth, None, "eindringtiefe δ delta"),
+    (Piezo, None, "z piezo piezoposition zpiezo"),
+    (Piezo, None, "displacement zsensor"),
+    (Height, None, "height measuredheight height(measured)"),
+    (Height, None, "smoothedmeasuredheight"),
     (Deflection, None, "deflection vdeflection auslenkung defl"),
     (Other, None, "height(piezo) tipposition"),
     (Other, None, "segment index"),

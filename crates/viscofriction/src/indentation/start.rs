@@ -82,9 +82,8 @@ fn elastic(model: &Model, contact_point: f64) -> Result<Start, MdrError> {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
     let [unit_mean, force_mean] = [mean(&unit), mean(&model.curve.force)];
     let pairs = || unit.iter().zip(&model.curve.force);
-    let product: f64 = pairs()
-        .map(|(u, f)| (u - unit_mean) * (f - force_mean))
-        .sum();
+    let products = pairs().map(|(u, f)| (u - unit_mean) * (f - force_mean));
+    let product: f64 = products.sum();
     let square: f64 = unit.iter().map(|u| (u - unit_mean).powi(2)).sum();
     let modulus = if square > 0.0 { product / square } else { 0.0 };
     let baseline = force_mean - modulus * unit_mean;

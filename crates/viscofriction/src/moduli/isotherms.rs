@@ -28,10 +28,8 @@ pub(super) struct Group {
 const DRIFT: f64 = 1.0;
 
 /// Puts a row into the isotherm of the nearest temperature where its frequency is missing, or into a new one. The
-/// frequencies may come in any order, and so may the temperatures.
-///
-/// # Errors
-/// What was expected, when the latest isotherm has a row of this frequency and temperature.
+/// frequencies may come in any order, and so may the temperatures; says what was expected when the latest isotherm has a row
+/// of this frequency and temperature.
 pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static str> {
     let key = row.at.to_bits();
     let distance = |group: &Group| group.distance(&row);
@@ -42,10 +40,8 @@ pub(super) fn insert(groups: &mut Vec<Group>, row: Row) -> Result<(), &'static s
     {
         return Err("a value that no row before has at this temperature");
     }
-    let free = groups
-        .iter_mut()
-        .rev()
-        .filter(|group| !group.rows.contains_key(&key));
+    let latest = groups.iter_mut().rev();
+    let free = latest.filter(|group| !group.rows.contains_key(&key));
     let near = free.filter_map(|group| Some((distance(group)?, group)));
     match near.min_by(|one, other| one.0.total_cmp(&other.0)) {
         Some((_, group)) => {

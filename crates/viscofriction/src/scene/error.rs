@@ -44,11 +44,23 @@ impl SceneError {
         }
     }
 
+    /// Refuses the first key of these that is given.
+    pub(crate) fn none_given(keys: &[(&str, Option<f64>)], problem: &str) -> Result<(), Self> {
+        let given = keys.iter().find(|(_, value)| value.is_some());
+        given.map_or(Ok(()), |(key, _)| Err(Self::at(*key, problem)))
+    }
+
     pub(crate) fn within(table: &str, refused: InvalidParameter) -> Self {
+        Self::value(format!("{table}.{}", refused.parameter), refused)
+    }
+
+    /// The number at a key is refused.
+    pub(crate) const fn value(key: String, refused: InvalidParameter) -> Self {
+        let InvalidParameter { value, allowed, .. } = refused;
         Self::Value {
-            key: format!("{table}.{}", refused.parameter),
-            value: refused.value,
-            allowed: refused.allowed,
+            key,
+            value,
+            allowed,
         }
     }
 }
@@ -56,10 +68,6 @@ impl SceneError {
 /// A parameter whose name is the whole key.
 impl From<InvalidParameter> for SceneError {
     fn from(refused: InvalidParameter) -> Self {
-        Self::Value {
-            key: refused.parameter.to_owned(),
-            value: refused.value,
-            allowed: refused.allowed,
-        }
+        Self::value(refused.parameter.to_owned(), refused)
     }
 }

@@ -40,10 +40,7 @@ struct HistoryTableRow {
 }
 
 /// A history from the contents of a CSV file with the columns `time_s` and `indentation_depth_m` or `normal_force_n`.
-///
-/// # Errors
-/// File, line and what is wrong there.
-pub fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
+pub(super) fn history(file: &Path, contents: &[u8]) -> Result<Vec<LoadPoint>, String> {
     let wrong = |(line, problem): (usize, String)| at(file, line, &problem);
     let rows = rows::<HistoryTableRow>(contents).map_err(wrong)?;
     let mut before = 0.0;
@@ -149,7 +146,8 @@ fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
 
 /// One line of heights per x, one column per y, without names; or a line and what is wrong there.
 fn of_csv(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, (usize, String)> {
-    let mut reader = ReaderBuilder::new()
+    let mut builder = ReaderBuilder::new();
+    let mut reader = builder
         .has_headers(false)
         .trim(Trim::All)
         .from_reader(contents);

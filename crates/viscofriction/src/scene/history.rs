@@ -12,10 +12,7 @@ use crate::text::{ReadFile, WrongInput};
 
 impl Load {
     /// The points of the history; none where the load is constant. A file is in `folder` and read by `read`.
-    ///
-    /// # Errors
-    /// [`SceneError`] for the first point that is out of order or range, and for a history beside anything else.
-    pub fn checked_history(
+    pub(crate) fn checked_history(
         &self,
         folder: &Path,
         read: ReadFile,
@@ -41,10 +38,8 @@ impl Load {
             ("load.mean_pressure", self.mean_pressure),
             ("load.velocity", self.velocity),
         ];
-        if let Some((key, _)) = others.into_iter().find(|(_, value)| value.is_some()) {
-            let problem = "a history says how the body moves, and nothing slides; leave this out";
-            return Err(SceneError::at(key, problem));
-        }
+        let problem = "a history says how the body moves, and nothing slides; leave this out";
+        SceneError::none_given(&others, problem)?;
         // Whoever wrote a file reads the number of its row, counted from 0 like an index.
         let key = |index: usize, name: &str| match (of_file, name) {
             (true, _) => "load.history_file".to_owned(),
@@ -69,11 +64,8 @@ fn checked(
     for (index, point) in points.iter().enumerate() {
         let number = |name: &'static str, value: f64, holds: bool, allowed: &'static str| {
             let holds = holds && value.is_finite();
-            in_range(name, value, holds, allowed).map_err(|_| SceneError::Value {
-                key: key(index, name),
-                value,
-                allowed,
-            })
+            let wrong = |refused| SceneError::value(key(index, name), refused);
+            in_range(name, value, holds, allowed).map_err(wrong)
         };
         let allowed = "finite, at least 0, and not before the time of the point before";
         before = number("time", point.time, point.time >= before, allowed)?;

@@ -43,22 +43,14 @@ pub struct LoadPoint {
 impl Load {
     /// What is held constant on a body of which one `period` has that area \[m²], or that has none: the mean pressure of a
     /// period is a force on it.
-    ///
-    /// # Errors
-    /// [`SceneError`] unless there is exactly one of force and depth, or of a period the mean pressure, and it is positive.
-    pub fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
+    pub(crate) fn control(&self, period: Option<f64>) -> Result<Control, SceneError> {
         let at = |key: &str, problem: &str| Err(SceneError::at(format!("load.{key}"), problem));
-        let Self {
-            normal_force,
-            indentation_depth,
-            mean_pressure,
-            ..
-        } = *self;
-        match (period, mean_pressure, normal_force, indentation_depth) {
+        let pressed = |key, force| Ok(Control::NormalForce(positive(key, force)?));
+        let (force, depth) = (self.normal_force, self.indentation_depth);
+        match (period, self.mean_pressure, force, depth) {
             (Some(area), Some(pressure), None, None) => {
                 let pressure = positive("load.mean_pressure", pressure)?;
-                let key = "load.mean_pressure times the period";
-                Ok(Control::NormalForce(positive(key, pressure * area)?))
+                pressed("load.mean_pressure times the period", pressure * area)
             }
             (Some(_), ..) => {
                 let problem = "a periodic surface takes a mean_pressure, and neither normal_force nor indentation_depth";
@@ -68,9 +60,7 @@ impl Load {
                 let problem = "only a periodic surface has a mean pressure; give normal_force or indentation_depth";
                 at("mean_pressure", problem)
             }
-            (None, None, Some(force), None) => {
-                Ok(Control::NormalForce(positive("load.normal_force", force)?))
-            }
+            (None, None, Some(force), None) => pressed("load.normal_force", force),
             (None, None, None, Some(depth)) => {
                 let depth = positive("load.indentation_depth", depth)?;
                 Ok(Control::IndentationDepth(depth))
@@ -87,10 +77,7 @@ impl Load {
     }
 
     /// The sliding speed, \[m/s].
-    ///
-    /// # Errors
-    /// [`SceneError::Value`] for a speed that is negative or not finite; [`SceneError::At`] for none.
-    pub fn checked_velocity(&self) -> Result<f64, SceneError> {
+    pub(crate) fn checked_velocity(&self) -> Result<f64, SceneError> {
         let missing = || SceneError::at("load.velocity", "missing field `velocity`");
         let velocity = self.velocity.ok_or_else(missing)?;
         Ok(not_negative("load.velocity", velocity)?)

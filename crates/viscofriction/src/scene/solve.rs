@@ -110,16 +110,13 @@ impl Method {
 
 impl Solve {
     /// The model that the answer belongs to: the one given, or that of the method, or the half space.
-    pub fn checked_model(&self) -> Model {
+    pub(crate) fn checked_model(&self) -> Model {
         let of_method = self.method.and_then(Method::model);
         self.model.or(of_method).unwrap_or(Model::HalfSpace)
     }
 
     /// How well the answer is asked for.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a number out of range, or both an error and a number of elements.
-    pub fn accuracy(&self) -> Result<Accuracy, SceneError> {
+    pub(crate) fn accuracy(&self) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {
             (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.elements",
@@ -142,10 +139,7 @@ impl Solve {
     }
 
     /// Threads that compute; none for all that there are.
-    ///
-    /// # Errors
-    /// [`SceneError::Value`] for a number out of range.
-    pub fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
+    pub(crate) fn checked_threads(&self) -> Result<Option<usize>, SceneError> {
         if let Some(threads) = self.threads {
             let holds = (1..=1024).contains(&threads);
             in_range("solve.threads", threads as f64, holds, "from 1 to 1024")?;
@@ -154,10 +148,7 @@ impl Solve {
     }
 
     /// Memory that one solution may take, \[bytes]; none where the scene does not say.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a text that is no positive number with a unit.
-    pub fn checked_memory(&self) -> Result<Option<u64>, SceneError> {
+    pub(crate) fn checked_memory(&self) -> Result<Option<u64>, SceneError> {
         let Some(text) = &self.max_memory else {
             return Ok(None);
         };
@@ -179,10 +170,7 @@ impl Solve {
     }
 
     /// Distance slid to the state that is asked for, \[m]; `None` for the stationary state.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a number out of range, or both a time and a distance.
-    pub fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
+    pub(crate) fn distance(&self, velocity: f64) -> Result<Option<f64>, SceneError> {
         Ok(match (self.duration, self.sliding_distance) {
             (Some(_), Some(_)) => Err(SceneError::at(
                 "solve.sliding_distance",

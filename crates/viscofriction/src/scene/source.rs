@@ -156,10 +156,9 @@ fn check_kind(key: &str, table: &Table) -> Result<(), SceneError> {
 
 /// The path with the key that is unknown or missing.
 fn full_key(path: &str, problem: &str) -> String {
-    let named = ["unknown field `", "unknown variant `", "missing field `"]
-        .iter()
-        .find_map(|start| problem.strip_prefix(start))
-        .and_then(|rest| rest.split('`').next());
+    let starts = ["unknown field `", "unknown variant `", "missing field `"];
+    let rest = starts.iter().find_map(|start| problem.strip_prefix(start));
+    let named = rest.and_then(|rest| rest.split('`').next());
     let path = path.trim_matches('.');
     match named {
         Some(name) if path.rsplit('.').next() == Some(name) => path.to_owned(),

@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use friction_analytic::{
-    ElasticContact, FrictionError, SlidingContact, SlowSliding, StationarySliding,
-    ViscoelasticSliding, axisymmetric_sliding, cylinder_half_width_after_impulse,
-    half_space_power_friction, impulse_to_depth, indentation_after_impulse, power_sliding,
-    slow_sliding, superposition_sliding, transient_sliding,
+    ElasticContact, FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding,
+    axisymmetric_sliding, cylinder_half_width_after_impulse, half_space_power_friction,
+    impulse_to_depth, indentation_after_impulse, power_sliding, slow_sliding,
+    superposition_sliding, transient_sliding,
 };
 use indenters::{Axisymmetric as _, Control, Cylinder, PowerProfile, SlidingLoad, contact_radius};
 use numerics::{Estimate, bracketed_root};
@@ -58,10 +58,7 @@ pub(crate) fn viscous_line(
     }?;
     let (force, depth) = found_beside(load.control(), [force, state.indentation_depth], SEARCHED);
     let mut answer = Answer {
-        friction_coefficient: Some(Estimate {
-            value: state.friction_coefficient,
-            error: state.error,
-        }),
+        friction_coefficient: Some(Estimate::new(state.friction_coefficient, state.error)),
         indentation_depth: Some(depth),
         contact_box: ends(&state.contact_line).map(along),
         ..Answer::new(Method::Analytic, Model::Line, force)
@@ -129,27 +126,18 @@ pub(crate) fn slow_half_space(
         contact_radius: front,
         velocity: load.velocity(),
     };
-    let SlowSliding {
-        friction_coefficient,
-        elastic_error,
-        contact_area,
-        rear,
-        ..
-    } = slow_sliding(&**body, material, contact).ok()?;
+    let slow = slow_sliding(&**body, material, contact).ok()?;
     let widened = |found: Estimate| match found.error {
         0.0 => found,
-        error => within(found.value, elastic_error + error / found.value),
+        error => within(found.value, slow.elastic_error + error / found.value),
     };
-    friction_coefficient.is_within(asked).then(|| Answer {
-        friction_coefficient: Some(friction_coefficient),
+    let ends = [slow.rear.value, front];
+    slow.friction_coefficient.is_within(asked).then(|| Answer {
+        friction_coefficient: Some(slow.friction_coefficient),
         normal_force: widened(elastic.normal_force),
         indentation_depth: elastic.indentation_depth.map(widened),
-        contact_area: Some(contact_area),
-        contact_box: Some(ContactBox::around(
-            [rear.value, front],
-            [-front, front],
-            rear.error,
-        )),
+        contact_area: Some(slow.contact_area),
+        contact_box: Some(ContactBox::around(ends, [-front, front], slow.rear.error)),
         peak_pressure: None,
         ..elastic
     })

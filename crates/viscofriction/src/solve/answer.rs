@@ -125,10 +125,7 @@ pub struct HistoryRow {
 
 /// A value that is known to a relative error.
 pub(crate) const fn within(value: f64, relative_error: f64) -> Estimate {
-    Estimate {
-        value,
-        error: relative_error * value.abs(),
-    }
+    Estimate::new(value, relative_error * value.abs())
 }
 
 impl Answer {
@@ -159,10 +156,8 @@ impl Answer {
     #[must_use]
     pub fn tangential_force(&self) -> Option<Estimate> {
         let (friction, force) = (self.friction_coefficient?, self.normal_force);
-        Some(Estimate {
-            value: friction.value * force.value,
-            error: friction.error * force.value + friction.value.abs() * force.error,
-        })
+        let error = friction.error * force.value + friction.value.abs() * force.error;
+        Some(Estimate::new(friction.value * force.value, error))
     }
 
     /// The friction coefficient, or where nothing slides the depth, or the force at a given depth: what the relative

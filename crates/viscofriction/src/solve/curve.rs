@@ -83,16 +83,12 @@ impl Curve {
     /// In JSON: the values at all points, and the largest error of each.
     pub(crate) fn serialize_into<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         let rows = self.times.iter().enumerate().map(|(index, time)| {
-            let values = self
-                .columns
-                .iter()
-                .map(|column| (column.name[0], column.values[index].value));
+            let columns = self.columns.iter();
+            let values = columns.map(|column| (column.name[0], column.values[index].value));
             Named(iter::once(("time", *time)).chain(values).collect())
         });
-        let errors = self
-            .columns
-            .iter()
-            .map(|column| (column.name[0], column.error()));
+        let columns = self.columns.iter();
+        let errors = columns.map(|column| (column.name[0], column.error()));
         map.serialize_entry("history", &rows.collect::<Vec<Named>>())?;
         map.serialize_entry("history_error", &Named(errors.collect()))
     }

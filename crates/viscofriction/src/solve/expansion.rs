@@ -27,18 +27,15 @@ pub(crate) fn expanded(
     equilibrium_modulus: f64,
     time_range: [f64; 2],
 ) -> Result<(Prony, Expansion), RheologyError> {
-    let PronyExpansion {
-        spectrum,
-        relative_error,
-    } = expand(band(time_range)?, RELATIVE_ERROR)?;
+    let series = expand(band(time_range)?, RELATIVE_ERROR)?;
     let modulus = not_negative("equilibrium_modulus", equilibrium_modulus)?;
     let sum = RelaxationSpectrum::new(
-        modulus + spectrum.equilibrium_modulus(),
-        spectrum.viscosity(),
-        spectrum.branches().to_vec(),
+        modulus + series.spectrum.equilibrium_modulus(),
+        series.spectrum.viscosity(),
+        series.spectrum.branches().to_vec(),
     )?;
     let expansion = Expansion {
-        relative_error: 2.0 * relative_error / (1.0 - exponent),
+        relative_error: 2.0 * series.relative_error / (1.0 - exponent),
         time_range,
     };
     Ok((Prony::new(sum)?, expansion))

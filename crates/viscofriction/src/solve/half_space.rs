@@ -85,10 +85,7 @@ fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<Half
             branches,
             ..
         } => {
-            let branch = |branch: &Branch| RelaxationBranch {
-                modulus: branch.modulus,
-                relaxation_time: branch.relaxation_time,
-            };
+            let branch = |one: &Branch| RelaxationBranch::new(one.modulus, one.relaxation_time);
             let branches = branches.iter().map(branch).collect();
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
             spectrum.and_then(Prony::new).map(boxed)

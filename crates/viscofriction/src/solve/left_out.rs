@@ -7,19 +7,18 @@ use super::omission::Omission;
 use super::problem::{Motion, Problem};
 use super::work::work;
 use crate::scene::{Control, Method, Model};
+use Method::{Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
+use Motion::{Pressing, Sliding};
 
 impl Omission {
     /// The method that does the work of an omission too, where another method does.
     const fn done_by(self, model: Model, motion: Motion) -> Option<Method> {
         match (self, model, motion) {
-            (Self::NumericalSolution, Model::Line, Motion::Sliding(_)) => Some(Method::MdrSteady),
-            (Self::NumericalSolution, Model::HalfSpace, Motion::Sliding(_)) => {
-                Some(Method::BemSteady)
-            }
-            (Self::TimeSteps, Model::Line, _) => Some(Method::MdrTransient),
-            (Self::TimeSteps, Model::HalfSpace, Motion::Sliding(_)) | (Self::HalfSpace, _, _) => {
-                Some(Method::BemTransient)
-            }
+            (Self::NumericalSolution, Model::Line, Sliding(_)) => Some(MdrSteady),
+            (Self::NumericalSolution, Model::HalfSpace, Sliding(_)) => Some(BemSteady),
+            (Self::TimeSteps, Model::Line, _) => Some(MdrTransient),
+            (Self::TimeSteps, Model::HalfSpace, Sliding(_)) => Some(BemTransient),
+            (Self::HalfSpace, _, _) => Some(BemTransient),
             _ => None,
         }
     }
@@ -27,15 +26,11 @@ impl Omission {
     /// What leaving it out of an answer to a problem saves, as a count where there is one that is exact.
     #[must_use]
     pub fn saves(self, problem: &Problem, answer: &Answer) -> String {
-        let Answer {
-            unknowns,
-            iterations,
-            ..
-        } = answer;
+        let (unknowns, iterations) = (answer.unknowns, answer.iterations);
         let n_footprint = |even| answer.grid.map_or(0, |grid| grid.n_elements(even));
         let all = n_footprint([false; 2]);
         match self {
-            Self::MirrorHalf if answer.method == Method::BemSteady => {
+            Self::MirrorHalf if answer.method == BemSteady => {
                 let n_contact = n_contact(answer);
                 format!("{unknowns} of {n_contact} elements in contact are unknowns")
             }
@@ -87,10 +82,8 @@ impl Grid {
 /// element of which along y leaves nothing to leave out.
 fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
     let [along, across] = problem.body.surface()?.mirrors();
-    Some([
-        along && matches!(problem.motion, Motion::Pressing(_)),
-        across,
-    ])
+    let is_pressed = matches!(problem.motion, Pressing(_));
+    Some([along && is_pressed, across])
 }
 
 /// What the method of the answer left out. Work that only another method would do is named where that method answers the
@@ -110,16 +103,14 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     };
     let mirror = even.contains(&true).then_some(Omission::MirrorHalf);
     let candidates = match (answer.method, problem.motion) {
-        (Method::Analytic, Motion::Sliding(_)) => {
+        (Analytic, Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
         // No other method does it.
         (_, Motion::History(_)) => Vec::new(),
-        (Method::MdrSteady, _) => vec![Some(Omission::TimeSteps)],
-        (Method::Analytic | Method::MdrTransient, Motion::Pressing(_)) => {
-            vec![Some(Omission::HalfSpace)]
-        }
-        (Method::BemSteady, Motion::Sliding(load)) => {
+        (MdrSteady, _) => vec![Some(Omission::TimeSteps)],
+        (Analytic | MdrTransient, Pressing(_)) => vec![Some(Omission::HalfSpace)],
+        (BemSteady, Sliding(load)) => {
             // After a distance the friction is not yet that of the stationary state.
             let is_stationary = load.sliding_distance().is_none();
             vec![
@@ -128,12 +119,12 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
                 is_stationary.then_some(Omission::TimeSteps),
             ]
         }
-        (Method::BemTransient, Motion::Sliding(_)) => vec![
+        (BemTransient, Sliding(_)) => vec![
             mirror,
             Some(Omission::OutsideContact),
             Some(Omission::RowsBehind),
         ],
-        (Method::BemTransient, Motion::Pressing(_)) => {
+        (BemTransient, Pressing(_)) => {
             // A depth that is held needs another force at every time.
             let constant = matches!(problem.motion.control(), Control::NormalForce(_));
             let remembers = constant && n_fields(&problem.material.creep()) > 1;
@@ -144,9 +135,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
                 remembers.then_some(Omission::HistoryFields),
             ]
         }
-        (Method::MdrTransient, Motion::Sliding(_)) | (Method::BemSteady, Motion::Pressing(_)) => {
-            Vec::new()
-        }
+        (MdrTransient, Sliding(_)) | (BemSteady, Pressing(_)) => Vec::new(),
     };
     candidates.into_iter().flatten().collect()
 }

@@ -80,10 +80,7 @@ pub(crate) fn followed(
     let last = curve.last().copied();
     let last = last.ok_or(MdrError::Empty { list: "history" })?;
     let radius = last.contact_radius;
-    let ends = Estimate {
-        value: -radius.value,
-        ..radius
-    };
+    let ends = Estimate::new(-radius.value, radius.error);
     let touches = radius.value > 0.0;
     let mut answer = Answer {
         indentation_depth: Some(last.indentation_depth),

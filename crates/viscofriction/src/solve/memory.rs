@@ -8,8 +8,10 @@ use indenters::EquivalentLine;
 use numerics::Watch;
 
 use super::error::SolveError;
-use super::problem::{Motion, Problem};
-use crate::scene::{Accuracy, Method, SceneError};
+use super::problem::Motion::{History, Pressing, Sliding};
+use super::problem::Problem;
+use crate::scene::Method::{self, BemSteady, BemTransient, MdrTransient};
+use crate::scene::{Accuracy, SceneError};
 
 /// Elements along the contact with which a relative error is first sought.
 const FIRST: usize = 16;
@@ -46,7 +48,7 @@ fn check(
         return Ok(());
     }
     let shorter = match method {
-        Method::BemTransient | Method::MdrTransient => ", a shorter sliding_distance",
+        BemTransient | MdrTransient => ", a shorter sliding_distance",
         _ => "",
     };
     let [needed, allowed] = [needed, allowed as f64].map(written);
@@ -106,19 +108,13 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
     let elastomer = problem.elastomer().ok()?;
     let surface = problem.body.surface()?;
     match (method, problem.motion) {
-        (Method::BemSteady, Motion::Sliding(load)) => {
-            steady_memory(surface, &elastomer, &load, elements).ok()
-        }
-        (Method::BemTransient, Motion::Sliding(load)) => {
-            slide_memory(surface, &elastomer, &load, elements).ok()
-        }
-        (Method::BemTransient, Motion::Pressing(load)) => {
-            indent_memory(surface, &elastomer, &load, elements).ok()
-        }
-        (Method::BemTransient, Motion::History(_)) => {
+        (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements).ok(),
+        (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements).ok(),
+        (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements).ok(),
+        (BemTransient, History(_)) => {
             follow_memory(surface, &elastomer, &problem.history, elements).ok()
         }
-        (Method::MdrTransient, Motion::Sliding(load)) => {
+        (MdrTransient, Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
             mdr_core::slide_memory(&line, &problem.material, &load, elements).ok()
         }

@@ -20,8 +20,7 @@ mod validity;
 mod with_fields;
 mod work;
 
-pub use answer::{Answer, ContactBox, Fields};
-pub use answer::{HistoryRow, Persson, RoughAnswer};
+pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, Revolution, body};
 pub use curve::{Curve, CurveColumn};
 pub use error::{NotOffered, Result, SolveError};

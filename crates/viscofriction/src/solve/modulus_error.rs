@@ -32,11 +32,8 @@ impl Problem {
         }
     }
 
-    /// The answer with the error of the moduli in its bars.
-    ///
-    /// # Errors
-    /// [`SolveError::OutsideTimeRange`] where it needs the material at other times; [`SolveError::TooCoarse`] where the bar
-    /// becomes larger than what was asked.
+    /// The answer with the error of the moduli in its bars, unless it needs the material at other times, or the bar becomes
+    /// larger than what was asked.
     pub(crate) fn with_modulus_error(&self, answer: Answer, accuracy: Accuracy) -> Result<Answer> {
         let Some(expansion) = self.expansion else {
             return Ok(answer);
@@ -44,12 +41,10 @@ impl Problem {
         self.check_times(&answer, expansion.time_range)?;
         let relative = PER_MODULUS * expansion.relative_error;
         if let Motion::History(_) = self.motion {
-            let of_elements = answer.method == Method::BemTransient;
-            // The one-dimensional model has it in its bars.
-            return Ok(if of_elements {
-                answer.curve_widened(relative)
-            } else {
-                answer
+            return Ok(match answer.method {
+                Method::BemTransient => answer.curve_widened(relative),
+                // The one-dimensional model has it in its bars.
+                _ => answer,
             });
         }
         let slope = mean_slope(&self.body, &answer).unwrap_or(0.0);

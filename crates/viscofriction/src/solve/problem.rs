@@ -10,7 +10,7 @@ use rheology::{Material, RheologyError};
 use super::body::{Body, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
-use super::half_space::{HalfSpace, Simple, half_space, simple};
+use super::half_space::{Simple, half_space, simple};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::{ReadFile, WrongInput};
 
@@ -79,20 +79,18 @@ impl Problem {
             Some(last) => followed(scene, last)?,
             None => motion(scene, &body)?,
         };
-        let HalfSpace {
-            material,
-            expansion,
-        } = half_space(&scene.material, folder, read)?;
-        let thickness = scene.layer.map_or(Ok(f64::INFINITY), |layer| {
-            positive("layer.thickness", layer.thickness)
-        })?;
+        let elastomer = half_space(&scene.material, folder, read)?;
+        let thickness = match scene.layer {
+            Some(layer) => positive("layer.thickness", layer.thickness)?,
+            None => f64::INFINITY,
+        };
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
         let problem = Self {
             body,
-            simple: simple(&*material).map_err(not_reduced)?,
-            material,
+            simple: simple(&*elastomer.material).map_err(not_reduced)?,
+            material: elastomer.material,
             thickness,
-            expansion,
+            expansion: elastomer.expansion,
             motion,
             history,
             accuracy: scene.solve.accuracy()?,
@@ -106,17 +104,11 @@ impl Problem {
     }
 
     /// What the body is pressed into.
-    ///
-    /// # Errors
-    /// [`SolveError`] for a thickness that is not greater than 0.
     pub(crate) fn elastomer(&self) -> Result<Layer<'_, dyn Material>, SolveError> {
         Ok(Layer::new(&*self.material, self.thickness).map_err(BemError::from)?)
     }
 
-    /// Whether the load can be held by what is known of the material.
-    ///
-    /// # Errors
-    /// [`SceneError`] for a depth on the half space, which depends on times beyond every range.
+    /// Refuses a depth on the half space, which depends on times beyond every range.
     fn check_control(&self) -> Result<(), SceneError> {
         if self.expansion.is_some()
             && self.model == Model::HalfSpace
@@ -149,10 +141,7 @@ fn followed(scene: &Scene, last: &HistoryPoint) -> Result<Motion, SceneError> {
         ("solve.duration", scene.solve.duration),
         ("solve.sliding_distance", scene.solve.sliding_distance),
     ];
-    if let Some((key, _)) = times.into_iter().find(|(_, given)| given.is_some()) {
-        let problem = "a history ends with its last point; leave this out";
-        return Err(SceneError::at(key, problem));
-    }
+    SceneError::none_given(&times, "a history ends with its last point; leave this out")?;
     Ok(Motion::History(last.control))
 }
 

@@ -71,10 +71,7 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
             time,
             indentation_depth: answer.indentation_depth?,
             normal_force: answer.normal_force,
-            contact_radius: Estimate {
-                value: contact.x[1],
-                error: contact.error,
-            },
+            contact_radius: Estimate::new(contact.x[1], contact.error),
         })
     };
     let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
@@ -110,9 +107,8 @@ fn pressure_of_revolution(
 fn pressure_of_cylinder(answer: &Answer) -> Option<Vec<[f64; 2]>> {
     let peak = answer.peak_pressure?.value;
     let [_, edge] = answer.contact_box.as_ref()?.x;
-    across(edge, true, |place| {
-        Some(peak * (1.0 - (place / edge).powi(2)).sqrt())
-    })
+    let pressure = |place: f64| Some(peak * (1.0 - (place / edge).powi(2)).sqrt());
+    across(edge, true, pressure)
 }
 
 /// An even pressure from edge to edge of a contact, without the places where it may be infinite: the middle, and edges of the

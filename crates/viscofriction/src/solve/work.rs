@@ -6,13 +6,16 @@ use indenters::rough::PeriodicSurface;
 use indenters::{Axisymmetric, Cylinder, SlidingLoad, Surface};
 use numerics::{Request, Watch};
 
+use super::analytic::{cylinder_pressed, without_friction};
 use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::error::{Refusal, Result};
 use super::half_space::Simple;
-use super::problem::{Motion, Problem};
+use super::problem::Motion::{History, Pressing, Sliding};
+use super::problem::Problem;
 use super::{analytic, elements, mdr};
-use crate::scene::{Accuracy, Control, Method, Model};
+use crate::scene::Method::{self, Analytic, BemSteady, BemTransient, MdrSteady, MdrTransient};
+use crate::scene::{Accuracy, Control, Model};
 
 /// What one method computes, with all that it needs, or why it does not.
 pub(crate) type Work<'a> = Result<Box<dyn FnOnce(&dyn Watch) -> Result<Answer> + 'a>, Refusal>;
@@ -28,22 +31,22 @@ const NOTHING_SLIDES: Refusal =
 
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
-    let has_layers = matches!(method, Method::BemSteady | Method::BemTransient);
+    let has_layers = matches!(method, BemSteady | BemTransient);
     require(has_layers || !problem.thickness.is_finite(), NO_LAYER)?;
-    if let Motion::History(_) = problem.motion {
+    if let History(_) = problem.motion {
         return followed(problem, method, accuracy);
     }
     match (&problem.body, method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
-        (Body::Revolution(body), Method::Analytic) => closed(problem, body, accuracy),
-        (Body::Revolution(body), Method::MdrSteady | Method::MdrTransient) => {
+        (Body::Revolution(body), Analytic) => closed(problem, body, accuracy),
+        (Body::Revolution(body), MdrSteady | MdrTransient) => {
             one_dimensional(problem, &**body, method, accuracy)
         }
         (Body::Revolution(body), _) => boundary_elements(problem, body.surface(), method, accuracy),
-        (Body::HeightMap(map), Method::BemSteady | Method::BemTransient) => {
+        (Body::HeightMap(map), BemSteady | BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
-        (Body::Periodic(surface), Method::BemSteady) => periodic(problem, surface, accuracy),
+        (Body::Periodic(surface), BemSteady) => periodic(problem, surface, accuracy),
         (Body::Periodic(_), _) => Err("it has no periodic surfaces; bem-steady slides them"),
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
@@ -72,8 +75,8 @@ fn has_force(problem: &Problem) -> bool {
 /// Of a body of revolution the one-dimensional model is exact here, on the half space too.
 fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
     match (method, &problem.body) {
-        (Method::MdrSteady | Method::BemSteady, _) => Err(NOTHING_SLIDES),
-        (Method::BemTransient, body) => {
+        (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
+        (BemTransient, body) => {
             let surface = body.surface().ok_or(ENDLESS)?;
             ready(move |watch| elements::followed(problem, surface, Request { accuracy, watch }))
         }
@@ -107,19 +110,16 @@ fn line_contact<'a>(
     )?;
     let material = &*problem.material;
     match (method, problem.motion) {
-        (Method::Analytic, motion) => {
+        (Analytic, motion) => {
             require(matches!(accuracy, Accuracy::RelativeError(_)), NO_ELEMENTS)?;
-            let pressed =
-                move |duration| analytic::cylinder_pressed(cylinder, material, force, duration);
+            let pressed = move |time| cylinder_pressed(cylinder, material, force, time);
             match (motion, &problem.simple) {
-                (Motion::Pressing(load), _) => ready(move |_| pressed(load.duration())),
-                (_, Some(Simple::Elastic)) => {
-                    ready(move |_| pressed(1.0).map(analytic::without_friction))
-                }
+                (Pressing(load), _) => ready(move |_| pressed(load.duration())),
+                (_, Some(Simple::Elastic)) => ready(move |_| pressed(1.0).map(without_friction)),
                 _ => Err("there is no closed form for a cylinder that slides on this material"),
             }
         }
-        (Method::BemSteady, Motion::Sliding(load)) => {
+        (BemSteady, Sliding(load)) => {
             require(
                 !sinks(problem),
                 "under a line contact a half space that flows sinks the faster the longer it is, without limit",
@@ -129,7 +129,7 @@ fn line_contact<'a>(
                 elements::line_contact(problem, cylinder, &load, Request { accuracy, watch })
             })
         }
-        (Method::BemSteady, _) => Err(NOTHING_SLIDES),
+        (BemSteady, _) => Err(NOTHING_SLIDES),
         _ => Err(ENDLESS),
     }
 }
@@ -139,7 +139,7 @@ fn periodic<'a>(
     surface: &'a PeriodicSurface,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let Motion::Sliding(load) = problem.motion else {
+    let Sliding(load) = problem.motion else {
         return Err(NOTHING_SLIDES);
     };
     let Control::NormalForce(force) = load.control() else {
@@ -165,15 +165,15 @@ fn boundary_elements<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let is_stationary = method == Method::BemSteady;
+    let is_stationary = method == BemSteady;
     let load = match problem.motion {
-        Motion::Sliding(load) => load,
-        Motion::Pressing(load) if !is_stationary => {
+        Sliding(load) => load,
+        Pressing(load) if !is_stationary => {
             return ready(move |watch| {
                 elements::pressed(problem, surface, &load, Request { accuracy, watch })
             });
         }
-        Motion::Pressing(_) | Motion::History(_) => return Err(NOTHING_SLIDES),
+        Pressing(_) | History(_) => return Err(NOTHING_SLIDES),
     };
     if !has_force(problem) && load.sliding_distance().is_none() {
         require(
@@ -201,7 +201,7 @@ fn one_dimensional<'a>(
 ) -> Work<'a> {
     let material = &*problem.material;
     match (method, problem.motion) {
-        (Method::MdrSteady, Motion::Sliding(load)) => {
+        (MdrSteady, Sliding(load)) => {
             require(load.sliding_distance().is_none(), STATIONARY)?;
             let Accuracy::RelativeError(error) = accuracy else {
                 return Err(
@@ -210,12 +210,12 @@ fn one_dimensional<'a>(
             };
             ready(move |_| mdr::stationary(body, material, &load, error))
         }
-        (Method::MdrSteady, Motion::Pressing(_)) | (_, Motion::History(_)) => Err(NOTHING_SLIDES),
-        (_, Motion::Sliding(load)) => {
+        (MdrSteady, Pressing(_)) | (_, History(_)) => Err(NOTHING_SLIDES),
+        (_, Sliding(load)) => {
             require(has_force(problem), UNDER_FORCE)?;
             ready(move |watch| mdr::transient(body, material, &load, Request { accuracy, watch }))
         }
-        (_, Motion::Pressing(load)) => {
+        (_, Pressing(load)) => {
             let Accuracy::RelativeError(error) = accuracy else {
                 return Err("where nothing slides it has no elements; give relative_error instead");
             };
@@ -231,16 +231,14 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let (control, material) = (problem.motion.control(), &*problem.material);
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
     match (problem.motion, &problem.simple, problem.model) {
-        (Motion::History(_), _, _) => Err(NOTHING_SLIDES),
-        (Motion::Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
+        (History(_), _, _) => Err(NOTHING_SLIDES),
+        (Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
-        (Motion::Sliding(_), Some(Simple::Elastic), _) => {
-            ready(move |_| pressed(1.0).map(analytic::without_friction))
+        (Sliding(_), Some(Simple::Elastic), _) => {
+            ready(move |_| pressed(1.0).map(without_friction))
         }
-        (Motion::Sliding(load), _, Model::HalfSpace) => {
-            closed_half_space(problem, body, load, asked)
-        }
-        (Motion::Sliding(load), _, Model::Line) => closed_line(problem, body, load),
+        (Sliding(load), _, Model::HalfSpace) => closed_half_space(problem, body, load, asked),
+        (Sliding(load), _, Model::Line) => closed_line(problem, body, load),
     }
 }
 

@@ -83,13 +83,10 @@ fn or_power_of_ten(value: f64) -> f64 {
 }
 
 fn number(name: &str, text: &str) -> Result<f64, String> {
-    let value: f64 = text
-        .parse()
-        .map_err(|_| format!("{name} must be a number, but is {text}"))?;
-    if value.is_finite() {
-        return Ok(value);
-    }
-    Err(format!("{name} must be finite, but is {text}"))
+    let refused = |needed: &str| format!("{name} must be {needed}, but is {text}");
+    let value: f64 = text.parse().map_err(|_| refused("a number"))?;
+    let finite = Some(value).filter(|value| value.is_finite());
+    finite.ok_or_else(|| refused("finite"))
 }
 
 fn whole(name: &str, text: &str, most: usize) -> Result<usize, String> {

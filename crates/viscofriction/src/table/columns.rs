@@ -72,24 +72,33 @@ pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
 }
 
 impl Quantity {
-    /// The usual names, for messages.
-    pub(crate) const fn usual(self) -> &'static str {
+    /// The usual names, for messages, and the units between blanks, of which one may be empty.
+    const fn names(self) -> (&'static str, &'static str) {
         match self {
-            Frequency => "f or ω",
-            Time => "t",
-            Storage => "E' or G'",
-            Loss => "E'' or G''",
-            LossFactor => "tan delta",
-            Relaxation => "E_relax or G_relax",
-            Temperature => "T",
-            Set => "Set",
-            Force => "force",
-            Depth => "depth",
-            Piezo => "piezo",
-            Height => "height",
-            Deflection => "deflection",
-            Other => "",
+            Frequency => ("f or ω", "Hz mHz kHz rad/s 1/s"),
+            Time => ("t", "s ms us min h"),
+            Storage => ("E' or G'", "Pa kPa MPa GPa"),
+            Loss => ("E'' or G''", "Pa kPa MPa GPa"),
+            LossFactor => ("tan delta", "-  1"),
+            Relaxation => ("E_relax or G_relax", "Pa kPa MPa GPa"),
+            Temperature => ("T", "C °C K"),
+            Set => ("Set", "-  1"),
+            Force => ("force", "N mN uN nN pN kN"),
+            Depth => ("depth", "m mm um nm pm A"),
+            Piezo => ("piezo", "m mm um nm pm A"),
+            Height => ("height", "m mm um nm pm A"),
+            // Lengths, and what a detector says.
+            Deflection => ("deflection", "m um nm pm V mV"),
+            Other => ("", "-  1"),
         }
+    }
+
+    pub(crate) const fn usual(self) -> &'static str {
+        self.names().0
+    }
+
+    pub(crate) const fn units(self) -> &'static str {
+        self.names().1
     }
 
     pub(crate) const fn is_modulus(self) -> bool {
@@ -106,21 +115,6 @@ impl Quantity {
         Some((known, self.factor(known)))
     }
 
-    /// Units between blanks, of which one may be empty.
-    pub(crate) const fn units(self) -> &'static str {
-        match self {
-            Frequency => "Hz mHz kHz rad/s 1/s",
-            Time => "s ms us min h",
-            Storage | Loss | Relaxation => "Pa kPa MPa GPa",
-            Temperature => "C °C K",
-            LossFactor | Set | Other => "-  1",
-            Force => "N mN uN nN pN kN",
-            Depth | Piezo | Height => "m mm um nm pm A",
-            // Lengths, and what a detector says.
-            Deflection => "m um nm pm V mV",
-        }
-    }
-
     /// What turns a number with one of these units into SI.
     fn factor(self, unit: &str) -> f64 {
         let of_unit = match unit {
@@ -130,9 +124,8 @@ impl Quantity {
             "A" => return 1e-10,
             _ => 1.0,
         };
-        let prefixes = "pnumkMG"
-            .chars()
-            .zip([1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9]);
+        let factors = [1e-12, 1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9];
+        let prefixes = "pnumkMG".chars().zip(factors);
         let mut prefix = prefixes.filter(|(prefix, _)| unit.len() > 1 && unit.starts_with(*prefix));
         of_unit * prefix.next().map_or(1.0, |(_, factor)| factor)
     }

@@ -57,9 +57,8 @@ impl Layout {
                     *counts.entry((others, cells.len(), numbers)).or_insert(0) += 1;
                 }
             }
-            let ranks = counts
-                .into_iter()
-                .map(|((others, ..), lines)| (Reverse(lines), others));
+            let counts = counts.into_iter();
+            let ranks = counts.map(|((others, ..), lines)| (Reverse(lines), others));
             ranks.min().unwrap_or((Reverse(0), usize::MAX))
         };
         // A text without numbers is refused later, with these separators in the message.
@@ -77,9 +76,8 @@ impl Layout {
     /// What is between the cells, for messages.
     pub(crate) fn separators(self) -> &'static str {
         let mut known = SEPARATORS.iter();
-        known
-            .find(|(separator, _)| *separator == self.separator)
-            .map_or("", |(_, name)| name)
+        let found = known.find(|(separator, _)| *separator == self.separator);
+        found.map_or("", |(_, name)| name)
     }
 
     pub(crate) fn cells(self, line: &str) -> Vec<&str> {

@@ -27,9 +27,8 @@ impl Contact<'_> {
             self.path.load(&stresses, at) < -WRONG_SIGN * self.path.scale(at)
         };
         if last.is_some_and(|ring| ring.motion == Motion::Again && pulls(ring)) {
-            return Err(MdrError::NotADisc {
-                time: self.path.time(at),
-            });
+            let time = self.path.time(at);
+            return Err(MdrError::NotADisc { time });
         }
         Ok(())
     }
@@ -54,15 +53,12 @@ impl Contact<'_> {
     pub(super) fn edge_inwards(&self, at: Instant) -> Option<Edge> {
         let mut rings = self.rings.iter().enumerate().rev();
         rings.find_map(|(below, ring)| {
-            let edge = if ring.motion == Motion::First {
-                self.edge_in_first(ring, at)
-            } else {
-                self.edge_in_again(ring, at)
+            let mut edge = match ring.motion {
+                Motion::First => self.edge_in_first(ring, at)?,
+                _ => self.edge_in_again(ring, at)?,
             };
-            edge.map(|edge| Edge {
-                n_rings: below + 1,
-                ..edge
-            })
+            edge.n_rings = below + 1;
+            Some(edge)
         })
     }
 
