@@ -14,6 +14,10 @@ use crate::{BemError, Elastomer, GridOptions};
 
 /// Elements along the largest contact after which the error asked for is given up.
 const LARGEST_GRID: usize = 256;
+/// Steps in time on one grid after which the error asked for is given up; between two points they may always be halved
+/// three times.
+const MOST_STEPS: usize = 4096;
+const FEWEST_STEPS: usize = 8;
 /// Duration of a jump, as a part of that of the history.
 const JUMP: f64 = 1e-9;
 
@@ -71,6 +75,8 @@ pub fn follow<'w>(
     let times: Vec<f64> = path.points[1..].iter().map(|[time, _]| *time).collect();
     let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = HistoryOptions::new(grid(&plan, elements));
+        let most = MOST_STEPS / times.len();
+        options.max_steps = most.clamp(FEWEST_STEPS, options.max_steps);
         let control = |time| path.at(time);
         let found = match request.accuracy {
             Accuracy::RelativeError(asked) => {
