@@ -1,6 +1,6 @@
 //! Periodic surfaces through heights on a grid.
 
-use numerics::{in_range, not_negative};
+use numerics::{in_range, not_negative, positive};
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
@@ -8,7 +8,7 @@ use rustfft::num_complex::Complex;
 use crate::rough::{PeriodicSurface, Wave};
 use crate::{HeightMap, IndenterError};
 
-/// Amplitudes below this part of the largest are the rounding of a transform.
+/// Amplitudes below this part of the largest height are the rounding of a transform.
 const ROUNDING: f64 = 1e-13;
 
 impl PeriodicSurface {
@@ -19,10 +19,14 @@ impl PeriodicSurface {
     /// edges do not fit together has a step there, with waves of all lengths.
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] for a `shortest_wavelength` that leaves no wave, as of heights that are all the
-    /// same.
+    /// [`IndenterError::InvalidParameter`] for heights that are all the same, and a `shortest_wavelength` that leaves no wave.
     pub fn through(map: &HeightMap, shortest_wavelength: f64) -> Result<Self, IndenterError> {
         not_negative("shortest_wavelength", shortest_wavelength)?;
+        let heights = map.heights().iter();
+        let highest = positive(
+            "largest height above the lowest",
+            heights.copied().fold(0.0, f64::max),
+        )?;
         let ([rows, columns], spacing) = (map.shape(), map.spacing());
         let period = [rows as f64 * spacing[0], columns as f64 * spacing[1]];
         let spectrum = spectrum(map);
@@ -50,8 +54,7 @@ impl PeriodicSurface {
                 }
             }
         }
-        let largest = waves.iter().map(|wave| wave.amplitude).fold(0.0, f64::max);
-        waves.retain(|wave| wave.amplitude > ROUNDING * largest);
+        waves.retain(|wave| wave.amplitude > ROUNDING * highest);
         let allowed = "short enough for a wave of the map";
         in_range(
             "shortest_wavelength",

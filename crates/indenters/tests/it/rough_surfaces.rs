@@ -192,7 +192,16 @@ fn a_periodic_map_is_a_sum_of_waves() {
         PeriodicSurface::through(&map, 3.0).expect_err("no wave is so long");
     }
     let flat = HeightMap::new([4, 4], [1.0; 2], vec![1.0; 16]).expect("a map");
-    PeriodicSurface::through(&flat, 0.0).expect_err("a plane");
+    let refused = PeriodicSurface::through(&flat, 0.0).expect_err("a plane");
+    let said = refused.to_string();
+    assert!(
+        said.starts_with("largest height above the lowest"),
+        "{said}"
+    );
+    // Waves of two elements alone are none that heights tell.
+    let heights = [1.0, 0.0, 1.0, 0.0].repeat(4);
+    let board = HeightMap::new([4, 4], [1.0; 2], heights).expect("a map");
+    PeriodicSurface::through(&board, 0.0).expect_err("two elements per wave");
 }
 
 #[test]

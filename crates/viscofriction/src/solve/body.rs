@@ -216,7 +216,7 @@ fn with_edges(
     match (edges, shortest_wavelength) {
         (Edges::Periodic, shortest) => PeriodicSurface::through(&map, shortest.unwrap_or(0.0))
             .map(Body::Periodic)
-            .map_err(|error| ("shortest_wavelength", error.to_string())),
+            .map_err(|error| ("edges", error.to_string())),
         (Edges::Wall, Some(_)) => {
             let problem = "only of edges = \"periodic\" waves are left out";
             Err(("shortest_wavelength", problem.to_owned()))
