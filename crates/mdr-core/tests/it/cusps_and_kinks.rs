@@ -4,7 +4,7 @@ use friction_analytic::power_sliding;
 use indenters::{Axisymmetric, EquivalentLine, FlatCone, TruncatedParaboloid};
 use mdr_core::{MdrError, steady};
 use numerics::Estimate;
-use rheology::{Elastic, KelvinVoigt, Material};
+use rheology::{KelvinVoigt, Material};
 
 use crate::support::{ASKED, assert_agree, load, material, power, prony, slid};
 
@@ -90,13 +90,4 @@ fn a_flat_end_on_a_solid_takes_few_polynomials_however_exact_it_is_wanted() {
             }
         }
     }
-}
-
-#[test]
-fn a_flat_end_on_springs_has_no_friction_not_even_by_rounding() {
-    let worn = TruncatedParaboloid::new(4.097_316_320_772_535, 0.119_169_830_372_470_1);
-    let worn = worn.expect("a body");
-    let spring = Elastic::new(2.7).expect("a material");
-    let state = slid(&EquivalentLine(&worn), &spring, &load(0.3, 1.0));
-    assert_eq!(state.friction_coefficient, Estimate::exact(0.0), "springs");
 }

@@ -47,21 +47,6 @@ fn mean_slope_is_second_order_and_lower_at_an_apex_below_three_halves() {
     assert_eq!(at_a_cusp, None, "the slope at the cusp is infinite");
 }
 
-/// −(Δx²/12) ∫ h̃''² dx diverges logarithmically at the apex for p = 3/2: n² · error grows by
-/// p² (p − 1)² ln 2 / (12 p² / (2p − 1)) = ln 2 / 24 per halving. The next terms are O(1/n²).
-#[test]
-fn three_halves_has_the_logarithm_of_its_curvature() {
-    let mut n = 8.0;
-    let scaled = errors(1.5, mean).map(|error| {
-        n *= 2.0;
-        -error * n * n
-    });
-    for pair in scaled.windows(2) {
-        let growth = [pair[1] - pair[0], 2.0_f64.ln() / 24.0];
-        assert_close(growth, 0.01, 0.0, &scaled);
-    }
-}
-
 #[test]
 fn slope_at_the_end_of_the_step_is_first_order_and_low() {
     for exponent in [1.5, 2.0, 4.0] {
