@@ -55,19 +55,6 @@ fn the_force_follows_from_the_flat_punch() {
     }
 }
 
-/// A flat square punch of N × N elements has the stiffness of the dense solution.
-#[test]
-fn stiffness_of_a_square_punch() {
-    for case in group("BEM-03").iter().filter(|case| case.has_input("N")) {
-        let n = whole_part(case.input("N"));
-        let (contact, state) = contact([n, n], &vec![0.0; n * n], Control::IndentationDepth(1.0));
-        case.check("F_over_GdL", contact.normal_force / n as f64);
-        if case.expected("p_centre_over_G").is_some() {
-            case.check("p_centre_over_G", state.pressure()[n * n / 2]);
-        }
-    }
-}
-
 /// Of a body with these heights on unit elements.
 fn contact(shape: [usize; 2], heights: &[f64], control: Control) -> (Contact, ContactState) {
     let grid = Grid::new(shape, [1.0; 2]).expect("a valid grid");
@@ -197,40 +184,4 @@ fn the_surface_outside_the_contact_moves_as_it_should() {
         };
         case.check_within("u", state.displacement()[element], largest);
     }
-}
-
-/// The pressure of the element on the apex grows with refinement like the mean of the exact pressure over the element,
-/// twice the slope times ln 2 for half the edge, beyond which it is by a constant.
-#[test]
-fn the_pressure_on_the_apex_of_a_cone_grows_like_the_logarithm() {
-    let cases = group("BEM-01").into_iter();
-    let excess = cases.filter_map(|case| {
-        let mean = case.expected("p_cell_average")?;
-        let spacing = 1.0 / case.input("a_over_h");
-        let (_, state, element) = contact_with(&body_of(&case), 0.0, spacing);
-        Some(state.pressure()[element] - mean)
-    });
-    let excess: Vec<f64> = excess.collect();
-    let change = |pair: &[f64]| (pair[0] - pair[1]).abs();
-    let changes: Vec<f64> = excess.windows(2).map(change).collect();
-    let is_second_order = changes.windows(2).all(|pair| pair[1] < 0.35 * pair[0]);
-    let is_settled = changes.last().is_some_and(|change| *change < 1e-4);
-    assert!(is_second_order && is_settled, "{excess:?}");
-}
-
-/// The edge lies where whole elements have it; mean square over positions of the axis within an element.
-#[test]
-fn the_force_of_a_flat_punch_converges_with_first_order() {
-    let punch = flat_punch(1.0);
-    let errors = [8.0, 32.0].map(|elements| {
-        let squares = [0.0, 0.13, 0.29, 0.41].map(|position: f64| {
-            let spacing = 1.0 / (elements + position);
-            let (contact, ..) = contact_with(&punch, position * spacing, spacing);
-            // F = 8 G d a.
-            (contact.normal_force / 8.0 - 1.0).powi(2)
-        });
-        (squares.iter().sum::<f64>() / 4.0).sqrt()
-    });
-    let order = order(errors, 4.0);
-    assert!(order > 0.8 && errors[1] < 1e-2, "{order}, {errors:?}");
 }

@@ -189,21 +189,6 @@ fn error_bars_hold_against_finer_solutions() {
     }
 }
 
-/// The depth is that of the one-dimensional model, which is exact here: the force is the impulse on a dashpot.
-#[test]
-fn an_elastic_body_slides_without_friction_at_its_exact_depth() {
-    for exponent in [1.0, 2.0, 3.0] {
-        let (body, depth) = (power(0.3, exponent), 0.2);
-        let force = impulse_to_depth(&body, &viscous(2.0), depth).expect("a force");
-        let estimate = Scene::new(body, elastic(2.0), under_force(force, 0.7)).steady(1e-3);
-        let friction = estimate.friction_coefficient;
-        assert_near(exponent, friction.value, 0.0, friction.error);
-        assert_near(exponent, friction.error, 0.0, 1e-8);
-        let got = estimate.indentation_depth.expect("a depth");
-        assert_near(exponent, got.value, depth, got.error.min(1e-3 * depth));
-    }
-}
-
 #[test]
 fn force_and_depth_control_agree_on_one_grid() {
     for material in &[0.1, 0.0].map(|spring| prony([spring, 0.0], &[(1.0, 1.0)])) {

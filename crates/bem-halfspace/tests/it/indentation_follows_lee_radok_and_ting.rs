@@ -1,17 +1,16 @@
-//! Pressing by a given force or depth, and letting go, on any material (casebook VIS-02); under a constant force
-//! the depth is exactly that of the line model (BEM-05).
+//! Pressing by a given force or depth, and letting go, on any material (casebook VIS-02).
 
 use std::f64::consts::PI;
 
-use bem_halfspace::indent::{HistoryOptions, IndentCurve, MotionRow, follow, indent_history};
+use bem_halfspace::indent::{HistoryOptions, IndentCurve, follow, indent_history};
 use bem_halfspace::{BemError, Control, GridOptions, HistoryPoint};
 use casebook::{Case, group};
 use numerics::Accuracy;
-use rheology::{Compressible, Material};
+use rheology::Material;
 
 use crate::support::{
     assert_close, assert_near, assert_refused, cone, elastic, every_kind_of_material, paraboloid,
-    power, pressed, pressed_by, prony, squares, three_elements, tight, viscous,
+    power, pressed, pressed_by, prony, squares, three_elements, tight,
 };
 
 const TIMES: [f64; 5] = [1e-6, 0.05, 0.2, 0.9, 3.0];
@@ -24,58 +23,6 @@ fn options(radius: f64, elements: f64) -> GridOptions {
 /// How much more the surface yields after a time than an incompressible half space of modulus 1.
 fn yielded(material: &dyn Material, time: f64) -> f64 {
     material.half_space_factor() * material.creep_compliance(time).expect("a compliance")
-}
-
-#[test]
-fn the_impulse_rule_holds_on_any_grid_with_any_steps() {
-    for case in group("BEM-05") {
-        let [force, end] = [case.input("F"), case.expected("t").expect("a time")];
-        let body = paraboloid(0.5 / case.input("R"));
-        // Room beyond the contact changes nothing: elements without pressure do not matter.
-        let options = tight(squares(1.0, 0.5 * case.input("N") + 1.0));
-        for times in [&[end][..], &[1e-6 * end, 0.1 * end, 0.35 * end, end]] {
-            let path = pressed_by(force, times);
-            let steps = pressed(&body, &viscous(case.input("eta")), path, &options);
-            let depth = steps[steps.len() - 1].indentation_depth;
-            assert_close((case.id(), times), depth, case.input("d"), 1e-9);
-        }
-    }
-}
-
-/// Root-mean-square relative error of the depth over a decade of time, which averages over the position of the edge of
-/// the contact inside its elements.
-fn depth_error(material: &dyn Material, p: f64, elements: f64) -> f64 {
-    let (body, force) = (power(0.4, p), 2.0);
-    // Exact (casebook MDR-01).
-    let exact = |time: f64| {
-        let line = body.stretch() * body.coefficient();
-        let impulse = force * yielded(material, time);
-        ((p + 1.0) / p * line.powf(1.0 / p) * impulse / 8.0).powf(p / (p + 1.0))
-    };
-    let times = (0..24).map(|k| 0.5 * 10.0_f64.powf(f64::from(k) / 24.0));
-    let times: Vec<f64> = times.collect();
-    let radius = body.line_position(exact(5.0));
-    let options = squares(radius / elements, 1.2 * radius);
-    let steps = pressed(&body, material, pressed_by(force, &times), &options);
-    let error = |step: &MotionRow| step.indentation_depth / exact(step.time) - 1.0;
-    let squares = steps.iter().map(|step| error(step).powi(2));
-    (squares.sum::<f64>() / times.len() as f64).sqrt()
-}
-
-/// The piecewise constant pressure makes a second-order error in the depth once the position of the edge is averaged.
-#[test]
-fn depth_converges_to_the_exact_law_with_second_order() {
-    let dashpot = prony([0.0, 50.0], &[]);
-    let fluid = prony([0.0, 0.0], &[(40.0, 2.0), (8.0, 0.3)]);
-    let compressible = Compressible::new(&fluid, 0.2).expect("a Poisson ratio");
-    let on_dashpot = [0.75, 1.0, 2.0, 4.0, 10.0].map(|exponent| (&dashpot as _, exponent));
-    let scenes: Vec<(&dyn Material, f64)> = on_dashpot.into();
-    for (material, exponent) in scenes.into_iter().chain([(&compressible as _, 2.0)]) {
-        let errors = [8.0, 16.0, 32.0].map(|elements| depth_error(material, exponent, elements));
-        let order = (errors[0] / errors[2]).log2() / 2.0;
-        assert_near((material, exponent, errors), order, 2.0, 0.35);
-        assert_near((material, exponent), errors[2], 0.0, 2e-4);
-    }
 }
 
 /// w is linear in the history of elastic contacts, also on a grid and in steps: with a constant force only J(t) counts.

@@ -1,9 +1,7 @@
-//! Friction depends only on the dimensionless groups, and neither units nor footprints nor mirrors matter, nor how the
-//! equations of a contact are solved.
+//! Neither units nor footprints nor mirrors matter, nor how the equations of a contact are solved.
 
 use bem_halfspace::Footprint;
 use bem_halfspace::steady::{SteadyOptions, SteadySliding, steady_line, steady_on_grid};
-use casebook::group;
 use indenters::{Cylinder, Unmirrored};
 use rheology::Material;
 
@@ -11,29 +9,6 @@ use crate::support::{
     Formula, Scene, after, assert_all_close, assert_close, assert_refused, at_depth, power, prony,
     slid, squares, three_elements, under_force, viscous,
 };
-
-/// μ / (c^(1/p) (F/(ηv))^(1−1/p)) for random scenes over many decades (casebook BEM-07).
-#[test]
-fn friction_collapses_under_the_similarity_law() {
-    let cases = group("BEM-07");
-    for exponent in [1.0, 2.0, 3.0] {
-        let is_alike = |p: f64| (p - exponent).abs() < 0.1;
-        let rows = cases.iter().filter(|case| case.has_input("p"));
-        let rows = rows.filter(|case| is_alike(case.input("p")));
-        let collapsed = rows.map(|case| {
-            let [c, eta, force, velocity] = ["c", "eta", "F", "v"].map(|name| case.input(name));
-            let load = under_force(force, velocity);
-            let scene = Scene::new(power(c, exponent), viscous(eta), load);
-            let group = force / eta / velocity;
-            let scale = c.powf(1.0 / exponent) * group.powf(1.0 - 1.0 / exponent);
-            scene.slide(6.0, 2.0).last().friction_coefficient / scale
-        });
-        let collapsed: Vec<f64> = collapsed.collect();
-        for value in &collapsed {
-            assert_close((exponent, &collapsed), *value, collapsed[0], 1e-9);
-        }
-    }
-}
 
 /// Units of length \[m], stress \[Pa] and time \[s].
 type Units = [f64; 3];

@@ -7,7 +7,7 @@ use bem_halfspace::{
     steady, steady_line, steady_periodic_on_grid,
 };
 use casebook::refuses;
-use friction_analytic::{ThinLayer, power_sliding, winkler_line_force};
+use friction_analytic::{power_sliding, winkler_line_force};
 use indenters::{Axisymmetric, Cylinder, EquivalentLine, FlatPunch, RigidLine};
 use nalgebra::{DMatrix, DVector};
 use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
@@ -161,24 +161,6 @@ fn assert_within_bar(what: &str, found: Estimate, expected: f64) {
     assert_near(what, found.value, expected, found.error);
 }
 
-/// Every field moves as the sum of the waves in it: by the factor of the wave without end.
-#[test]
-fn all_elements_together_move_the_mean() {
-    let grid = Grid::new([801, 801], [1.0, 0.8]).unwrap();
-    let ones = vec![1.0; grid.n_elements()];
-    for nu in [-0.5, 0.0, 0.3, 0.499_999, 0.5] {
-        for thickness in [0.3, 2.0, 7.0] {
-            let material = material(nu);
-            let layer = Layer::new(&material, thickness).unwrap();
-            let convolution = Convolution::on(&layer, &grid);
-            let (mut sums, mut workspace) = (ones.clone(), convolution.workspace());
-            convolution.apply(&mut workspace, (&ones, 0..801), (&mut sums, 400..401));
-            let mean = PI * thickness * (1.0 - 2.0 * nu) / (1.0 - nu).powi(2);
-            assert_near("the middle", sums[400 * 801 + 400], mean, 1e-10 * thickness);
-        }
-    }
-}
-
 fn solid() -> Prony {
     three_elements(0.25, 2.25, 1.0)
 }
@@ -276,38 +258,6 @@ fn a_periodic_layer_moves_by_its_factor() {
     convolution.apply(&mut workspace, (&pressure, 0..32), (&mut moved, 0..32));
     let expected = TAU * thickness * 0.4 / (2.0 * 0.49) + layer_factor(TAU * thickness, 0.3) * 1e-3;
     assert_close("crest", moved[0], expected, 1e-13);
-}
-
-/// The foundation of Winkler is within 1 % at a = 50 t. The radii of both limits are off in proportion to t/a, and the forces
-/// at a depth by less.
-#[test]
-fn thin_layers_are_foundations_or_films() {
-    let body = paraboloid(1.0);
-    for nu in [0.3, 0.5] {
-        let limit = ThinLayer::new(0.5 * (1.0 - nu), nu, 1.0).unwrap();
-        let [near, far] = [10.0, 20.0].map(|a| {
-            let [force, depth] = by_integral_equation(&body, [a, nu], false);
-            let thin = if nu < 0.5 {
-                limit.press_winkler(&body, depth)
-            } else {
-                limit.press_film(&body, depth)
-            };
-            let thin = thin.unwrap();
-            [thin.normal_force / force, thin.contact_radius / a].map(|ratio| 1.0 - ratio)
-        });
-        let [force, radius] = [0, 1].map(|quantity| near[quantity] / far[quantity]);
-        assert!(
-            (2.5..4.0).contains(&force) && (1.7..2.2).contains(&radius),
-            "{near:?} {far:?}"
-        );
-    }
-    let material = material(0.3);
-    let layer = Layer::new(&material, 1.0).unwrap();
-    let found = press(&body, &layer, Control::IndentationDepth(2500.0), 1e-2).unwrap();
-    let limit = ThinLayer::new(0.35, 0.3, 1.0).unwrap();
-    let limit = limit.press_winkler(&body, 2500.0).unwrap();
-    assert_within_bar("force", found.normal_force, limit.normal_force);
-    assert_close("force", found.normal_force.value, limit.normal_force, 1e-2);
 }
 
 /// Springs side by side are the one-dimensional model, so that a cylinder on a thin layer of a dashpot follows Kürschner's
