@@ -1,7 +1,6 @@
 //! What a user types, and what comes back; one binary, one module per claim.
 
 mod answers_agree;
-mod any_scene_is_answered;
 mod documented_commands;
 mod explained_omissions;
 mod exported_tables;
