@@ -10,6 +10,7 @@ mod material;
 mod output;
 mod progress;
 mod run;
+mod surface;
 mod sweep;
 
 use std::process::ExitCode;
@@ -42,6 +43,8 @@ enum Command {
     FitMaterial(material::FitMaterial),
     /// Find the material behind measured curves of force over depth: findings with intervals, CSV, SVG and PNG.
     FitIndentation(indentation::FitIndentation),
+    /// Say what a measured surface is like: roughness parameters, power spectra, pictures, and a tidied copy.
+    Surface(surface::Surface),
     /// Print the JSON Schema of scene files.
     #[command(after_help = "Example: viscofriction scene-schema > scene.schema.json")]
     SceneSchema,
@@ -62,6 +65,7 @@ pub fn execute() -> ExitCode {
         Command::Sweep(options) => sweep::sweep(&options),
         Command::FitMaterial(options) => material::fit(&options),
         Command::FitIndentation(options) => indentation::fit(&options),
+        Command::Surface(options) => surface::describe(&options),
         Command::SceneSchema => scene_schema(),
         Command::Completions { shell } => completions(shell),
     };

@@ -113,11 +113,12 @@ impl Equations {
         self.near.scatter(&self.gap, gap);
     }
 
-    /// Solves until the largest residual is small enough, or the root mean square a part of what it was; that is returned.
-    pub(super) fn iterate(&mut self, part: f64, largest: f64) -> f64 {
+    /// Solves until the largest residual is small enough, or the root mean square a part of what it was and no more than a
+    /// `mean`; it is returned.
+    pub(super) fn iterate(&mut self, part: f64, mean: f64, largest: f64) -> f64 {
         let [mut pressure, mut gap] = [&mut self.pressure, &mut self.gap].map(std::mem::take);
         let inside = self.inside.clone();
-        let target = part * self.residual(&gap).root_mean_square;
+        let target = mean.min(part * self.residual(&gap).root_mean_square);
         let fitting = NUMBERS_PER_ELEMENT * self.spread.len() / (2 * inside.len());
         let steps = [MOST_STEPS, fitting.clamp(1, MOST_KEPT) - 1];
         minimise([&mut pressure, &mut gap], &inside, steps, |gap| {

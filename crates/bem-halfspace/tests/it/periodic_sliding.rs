@@ -8,6 +8,7 @@ use bem_halfspace::{
 };
 use casebook::{RoughCase, rough_cases};
 use rheology::Material;
+use rustfft::num_complex::Complex;
 
 use crate::support::{
     Pressing, assert_all_close, assert_close, assert_near, assert_refused, elastic, prony, viscous,
@@ -108,16 +109,38 @@ fn at_rest_the_contact_is_the_elastic_one() {
     assert_near("friction", solved.friction_from_dissipation, 0.0, 1e-15);
 }
 
-/// The elastic pressure in the dissipation integral is the first order in the velocity.
+/// To the first order in the velocity, p̄ μ = Σ |p̂|² |q_x| (1 − ν) J″(q_x v) / |q| with the pressure at rest.
 #[test]
 fn slow_friction_is_the_dissipation_of_the_elastic_pressure() {
     let case = &rough_cases("cases")[0];
+    let (n, velocity) = (64, 1e-7);
     let slow = |velocity: f64| RoughCase {
         velocity,
         ..case.clone()
     };
-    let [one, two] = [1e-6, 2e-6].map(|v| solve(&slow(v), 64).friction_from_dissipation / v);
-    assert_close("half as slow", two, one, 1e-4);
+    let pressure = solve(&slow(0.0), n).pressure.pressure;
+    let turn = |index: usize| Complex::from_polar(1.0, -2.0 * PI * (index % n) as f64 / n as f64);
+    let along = |line: &dyn Fn(usize) -> Complex<f64>, m: usize| -> Complex<f64> {
+        (0..n).map(|index| line(index) * turn(m * index)).sum()
+    };
+    let row = |index: usize, m: usize| along(&|k| Complex::from(pressure[index * n + k]), m);
+    let rows: Vec<_> = (0..n * n).map(|wave| row(wave % n, wave / n)).collect();
+    let power = |wave: usize| {
+        let whole = |m: usize| 2.0 * PI * (m as f64 - if 2 * m > n { n as f64 } else { 0.0 });
+        let [q_x, q_y] = [wave / n, wave % n].map(whole);
+        let amplitude = along(&|index| rows[wave % n * n + index], wave / n) / (n * n) as f64;
+        let compliance = case
+            .material
+            .creep()
+            .complex_compliance(q_x.abs() * velocity);
+        let loss = compliance.expect("a compliance").loss * case.material.half_space_factor() / 2.0;
+        amplitude.norm_sqr() * q_x.abs() * loss / q_x.hypot(q_y).max(1.0)
+    };
+    // The shortest wave along x stands for both directions of sliding.
+    let waves = (0..n * n).filter(|wave| 2 * (wave / n) != n);
+    let expected = waves.map(power).sum::<f64>() / case.mean_pressure;
+    let actual = solve(&slow(velocity), n).friction_from_dissipation;
+    assert_close("slow", actual, expected, 1e-4);
 }
 
 #[test]
@@ -175,6 +198,30 @@ fn what_has_no_stationary_state_is_refused() {
         (&grid, &wave[..], [1.0, f64::INFINITY], "velocity"),
     ] {
         assert_refused((name, load), slide(grid, heights, &solid, load), name);
+    }
+}
+
+/// Twenty branches over six decades of time, of which the slowest are a thousand times stiffer than the fastest.
+#[test]
+fn no_spectrum_keeps_the_contact_from_being_found() {
+    let n = 128;
+    let surface = indenters::rough::SelfAffine {
+        period: [1.0; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 0.1,
+        longest_wavelength: 0.25,
+        shortest_wavelength: 1.0 / 16.0,
+        roll_off_wavelength: 0.25,
+        seed: 1,
+    };
+    let surface = surface.surface().expect("a surface");
+    let heights = surface.heights([n; 2]).expect("heights");
+    let branch = |k: i32| (1.5_f64.powi(k), 10.0_f64.powf(f64::from(k) / 3.0 - 5.0));
+    let material = prony([1.0, 0.0], &(0..20).map(branch).collect::<Vec<_>>());
+    for velocity in [0.01, 1.0, 100.0] {
+        let solved = slide(&unit_square(n), &heights, &material, [5.0, velocity]);
+        let products = solved.expect("a contact").products;
+        assert!(products < 150, "{velocity}: {products} products");
     }
 }
 

@@ -4,7 +4,9 @@
 //! h(x, y) = Σ a cos(2π (m x/L_x + n y/L_y) + φ)
 //! ```
 
+mod roughness;
 mod self_affine;
+mod spectrum;
 mod through;
 
 use std::f64::consts::TAU;
@@ -16,7 +18,9 @@ use rustfft::num_complex::Complex;
 
 use crate::IndenterError;
 use crate::table::at_least;
+pub use roughness::Roughness;
 pub use self_affine::SelfAffine;
+pub use spectrum::{PowerSpectrum, Ring};
 
 /// A wave a cos(2π (m x/L_x + n y/L_y) + φ) of a periodic surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

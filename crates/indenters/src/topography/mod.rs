@@ -119,25 +119,37 @@ impl Topography {
         }
     }
 
+    /// Slopes of the plane of least squares along x and y, of heights none of which is missing.
+    pub fn tilt(&self) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let mut sums = [0.0; 2];
+            for (index, height) in self.heights.iter().enumerate() {
+                let at = self.place(index)[axis];
+                sums = [sums[0] + at * height, sums[1] + at * at];
+            }
+            // A single line of points has no slope across.
+            if sums[1] > 0.0 {
+                sums[0] / sums[1] / self.spacing[axis]
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Place of a point along x and y, in points from the middle.
+    fn place(&self, index: usize) -> [f64; 2] {
+        let place = [index / self.shape[1], index % self.shape[1]];
+        [0, 1].map(|axis| place[axis] as f64 - 0.5 * (self.shape[axis] as f64 - 1.0))
+    }
+
     /// Without its plane of least squares, of heights none of which is missing.
     #[must_use]
     pub fn levelled(mut self) -> Self {
-        let [rows, columns] = self.shape;
-        let place = |index: usize| {
-            let centred = |at: usize, count: usize| at as f64 - 0.5 * (count as f64 - 1.0);
-            [
-                centred(index / columns, rows),
-                centred(index % columns, columns),
-            ]
-        };
-        for axis in [0, 1] {
-            let mut sums = [0.0; 2];
-            for (index, height) in self.heights.iter().enumerate() {
-                let at = place(index)[axis];
-                sums = [sums[0] + at * height, sums[1] + at * at];
-            }
-            for (index, height) in self.heights.iter_mut().enumerate() {
-                *height -= sums[0] / sums[1] * place(index)[axis];
+        let tilt = self.tilt();
+        for index in 0..self.heights.len() {
+            let at = self.place(index);
+            for axis in [0, 1] {
+                self.heights[index] -= tilt[axis] * at[axis] * self.spacing[axis];
             }
         }
         self

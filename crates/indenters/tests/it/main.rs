@@ -7,6 +7,8 @@ mod leading_edge_has_several_intervals;
 mod lines_match_their_bodies;
 #[cfg(feature = "rough")]
 mod rough_surfaces;
+#[cfg(feature = "rough")]
+mod roughness;
 mod stretch_matches_the_paper;
 mod support;
 mod surfaces_know_their_extent;

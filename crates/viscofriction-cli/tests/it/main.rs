@@ -15,4 +15,5 @@ mod malformed;
 mod rough_scenes;
 mod scenes;
 mod support;
+mod surfaces;
 mod sweeps;

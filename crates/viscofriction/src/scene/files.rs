@@ -118,6 +118,14 @@ fn line_of_error(error: &IndenterError, rows: &[(usize, Row)]) -> usize {
     row.map_or(1, |(line, _)| *line)
 }
 
+/// The extension, where it is that of a measured surface.
+pub fn measured(file: &Path) -> Option<&str> {
+    let extension = file.extension()?.to_str()?;
+    let mut known = ["asc", "gsf", "sur", "x3p", "xyz"].iter();
+    let is_known = known.any(|known| known.eq_ignore_ascii_case(extension));
+    is_known.then_some(extension)
+}
+
 /// A surface from the contents of a file, of NumPy if its name ends with `.npy`, of CSV otherwise.
 ///
 /// # Errors

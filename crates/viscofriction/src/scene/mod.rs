@@ -18,7 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
-pub use files::{height_map, profile};
+pub use files::{height_map, measured, profile};
 pub use indenter::{Edges, Indenter, SelfAffineSurface, Term};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint};

@@ -12,7 +12,9 @@ use indenters::{
 };
 use numerics::{in_range, positive};
 
-use crate::scene::{Edges, Indenter, SceneError, SelfAffineSurface, Term, height_map, profile};
+use crate::scene::{
+    Edges, Indenter, SceneError, SelfAffineSurface, Term, height_map, measured, profile,
+};
 use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
@@ -228,14 +230,6 @@ fn with_edges(
         }
         (Edges::Wall, None) => Ok(Body::HeightMap(map)),
     }
-}
-
-/// The extension, where it is that of a measured surface.
-fn measured(file: &Path) -> Option<&str> {
-    let extension = file.extension()?.to_str()?;
-    let mut known = ["asc", "gsf", "sur", "x3p", "xyz"].iter();
-    let is_known = known.any(|known| known.eq_ignore_ascii_case(extension));
-    is_known.then_some(extension)
 }
 
 /// The body of a measured surface, whose missing heights are filled, and then whose tilt is taken out, where it is asked.

@@ -1,0 +1,115 @@
+//! Numbers that say what a measured surface is like.
+//!
+//! ```text
+//! Sq² = ⟨z²⟩,   Ssk = ⟨z³⟩/Sq³,   Sku = ⟨z⁴⟩/Sq⁴,   Sa = ⟨|z|⟩          z = height out of the body, less its mean
+//! Sdq² = ⟨|∇z|²⟩,   α = m₀ m₄/m₂²  with  m₀ = Sq²,  m₂ = Sdq²/2,  m₄ = 3/8 ⟨(∇²z)²⟩
+//! ```
+//!
+//! The height parameters are those of ISO 25178-2; m₂ and m₄ are the moments of profiles of an isotropic surface (Nayak 1971).
+
+use crate::rough::PeriodicSurface;
+use crate::table::at_least;
+use crate::{HeightMap, IndenterError};
+
+/// What a surface is like; exact for the heights given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Roughness {
+    /// Mean of the deviations from the mean height, Sa \[m].
+    pub mean_deviation: f64,
+    /// Root mean square of the heights, Sq \[m].
+    pub rms_height: f64,
+    /// Skewness Ssk, positive where peaks stand out of a plain.
+    pub skewness: f64,
+    /// Kurtosis Sku, 3 for Gaussian heights.
+    pub kurtosis: f64,
+    /// Height of the highest peak above the mean, Sp \[m].
+    pub peak: f64,
+    /// Depth of the deepest pit below the mean, Sv \[m].
+    pub pit: f64,
+    /// Root mean squares of the slopes along x and y; Sdq is the root of the sum of their squares.
+    pub rms_slopes: [f64; 2],
+    /// Root mean square of the mean curvature ∇²z/2, \[1/m].
+    pub rms_curvature: f64,
+    /// Nayak's parameter α ≥ 3/2 of an isotropic surface with these moments: the larger, the more wave lengths there are.
+    pub nayak: f64,
+}
+
+impl Roughness {
+    /// Numbers of a map, whose waves tell slopes and curvatures where it `repeats` itself, and else the first and second
+    /// differences of neighbouring heights.
+    ///
+    /// # Errors
+    /// [`IndenterError::TooFew`] below three rows and columns; [`IndenterError::InvalidParameter`] for heights that are all
+    /// the same.
+    pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
+        at_least(3, "rows of heights", map.shape()[0])?;
+        at_least(3, "columns of heights", map.shape()[1])?;
+        let surface = PeriodicSurface::through(map, 0.0)?;
+        let [along_x, along_y, laplacian] = if repeats {
+            squares_of_waves(&surface)
+        } else {
+            squares_of_differences(map)
+        };
+        let (heights, n) = (map.heights(), map.heights().len() as f64);
+        let mean = heights.iter().sum::<f64>() / n;
+        let highest = heights.iter().copied().fold(0.0, f64::max);
+        // Heights of the map point into the body; relative to their range no power of them is too small.
+        let relative = |height: &f64| (mean - height) / highest;
+        let moment = |power: i32| {
+            let powers = heights.iter().map(|height| relative(height).powi(power));
+            powers.sum::<f64>() / n
+        };
+        let rms = moment(2).sqrt();
+        let deviations = heights.iter().map(|height| (mean - height).abs());
+        let slope = along_x + along_y;
+        Ok(Self {
+            mean_deviation: deviations.sum::<f64>() / n,
+            rms_height: rms * highest,
+            skewness: moment(3) / rms.powi(3),
+            kurtosis: moment(4) / rms.powi(4),
+            peak: mean,
+            pit: highest - mean,
+            rms_slopes: [along_x.sqrt(), along_y.sqrt()],
+            rms_curvature: 0.5 * laplacian.sqrt(),
+            nayak: 1.5 * (rms * highest * laplacian.sqrt() / slope).powi(2),
+        })
+    }
+
+    /// Root mean square of the gradient, Sdq.
+    pub fn rms_gradient(&self) -> f64 {
+        self.rms_slopes[0].hypot(self.rms_slopes[1])
+    }
+}
+
+/// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z.
+fn squares_of_waves(surface: &PeriodicSurface) -> [f64; 3] {
+    let mut squares = [0.0; 3];
+    for wave in surface.waves() {
+        let [x, y] = surface.wave_vector(wave).map(|q| q * q);
+        let mean_square = 0.5 * wave.amplitude * wave.amplitude;
+        for (sum, factor) in squares.iter_mut().zip([x, y, (x + y) * (x + y)]) {
+            *sum += mean_square * factor;
+        }
+    }
+    squares
+}
+
+fn squares_of_differences(map: &HeightMap) -> [f64; 3] {
+    let ([rows, columns], [dx, dy]) = (map.shape(), map.spacing());
+    let mean = |rows: usize, columns: usize, value: &dyn Fn(usize) -> f64| {
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [row, column]));
+        let squares = places.map(|[row, column]| value(row * map.shape()[1] + column).powi(2));
+        squares.sum::<f64>() / (rows * columns) as f64
+    };
+    let heights = map.heights();
+    let step = |at: usize, next: usize| heights[at + next] - heights[at];
+    let bend = |at: usize, next: usize| step(at + next, next) - step(at, next);
+    [
+        mean(rows - 1, columns, &|at| step(at, columns) / dx),
+        mean(rows, columns - 1, &|at| step(at, 1) / dy),
+        mean(rows - 2, columns - 2, &|at| {
+            bend(at + 1, columns) / (dx * dx) + bend(at + columns, 1) / (dy * dy)
+        }),
+    ]
+}

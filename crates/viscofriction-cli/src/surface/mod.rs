@@ -1,0 +1,214 @@
+//! `surface`: what a height map is like.
+
+mod picture;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use clap::Args;
+use viscofriction::WrongInput;
+use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
+use viscofriction::indenters::topography::Topography;
+use viscofriction::scene::{height_map, measured};
+
+use crate::input::read_input;
+use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
+
+/// Arguments of the command.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: viscofriction surface road.x3p --fill-missing --out road\n\
+    Example: viscofriction surface heights.csv --spacing 1e-6 1e-6 --periodic"
+)]
+pub(crate) struct Surface {
+    /// Heights as asc, gsf, sur, x3p or xyz; or as CSV or npy as in scenes, with --spacing.
+    file: PathBuf,
+    /// Distances of neighbouring heights along x and y in m, of CSV and npy.
+    #[arg(long, num_args = 2, value_names = ["DX", "DY"], allow_negative_numbers = true)]
+    spacing: Option<Vec<f64>>,
+    /// The map repeats itself: slopes, curvatures and spectra are those of its waves.
+    #[arg(long)]
+    periodic: bool,
+    /// Fill missing heights from their neighbours.
+    #[arg(long)]
+    fill_missing: bool,
+    /// Do not take the mean slope out.
+    #[arg(long)]
+    keep_tilt: bool,
+    /// Where roughness.csv, spectrum.csv, profiles.csv, surface.svg, surface.png and tidied.xyz are written [default: a
+    /// table on the standard output].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Replace files that are in the folder already.
+    #[arg(long, requires = "out")]
+    overwrite: bool,
+}
+
+const NAMES: &str = "roughness.csv spectrum.csv profiles.csv surface.svg surface.png tidied.xyz";
+
+/// Reads the map, and writes what it is like.
+pub(crate) fn describe(options: &Surface) -> Result<()> {
+    let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
+    let out = options.out.as_ref().map(open).transpose()?;
+    let wrong = |problem: String| WrongInput(format!("{}: {problem}", options.file.display()));
+    let (surface, notes) = options.tidied().map_err(wrong)?;
+    let of_library = |error: &dyn std::fmt::Display| wrong(error.to_string());
+    let map = surface.body().map_err(|error| of_library(&error))?;
+    let roughness = Roughness::of(&map, options.periodic).map_err(|error| of_library(&error))?;
+    let rows = rows(&roughness);
+    print_text(&format!("{notes}\n{}\n", table(&rows)))?;
+    let Some(out) = &out else {
+        return Ok(());
+    };
+    let spectrum = PowerSpectrum::of(&map, options.periodic).map_err(|error| of_library(&error))?;
+    out.write(
+        "roughness.csv",
+        &to_csv("quantity symbol value unit", rows)?,
+    )?;
+    out.write("spectrum.csv", &to_csv("", &spectrum.radial)?)?;
+    let profiles = spectrum.profiles.iter().zip(["x", "y"]);
+    let profiles =
+        profiles.flat_map(|(points, axis)| points.iter().map(move |point| (axis, point)));
+    out.write(
+        "profiles.csv",
+        &to_csv("along wave_number density", profiles)?,
+    )?;
+    out.draw("surface", &picture::figure(&map, &spectrum))?;
+    // Last: with it the others are there.
+    out.write("tidied.xyz", xyz(&surface)?.as_bytes())?;
+    print_line(&format!("written into {}", out.path().display()))
+}
+
+impl Surface {
+    /// The surface without holes and tilt, around its mean height, and what was done to it.
+    fn tidied(&self) -> Result<(Topography, String), String> {
+        let mut surface = self.read()?;
+        let [rows, columns] = surface.shape;
+        let [dx, dy] = surface.spacing;
+        let missing = surface
+            .heights
+            .iter()
+            .filter(|height| height.is_nan())
+            .count();
+        let mut notes = format!("{rows} × {columns} heights, {dx:.6e} × {dy:.6e} m apart\n");
+        if missing > 0 && self.fill_missing {
+            surface = surface.filled();
+            let points = rows * columns;
+            writeln!(
+                notes,
+                "missing, filled from their neighbours: {missing} of {points}"
+            )
+            .map_err(|error| error.to_string())?;
+        } else if missing > 0 {
+            let problem = format!("{missing} of {} heights are missing", rows * columns);
+            return Err(format!(
+                "{problem}; --fill-missing takes them from their neighbours"
+            ));
+        }
+        if !self.keep_tilt {
+            let [x, y] = surface.tilt();
+            writeln!(
+                notes,
+                "mean slope, taken out: {x:.6e} along x, {y:.6e} along y"
+            )
+            .map_err(|error| error.to_string())?;
+            surface = surface.levelled();
+        }
+        let mean = surface.heights.iter().sum::<f64>() / surface.heights.len() as f64;
+        surface
+            .heights
+            .iter_mut()
+            .for_each(|height| *height -= mean);
+        Ok((surface, notes))
+    }
+
+    fn read(&self) -> Result<Topography, String> {
+        let contents = read_input(&self.file).map_err(|WrongInput(problem)| problem)?;
+        match (measured(&self.file), &self.spacing) {
+            (Some(_), Some(_)) => Err("its spacing is in the file; leave out --spacing".to_owned()),
+            (None, None) => Err("heights without a spacing need --spacing DX DY in m".to_owned()),
+            (Some(extension), None) => {
+                Topography::read(extension, &contents).map_err(|error| error.to_string())
+            }
+            (None, Some(spacing)) => {
+                // The command line takes two numbers.
+                let map = height_map(Path::new(&self.file), &contents, [spacing[0], spacing[1]])?;
+                Ok(Topography {
+                    shape: map.shape(),
+                    spacing: map.spacing(),
+                    heights: map.heights().iter().map(|height| -height).collect(),
+                })
+            }
+        }
+    }
+}
+
+/// Quantity, symbol, value and unit.
+type Row = (&'static str, &'static str, f64, &'static str);
+
+fn rows(of: &Roughness) -> Vec<Row> {
+    vec![
+        ("root mean square of the heights", "Sq", of.rms_height, "m"),
+        (
+            "mean deviation of the heights",
+            "Sa",
+            of.mean_deviation,
+            "m",
+        ),
+        ("highest peak above the mean", "Sp", of.peak, "m"),
+        ("deepest pit below the mean", "Sv", of.pit, "m"),
+        (
+            "highest peak above the deepest pit",
+            "Sz",
+            of.peak + of.pit,
+            "m",
+        ),
+        ("skewness", "Ssk", of.skewness, "1"),
+        ("kurtosis", "Sku", of.kurtosis, "1"),
+        (
+            "root mean square of the gradient",
+            "Sdq",
+            of.rms_gradient(),
+            "1",
+        ),
+        (
+            "root mean square of the slope along x",
+            "",
+            of.rms_slopes[0],
+            "1",
+        ),
+        (
+            "root mean square of the slope along y",
+            "",
+            of.rms_slopes[1],
+            "1",
+        ),
+        (
+            "root mean square of the mean curvature",
+            "",
+            of.rms_curvature,
+            "1/m",
+        ),
+        ("Nayak's parameter", "α", of.nayak, "1"),
+    ]
+}
+
+fn table(rows: &[Row]) -> comfy_table::Table {
+    let mut table = markdown("quantity | symbol | value | unit");
+    for (quantity, symbol, value, unit) in rows {
+        table.add_row([quantity, symbol, &&*format!("{value:.6e}"), unit]);
+    }
+    table
+}
+
+/// The surface as rows of x, y and z in metres.
+fn xyz(surface: &Topography) -> Result<String, std::fmt::Error> {
+    let mut text = String::new();
+    for (index, height) in surface.heights.iter().enumerate() {
+        let place = [index / surface.shape[1], index % surface.shape[1]];
+        let [x, y] = [0, 1].map(|axis| place[axis] as f64 * surface.spacing[axis]);
+        writeln!(text, "{x:e} {y:e} {height:e}")?;
+    }
+    Ok(text)
+}

@@ -1,0 +1,85 @@
+//! What the program says of measured surfaces.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use crate::support::{Folder, assert_close};
+
+/// Two waves of 1e-6 and 5e-7 m on a tilted plane, 40 × 30 points 1e-5 m apart, without the tenth.
+fn measured() -> String {
+    let mut text = String::new();
+    for index in (0..1200).filter(|index| *index != 10) {
+        let [x, y] = [f64::from(index / 30), f64::from(index % 30)];
+        let along = (TAU * x / 10.0).cos() + 0.5 * (TAU * y / 6.0).sin();
+        let height = 1e-6 * (along + 0.2 * x - 0.1 * y);
+        writeln!(text, "{} {} {height}", x * 1e-5, y * 1e-5).expect("a text");
+    }
+    text
+}
+
+#[test]
+fn a_tidied_copy_has_the_same_numbers() {
+    let folder = Folder::new("surface");
+    folder.write("plate.xyz", measured());
+    let said = folder.done("surface plate.xyz --fill-missing --out first");
+    assert!(
+        said.stdout
+            .contains("missing, filled from their neighbours: 1 of 1200")
+    );
+    let files = "profiles.csv roughness.csv spectrum.csv surface.png surface.svg tidied.xyz";
+    assert_eq!(folder.names("first").join(" "), files);
+    let again = folder.done("surface first/tidied.xyz --keep-tilt --out again");
+    assert!(!again.stdout.contains("mean slope") && !again.stdout.contains("missing"));
+    let [first, again] =
+        ["first", "again"].map(|of| folder.column(&format!("{of}/roughness.csv"), 2));
+    for (one, other) in first.iter().zip(&again) {
+        assert_close("a number", *other, *one, 1e-9);
+    }
+    // The tilt is 0.02 along x and −0.01 along y, less what the waves at the edges add.
+    assert_close("Sq", first[0], 1e-6 * (0.5_f64 + 0.125).sqrt(), 3e-2);
+    folder.ends(
+        "surface plate.xyz --fill-missing --out first",
+        2,
+        "--overwrite",
+    );
+}
+
+/// A map that repeats itself is the sum of its waves, and CSV says where heights are; they point into the body there.
+#[test]
+fn a_periodic_map_is_described_by_its_waves() {
+    let folder = Folder::new("surface-periodic");
+    let height = |index: i32| (TAU * f64::from(index) / 16.0).cos().to_string();
+    let lines = (0..16).map(|row| vec![height(row); 8].join(","));
+    folder.write("wave.csv", lines.collect::<Vec<_>>().join("\n"));
+    folder.done("surface wave.csv --spacing 0.25 0.5 --periodic --keep-tilt --out told");
+    let numbers = folder.column("told/roughness.csv", 2);
+    let q = TAU / 4.0;
+    let rms = 0.5_f64.sqrt();
+    for (place, expected) in [(0, rms), (7, rms * q), (10, 0.5 * rms * q * q), (11, 1.5)] {
+        assert_close("a number", numbers[place], expected, 1e-12);
+    }
+    let density = folder.column("told/spectrum.csv", 1);
+    // One of the four wave vectors of the ring, of which two opposite ones are one.
+    assert_close("density", density[0], 0.25 / (q * q) / 4.0, 1e-12);
+}
+
+#[test]
+fn what_is_no_surface_is_refused() {
+    let folder = Folder::new("surface-refused");
+    folder.write("hole.xyz", measured());
+    folder.write("flat.csv", "1,1,1\n1,1,1\n1,1,1");
+    folder.write("row.csv", "1,2,3\n3,2,1");
+    for (arguments, needed) in [
+        ("hole.xyz", "1 of 1200 heights are missing; --fill-missing"),
+        ("hole.xyz --spacing 1 1", "leave out --spacing"),
+        ("flat.csv", "need --spacing DX DY"),
+        ("flat.csv --spacing 1 0", "spacing along y"),
+        ("flat.csv --spacing 1 1", "largest height above the lowest"),
+        ("row.csv --spacing 1 1", "rows of heights"),
+        ("none.xyz", "none.xyz"),
+        (".", "a regular file is needed"),
+    ] {
+        folder.ends(&format!("surface {arguments} --out no"), 2, needed);
+        assert!(folder.names("no").is_empty());
+    }
+}
