@@ -53,7 +53,7 @@ impl FarLoads {
         }))
     }
 
-    /// Takes the pressures w of another contact.
+    /// Takes the pressures w of another contact; blocks with a mean tension take no part.
     pub(super) fn weigh(&mut self, near: &ActiveSet, pressures: &[f64]) {
         let means = self.means(near, pressures).into_iter();
         self.weights = means.map(|mean| mean.max(0.0)).collect();
@@ -99,7 +99,7 @@ impl FarLoads {
         means
     }
 
-    /// The displacement d, by the inverse for the mean weight: with it the residual of the equation is a displacement.
+    /// The displacement d of blocks that take part, by the inverse for the mean weight: with it the residual of the equation is a displacement.
     fn solve(&mut self, means: &[f64]) -> Vec<f64> {
         let (n, mean) = (means.len(), self.mean_weight);
         let [mut displacement, mut residual] = [copies(0.0, n), copies(0.0, n)];
@@ -117,6 +117,13 @@ impl FarLoads {
             add(&mut image, -1.0, residual);
             Some([residual.to_vec(), image])
         });
+        // What is subtracted has to be what the equation knows: the softest waves multiply any difference by the ratio of
+        // the moduli.
+        for (displacement, weight) in displacement.iter_mut().zip(&self.weights) {
+            if *weight == 0.0 {
+                *displacement = 0.0;
+            }
+        }
         displacement
     }
 }

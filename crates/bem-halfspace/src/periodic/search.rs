@@ -9,7 +9,7 @@
 
 use crate::periodic::equations::Equations;
 use crate::periodic::kernel::Sliding;
-use crate::reductions::larger;
+use crate::reductions::{add, larger};
 use crate::{BemError, Grid};
 
 /// Parts of the residual to which the equations of the first contacts and of later ones are solved.
@@ -34,6 +34,8 @@ const ALL: i32 = 10;
 const LARGER: i32 = 30;
 /// Part of the largest violation from which others count as large.
 const LARGE: f64 = 0.3;
+/// Waves are much softer than others from this ratio on; from 3 to 30 it hardly matters.
+const SOFT: f64 = 10.0;
 /// Part of the tolerance to which the equations are solved.
 const LAST: f64 = 0.5;
 
@@ -187,10 +189,7 @@ impl<'a> Search<'a> {
         let hidden = if is_small { HIDDEN } else { 1.0 };
         let allowed = (NOISE * noise).max(tolerance * self.scale);
         let mut changed = self.exchange(allowed, least, true);
-        for (pressure, inside) in self.pressure.iter_mut().zip(&self.contact) {
-            *pressure = if *inside { *pressure } else { 0.0 };
-        }
-        self.balance();
+        self.release();
         self.renew_gaps();
         let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
         let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
@@ -230,6 +229,32 @@ impl<'a> Search<'a> {
     /// Sum of the pressures, \[Pa].
     fn total(&self) -> f64 {
         self.problem.mean_pressure * self.pressure.len() as f64
+    }
+
+    /// Takes the pressure from what is not in contact. Where waves with crests along the motion are much softer than all
+    /// others, the sums along the motion stay as they were: their displacements would throw the surfaces apart.
+    fn release(&mut self) {
+        let before = self.sums_along_motion();
+        for (pressure, inside) in self.pressure.iter_mut().zip(&self.contact) {
+            *pressure = if *inside { *pressure } else { 0.0 };
+        }
+        if self.equations.kernel.softness_along_motion() > SOFT {
+            let after = self.sums_along_motion();
+            for row in self.pressure.chunks_mut(before.len()) {
+                for (pressure, (before, after)) in row.iter_mut().zip(before.iter().zip(&after)) {
+                    *pressure *= if *before > 0.0 { before / after } else { 1.0 };
+                }
+            }
+        }
+        self.balance();
+    }
+
+    fn sums_along_motion(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.problem.grid.shape()[1]];
+        for row in self.pressure.chunks(sums.len()) {
+            add(&mut sums, 1.0, row);
+        }
+        sums
     }
 
     /// Gives the pressure its mean.
