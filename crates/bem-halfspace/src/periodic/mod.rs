@@ -142,13 +142,18 @@ pub fn steady_periodic_on_grid(
         tolerance: options.tolerance,
         max_products: options.max_products,
     };
-    in_pool(grid.n_elements(), || solve_here(problem))
+    solve_from(&mut Vec::new(), problem)
 }
 
-fn solve_here(problem: search::Problem) -> Result<PeriodicSliding, BemError> {
-    let mut pressure = Vec::new();
+/// From a guess of the pressure on elements of twice the edges, or from none; it becomes the pressure of this grid.
+fn solve_from(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
+    in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
+}
+
+fn solve_here(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
     let mut equations = Equations::new(problem.sliding, problem.grid)?;
-    let solved = nested::solve(problem, &mut equations, &mut pressure)?;
+    let solved = nested::solve(problem, &mut equations, guess)?;
+    let pressure: Vec<f64> = guess.iter().map(|p| p.max(0.0)).collect();
     let mut field = vec![0.0; pressure.len()];
     let mean = |field: &[f64]| dot(field, &pressure) / pressure.iter().sum::<f64>();
     equations.kernel.slopes(problem.heights, &mut field);

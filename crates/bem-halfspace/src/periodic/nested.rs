@@ -17,19 +17,23 @@ const SMALLEST_EDGE: usize = 32;
 const COARSE_TOLERANCE: f64 = 1e-4;
 const COARSE_PRODUCTS: usize = 300;
 
-/// Solves the problem with the equations of its grid; the pressure is filled in.
+/// Solves the problem with the equations of its grid from a guess on elements of twice the edges, or from none. The guess
+/// becomes the pressure, and outside the contact the gap, as a negative pressure.
 pub(super) fn solve(
     problem: Problem,
     equations: &mut Equations,
-    pressure: &mut Vec<f64>,
+    guess: &mut Vec<f64>,
 ) -> Result<Solved, BemError> {
-    if let Some(solved) = full_contact(&problem, equations, pressure) {
+    if let Some(solved) = full_contact(&problem, equations, guess) {
         return Ok(solved);
     }
-    start(&problem, pressure)?;
-    let solved = search::solve(problem, equations, pressure);
-    pressure.iter_mut().for_each(|p| *p = p.max(0.0));
-    solved
+    if 4 * guess.len() == problem.heights.len() {
+        *guess = doubled(guess, problem.grid.blocks().shape());
+    } else {
+        guess.clear();
+        start(&problem, guess)?;
+    }
+    search::solve(problem, equations, guess)
 }
 
 /// Starts from the solution on elements of twice the edges, if they can be so long.
@@ -110,18 +114,18 @@ fn full_contact(
 ) -> Option<Solved> {
     let mean = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
     let displacement: Vec<f64> = problem.heights.iter().map(|height| mean - height).collect();
-    pressure.resize(displacement.len(), 0.0);
-    equations.kernel.invert_at_centre(&displacement, pressure);
-    let total: f64 = pressure.iter().sum();
-    let rest = problem.mean_pressure - total / pressure.len() as f64;
-    pressure.iter_mut().for_each(|pressure| *pressure += rest);
-    if pressure.iter().all(|pressure| *pressure > 0.0) {
-        return Some(Solved {
-            depth: mean,
-            products: 1,
-            residual: 0.0,
-        });
+    let mut full = vec![0.0; displacement.len()];
+    equations.kernel.invert_at_centre(&displacement, &mut full);
+    let total: f64 = full.iter().sum();
+    let rest = problem.mean_pressure - total / full.len() as f64;
+    full.iter_mut().for_each(|pressure| *pressure += rest);
+    if full.iter().any(|pressure| *pressure <= 0.0) {
+        return None;
     }
-    pressure.clear();
-    None
+    *pressure = full;
+    Some(Solved {
+        depth: mean,
+        products: 1,
+        residual: 0.0,
+    })
 }
