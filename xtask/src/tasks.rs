@@ -1,5 +1,6 @@
 //! Many items of one task, with a bar on a terminal; silent elsewhere.
 
+use std::borrow::Cow;
 use std::time::Duration;
 
 use anyhow::Result;
@@ -8,7 +9,7 @@ use rayon::prelude::*;
 
 /// Runs a task for every item on all threads; results are in the order of the items.
 pub(crate) fn in_parallel<T: Sync, R: Send>(
-    task: &'static str,
+    task: impl Into<Cow<'static, str>>,
     items: &[T],
     run: impl Fn(&T) -> Result<R> + Sync + Send,
 ) -> Result<Vec<R>> {
@@ -21,7 +22,7 @@ pub(crate) fn in_parallel<T: Sync, R: Send>(
 
 /// Runs a task for one item after the other, so that each can be timed.
 pub(crate) fn in_turn<T, R>(
-    task: &'static str,
+    task: impl Into<Cow<'static, str>>,
     items: &[T],
     run: impl FnMut(&T) -> Result<R>,
 ) -> Result<Vec<R>> {
@@ -32,7 +33,7 @@ pub(crate) fn in_turn<T, R>(
 }
 
 /// A bar over so many steps.
-pub(crate) fn bar(task: &'static str, steps: usize) -> ProgressBar {
+pub(crate) fn bar(task: impl Into<Cow<'static, str>>, steps: usize) -> ProgressBar {
     let bar = ProgressBar::new(steps as u64).with_message(task);
     let template = "{msg:24} {bar:32} {pos}/{len}  {elapsed}, {eta} left";
     if let Ok(style) = ProgressStyle::with_template(template) {

@@ -6,12 +6,13 @@ mod calibration;
 mod fit;
 mod report;
 mod request;
+mod rough;
 mod speed_range;
 mod stability;
 mod stationary;
 mod work_precision;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Result, ensure};
@@ -51,6 +52,8 @@ enum Experiment {
     SpeedRange,
     /// Measure the stationary solver: its error bars against finer solutions, its growth, its speed.
     Stationary(stationary::Options),
+    /// Compare friction and area of random rough surfaces with Persson's theory; goes on where it was interrupted.
+    Rough,
 }
 
 /// Carries out the experiments asked for; a result that is wrong is written like any other before the command fails.
@@ -61,7 +64,7 @@ pub(crate) fn evidence(options: Evidence) -> Result<()> {
     let mut failures = Vec::new();
     for experiment in experiments.unwrap_or_else(Experiment::all) {
         let start = Instant::now();
-        let report = experiment.run(options.quick)?;
+        let report = experiment.run(out, options.quick)?;
         report.write(out)?;
         print_line(&report.summary)?;
         let (page, seconds) = (report.page(out), start.elapsed().as_secs_f64());
@@ -81,16 +84,18 @@ impl Experiment {
             Self::Stability(stability::Options::default()),
             Self::Calibration(calibration::Options::default()),
             Self::SpeedRange,
+            Self::Rough,
         ]
     }
 
-    fn run(&self, quick: bool) -> Result<Report> {
+    fn run(&self, out: &Path, quick: bool) -> Result<Report> {
         match self {
             Self::WorkPrecision => work_precision::report(quick),
             Self::Stability(options) => stability::report(options, quick),
             Self::Calibration(options) => calibration::report(options, quick),
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),
+            Self::Rough => rough::report(out, quick),
         }
     }
 }

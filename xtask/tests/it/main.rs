@@ -2,6 +2,7 @@
 
 mod calibration;
 mod commands;
+mod rough;
 mod speed_range;
 mod stability;
 mod stationary;

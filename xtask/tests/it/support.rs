@@ -52,15 +52,21 @@ impl Evidence {
     /// Runs an experiment with its options, separated by blanks, into an empty folder of this name.
     pub(crate) fn quick(name: &str, line: &str) -> Self {
         // Tests that share a run may be processes of their own.
-        let folder = folder(&format!("{name}-{}", std::process::id()));
-        let common = ["evidence", "--quick", "--out", argument(&folder)];
+        let mut evidence = Self {
+            folder: folder(&format!("{name}-{}", std::process::id())),
+            printed: String::new(),
+        };
+        evidence.printed = evidence.again(line);
+        evidence
+    }
+
+    /// Runs an experiment into what is there; what it prints.
+    pub(crate) fn again(&self, line: &str) -> String {
+        let common = ["evidence", "--quick", "--out", argument(&self.folder)];
         let output = run(common.into_iter().chain(line.split(' ')));
         let message = text(&output.stderr);
         assert_eq!(output.status.code(), Some(0), "{line}: {message}");
-        Self {
-            printed: text(&output.stdout),
-            folder,
-        }
+        text(&output.stdout)
     }
 
     /// The rows of one of its tables.
