@@ -70,6 +70,7 @@ fn quadrature_agrees_with_the_closed_form_for_every_exponent() {
             // Both start from a rounded p, which weighs 1/(2p − 1); x_d of the closed form is rounded in logarithms.
             let rounding = f64::EPSILON / (2.0 * p - 1.0);
             assert_close!(mu => expected, within 1e-12 + rounding; "p = {p}, scale {scale:e}");
+            assert!(exact.error <= 1e-13 * expected, "{exact:?}");
             let claimed = (numerical.error + exact.error) / expected;
             assert_close!(mu => expected, within claimed + rounding; "p = {p}, scale {scale:e}");
         }
