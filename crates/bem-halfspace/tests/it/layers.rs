@@ -97,39 +97,6 @@ fn by_integral_equation(body: &dyn Axisymmetric, [a, nu]: [f64; 2], has_edge: bo
     [force, depth]
 }
 
-/// a/t, F/(2 E* a d) of a punch, and d/(2 a²) and F/(2 a³ E*) of a paraboloid, for ν = 0.3; casebook-2.json, "axisymmetric".
-const PRESSED: [[f64; 4]; 2] = [
-    [
-        0.5,
-        1.624_025_413_213_734_4,
-        0.758_850_417_876_064_3,
-        1.402_231_502_855_397_3,
-    ],
-    [
-        5.0,
-        10.099_790_755_218_667,
-        0.527_090_413_774_384_6,
-        5.312_512_985_441_645,
-    ],
-];
-
-#[test]
-fn the_integral_equation_is_that_of_the_casebook() {
-    for [a, punch, depth_of_paraboloid, force_of_paraboloid] in PRESSED {
-        let [force, _] = by_integral_equation(&FlatPunch::new(a).unwrap(), [a, 0.3], true);
-        assert_close("punch", 0.5 * force / a, punch, 1e-10);
-        let paraboloid = paraboloid(1.0);
-        let [force, depth] = by_integral_equation(&paraboloid, [a, 0.3], false);
-        assert_close("depth", 0.5 * depth / (a * a), depth_of_paraboloid, 1e-10);
-        assert_close(
-            "force",
-            0.5 * force / (a * a * a),
-            force_of_paraboloid,
-            1e-10,
-        );
-    }
-}
-
 /// The depth is given, so that the deviation is that of the force; of a punch the elements follow the edge.
 #[test]
 fn pressing_agrees_with_an_integral_equation() {
