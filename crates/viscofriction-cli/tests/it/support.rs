@@ -43,6 +43,19 @@ pub(crate) fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [String;
     })
 }
 
+/// The rows below the line `== name: columns` of a file of tables, without those that begin with `#`. A row that ends with
+/// ` |` has its last cell in the lines below it, indented by four blanks.
+#[track_caller]
+pub(crate) fn table<const N: usize>(tables: &str, name: &str) -> impl Iterator<Item = [String; N]> {
+    let mut all = tables.split("\n== ").skip(1);
+    let found = all.find_map(|table| table.strip_prefix(name)?.strip_prefix(": "));
+    let found = found.unwrap_or_else(|| panic!("no table {name}"));
+    let lines = found.lines().skip(1).filter(|line| !line.starts_with('#'));
+    let table = lines.collect::<Vec<_>>().join("\n");
+    let table = table.replace(" |\n    ", " | ").replace("\n    ", "\\n");
+    rows(&table).collect::<Vec<_>>().into_iter()
+}
+
 /// A committed scene, or a file that one names.
 pub(crate) fn example(name: &str) -> PathBuf {
     PathBuf::from(argument(&format!("IN/{name}")))
