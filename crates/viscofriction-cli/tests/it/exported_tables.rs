@@ -15,47 +15,26 @@ use crate::support::assert_close;
 /// Frequency, \[Hz], storage and loss modulus in shear, \[MPa].
 const POINTS: [[f64; 3]; 3] = [[0.1, 1.5, 0.3], [1.0, 2.25, 0.45], [10.0, 4.0, 1.2]];
 
-/// TA Instruments TRIOS, text: steps between lines of metadata, units below the names.
-const TRIOS: &str = "Filename\tC:\\data\\rubber.tri\r\nSample name\t\"5 mm\" disc, no. 2\r\n\r\n[step]\r\n\
-    Frequency sweep - 1\r\nAngular frequency\tStep time\tTemperature\tStorage modulus\tLoss modulus\tTan(delta)\r\n\
-    rad/s\ts\t°C\tPa\tPa\t\r\n0.6283185307179586\t12\t20.01\t1.5e6\t300000\t0.2\r\n\
-    6.283185307179586\t24\t20.02\t2.25e6\t450000\t0.2\r\n62.83185307179586\t36\t20.00\t4e6\t1.2e6\t0.3\r\n\r\n\
-    [step]\r\nFrequency sweep - 2\r\nAngular frequency\tStep time\tTemperature\tStorage modulus\tLoss modulus\tTan(delta)\r\n\
-    rad/s\ts\t°C\tPa\tPa\t\r\n0.6283185307179586\t12\t40.01\t1e6\t300000\t0.3\r\n\
-    6.283185307179586\t24\t40.02\t1.5e6\t450000\t0.3\r\n";
+/// TA Instruments TRIOS, text with carriage returns: steps between lines of metadata, units below the names.
+const TRIOS: &str = include_str!("../data/exports/trios.txt");
 
 /// Anton Paar RheoCompass, CSV in UTF-16: an empty first column, units in brackets, empty lines, a count of points.
-const RHEOCOMPASS: &str = "Project:\tRubber\nTest:\tFrequency sweep\n\nInterval and data points:\t1\t3\n\
-    Interval data:\tPoint No.\tAngular Frequency\tStorage Modulus\tLoss Modulus\tLoss Factor\tTemperature\n\t\t\t\t\t\n\
-    \t\t[rad/s]\t[MPa]\t[MPa]\t[1]\t[°C]\n\t\t\t\t\t\t\n\t1\t62,83185307179586\t4\t1,2\t0,3\t20\n\
-    \t2\t6,283185307179586\t2,25\t0,45\t0,2\t20\n\t3\t0,6283185307179586\t1,5\t0,3\t0,2\t20\n";
+const RHEOCOMPASS: &str = include_str!("../data/exports/rheocompass.csv");
 
 /// Netzsch Proteus, CSV in Latin-1: metadata in comments, names with units in a comment too.
-const PROTEUS: &str = "#EXPORTTYPE:DATA ALL\n#SEPARATOR:SEMICOLON\n#DECIMAL:COMMA\n#SAMPLE:Gummi, für Reifen\n\n\
-    ##Temp./°C;Time/min;f/Hz;E'/MPa;E''/MPa;tan d\n20,0;1,0;0,1;4,5;0,9;0,2\n20,1;2,0;1,0;6,75;1,35;0,2\n\
-    20,2;3,0;10,0;12,0;3,6;0,3\n";
+const PROTEUS: &str = include_str!("../data/exports/proteus.csv");
 
 /// Mettler Toledo STARe, text: columns that are aligned by blanks, units right-aligned below them.
-const STARE: &str = "Curve Name:\n  !&rubber\nCurve Values:\n\
-    \x20           Index              Ts       Frequency              E'             E''\n\
-    \x20                            [°C]            [Hz]           [MPa]           [MPa]\n\
-    \x20               0           20.00             0.1            4.50            0.90\n\
-    \x20               1           20.00             1.0            6.75            1.35\n\
-    \x20               2           20.00            10.0           12.00            3.60\n";
+const STARE: &str = include_str!("../data/exports/stare.txt");
 
 /// GABO Eplexor, text: from the highest frequency down, a modulus that is not read.
-const EPLEXOR: &str = "Eplexor 500 N;Zug\nf [Hz];|E*| [MPa];E' [MPa];E'' [MPa];tan delta;F stat [N]\n\
-    10;12,53;12;3,6;0,3;5\n1;6,88;6,75;1,35;0,2;5\n0,1;4,59;4,5;0,9;0,2;5\n";
+const EPLEXOR: &str = include_str!("../data/exports/eplexor.txt");
 
 /// Malvern rSpace for Kinexus, CSV with a byte-order mark: quotes, and words for the moduli.
-const RSPACE: &str = "\u{feff}\"Action Name\",\"Frequency(Hz)\",\"Temperature(°C)\",\
-    \"Shear modulus (elastic component)(Pa)\",\"Shear modulus (viscous component)(Pa)\",\"Phase angle(°)\"\n\
-    \"Sweep, 1\",\"0.1\",\"20\",\"1500000\",\"300000\",\"11.3\"\n\"Sweep, 1\",\"1\",\"20\",\"2250000\",\"450000\",\"11.3\"\n\
-    \"Sweep, 1\",\"10\",\"20\",\"4000000\",\"1200000\",\"16.7\"\n";
+const RSPACE: &str = include_str!("../data/exports/rspace.csv");
 
 /// PerkinElmer DMA 8000, text: a loss factor instead of a loss modulus.
-const PYRIS: &str = "Time / min\tFrequency / Hz\tStorage Modulus / Pa\tTan Delta\n1\t0.1\t4.5E+06\t0.2\n\
-    2\t1\t6.75E+06\t0.2\n3\t10\t1.2E+07\t0.3\n";
+const PYRIS: &str = include_str!("../data/exports/pyris.txt");
 
 /// What is read when storage modulus alone is one of this kind.
 #[track_caller]
@@ -86,18 +65,19 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 
 #[test]
 fn seven_layouts_of_instruments_have_the_same_points() {
-    let utf16 = ["\u{feff}", RHEOCOMPASS].concat();
+    let crlf = TRIOS.replace('\n', "\r\n");
+    let [utf16, rspace] = [RHEOCOMPASS, RSPACE].map(|text| ["\u{feff}", text].concat());
     let utf16: Vec<u8> = utf16.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let latin1 = PROTEUS.chars().map(u8::try_from);
     let latin1: Vec<u8> = latin1.collect::<Result<_, _>>().expect("Latin-1");
     let [tension, shear] = [Deformation::Tension, Deformation::Shear].map(Some);
     for (software, contents, deformation) in [
-        ("TRIOS", TRIOS.as_bytes(), shear),
+        ("TRIOS", crlf.as_bytes(), shear),
         ("RheoCompass", &utf16, shear),
         ("Proteus", &latin1, None),
         ("STARe", STARE.as_bytes(), None),
         ("Eplexor", EPLEXOR.as_bytes(), None),
-        ("rSpace", RSPACE.as_bytes(), None),
+        ("rSpace", rspace.as_bytes(), None),
         ("Pyris", PYRIS.as_bytes(), tension),
     ] {
         let isotherms = isotherms(read(contents, deformation));
