@@ -13,9 +13,8 @@ use std::time::Instant;
 use bem_halfspace::{
     Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid,
 };
-use benches::{ContactScene, memory};
+use benches::{ContactScene, memory, rough_heights};
 use casebook::{deviation, prony};
-use indenters::rough::SelfAffine;
 
 /// Why there is no timing.
 type Failure = Box<dyn Error + Send + Sync>;
@@ -50,18 +49,9 @@ fn report_each(sizes: &[String]) -> Result<(), Failure> {
 }
 
 fn report(n: usize) -> Result<(), Failure> {
-    let surface = SelfAffine {
-        period: [1.0; 2],
-        hurst_exponent: 0.8,
-        rms_slope: RMS_SLOPE,
-        longest_wavelength: 0.25,
-        shortest_wavelength: 8.0 / n as f64,
-        roll_off_wavelength: 0.25,
-        seed: 1,
-    };
-    let heights = surface.surface()?.heights([n; 2])?;
+    let steep = rough_heights(n)?;
+    let heights: Vec<f64> = steep.iter().map(|height| RMS_SLOPE * height).collect();
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2])?;
-    let steep = heights.iter().map(|height| height / RMS_SLOPE).collect();
     let scene = ContactScene::periodic(steep)?;
     let start = Instant::now();
     let _pressed = scene.solve(TOLERANCE)?;

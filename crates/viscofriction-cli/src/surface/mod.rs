@@ -86,33 +86,22 @@ impl Surface {
         let mut surface = self.read()?;
         let [rows, columns] = surface.shape;
         let [dx, dy] = surface.spacing;
-        let missing = surface
-            .heights
-            .iter()
-            .filter(|height| height.is_nan())
-            .count();
+        let points = rows * columns;
+        let missing = surface.heights.iter().filter(|height| height.is_nan());
+        let missing = missing.count();
         let mut notes = format!("{rows} × {columns} heights, {dx:.6e} × {dy:.6e} m apart\n");
-        if missing > 0 && self.fill_missing {
+        if missing > 0 {
+            if !self.fill_missing {
+                return Err(format!(
+                    "{missing} of {points} heights are missing; --fill-missing takes them from their neighbours"
+                ));
+            }
             surface = surface.filled();
-            let points = rows * columns;
-            writeln!(
-                notes,
-                "missing, filled from their neighbours: {missing} of {points}"
-            )
-            .map_err(|error| error.to_string())?;
-        } else if missing > 0 {
-            let problem = format!("{missing} of {} heights are missing", rows * columns);
-            return Err(format!(
-                "{problem}; --fill-missing takes them from their neighbours"
-            ));
+            notes += &format!("missing, filled from their neighbours: {missing} of {points}\n");
         }
         if !self.keep_tilt {
             let [x, y] = surface.tilt();
-            writeln!(
-                notes,
-                "mean slope, taken out: {x:.6e} along x, {y:.6e} along y"
-            )
-            .map_err(|error| error.to_string())?;
+            notes += &format!("mean slope, taken out: {x:.6e} along x, {y:.6e} along y\n");
             surface = surface.levelled();
         }
         let mean = surface.heights.iter().sum::<f64>() / surface.heights.len() as f64;
@@ -147,51 +136,43 @@ impl Surface {
 /// Quantity, symbol, value and unit.
 type Row = (&'static str, &'static str, f64, &'static str);
 
+/// Those of the rows.
+const QUANTITIES: &str = "root mean square of the heights|Sq|m\n\
+                          mean deviation of the heights|Sa|m\n\
+                          highest peak above the mean|Sp|m\n\
+                          deepest pit below the mean|Sv|m\n\
+                          highest peak above the deepest pit|Sz|m\n\
+                          skewness|Ssk|1\n\
+                          kurtosis|Sku|1\n\
+                          root mean square of the gradient|Sdq|1\n\
+                          root mean square of the slope along x||1\n\
+                          root mean square of the slope along y||1\n\
+                          root mean square of the mean curvature||1/m\n\
+                          Nayak's parameter|α|1";
+
 fn rows(of: &Roughness) -> Vec<Row> {
-    vec![
-        ("root mean square of the heights", "Sq", of.rms_height, "m"),
-        (
-            "mean deviation of the heights",
-            "Sa",
-            of.mean_deviation,
-            "m",
-        ),
-        ("highest peak above the mean", "Sp", of.peak, "m"),
-        ("deepest pit below the mean", "Sv", of.pit, "m"),
-        (
-            "highest peak above the deepest pit",
-            "Sz",
-            of.peak + of.pit,
-            "m",
-        ),
-        ("skewness", "Ssk", of.skewness, "1"),
-        ("kurtosis", "Sku", of.kurtosis, "1"),
-        (
-            "root mean square of the gradient",
-            "Sdq",
-            of.rms_gradient(),
-            "1",
-        ),
-        (
-            "root mean square of the slope along x",
-            "",
-            of.rms_slopes[0],
-            "1",
-        ),
-        (
-            "root mean square of the slope along y",
-            "",
-            of.rms_slopes[1],
-            "1",
-        ),
-        (
-            "root mean square of the mean curvature",
-            "",
-            of.rms_curvature,
-            "1/m",
-        ),
-        ("Nayak's parameter", "α", of.nayak, "1"),
-    ]
+    let heights = [
+        of.rms_height,
+        of.mean_deviation,
+        of.peak,
+        of.pit,
+        of.peak + of.pit,
+    ];
+    let shape = [of.skewness, of.kurtosis, of.rms_gradient()];
+    let waves = [
+        of.rms_slopes[0],
+        of.rms_slopes[1],
+        of.rms_curvature,
+        of.nayak,
+    ];
+    let values = heights.into_iter().chain(shape).chain(waves);
+    let names = QUANTITIES.lines().filter_map(|line| {
+        let (quantity, rest) = line.split_once('|')?;
+        let (symbol, unit) = rest.split_once('|')?;
+        Some((quantity, symbol, unit))
+    });
+    let row = |((quantity, symbol, unit), value)| (quantity, symbol, value, unit);
+    names.zip(values).map(row).collect()
 }
 
 fn table(rows: &[Row]) -> comfy_table::Table {
