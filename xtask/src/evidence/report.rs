@@ -51,11 +51,8 @@ impl Report {
 
 impl Table {
     pub(super) fn new<R: Serialize>(name: &'static str, rows: &[R]) -> Result<Self> {
-        Ok(Self::written(name, to_csv(rows)?))
-    }
-
-    pub(super) const fn written(name: &'static str, contents: String) -> Self {
-        Self { name, contents }
+        let contents = to_csv(rows)?;
+        Ok(Self { name, contents })
     }
 
     /// Some columns, separated by blanks, in Markdown; numbers only as far as their `…_error` says that they are known.

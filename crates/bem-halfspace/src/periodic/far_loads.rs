@@ -119,11 +119,9 @@ impl FarLoads {
         });
         // What is subtracted has to be what the equation knows: the softest waves multiply any difference by the ratio of
         // the moduli.
-        for (displacement, weight) in displacement.iter_mut().zip(&self.weights) {
-            if *weight == 0.0 {
-                *displacement = 0.0;
-            }
-        }
-        displacement
+        let taking_part = displacement.iter().zip(&self.weights);
+        taking_part
+            .map(|(d, w)| if *w > 0.0 { *d } else { 0.0 })
+            .collect()
     }
 }

@@ -102,8 +102,6 @@ pub struct PeriodicSliding {
     /// Part of the period in contact: the elements in contact, less 0.12 elements for each of their edges to one that is
     /// not, by which counted areas are too large.
     pub area_fraction: f64,
-    /// Part of the elements that are in contact.
-    pub counted_area_fraction: f64,
     /// Depth of the mean plane of the surface, \[m]: below the mean of the deformed half space, which the mean pressure moves
     /// without limit, or below the surface of a layer at rest; negative in light contact.
     pub mean_depth: f64,
@@ -162,12 +160,10 @@ fn solve_here(guess: &mut Vec<f64>, problem: search::Problem) -> Result<Periodic
     let from_dissipation = mean(&field);
     let squeezed = problem.mean_pressure * problem.sliding.mean_compliance()?;
     let mean_height = problem.heights.iter().sum::<f64>() / problem.heights.len() as f64;
-    let [counted, corrected] = area_fractions(problem.grid.shape()[1], &pressure);
     Ok(PeriodicSliding {
         friction_coefficient: from_slopes,
         friction_from_dissipation: from_dissipation,
-        area_fraction: corrected,
-        counted_area_fraction: counted,
+        area_fraction: area_fraction(problem.grid.shape()[1], &pressure),
         mean_depth: solved.depth - mean_height + squeezed,
         products: solved.products,
         residual: solved.residual,
@@ -182,8 +178,8 @@ fn solve_here(guess: &mut Vec<f64>, problem: search::Problem) -> Result<Periodic
 /// Part of an element by which counted areas are too large for each edge between an element in contact and one that is not.
 const EXCESS_PER_EDGE: f64 = 0.12;
 
-/// The part of the elements in contact, and that less the excess at its edges.
-fn area_fractions(columns: usize, pressure: &[f64]) -> [f64; 2] {
+/// The part of the elements in contact, less the excess at its edges.
+fn area_fraction(columns: usize, pressure: &[f64]) -> f64 {
     let n = pressure.len();
     let inside = |element: usize| pressure[element] > 0.0;
     let [mut count, mut edges] = [0; 2];
@@ -195,7 +191,7 @@ fn area_fractions(columns: usize, pressure: &[f64]) -> [f64; 2] {
         edges += neighbours.into_iter().filter(differs).count();
     }
     let corrected = count as f64 - EXCESS_PER_EDGE * edges as f64;
-    [count as f64, corrected.max(0.0)].map(|part| part / n as f64)
+    corrected.max(0.0) / n as f64
 }
 
 impl PeriodicOptions {
