@@ -3,7 +3,7 @@
 mod picture;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
@@ -51,29 +51,23 @@ const NAMES: &str = "roughness.csv spectrum.csv profiles.csv surface.svg surface
 pub(crate) fn describe(options: &Surface) -> Result<()> {
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
-    let wrong = |problem: String| WrongInput(format!("{}: {problem}", options.file.display()));
-    let (surface, notes) = options.tidied().map_err(wrong)?;
-    let of_library = |error: &dyn std::fmt::Display| wrong(error.to_string());
-    let map = surface.body().map_err(|error| of_library(&error))?;
-    let roughness = Roughness::of(&map, options.periodic).map_err(|error| of_library(&error))?;
+    let (surface, notes) = options.tidied()?;
+    let wrong = |error| options.wrong(error);
+    let map = surface.body().map_err(|error| options.wrong(error))?;
+    let roughness = Roughness::of(&map, options.periodic).map_err(wrong)?;
     let rows = rows(&roughness);
     print_text(&format!("{notes}\n{}\n", table(&rows)))?;
     let Some(out) = &out else {
         return Ok(());
     };
-    let spectrum = PowerSpectrum::of(&map, options.periodic).map_err(|error| of_library(&error))?;
-    out.write(
-        "roughness.csv",
-        &to_csv("quantity symbol value unit", rows)?,
-    )?;
+    let spectrum = PowerSpectrum::of(&map, options.periodic).map_err(wrong)?;
+    let roughness = to_csv("quantity symbol value unit", rows)?;
+    out.write("roughness.csv", &roughness)?;
     out.write("spectrum.csv", &to_csv("", &spectrum.radial)?)?;
-    let profiles = spectrum.profiles.iter().zip(["x", "y"]);
-    let profiles =
-        profiles.flat_map(|(points, axis)| points.iter().map(move |point| (axis, point)));
-    out.write(
-        "profiles.csv",
-        &to_csv("along wave_number density", profiles)?,
-    )?;
+    let axes = spectrum.profiles.iter().zip(["x", "y"]);
+    let profiles = axes.flat_map(|(points, axis)| points.iter().map(move |point| (axis, point)));
+    let profiles = to_csv("along wave_number density", profiles)?;
+    out.write("profiles.csv", &profiles)?;
     out.draw("surface", &picture::figure(&map, &spectrum))?;
     // Last: with it the others are there.
     out.write("tidied.xyz", xyz(&surface)?.as_bytes())?;
@@ -82,7 +76,7 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
 
 impl Surface {
     /// The surface without holes and tilt, around its mean height, and what was done to it.
-    fn tidied(&self) -> Result<(Topography, String), String> {
+    fn tidied(&self) -> Result<(Topography, String), WrongInput> {
         let mut surface = self.read()?;
         let [rows, columns] = surface.shape;
         let [dx, dy] = surface.spacing;
@@ -92,9 +86,9 @@ impl Surface {
         let mut notes = format!("{rows} × {columns} heights, {dx:.6e} × {dy:.6e} m apart\n");
         if missing > 0 {
             if !self.fill_missing {
-                return Err(format!(
-                    "{missing} of {points} heights are missing; --fill-missing takes them from their neighbours"
-                ));
+                let problem = format!("{missing} of {points} heights are missing");
+                let advice = "--fill-missing takes them from their neighbours";
+                return Err(self.wrong(format!("{problem}; {advice}")));
             }
             surface = surface.filled();
             notes += &format!("missing, filled from their neighbours: {missing} of {points}\n");
@@ -112,24 +106,27 @@ impl Surface {
         Ok((surface, notes))
     }
 
-    fn read(&self) -> Result<Topography, String> {
-        let contents = read_input(&self.file).map_err(|WrongInput(problem)| problem)?;
-        match (measured(&self.file), &self.spacing) {
-            (Some(_), Some(_)) => Err("its spacing is in the file; leave out --spacing".to_owned()),
-            (None, None) => Err("heights without a spacing need --spacing DX DY in m".to_owned()),
+    fn read(&self) -> Result<Topography, WrongInput> {
+        let contents = read_input(&self.file)?;
+        match (measured(&self.file), self.spacing.as_deref()) {
             (Some(extension), None) => {
-                Topography::read(extension, &contents).map_err(|error| error.to_string())
+                Topography::read(extension, &contents).map_err(|error| self.wrong(error))
             }
-            (None, Some(spacing)) => {
-                // The command line takes two numbers.
-                let map = height_map(Path::new(&self.file), &contents, [spacing[0], spacing[1]])?;
+            (Some(_), Some(_)) => Err(self.wrong("its spacing is there; leave out --spacing")),
+            (None, Some(&[dx, dy])) if dx > 0.0 && dy > 0.0 => {
+                let map = height_map(&self.file, &contents, [dx, dy]).map_err(WrongInput)?;
                 Ok(Topography {
                     shape: map.shape(),
                     spacing: map.spacing(),
                     heights: map.heights().iter().map(|height| -height).collect(),
                 })
             }
+            _ => Err(self.wrong("its heights need --spacing DX DY in m, both above 0")),
         }
+    }
+
+    fn wrong(&self, problem: impl std::fmt::Display) -> WrongInput {
+        WrongInput(format!("{}: {problem}", self.file.display()))
     }
 }
 

@@ -73,7 +73,7 @@ fn what_is_no_surface_is_refused() {
         ("hole.xyz", "1 of 1200 heights are missing; --fill-missing"),
         ("hole.xyz --spacing 1 1", "leave out --spacing"),
         ("flat.csv", "need --spacing DX DY"),
-        ("flat.csv --spacing 1 0", "spacing along y"),
+        ("flat.csv --spacing 1 0", "DY in m, both above 0"),
         ("flat.csv --spacing 1 1", "largest height above the lowest"),
         ("row.csv --spacing 1 1", "rows of heights"),
         ("none.xyz", "none.xyz"),
