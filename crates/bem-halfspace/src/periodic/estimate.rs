@@ -13,7 +13,7 @@ const FIRST: usize = 4;
 const FEWEST: usize = 32;
 /// The error is at most twice what the last refinement changed, or what the one before leaves of its change at the order:
 /// first of the area and the depth, second of the friction. It is doubled because which elements touch jumps from grid to
-/// grid; of random surfaces, loads and solids two in a hundred err by more than once.
+/// grid; of 120 random surfaces, loads and solids two erred by more.
 const SAFETY: f64 = 2.0;
 const LEFT_OF_AREA: f64 = 0.5;
 const LEFT_OF_FRICTION: f64 = 0.25;

@@ -99,7 +99,8 @@ impl FarLoads {
         means
     }
 
-    /// The displacement d of blocks that take part, by the inverse for the mean weight: with it the residual of the equation is a displacement.
+    /// The displacement d of blocks that take part, by the inverse for the mean weight: with it the residual of the equation
+    /// is a displacement.
     fn solve(&mut self, means: &[f64]) -> Vec<f64> {
         let (n, mean) = (means.len(), self.mean_weight);
         let [mut displacement, mut residual] = [copies(0.0, n), copies(0.0, n)];
