@@ -67,7 +67,7 @@ impl ContactScene {
 ///
 /// # Errors
 /// [`IndenterError`] for a number of elements that has no such waves.
-pub fn rough_heights(n: usize) -> Result<Vec<f64>, IndenterError> {
+pub fn rough_heights(n: usize, seed: u64) -> Result<Vec<f64>, IndenterError> {
     let surface = SelfAffine {
         period: [1.0; 2],
         hurst_exponent: 0.8,
@@ -75,7 +75,7 @@ pub fn rough_heights(n: usize) -> Result<Vec<f64>, IndenterError> {
         longest_wavelength: 0.25,
         shortest_wavelength: 8.0 / n as f64,
         roll_off_wavelength: 0.25,
-        seed: 1,
+        seed,
     };
     Ok(surface.surface()?.heights([n; 2])?)
 }

@@ -49,7 +49,7 @@ fn report_each(sizes: &[String]) -> Result<(), Failure> {
 }
 
 fn report(n: usize) -> Result<(), Failure> {
-    let steep = rough_heights(n)?;
+    let steep = rough_heights(n, 1)?;
     let heights: Vec<f64> = steep.iter().map(|height| RMS_SLOPE * height).collect();
     let grid = Grid::new([n; 2], [1.0 / n as f64; 2])?;
     let scene = ContactScene::periodic(steep)?;

@@ -76,7 +76,7 @@ fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
     match (name, size.parse()) {
         ("hertz", Ok(n)) => hertz("hertz", n, 0.0),
         ("hertz-aside", Ok(n)) => hertz("hertz-aside", n, ASIDE),
-        ("rough", Ok(n)) => rough(rough_heights(n)?),
+        ("rough", Ok(n)) => rough(rough_heights(n, 1)?),
         ("rough", Err(_)) => rough(heights_in(size)?),
         _ => Err(format!("there is no scene {name} {size}").into()),
     }

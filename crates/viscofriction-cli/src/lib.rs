@@ -1,4 +1,4 @@
-//! The program `viscofriction`: scenes, sweeps, and materials from measurements.
+//! The program `viscofriction`: scenes, sweeps, and materials and surfaces from measurements.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]

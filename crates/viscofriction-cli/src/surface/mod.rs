@@ -112,7 +112,9 @@ impl Surface {
             (Some(extension), None) => {
                 Topography::read(extension, &contents).map_err(|error| self.wrong(error))
             }
-            (Some(_), Some(_)) => Err(self.wrong("its spacing is there; leave out --spacing")),
+            (Some(_), Some(_)) => {
+                Err(self.wrong("the file states its spacing; leave out --spacing"))
+            }
             (None, Some(&[dx, dy])) if dx > 0.0 && dy > 0.0 => {
                 let map = height_map(&self.file, &contents, [dx, dy]).map_err(WrongInput)?;
                 Ok(Topography {

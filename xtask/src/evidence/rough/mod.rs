@@ -17,8 +17,8 @@ use crate::tasks;
 const ROWS: &str = "rough.csv";
 /// Points that are computed before they are written.
 const AT_ONCE: usize = 64;
-/// Names and scenes of the solids, geometric means of their moduli of rest and glass with speeds around the transition, and
-/// how they are drawn.
+/// Names and scenes of the solids; about the geometric means of their moduli of rest and glass, and speeds around the
+/// transition; how they are drawn.
 const SOLIDS: [(&str, &str); 3] = [
     ("standard-10", include_str!("standard-10.toml")),
     ("standard-1000", include_str!("standard-1000.toml")),

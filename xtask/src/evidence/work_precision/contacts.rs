@@ -2,9 +2,8 @@
 
 use anyhow::Result;
 use bem_halfspace::ContactState;
-use benches::ContactScene;
+use benches::{ContactScene, rough_heights};
 use casebook::{SquareContact, deviation};
-use indenters::rough::SelfAffine;
 use viscofriction::scene::Model;
 
 use super::scenes::HERTZ;
@@ -38,16 +37,7 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
 
 /// The pressure on a rough surface, against a far more accurate solution of the same discrete problem.
 pub(super) fn rough(measured: &mut Measured, edge: usize) -> Result<()> {
-    let surface = SelfAffine {
-        period: [1.0; 2],
-        hurst_exponent: 0.8,
-        rms_slope: 1.0,
-        longest_wavelength: 0.25,
-        shortest_wavelength: 8.0 / edge as f64,
-        roll_off_wavelength: 0.25,
-        seed: 0,
-    };
-    let scene = ContactScene::periodic(surface.surface()?.heights([edge; 2])?)?;
+    let scene = ContactScene::periodic(rough_heights(edge, 0)?)?;
     let (contact, exact) = scene.solve(REFERENCE_TOLERANCE)?;
     for tolerance in TOLERANCES {
         let run = Row {
