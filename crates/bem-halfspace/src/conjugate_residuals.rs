@@ -3,40 +3,46 @@
 
 use std::collections::VecDeque;
 
+use rustfft::num_traits::AsPrimitive;
+
 use crate::bands::Bands;
 use crate::reductions::{add, sum};
 
 /// Moves `solution` by directions until `find` returns none for the `residual`, at most `most` times.
 ///
 /// `find` returns a direction and what it adds to the residual; of the latter, so many `earlier` ones are made orthogonal
-/// in the product of the `weights`. A direction that adds nothing to the residual is the last.
-pub(crate) fn minimise(
+/// in the product of the `weights`. They are kept as numbers of the type S: by its rounding, relative to the first residual,
+/// the solution misses the residual that is known. A direction that adds nothing to the residual is the last.
+pub(crate) fn minimise<S: Copy + Into<f64> + Send + Sync + 'static>(
     [solution, residual]: [&mut [f64]; 2],
     weights: &[f64],
     [most, earlier]: [usize; 2],
     mut find: impl FnMut(&[f64]) -> Option<[Vec<f64>; 2]>,
-) {
-    let mut kept: VecDeque<[Vec<f64>; 2]> = VecDeque::new();
+) where
+    f64: AsPrimitive<S>,
+{
+    let mut kept: VecDeque<(f64, [Vec<S>; 2])> = VecDeque::new();
     for _ in 0..most {
         let Some([mut direction, mut image]) = find(residual) else {
             return;
         };
-        for [before, its_image] in &kept {
+        for (size, [before, its_image]) in &kept {
             let component = product(weights, &image, its_image);
-            add_all(&mut direction, -component, before);
+            add_all(&mut direction, -component * size, before);
             add_all(&mut image, -component, its_image);
         }
         let length = product(weights, &image, &image).sqrt();
         if length == 0.0 || length.is_nan() {
             return;
         }
-        for value in direction.iter_mut().chain(&mut image) {
-            *value /= length;
-        }
-        let step = -product(weights, &image, residual);
+        let step = -product(weights, &image, residual) / length.powi(2);
         add_all(solution, step, &direction);
         add_all(residual, step, &image);
-        kept.push_back([direction, image]);
+        let size = norm(&direction);
+        let lists = [(direction, size), (image, length)];
+        let parts =
+            lists.map(|(list, unit)| list.iter().map(|value| (value / unit).as_()).collect());
+        kept.push_back((size / length, parts));
         if kept.len() > earlier {
             kept.pop_front();
         }
@@ -49,19 +55,21 @@ pub(crate) fn norm(list: &[f64]) -> f64 {
     bands(list).sum(square).sqrt()
 }
 
-fn product(weights: &[f64], left: &[f64], right: &[f64]) -> f64 {
+fn product<S: Copy + Into<f64> + Sync>(weights: &[f64], left: &[f64], right: &[S]) -> f64 {
     bands(weights).sum(|band| {
-        let lists = [weights, left, right].map(|list| &list[bands(weights).elements(band)]);
+        let places = bands(weights).elements(band);
+        let right: Vec<f64> = right[places.clone()].iter().map(|v| (*v).into()).collect();
+        let lists = [&weights[places.clone()], &left[places], &right];
         sum(lists, |[weight, left, right]| weight * left * right)
     })
 }
 
-fn add_all(target: &mut [f64], factor: f64, other: &[f64]) {
+fn add_all<S: Copy + Into<f64> + Sync>(target: &mut [f64], factor: f64, other: &[S]) {
     bands(other).for_each([target], |band, [target]| {
         add(target, factor, &other[bands(other).elements(band)]);
     });
 }
 
-const fn bands(list: &[f64]) -> Bands {
+const fn bands<S>(list: &[S]) -> Bands {
     Bands::new([list.len(), 1])
 }

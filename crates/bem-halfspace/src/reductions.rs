@@ -45,8 +45,8 @@ pub(crate) fn dot(left: &[f64], right: &[f64]) -> f64 {
 }
 
 /// Adds a multiple.
-pub(crate) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
+pub(crate) fn add<T: Copy + Into<f64>>(sum: &mut [f64], factor: f64, values: &[T]) {
     for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
+        *sum += factor * (*value).into();
     }
 }

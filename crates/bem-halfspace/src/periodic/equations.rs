@@ -8,6 +8,8 @@
 //! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
 //! unnecessary. Lists hold the elements in contact and their neighbours, of which the gap shows whether they penetrate.
 
+use std::sync::Arc;
+
 use crate::bands::copies;
 use crate::conjugate_residuals::minimise;
 use crate::contact::active_set::ActiveSet;
@@ -18,7 +20,7 @@ use crate::{BemError, Grid};
 
 /// Steps tried with one contact.
 const MOST_STEPS: usize = 40;
-/// Numbers per element of the grid that directions may occupy; the oldest are forgotten.
+/// Numbers of half the usual length, per element of the grid, that directions may occupy; the oldest are forgotten.
 const NUMBERS_PER_ELEMENT: usize = 12;
 const MOST_KEPT: usize = 30;
 
@@ -28,7 +30,7 @@ pub(super) struct Equations {
     far: Option<FarLoads>,
     pub(super) near: ActiveSet,
     /// 1 in contact, 0 beside it.
-    inside: Vec<f64>,
+    inside: Arc<[f64]>,
     n_contact: f64,
     pressure: Vec<f64>,
     /// Less its mean in the contact.
@@ -60,7 +62,7 @@ impl Equations {
             kernel: Kernel::new(sliding, grid)?,
             far: FarLoads::new(sliding, grid)?,
             near: ActiveSet::new(grid.shape()),
-            inside: Vec::new(),
+            inside: Arc::new([]),
             n_contact: 0.0,
             pressure: Vec::new(),
             gap: Vec::new(),
@@ -98,7 +100,7 @@ impl Equations {
         self.n_contact = self.total(&self.inside);
         self.pressure = self.listed(pressure);
         self.gap = self.less_mean(self.listed(gap));
-        self.weights = self.invert(&self.inside.clone());
+        self.weights = self.invert(self.inside.to_vec());
         self.lowered = self.weights.clone();
         if let Some(far) = &mut self.far {
             far.weigh(&self.near, &self.weights);
@@ -117,11 +119,11 @@ impl Equations {
     /// `mean`; it is returned.
     pub(super) fn iterate(&mut self, part: f64, mean: f64, largest: f64) -> f64 {
         let [mut pressure, mut gap] = [&mut self.pressure, &mut self.gap].map(std::mem::take);
-        let inside = self.inside.clone();
+        let inside = Arc::clone(&self.inside);
         let target = mean.min(part * self.residual(&gap).root_mean_square);
         let fitting = NUMBERS_PER_ELEMENT * self.spread.len() / (2 * inside.len());
         let steps = [MOST_STEPS, fitting.clamp(1, MOST_KEPT) - 1];
-        minimise([&mut pressure, &mut gap], &inside, steps, |gap| {
+        minimise::<f32>([&mut pressure, &mut gap], &inside, steps, |gap| {
             let residual = self.residual(gap);
             let is_small = residual.root_mean_square <= target || residual.largest <= largest;
             (!is_small).then(|| self.direction(gap))
@@ -148,9 +150,9 @@ impl Equations {
 
     /// Pressures without mean that about close the gaps, and the gaps that they cause.
     fn direction(&mut self, gap: &[f64]) -> [Vec<f64>; 2] {
-        let closing = gap.iter().zip(&self.inside);
+        let closing = gap.iter().zip(self.inside.iter());
         let closing: Vec<f64> = closing.map(|(gap, inside)| -inside * gap).collect();
-        let mut direction = self.invert(&closing);
+        let mut direction = self.invert(closing);
         if let Some(far) = &mut self.far {
             far.correct(&self.near, &self.weights, &mut direction);
         }
@@ -163,14 +165,14 @@ impl Equations {
     }
 
     /// S of a list, on the contact.
-    fn invert(&mut self, list: &[f64]) -> Vec<f64> {
-        self.near.scatter(list, &mut self.spread);
+    fn invert(&mut self, mut list: Vec<f64>) -> Vec<f64> {
+        self.near.scatter(&list, &mut self.spread);
         self.kernel.invert(&self.spread, &mut self.image);
-        let mut result = self.listed(&self.image);
-        for (value, inside) in result.iter_mut().zip(&self.inside) {
+        self.near.gather(&self.image, &mut list);
+        for (value, inside) in list.iter_mut().zip(self.inside.iter()) {
             *value *= inside;
         }
-        result
+        list
     }
 
     fn listed(&self, field: &[f64]) -> Vec<f64> {

@@ -107,7 +107,7 @@ impl FarLoads {
         self.kernel.relax(mean, means, &mut residual);
         let target = TOLERANCE * norm(&residual);
         let unknowns = [&mut displacement[..], &mut residual[..]];
-        minimise(unknowns, &copies(1.0, n), [MOST, KEPT], |residual| {
+        minimise::<f32>(unknowns, &copies(1.0, n), [MOST, KEPT], |residual| {
             if norm(residual) <= target {
                 return None;
             }

@@ -116,7 +116,7 @@ impl<'mesh> ContactEquations<'mesh> {
         let allowed = tolerance * (n as f64).sqrt();
         loads.push(depth);
         let unknowns = [&mut loads[..], &mut gaps[..]];
-        minimise(unknowns, &vec![1.0; n], [MOST_DIRECTIONS; 2], |gaps| {
+        minimise::<f64>(unknowns, &vec![1.0; n], [MOST_DIRECTIONS; 2], |gaps| {
             (norm(gaps) > allowed).then(|| {
                 let (mut loads, depth) = self.correct(gaps);
                 let moved = self.displacements_below(&loads, depth);

@@ -75,7 +75,7 @@ pub(crate) fn line_contact(
 
 /// Largest grid of a period, and memory that one of its elements takes at most, \[bytes].
 const LARGEST_GRID: u64 = 1 << 22;
-const BYTES_PER_ELEMENT: u64 = 250;
+const BYTES_PER_ELEMENT: u64 = 200;
 
 /// The stationary state of a periodic surface; forces and areas are those of one period.
 pub(crate) fn periodic(
