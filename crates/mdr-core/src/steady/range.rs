@@ -6,7 +6,7 @@ use numerics::bracketed_root;
 use crate::MdrError;
 use crate::element_heights::{checked_height, lowest_candidate};
 
-/// Stations per doubling of the distance from the anchor; narrower parts that come down again may be overlooked.
+/// Stations per doubling of the distance from the anchor; narrower parts that come down again between kinks may be overlooked.
 const STATIONS_PER_OCTAVE: f64 = 16.0;
 /// An endless line is looked at this many times farther out than where it first rises above the ceiling.
 const OUTLOOK: f64 = 1024.0;
@@ -36,8 +36,14 @@ impl Range {
         let anchor_height = checked_height(line, anchor)?;
         let excess = |x: f64| Ok(checked_height(line, x)? - anchor_height - depth);
         let [rear_end, front_end] = line.domain();
-        let rear = outermost(excess, anchor, rear_end)?;
-        let front = outermost(excess, anchor, front_end)?;
+        let mut stops = line.kinks();
+        stops.retain(|x| *x > rear_end && *x < front_end);
+        stops.insert(0, rear_end);
+        stops.push(front_end);
+        let backwards = stops.windows(2).map(|ends| [ends[1], ends[0]]);
+        let forwards = stops.windows(2).rev().map(|ends| [ends[0], ends[1]]);
+        let rear = outermost_of(excess, [anchor, rear_end], backwards)?;
+        let front = outermost_of(excess, [anchor, front_end], forwards)?;
         Ok(Self {
             ends: [rear, front],
             anchor_height,
@@ -80,6 +86,21 @@ pub(super) fn vertical_edge(line: &(impl RigidLine + ?Sized)) -> Result<Option<E
     let inside = position - EDGE * (position - anchor);
     let height = checked_height(line, inside)? - checked_height(line, anchor)?;
     Ok(Some(Edge { position, height }))
+}
+
+/// The outermost position between the anchor and the end, also of the pieces between kinks, of which the outermost comes
+/// first, at which the line lies below the ceiling.
+fn outermost_of(
+    excess: impl Fn(f64) -> Result<f64, MdrError> + Copy,
+    [anchor, end]: [f64; 2],
+    mut pieces: impl Iterator<Item = [f64; 2]>,
+) -> Result<f64, MdrError> {
+    let found = outermost(excess, anchor, end)?;
+    let is_beyond = |x: f64| (x - found) * (end - anchor) > 0.0;
+    let is_low =
+        |[inner, _]: &[f64; 2]| is_beyond(*inner) && excess(*inner).is_ok_and(|e| e <= 0.0);
+    let piece = pieces.find(is_low);
+    piece.map_or(Ok(found), |[inner, outer]| outermost(excess, inner, outer))
 }
 
 /// The outermost position between `anchor` and `end` at which the line lies below the ceiling.

@@ -1,7 +1,7 @@
 //! Shapes at and near the border beyond which the friction on a lone dashpot has no limit (16).
 
 use friction_analytic::power_sliding;
-use indenters::{Axisymmetric, EquivalentLine, FlatCone, TruncatedParaboloid};
+use indenters::{Axisymmetric, EquivalentLine, FlatCone, SampledLine, TruncatedParaboloid};
 use mdr_core::{MdrError, steady};
 use numerics::Estimate;
 use rheology::{KelvinVoigt, Material};
@@ -90,4 +90,25 @@ fn a_flat_end_on_a_solid_takes_few_polynomials_however_exact_it_is_wanted() {
             }
         }
     }
+}
+
+/// Teeth far behind the one that is the anchor were overlooked, because they are narrow at their distance from it.
+#[test]
+fn all_teeth_of_a_row_carry_their_part_of_the_force() {
+    let row = |teeth: u32| {
+        let corners = (0..=2 * teeth).map(|corner| (f64::from(corner), f64::from(1 - corner % 2)));
+        let (positions, heights) = corners.unzip();
+        SampledLine::new(positions, heights).expect("a row of teeth")
+    };
+    let rubber = prony([1.0, 0.0], &[(9.0, 1.0)]);
+    let slide = |teeth: u32| {
+        let force = load(0.01 * f64::from(teeth), 0.002);
+        steady(&row(teeth), &rubber, &force, 1e-9).expect("a contact")
+    };
+    let (one, many) = (slide(1), slide(20));
+    assert_eq!(many.contacts.len(), 20, "teeth that touch");
+    assert_agree(
+        [many, one].map(|state| state.friction_coefficient),
+        &"teeth",
+    );
 }
