@@ -8,7 +8,7 @@ use crate::periodic::search::Problem;
 use crate::periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, check_surface, solve_from};
 use crate::{BemError, Elastomer, Grid};
 
-/// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge.
+/// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
 const FIRST: usize = 4;
 const FEWEST: usize = 32;
 /// The error is at most twice what the last refinement changed, or what the one before leaves of its change at the order:
@@ -56,7 +56,10 @@ pub fn steady_periodic(
     max_elements: usize,
 ) -> Result<PeriodicEstimate, BemError> {
     between_zero_and_one("relative_error", relative_error)?;
-    let first = |number: usize| (FIRST * number).next_power_of_two().max(FEWEST);
+    let first = |number: usize| match number {
+        0 => 2,
+        _ => (FIRST * number).next_power_of_two().max(FEWEST),
+    };
     let mut shape = surface.largest_numbers().map(first);
     let sliding = Sliding::new(elastomer, load.velocity)?;
     let (mut states, mut guess) = (Vec::new(), Vec::new());
