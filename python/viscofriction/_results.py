@@ -133,8 +133,9 @@ class Answer:
 
     @property
     def persson(self) -> dict[str, Values]:
-        """``area_fraction`` and ``friction_coefficient`` of Persson's theory (2001), of periodic surfaces."""
-        theory = {name: self._values(f"persson_{name}") for name in ("area_fraction", "friction_coefficient")}
+        """``area_fraction``, ``friction_coefficient`` (2001) and ``friction_coefficient_2006`` of Persson's theory, of periodic surfaces."""
+        names = ("area_fraction", "friction_coefficient", "friction_coefficient_2006")
+        theory = {name: self._values(f"persson_{name}") for name in names}
         return {name: values for name, values in theory.items() if values is not None}
 
     @property

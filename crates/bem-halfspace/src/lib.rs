@@ -66,8 +66,11 @@ pub use influence::influence;
 pub use layer::{Elastomer, Layer, layer_factor};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
-pub use periodic::{PeriodicEstimate, steady_periodic};
-pub use periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid};
+pub use periodic::{PeriodicEstimate, slide_periodic, steady_periodic};
+pub use periodic::{
+    PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
+    slide_periodic_on_grid, steady_periodic_on_grid,
+};
 pub use resolution::GridOptions;
 pub use slide::{PressureField, slide, slide_on_grid};
 pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};

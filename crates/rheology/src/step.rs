@@ -5,7 +5,7 @@
 //! ```
 //! The history is the sum over fields that decay by e^(−Δt/λ) in a step and then gain their share of the input.
 
-use crate::{CreepSpectrum, RheologyError};
+use crate::{ComplexCompliance, CreepSpectrum, RheologyError};
 use numerics::positive;
 
 /// Coefficients of a step of fixed length.
@@ -55,6 +55,26 @@ impl ExponentialStep {
     pub fn response(&self) -> f64 {
         let gains: f64 = self.fields.iter().map(|field| field.gain).sum();
         self.direct + gains
+    }
+
+    /// Output of the last of very many steps whose inputs turn by an `angle` \[rad] from each to the next, over the last
+    /// input: the complex compliance at the frequency angle/Δt, of inputs that are held over each step.
+    pub fn turning_response(&self, angle: f64) -> ComplexCompliance {
+        let mut response = ComplexCompliance {
+            storage: self.direct,
+            loss: 0.0,
+        };
+        for Field { decay, gain } in &self.fields {
+            // gain/(1 − decay e^(−i angle)), without cancellation for small angles.
+            let [real, imaginary] = [
+                (1.0 - decay) + 2.0 * decay * (0.5 * angle).sin().powi(2),
+                decay * angle.sin(),
+            ];
+            let square = real * real + imaginary * imaginary;
+            response.storage += gain * real / square;
+            response.loss += gain * imaginary / square;
+        }
+        response
     }
 
     /// Number of stored values per point.

@@ -1,52 +1,64 @@
-//! The stationary state of a sum of waves with error bars, from finer and finer grids of the same surface.
+//! Sliding of a sum of waves with error bars, from finer and finer grids of the same surface.
 
 use indenters::rough::PeriodicSurface;
 use numerics::{Estimate, between_zero_and_one};
 
+use crate::grid::elements_along;
 use crate::periodic::kernel::Sliding;
 use crate::periodic::search::Problem;
-use crate::periodic::{PeriodicLoad, PeriodicOptions, PeriodicSliding, check_surface, solve_from};
-use crate::{BemError, Elastomer, Grid};
+use crate::periodic::{
+    PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, check_surface,
+    slide_periodic_on_grid, solve_from,
+};
+use crate::{BemError, ContactOptions, Elastomer, Grid};
 
 /// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
 const FIRST: usize = 4;
 const FEWEST: usize = 32;
-/// The error is at most twice what the last refinement changed, or what the one before leaves of its change at the order:
-/// first of the area and the depth, second of the friction. It is doubled because which elements touch jumps from grid to
-/// grid; of 120 random surfaces, loads and solids two erred by more.
-const SAFETY: f64 = 2.0;
-const LEFT_OF_AREA: f64 = 0.5;
-const LEFT_OF_FRICTION: f64 = 0.25;
+/// The error of the stationary friction is at most what the last refinement changed, or what the one before leaves of its
+/// change at the second order; that of all others twice as much, at the first order. The factor is for which elements
+/// touch, which jumps from grid to grid: of 160 random surfaces, loads and solids two frictions and eight areas erred by
+/// more.
+const FRICTION: Fall = Fall {
+    safety: 1.0,
+    left: 0.25,
+};
+const OTHERS: Fall = Fall {
+    safety: 2.0,
+    left: 0.5,
+};
 /// Tolerance of the contact, as a part of the relative error asked for and at most; ten residuals are added to the bars.
 const TOLERANCE: f64 = 1e-3;
 const LARGEST_TOLERANCE: f64 = 1e-5;
 const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
+/// Elements times steps of a march that are not exceeded: about half an hour of one thread.
+const MOST_STEPS: f64 = 2e9;
 
-/// A stationary state of a periodic surface, with error bars for the surface that is given: waves that it lacks may change
-/// everything.
+/// Sliding of a periodic surface, with error bars for the surface that is given: waves that it lacks may change everything.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
-pub struct PeriodicEstimate {
-    /// Friction coefficient, from slopes or from the dissipated power, whichever the last refinement changed less.
+pub struct PeriodicEstimate<S> {
+    /// Friction coefficient; of a stationary state from slopes or from the dissipated power, whichever the last refinement
+    /// changed less.
     pub friction_coefficient: Estimate,
-    /// The same from the dissipated power alone.
-    pub friction_from_dissipation: Estimate,
+    /// That of a stationary state from the dissipated power alone; none on the way there.
+    pub friction_from_dissipation: Option<Estimate>,
     /// Part of the period in contact.
     pub area_fraction: Estimate,
     /// Depth of the mean plane, \[m].
     pub mean_depth: Estimate,
-    /// The state on the finest grid.
-    pub finest: PeriodicSliding,
+    /// What was found on the finest grid.
+    pub finest: S,
 }
 
 /// Solves the stationary sliding of a sum of waves to a relative error of the friction, and of the area where nothing rubs.
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached on the largest grid of at most `max_elements`; [`BemError::GridTooLarge`]
-/// where not even three grids have so few; and those of
+/// [`BemError::NotReached`] with what was reached where grids of at most `max_elements` are too coarse;
+/// [`BemError::GridTooLarge`] where not even three grids have so few; and those of
 /// [`steady_periodic_on_grid`](crate::steady_periodic_on_grid).
 pub fn steady_periodic(
     surface: &PeriodicSurface,
@@ -54,94 +66,217 @@ pub fn steady_periodic(
     load: &PeriodicLoad,
     relative_error: f64,
     max_elements: usize,
-) -> Result<PeriodicEstimate, BemError> {
-    between_zero_and_one("relative_error", relative_error)?;
-    let first = |number: usize| match number {
-        0 => 2,
-        _ => (FIRST * number).next_power_of_two().max(FEWEST),
-    };
-    let mut shape = surface.largest_numbers().map(first);
+) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let sliding = Sliding::new(elastomer, load.velocity)?;
-    let (mut states, mut guess) = (Vec::new(), Vec::new());
-    loop {
-        let elements = shape[0] as f64 * shape[1] as f64;
-        if elements > max_elements as f64 {
-            return Err(too_large(&states, elements, relative_error, max_elements));
-        }
-        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
-        let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
-        check_surface(&grid, &heights)?;
+    let mut guess = Vec::new();
+    let goal = Goal {
+        relative_error,
+        friction: FRICTION,
+        max_elements: max_elements as f64,
+        periods: None,
+    };
+    refine(surface, &goal, |grid, heights| {
         let problem = Problem {
             sliding: &sliding,
-            grid: &grid,
-            heights: &heights,
+            grid,
+            heights,
             mean_pressure: load.mean_pressure,
-            tolerance: (TOLERANCE * relative_error).min(LARGEST_TOLERANCE),
+            tolerance: goal.tolerance(),
             max_products: PeriodicOptions::default().max_products,
         };
         let state = solve_from(&mut guess, problem)?;
-        states.push(state);
-        if let Some(estimate) = estimate(&states)
-            && missed(&estimate, relative_error).is_none()
-        {
-            return Ok(estimate);
+        let found = Found {
+            friction: state.friction_coefficient,
+            from_dissipation: Some(state.friction_from_dissipation),
+            area_fraction: state.area_fraction,
+            mean_depth: state.mean_depth,
+            residual: state.residual,
+        };
+        Ok((found, state))
+    })
+}
+
+/// Slides a sum of waves from rest over a distance \[m], rounded up to elements of the first grid, to a relative error of the
+/// friction at its end.
+///
+/// The error is of the first order in the edge of an element, and the work grows with its third power: less than some per
+/// cent take long.
+///
+/// # Errors
+/// Those of [`slide_periodic_on_grid`] and, as of [`steady_periodic`], [`BemError::NotReached`] and
+/// [`BemError::GridTooLarge`]: also where a march would take longer than about half an hour.
+pub fn slide_periodic(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    (load, sliding_distance): (&PeriodicLoad, f64),
+    relative_error: f64,
+    max_elements: usize,
+) -> Result<PeriodicEstimate<PeriodicTransient>, BemError> {
+    let period = surface.period()[0];
+    let edge = period / first_shape(surface)[0] as f64;
+    let distance = elements_along(sliding_distance, edge)? as f64 * edge;
+    let goal = Goal {
+        relative_error,
+        friction: OTHERS,
+        max_elements: max_elements as f64,
+        periods: Some(distance / period),
+    };
+    let options = ContactOptions {
+        tolerance: goal.tolerance(),
+        ..ContactOptions::default()
+    };
+    refine(surface, &goal, |grid, heights| {
+        let state = slide_periodic_on_grid(grid, heights, elastomer, (load, distance), &options)?;
+        let last = state.rows[state.rows.len() - 1];
+        let found = Found {
+            friction: last.friction_coefficient,
+            from_dissipation: None,
+            area_fraction: last.area_fraction,
+            mean_depth: last.mean_depth,
+            residual: options.tolerance,
+        };
+        Ok((found, state))
+    })
+}
+
+/// How an error falls from grid to grid.
+#[derive(Clone, Copy)]
+struct Fall {
+    safety: f64,
+    /// Part of a change that the next one is at least.
+    left: f64,
+}
+
+struct Goal {
+    relative_error: f64,
+    friction: Fall,
+    max_elements: f64,
+    /// Length of a march in periods.
+    periods: Option<f64>,
+}
+
+/// What is known from one grid.
+struct Found {
+    friction: f64,
+    from_dissipation: Option<f64>,
+    area_fraction: f64,
+    mean_depth: f64,
+    /// Of the contact.
+    residual: f64,
+}
+
+fn first_shape(surface: &PeriodicSurface) -> [usize; 2] {
+    surface.largest_numbers().map(|number| match number {
+        0 => 2,
+        _ => (FIRST * number).next_power_of_two().max(FEWEST),
+    })
+}
+
+/// Solves on one grid after the other, each with twice the elements along both axes.
+fn refine<S>(
+    surface: &PeriodicSurface,
+    goal: &Goal,
+    mut solve: impl FnMut(&Grid, &[f64]) -> Result<(Found, S), BemError>,
+) -> Result<PeriodicEstimate<S>, BemError> {
+    between_zero_and_one("relative_error", goal.relative_error)?;
+    let mut shape = first_shape(surface);
+    let mut grids = Vec::new();
+    goal.check(&grids, shape, 1.0)?;
+    loop {
+        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
+        let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
+        check_surface(&grid, &heights)?;
+        let (found, state) = solve(&grid, &heights)?;
+        grids.push(found);
+        let mut finer = 2.0;
+        if let Some(bars) = goal.bars(&grids) {
+            let asked = goal.asked(&bars).1;
+            if asked.is_within(goal.relative_error) {
+                return Ok(bars.with(state));
+            }
+            // No error falls faster than with the second order.
+            let excess = asked.error / (goal.relative_error * asked.value.abs());
+            finer = excess.sqrt().log2().ceil().max(1.0).exp2();
         }
+        goal.check(&grids, shape, finer)?;
         shape = shape.map(|n| 2 * n);
     }
 }
 
-/// What was asked for, should it not have its error.
-fn missed(estimate: &PeriodicEstimate, relative_error: f64) -> Option<(&'static str, Estimate)> {
-    let asked = if estimate.friction_coefficient.value == 0.0 {
-        ("area fraction", estimate.area_fraction)
-    } else {
-        ("friction coefficient", estimate.friction_coefficient)
-    };
-    (!asked.1.is_within(relative_error)).then_some(asked)
-}
+impl Goal {
+    fn tolerance(&self) -> f64 {
+        (TOLERANCE * self.relative_error).min(LARGEST_TOLERANCE)
+    }
 
-fn too_large(
-    states: &[PeriodicSliding],
-    elements: f64,
-    relative_error: f64,
-    max_elements: usize,
-) -> BemError {
-    match estimate(states).and_then(|estimate| missed(&estimate, relative_error)) {
-        Some((quantity, Estimate { value, error })) => BemError::NotReached {
-            quantity,
-            value,
-            error,
-            relative_error,
-        },
-        None => BemError::GridTooLarge {
-            elements,
-            limit: max_elements as f64,
-        },
+    /// Refuses a grid that is so many times finer than this one and too large; it says what was reached.
+    fn check(&self, grids: &[Found], shape: [usize; 2], finer: f64) -> Result<(), BemError> {
+        let [rows, columns] = shape.map(|n| n as f64 * finer);
+        let steps = self.periods.map_or(1.0, |periods| periods * rows);
+        let limit = self.max_elements.min(MOST_STEPS / steps);
+        if rows * columns <= limit {
+            return Ok(());
+        }
+        Err(match self.bars(grids) {
+            Some(bars) => {
+                let (quantity, Estimate { value, error }) = self.asked(&bars);
+                BemError::NotReached {
+                    quantity,
+                    value,
+                    error,
+                    relative_error: self.relative_error,
+                }
+            }
+            None => BemError::GridTooLarge {
+                elements: rows * columns,
+                limit,
+            },
+        })
+    }
+
+    /// What the relative error is of.
+    fn asked(&self, bars: &PeriodicEstimate<()>) -> (&'static str, Estimate) {
+        if bars.friction_coefficient.value == 0.0 {
+            ("area fraction", bars.area_fraction)
+        } else {
+            ("friction coefficient", bars.friction_coefficient)
+        }
+    }
+
+    /// From three grids or more.
+    fn bars(&self, grids: &[Found]) -> Option<PeriodicEstimate<()>> {
+        let [.., coarse, middle, fine] = grids else {
+            return None;
+        };
+        let of = |quantity: &dyn Fn(&Found) -> f64, Fall { safety, left }: Fall| {
+            let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
+            let change = (value - middle).abs().max(left * (middle - coarse).abs());
+            let solved = RESIDUALS * fine.residual + ROUNDING;
+            Estimate::new(value, safety * change + solved * value.abs())
+        };
+        let slopes = of(&|found| found.friction, self.friction);
+        let dissipated = |found: &Found| found.from_dissipation.unwrap_or(f64::NAN);
+        let dissipation = fine
+            .from_dissipation
+            .map(|_| of(&dissipated, self.friction));
+        let better = dissipation.filter(|dissipation| dissipation.error <= slopes.error);
+        Some(PeriodicEstimate {
+            friction_coefficient: better.unwrap_or(slopes),
+            friction_from_dissipation: dissipation,
+            area_fraction: of(&|found| found.area_fraction, OTHERS),
+            mean_depth: of(&|found| found.mean_depth, OTHERS),
+            finest: (),
+        })
     }
 }
 
-/// From three grids or more.
-fn estimate(states: &[PeriodicSliding]) -> Option<PeriodicEstimate> {
-    let [.., coarse, middle, fine] = states else {
-        return None;
-    };
-    let of = |quantity: fn(&PeriodicSliding) -> f64, left: f64| {
-        let [coarse, middle, value] = [coarse, middle, fine].map(quantity);
-        let change = (value - middle).abs().max(left * (middle - coarse).abs());
-        let solved = RESIDUALS * fine.residual + ROUNDING;
-        Estimate::new(value, SAFETY * change + solved * value.abs())
-    };
-    let slopes = of(|state| state.friction_coefficient, LEFT_OF_FRICTION);
-    let dissipation = of(|state| state.friction_from_dissipation, LEFT_OF_FRICTION);
-    Some(PeriodicEstimate {
-        friction_coefficient: if slopes.error < dissipation.error {
-            slopes
-        } else {
-            dissipation
-        },
-        friction_from_dissipation: dissipation,
-        area_fraction: of(|state| state.area_fraction, LEFT_OF_AREA),
-        mean_depth: of(|state| state.mean_depth, LEFT_OF_AREA),
-        finest: fine.clone(),
-    })
+impl PeriodicEstimate<()> {
+    fn with<S>(self, finest: S) -> PeriodicEstimate<S> {
+        PeriodicEstimate {
+            friction_coefficient: self.friction_coefficient,
+            friction_from_dissipation: self.friction_from_dissipation,
+            area_fraction: self.area_fraction,
+            mean_depth: self.mean_depth,
+            finest,
+        }
+    }
 }

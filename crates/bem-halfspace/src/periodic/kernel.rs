@@ -21,9 +21,9 @@ use crate::{BemError, Elastomer, Grid};
 /// A material under a surface that slides.
 #[derive(Debug, Clone)]
 pub(super) struct Sliding {
-    creep: CreepSpectrum,
+    pub(super) creep: CreepSpectrum,
     /// 1 − ν.
-    factor: f64,
+    pub(super) factor: f64,
     velocity: f64,
     base: Base,
 }
@@ -55,7 +55,7 @@ impl Sliding {
     }
 
     /// (1 − ν) [J' + i J''] of every row, before any shift.
-    fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
+    pub(super) fn compliances(&self, along_x: &[f64]) -> Result<Vec<Complex<f64>>, BemError> {
         let compliance = |q_x: &f64| {
             let frequency = (q_x * self.velocity).abs();
             let compliance = self.creep.complex_compliance(frequency)?;

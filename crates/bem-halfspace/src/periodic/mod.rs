@@ -22,6 +22,7 @@ mod equations;
 mod estimate;
 mod far_loads;
 mod kernel;
+mod march;
 mod nested;
 mod search;
 mod waves;
@@ -34,8 +35,9 @@ use crate::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{PeriodicEstimate, steady_periodic};
+pub use estimate::{PeriodicEstimate, slide_periodic, steady_periodic};
 use kernel::Sliding;
+pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};
 
 /// How a periodic surface is pressed and moved.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -19,6 +19,7 @@ mod memory;
 mod mirrors;
 mod nested_grids;
 mod periodic_contact;
+mod periodic_march;
 mod periodic_sliding;
 mod stationary_state;
 mod support;

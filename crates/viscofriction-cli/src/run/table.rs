@@ -29,7 +29,7 @@ pub(super) fn table(answer: &Answer) -> Table {
         let area = theory.map(|theory| Estimate::exact(theory.area_fraction));
         let dissipation = rough.friction_from_dissipation;
         [
-            ("friction by dissipation", Some(dissipation), ""),
+            ("friction by dissipation", dissipation, ""),
             ("mean pressure", Some(rough.mean_pressure), "Pa"),
             ("area fraction", Some(rough.area_fraction), ""),
             ("friction, Persson's theory", friction, ""),

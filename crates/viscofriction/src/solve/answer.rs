@@ -59,19 +59,21 @@ pub struct RoughAnswer {
     pub mean_pressure: Estimate,
     /// Part of the period in contact.
     pub area_fraction: Estimate,
-    /// The friction coefficient from the power that the material dissipates.
-    pub friction_from_dissipation: Estimate,
-    /// Persson's theory of the same waves on a half space; none on a layer.
+    /// The friction coefficient from the power that the material dissipates, of a stationary state.
+    pub friction_from_dissipation: Option<Estimate>,
+    /// Persson's theory of the same waves in the stationary state on a half space; none elsewhere.
     pub persson: Option<Persson>,
 }
 
-/// Persson's theory (2001) of the waves of a surface, exact as a sum.
+/// Persson's theory of the waves of a surface, exact as a sum.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Persson {
     /// Part of the period in contact.
     pub area_fraction: f64,
-    /// Friction coefficient.
+    /// Friction coefficient with S = 1, as in 2001.
     pub friction_coefficient: f64,
+    /// Friction coefficient with S = (1 + P²)/2, as in 2006.
+    pub friction_coefficient_2006: f64,
 }
 
 /// The rectangle around the contact, relative to the lowest point, \[m].
@@ -117,7 +119,7 @@ pub struct HistoryRow {
     pub sliding_distance_m: f64,
     /// Since first touch, \[s].
     pub time_s: f64,
-    /// Depth of the lowest point, \[m].
+    /// Depth of the lowest point, or of the mean plane of a periodic surface, \[m].
     pub indentation_depth_m: f64,
     /// F_h/F_N of the step.
     pub friction_coefficient: f64,
@@ -172,7 +174,7 @@ impl Answer {
     /// Quantities by their names in JSON and CSV, in this order, each with its error.
     fn quantities(&self) -> [(&str, Option<Estimate>); 9] {
         let rough = |of: fn(RoughAnswer) -> Estimate| self.rough.map(of);
-        let dissipation = rough(|rough| rough.friction_from_dissipation);
+        let dissipation = self.rough.and_then(|rough| rough.friction_from_dissipation);
         [
             ("friction_coefficient", self.friction_coefficient),
             ("normal_force", Some(self.normal_force)),
@@ -200,10 +202,12 @@ impl Answer {
         let edges = contact.map_or([None; 4], ContactBox::edges);
         let theory = self.rough.and_then(|rough| rough.persson);
         let friction = theory.map(|one| one.friction_coefficient);
+        let friction_2006 = theory.map(|one| one.friction_coefficient_2006);
         let others = [
             ("contact_box_error", contact.map(|contact| contact.error)),
             ("persson_area_fraction", theory.map(|one| one.area_fraction)),
             ("persson_friction_coefficient", friction),
+            ("persson_friction_coefficient_2006", friction_2006),
         ];
         let others = EDGES.into_iter().zip(edges).chain(others);
         numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));

@@ -1,9 +1,10 @@
 //! What boundary elements say, as answers.
 
 use bem_halfspace::indent::{IndentPoint, follow};
-use bem_halfspace::slide::{SlideRow, slide};
+use bem_halfspace::slide::{PressureField, SlideRow, slide};
 use bem_halfspace::{
-    ContactEstimate, GridOptions, PeriodicLoad, indent, steady, steady_line, steady_periodic,
+    ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, indent,
+    slide_periodic, steady, steady_line, steady_periodic,
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
@@ -77,56 +78,117 @@ pub(crate) fn line_contact(
 const LARGEST_GRID: u64 = 1 << 22;
 const BYTES_PER_ELEMENT: u64 = 200;
 
+/// A periodic surface, and what it is asked for.
+#[derive(Clone, Copy)]
+pub(crate) struct Rough<'a> {
+    pub(crate) surface: &'a PeriodicSurface,
+    pub(crate) load: PeriodicLoad,
+    pub(crate) relative_error: f64,
+}
+
 /// The stationary state of a periodic surface; forces and areas are those of one period.
-pub(crate) fn periodic(
+pub(crate) fn periodic(problem: &Problem, rough: Rough) -> Result<Answer> {
+    let Rough { surface, load, .. } = rough;
+    let most = largest_grid(problem);
+    let elastomer = problem.elastomer()?;
+    let estimate = steady_periodic(surface, &elastomer, &load, rough.relative_error, most)?;
+    let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
+    answer.iterations = estimate.finest.products;
+    if let Some(rough) = &mut answer.rough {
+        rough.persson = persson(problem, surface, &load)?;
+    }
+    Ok(answer.under(estimate.finest.pressure))
+}
+
+/// A periodic surface on the way from rest to the stationary state.
+pub(crate) fn periodic_transient(
     problem: &Problem,
-    surface: &PeriodicSurface,
-    load: &PeriodicLoad,
-    relative_error: f64,
+    rough: Rough,
+    sliding_distance: f64,
 ) -> Result<Answer> {
-    let area: f64 = surface.period().iter().product();
-    let mean_pressure = load.mean_pressure();
+    let Rough { surface, load, .. } = rough;
+    let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
+    let way = (&load, sliding_distance);
+    let estimate = slide_periodic(surface, &elastomer, way, rough.relative_error, most)?;
+    let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
+    let rows = &estimate.finest.rows;
+    answer.iterations = rows.len();
+    let row = |row: &PeriodicRow| HistoryRow {
+        sliding_distance_m: row.sliding_distance,
+        time_s: row.time,
+        indentation_depth_m: row.mean_depth,
+        friction_coefficient: row.friction_coefficient,
+    };
+    answer.fields.history = rows.iter().map(row).collect();
+    Ok(answer.under(estimate.finest.pressure))
+}
+
+fn largest_grid(problem: &Problem) -> usize {
     let fitting = problem.max_memory.map(|bytes| bytes / BYTES_PER_ELEMENT);
     let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
     #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
     let most = most as usize;
-    let estimate = steady_periodic(surface, &problem.elastomer()?, load, relative_error, most)?;
+    most
+}
+
+fn of_rough<S>(
+    problem: &Problem,
+    rough: Rough,
+    method: Method,
+    estimate: &PeriodicEstimate<S>,
+) -> Answer {
+    let area: f64 = rough.surface.period().iter().product();
+    let mean_pressure = Estimate::exact(rough.load.mean_pressure());
+    let is_layer = problem.thickness.is_finite();
+    Answer {
+        friction_coefficient: Some(estimate.friction_coefficient),
+        error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
+        indentation_depth: is_layer.then_some(estimate.mean_depth),
+        contact_area: Some(estimate.area_fraction * area),
+        rough: Some(RoughAnswer {
+            mean_pressure,
+            area_fraction: estimate.area_fraction,
+            friction_from_dissipation: estimate.friction_from_dissipation,
+            persson: None,
+        }),
+        ..Answer::new(method, Model::HalfSpace, mean_pressure * area)
+    }
+}
+
+/// The theory, which is that of the half space.
+fn persson(
+    problem: &Problem,
+    surface: &PeriodicSurface,
+    load: &PeriodicLoad,
+) -> Result<Option<Persson>> {
+    if problem.thickness.is_finite() {
+        return Ok(None);
+    }
     let wave = |wave: &Wave| SurfaceWave {
         amplitude: wave.amplitude,
         wave_vector: surface.wave_vector(wave),
     };
     let waves: Vec<SurfaceWave> = surface.waves().iter().map(wave).collect();
-    let force = Estimate::exact(mean_pressure * area);
     let load = RoughLoad {
-        mean_pressure,
+        mean_pressure: load.mean_pressure(),
         velocity: load.velocity(),
     };
-    // The theory is that of the half space.
-    let theory = problem.thickness.is_infinite();
-    let theory = theory.then(|| persson_of_waves(&waves, &problem.material, load));
-    let persson = theory.transpose()?.map(|theory| Persson {
+    let theory = persson_of_waves(&waves, &problem.material, load)?;
+    Ok(Some(Persson {
         area_fraction: theory.area_fraction.value,
         friction_coefficient: theory.friction_coefficient.value,
-    });
-    let finest = estimate.finest;
-    let elements = finest.pressure.pressure.iter();
-    let mut answer = Answer {
-        friction_coefficient: Some(estimate.friction_coefficient),
-        error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
-        indentation_depth: problem.thickness.is_finite().then_some(estimate.mean_depth),
-        contact_area: Some(estimate.area_fraction * area),
-        unknowns: elements.filter(|pressure| **pressure > 0.0).count(),
-        iterations: finest.products,
-        rough: Some(RoughAnswer {
-            mean_pressure: Estimate::exact(mean_pressure),
-            area_fraction: estimate.area_fraction,
-            friction_from_dissipation: estimate.friction_from_dissipation,
-            persson,
-        }),
-        ..Answer::new(Method::BemSteady, Model::HalfSpace, force)
-    };
-    answer.fields.pressure = Some(finest.pressure);
-    Ok(answer)
+        friction_coefficient_2006: theory.friction_coefficient_2006.value,
+    }))
+}
+
+impl Answer {
+    /// With the pressure on a period, whose elements in contact are the unknowns.
+    fn under(mut self, pressure: PressureField) -> Self {
+        let elements = pressure.pressure.iter();
+        self.unknowns = elements.filter(|pressure| **pressure > 0.0).count();
+        self.fields.pressure = Some(pressure);
+        self
+    }
 }
 
 /// From first touch to the stationary state, or over a distance.

@@ -9,6 +9,7 @@ use numerics::{Request, Watch};
 use super::analytic::{cylinder_pressed, without_friction};
 use super::answer::Answer;
 use super::body::{Body, Revolution};
+use super::elements::Rough;
 use super::error::{Refusal, Result};
 use super::half_space::Simple;
 use super::problem::Motion::{History, Pressing, Sliding};
@@ -46,8 +47,10 @@ pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Wor
         (Body::HeightMap(map), BemSteady | BemTransient) => {
             boundary_elements(problem, map, method, accuracy)
         }
-        (Body::Periodic(surface), BemSteady) => periodic(problem, surface, accuracy),
-        (Body::Periodic(_), _) => Err("it has no periodic surfaces; bem-steady slides them"),
+        (Body::Periodic(surface), BemSteady | BemTransient) => {
+            periodic(problem, surface, method, accuracy)
+        }
+        (Body::Periodic(_), _) => Err("it has no periodic surfaces; boundary elements slide them"),
         (Body::HeightMap(_), _) => Err(
             "it needs a body of revolution, and a height map is none; boundary elements take it",
         ),
@@ -137,6 +140,7 @@ fn line_contact<'a>(
 fn periodic<'a>(
     problem: &'a Problem,
     surface: &'a PeriodicSurface,
+    method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
     let Sliding(load) = problem.motion else {
@@ -145,18 +149,28 @@ fn periodic<'a>(
     let Control::NormalForce(force) = load.control() else {
         return Err("a periodic surface slides under a mean pressure");
     };
-    require(load.sliding_distance().is_none(), STATIONARY)?;
     require(
         problem.material.creep().fluidity() <= 0.0,
         "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
     )?;
-    let Accuracy::RelativeError(asked) = accuracy else {
+    let Accuracy::RelativeError(relative_error) = accuracy else {
         return Err("it refines the period itself; give relative_error instead of elements");
     };
     let area: f64 = surface.period().iter().product();
-    let load = PeriodicLoad::new(force / area, load.velocity())
-        .map_err(|_| "the mean pressure is no number above 0")?;
-    ready(move |_| elements::periodic(problem, surface, &load, asked))
+    let rough = Rough {
+        surface,
+        load: PeriodicLoad::new(force / area, load.velocity())
+            .map_err(|_| "the mean pressure is no number above 0")?,
+        relative_error,
+    };
+    match (method, load.sliding_distance()) {
+        (BemSteady, None) => ready(move |_| elements::periodic(problem, rough)),
+        (BemSteady, Some(_)) => Err(STATIONARY),
+        (_, None) => Err("from rest it slides over a distance; give solve.sliding_distance"),
+        (_, Some(distance)) => {
+            ready(move |_| elements::periodic_transient(problem, rough, distance))
+        }
+    }
 }
 
 fn boundary_elements<'a>(

@@ -114,7 +114,11 @@ impl Plan {
         Ok(Row { point, fields })
     }
 
-    fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
+    /// The problem of a point.
+    ///
+    /// # Errors
+    /// [`WrongInput`] as of [`Self::validate`].
+    pub fn problem(&self, point: usize) -> Result<Problem, WrongInput> {
         let values = self.values(point);
         let mut table = self.table.clone();
         let build = || {

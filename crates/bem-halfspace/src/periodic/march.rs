@@ -1,0 +1,210 @@
+//! Sliding of a periodic surface from rest, one step after the other.
+//!
+//! The elements go with the surface, and the material passes them by one element in a step, over which the pressure of a
+//! point of the material is held:
+//!
+//! ```text
+//! u = 2 (1 − ν) α w + history,        w = K p / (4π)        at the end of the step
+//! ```
+//!
+//! A wave that passes with the frequency ω = q_x v meets the compliance J_Δ of inputs that are held instead of J. So the
+//! contact is that of a surface of which every wave is multiplied by J_Δ/J, about half a step behind where much flows: in
+//! full contact the pressure of the stationary state is then exact.
+
+use std::f64::consts::PI;
+
+use numerics::positive;
+use rheology::{ExponentialStep, Material as _};
+use rustfft::num_complex::Complex;
+
+use crate::grid::elements_along;
+use crate::layer::Base;
+use crate::periodic::kernel::{Kernel, Sliding};
+use crate::periodic::waves::Waves;
+use crate::periodic::{PeriodicLoad, area_fraction, check_surface};
+use crate::reductions::{add, dot};
+use crate::{
+    BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
+    ConvolutionWorkspace, Elastomer, Grid, PressureField, solve_contact,
+};
+
+/// The state at the end of a step of a periodic surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PeriodicRow {
+    /// Sliding distance, \[m].
+    pub sliding_distance: f64,
+    /// Time, \[s].
+    pub time: f64,
+    /// Friction coefficient.
+    pub friction_coefficient: f64,
+    /// Part of the period in contact, as in [`PeriodicSliding`](crate::PeriodicSliding).
+    pub area_fraction: f64,
+    /// Depth of the mean plane, as in [`PeriodicSliding`](crate::PeriodicSliding), \[m].
+    pub mean_depth: f64,
+}
+
+/// A periodic surface that has slid from rest.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[must_use]
+pub struct PeriodicTransient {
+    /// One entry for each element of the way; never empty.
+    pub rows: Vec<PeriodicRow>,
+    /// Pressure at the end; the first height is at the origin.
+    pub pressure: PressureField,
+}
+
+/// Presses a periodic surface into a material at rest and slides it from there over a distance \[m], in steps of one element.
+///
+/// `heights` as in [`steady_periodic_on_grid`](crate::steady_periodic_on_grid), whose state it comes to after some contact
+/// lengths, once the slowest relaxation that matters is over.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for a velocity of 0, and a distance that is not positive; [`BemError::GridTooLarge`] for one
+/// of too many elements; otherwise those of [`steady_periodic_on_grid`](crate::steady_periodic_on_grid).
+pub fn slide_periodic_on_grid(
+    grid: &Grid,
+    heights: &[f64],
+    elastomer: &(impl Elastomer + ?Sized),
+    (load, sliding_distance): (&PeriodicLoad, f64),
+    options: &ContactOptions,
+) -> Result<PeriodicTransient, BemError> {
+    check_surface(grid, heights)?;
+    let velocity = positive("velocity", load.velocity())?;
+    let dx = grid.spacing()[0];
+    let n_steps = elements_along(positive("sliding distance", sliding_distance)?, dx)?;
+    let mut march = March::new(grid, heights, elastomer, velocity)?;
+    let rows = (1..=n_steps).map(|step| {
+        let state = march.step(load.mean_pressure(), options)?;
+        let sliding_distance = step as f64 * dx;
+        Ok(PeriodicRow {
+            sliding_distance,
+            time: sliding_distance / velocity,
+            ..state
+        })
+    });
+    Ok(PeriodicTransient {
+        rows: rows.collect::<Result<_, BemError>>()?,
+        pressure: PressureField {
+            grid: *grid,
+            origin: [0.0; 2],
+            pressure: march.state.pressure().to_vec(),
+        },
+    })
+}
+
+struct March {
+    /// Of the surface whose waves are multiplied by J_Δ/J, \[m].
+    heights: Vec<f64>,
+    mean_height: f64,
+    /// ∂h/∂x.
+    slopes: Vec<f64>,
+    convolution: Convolution,
+    workspace: ConvolutionWorkspace,
+    state: ContactState,
+    step: ExponentialStep,
+    /// 2 (1 − ν).
+    factor: f64,
+    /// Field after field.
+    memory: Vec<f64>,
+    /// Heights plus displacement without load.
+    separation: Vec<f64>,
+    /// 2 (1 − ν) w.
+    input: Vec<f64>,
+}
+
+impl March {
+    fn new(
+        grid: &Grid,
+        heights: &[f64],
+        elastomer: &(impl Elastomer + ?Sized),
+        velocity: f64,
+    ) -> Result<Self, BemError> {
+        let n = grid.n_elements();
+        let sliding = Sliding::new(elastomer, velocity)?;
+        let step = ExponentialStep::creep(&sliding.creep, grid.spacing()[0] / velocity)?;
+        let convolution = Convolution::periodic_on(elastomer, grid);
+        let mut slopes = vec![0.0; n];
+        Kernel::new(&sliding, grid)?.slopes(heights, &mut slopes);
+        Ok(Self {
+            heights: held(grid, heights, &sliding, &step)?,
+            mean_height: heights.iter().sum::<f64>() / n as f64,
+            slopes,
+            state: ContactState::new(&convolution),
+            workspace: convolution.workspace(),
+            convolution,
+            factor: elastomer.material().half_space_factor(),
+            memory: vec![0.0; n * step.n_fields()],
+            separation: vec![0.0; n],
+            input: vec![0.0; n],
+            step,
+        })
+    }
+
+    /// Passes one element of the material and solves the contact there; distance and time are not filled in.
+    fn step(
+        &mut self,
+        mean_pressure: f64,
+        options: &ContactOptions,
+    ) -> Result<PeriodicRow, BemError> {
+        let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
+        for field in self.memory.chunks_exact_mut(n) {
+            field.rotate_left(columns);
+        }
+        self.step.history(&self.memory, &mut self.separation);
+        add(&mut self.separation, 1.0, &self.heights);
+        let area = n as f64 * self.convolution.grid().element_area();
+        let problem = ContactProblem {
+            convolution: &self.convolution,
+            separation: &self.separation,
+            compliance: self.factor * self.step.response(),
+            control: Control::NormalForce(mean_pressure * area),
+        };
+        let contact = solve_contact(&problem, &mut self.state, options)?;
+        self.remember();
+        let pressure = self.state.pressure();
+        Ok(PeriodicRow {
+            sliding_distance: 0.0,
+            time: 0.0,
+            friction_coefficient: dot(pressure, &self.slopes) / pressure.iter().sum::<f64>(),
+            area_fraction: area_fraction(columns, pressure),
+            mean_depth: contact.indentation_depth - self.mean_height,
+        })
+    }
+
+    fn remember(&mut self) {
+        let pressure = self.state.pressure();
+        self.convolution
+            .apply_to_all(&mut self.workspace, pressure, &mut self.input);
+        let per_load = self.factor / (4.0 * PI);
+        self.input.iter_mut().for_each(|value| *value *= per_load);
+        self.step.advance(&self.input, &mut self.memory);
+    }
+}
+
+/// The heights with each wave times J_Δ/J.
+fn held(
+    grid: &Grid,
+    heights: &[f64],
+    sliding: &Sliding,
+    step: &ExponentialStep,
+) -> Result<Vec<f64>, BemError> {
+    let mut waves = Waves::new(grid, &Base::default());
+    let compliances = sliding.compliances(&waves.along_x)?;
+    let (dx, rows) = (grid.spacing()[0], compliances.len());
+    let symbol = |(row, compliance): (usize, Complex<f64>)| {
+        let held = step.turning_response(waves.along_x[row] * dx);
+        let held = Complex::new(held.storage, held.loss) * sliding.factor / compliance;
+        // The shortest wave stands for both directions, so that its symbol is real.
+        if 2 * row == rows {
+            held.norm().into()
+        } else {
+            held
+        }
+    };
+    let symbols: Vec<_> = compliances.into_iter().enumerate().map(symbol).collect();
+    let mut result = vec![0.0; heights.len()];
+    waves.apply(heights, &mut result, |row, _| symbols[row]);
+    Ok(result)
+}
