@@ -6,9 +6,6 @@ use viscofriction::Estimate;
 
 use crate::support::{Folder, assert_agree, assert_close, estimate, example, table};
 
-/// Scenes and their answers.
-const ANSWERS: &str = include_str!("../data/answers.txt");
-
 /// Bilinear heights lie at most c p²/2 above the paraboloid c r²: relative to the height at the contact radius a, and with
 /// it friction, force and depth, by less than (p/a)², which is 1e-2 for a = 4 mm.
 const BILINEAR: f64 = 1e-2;
@@ -18,7 +15,7 @@ fn answers_are_those_of_closed_forms_and_of_other_methods() {
     let folder = Folder::new("same-answers");
     folder.write("map.csv", map());
     fs::copy(example("profile.csv"), folder.path("profile.csv")).expect("a profile");
-    for [parts, other, required] in table(ANSWERS, "answers") {
+    for [parts, other, required] in table("answers") {
         let result = folder.answer(&parts);
         let method = result["method"].as_str().expect("a method");
         let named = format!("method = \"{method}\"");
