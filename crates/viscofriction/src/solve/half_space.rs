@@ -30,12 +30,19 @@ pub fn half_space(
     folder: &Path,
     read: ReadFile,
 ) -> Result<HalfSpace, SceneError> {
-    let mut found = in_shear(table, folder, read)?;
+    let refused = |error| refused(&table.key(), error);
+    let in_shear = match table {
+        MaterialTable::File { path, .. } => of_file(&folder.join(path), read)?,
+        table => in_shear(table).map_err(refused)?,
+    };
+    let material = in_shear.material;
     let ratio = table.poisson_ratio();
-    let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
-    let material = Compressible::new(&*found.material, ratio).map(boxed);
-    found.material = material.map_err(|error| refused(&table.key(), error))?;
-    Ok(found)
+    let ratio = ratio.unwrap_or_else(|| material.poisson_ratio());
+    let material = Compressible::new(&*material, ratio).map(boxed);
+    Ok(HalfSpace {
+        material: material.map_err(refused)?,
+        ..in_shear
+    })
 }
 
 /// The material that another file holds.
@@ -54,7 +61,7 @@ fn no_file(file: &Path) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
-fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
+fn in_shear(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
     let material = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
         &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
@@ -90,22 +97,7 @@ fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<Half
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
             spectrum.and_then(Prony::new).map(boxed)
         }
-        MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
-            return fractional(table).map_err(|error| refused(&table.key(), error));
-        }
-        MaterialTable::File { path, .. } => return of_file(&folder.join(path), read),
-    };
-    let material = material.map_err(|error| refused(&table.key(), error))?;
-    Ok(HalfSpace {
-        material,
-        expansion: None,
-    })
-}
-
-/// The series of a fractional element.
-fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
-    let (material, expansion) = match *table {
-        MaterialTable::Springpot {
+        &MaterialTable::Springpot {
             coefficient,
             exponent,
             equilibrium_modulus,
@@ -114,9 +106,9 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
         } => {
             let element = Springpot::new(coefficient, exponent)?;
             let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)?
+            return expanded(expand, exponent, equilibrium_modulus, time_range);
         }
-        MaterialTable::FractionalMaxwell {
+        &MaterialTable::FractionalMaxwell {
             shear_modulus,
             relaxation_time,
             exponent,
@@ -130,14 +122,14 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
                 exponent,
             })?;
             let expand = |band, error| element.expand(band, error);
-            expanded(expand, exponent, equilibrium_modulus, time_range)?
+            return expanded(expand, exponent, equilibrium_modulus, time_range);
         }
-        // All others have finitely many elements.
-        _ => return Err(RheologyError::NoStiffness),
+        // It has been read.
+        MaterialTable::File { .. } => Err(RheologyError::NoStiffness),
     };
     Ok(HalfSpace {
-        material: Box::new(material),
-        expansion: Some(expansion),
+        material: material?,
+        expansion: None,
     })
 }
 
