@@ -7,8 +7,6 @@
 use numerics::{in_range, not_negative, positive};
 use rheology::{Prony, PronyExpansion, RelaxationSpectrum, RheologyError};
 
-use super::half_space::HalfSpace;
-
 /// Error of the modulus δ that a series is expanded to.
 const RELATIVE_ERROR: f64 = 1e-7;
 
@@ -28,7 +26,7 @@ pub(crate) fn expanded(
     exponent: f64,
     equilibrium_modulus: f64,
     time_range: [f64; 2],
-) -> Result<HalfSpace, RheologyError> {
+) -> Result<(Prony, Expansion), RheologyError> {
     let series = expand(band(time_range)?, RELATIVE_ERROR)?;
     let modulus = not_negative("equilibrium_modulus", equilibrium_modulus)?;
     let sum = RelaxationSpectrum::new(
@@ -40,10 +38,7 @@ pub(crate) fn expanded(
         relative_error: 2.0 * series.relative_error / (1.0 - exponent),
         time_range,
     };
-    Ok(HalfSpace {
-        material: Box::new(Prony::new(sum)?),
-        expansion: Some(expansion),
-    })
+    Ok((Prony::new(sum)?, expansion))
 }
 
 fn band([shortest, longest]: [f64; 2]) -> Result<[f64; 2], RheologyError> {

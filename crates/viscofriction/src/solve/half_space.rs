@@ -30,19 +30,12 @@ pub fn half_space(
     folder: &Path,
     read: ReadFile,
 ) -> Result<HalfSpace, SceneError> {
-    let refused = |error| refused(&table.key(), error);
-    let in_shear = match table {
-        MaterialTable::File { path, .. } => of_file(&folder.join(path), read)?,
-        table => in_shear(table).map_err(refused)?,
-    };
-    let material = in_shear.material;
+    let mut found = in_shear(table, folder, read)?;
     let ratio = table.poisson_ratio();
-    let ratio = ratio.unwrap_or_else(|| material.poisson_ratio());
-    let material = Compressible::new(&*material, ratio).map(boxed);
-    Ok(HalfSpace {
-        material: material.map_err(refused)?,
-        ..in_shear
-    })
+    let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
+    let material = Compressible::new(&*found.material, ratio).map(boxed);
+    found.material = material.map_err(|error| refused(&table.key(), error))?;
+    Ok(found)
 }
 
 /// The material that another file holds.
@@ -61,7 +54,7 @@ fn no_file(file: &Path) -> Result<Vec<u8>, WrongInput> {
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
-fn in_shear(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
+fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
     let material = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
         &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
@@ -97,7 +90,22 @@ fn in_shear(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
             let spectrum = RelaxationSpectrum::new(*equilibrium_modulus, *viscosity, branches);
             spectrum.and_then(Prony::new).map(boxed)
         }
-        &MaterialTable::Springpot {
+        MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
+            return fractional(table).map_err(|error| refused(&table.key(), error));
+        }
+        MaterialTable::File { path, .. } => return of_file(&folder.join(path), read),
+    };
+    let material = material.map_err(|error| refused(&table.key(), error))?;
+    Ok(HalfSpace {
+        material,
+        expansion: None,
+    })
+}
+
+/// The series of a fractional element.
+fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
+    let (material, expansion) = match *table {
+        MaterialTable::Springpot {
             coefficient,
             exponent,
             equilibrium_modulus,
@@ -106,9 +114,9 @@ fn in_shear(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
         } => {
             let element = Springpot::new(coefficient, exponent)?;
             let expand = |band, error| element.expand(band, error);
-            return expanded(expand, exponent, equilibrium_modulus, time_range);
+            expanded(expand, exponent, equilibrium_modulus, time_range)?
         }
-        &MaterialTable::FractionalMaxwell {
+        MaterialTable::FractionalMaxwell {
             shear_modulus,
             relaxation_time,
             exponent,
@@ -122,14 +130,14 @@ fn in_shear(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
                 exponent,
             })?;
             let expand = |band, error| element.expand(band, error);
-            return expanded(expand, exponent, equilibrium_modulus, time_range);
+            expanded(expand, exponent, equilibrium_modulus, time_range)?
         }
-        // It has been read.
-        MaterialTable::File { .. } => Err(RheologyError::NoStiffness),
+        // All others have finitely many elements.
+        _ => return Err(RheologyError::NoStiffness),
     };
     Ok(HalfSpace {
-        material: material?,
-        expansion: None,
+        material: Box::new(material),
+        expansion: Some(expansion),
     })
 }
 
