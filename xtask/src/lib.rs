@@ -1,4 +1,4 @@
-//! Commands of the workspace: figures, scaling factors, materials, scenes, checks.
+//! Commands of the workspace: figures, scaling factors, evidence, dependencies, checks.
 //!
 //! Exit status: 0 done; 1 the computation could not reach what was asked; 2 the input was wrong.
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]

@@ -37,6 +37,17 @@ pub fn decades(n: f64) -> impl Strategy<Value = f64> {
     (-n..n).prop_map(|exponent| 10.0_f64.powf(exponent))
 }
 
+/// Rows of numbers that blanks separate, in lines or between commas.
+pub fn numbers<const N: usize>(rows: &str) -> Vec<[f64; N]> {
+    let rows = rows.split([',', '\n']).filter(|row| !row.trim().is_empty());
+    let row = |row: &str| {
+        let cells = row.split_whitespace().map(str::parse);
+        let cells: Vec<f64> = cells.collect::<Result<_, _>>().expect("numbers");
+        cells.try_into().expect("so many numbers in a row")
+    };
+    rows.map(row).collect()
+}
+
 /// One row of the casebook.
 #[derive(Debug, Clone)]
 pub struct Case(Value);

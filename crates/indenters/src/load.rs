@@ -36,7 +36,6 @@ pub struct HistoryPoint {
 
 impl HistoryPoint {
     /// The same force or depth at each of the `times` \[s].
-    #[must_use]
     pub fn held(control: Control, times: &[f64]) -> Vec<Self> {
         let point = |&time: &f64| Self { time, control };
         times.iter().map(point).collect()

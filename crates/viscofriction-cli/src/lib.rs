@@ -15,7 +15,7 @@ mod sweep;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{Arg, CommandFactory as _, Parser, Subcommand};
 use clap_complete::Shell;
 pub use viscofriction::WrongInput;
 
@@ -26,11 +26,18 @@ pub use check::{InputKind, check_input};
 #[command(
     name = "viscofriction",
     version,
-    after_help = "Example: viscofriction run scene.toml --out result"
+    after_help = "Example: viscofriction run scene.toml --out result",
+    mut_subcommands(|command| command.mut_args(with_negative_numbers))
 )]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
+}
+
+/// A negative number is a value, and no option: whether it is allowed is for what it stands for to say.
+fn with_negative_numbers(option: Arg) -> Arg {
+    let takes_values = option.get_action().takes_values();
+    option.allow_negative_numbers(takes_values)
 }
 
 #[derive(Debug, Subcommand)]

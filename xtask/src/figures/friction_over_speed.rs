@@ -103,8 +103,8 @@ pub(super) fn row(indenter: &Indenter, speed: u32, factor: f64) -> Result<Row> {
     })
 }
 
-/// The coarsest spacing 2^−k mm that puts enough elements along the contact. A ladder that does not follow the contact
-/// keeps the discrete problems of different speeds apart: with a spacing proportional to the contact they would all be
+/// The coarsest spacing 2^−k mm that puts enough elements along the contact. Steps that do not follow the contact
+/// keep the discrete problems of different speeds apart: with a spacing proportional to the contact they would all be
 /// the same one.
 fn spacing(contact_length: f64) -> f64 {
     let millimetre = 1e-3;

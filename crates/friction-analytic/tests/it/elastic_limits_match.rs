@@ -1,4 +1,4 @@
-use casebook::{assert_close, assert_matches, prony, refused};
+use casebook::{assert_close, assert_matches, numbers, prony, refused};
 use friction_analytic::{
     DivergenceCause, ElasticContact, FrictionError, high_speed_friction, low_speed_friction,
     slow_sliding,
@@ -108,17 +108,13 @@ fn slow_friction_diverges_where_the_viscous_one_does_and_fast_friction_does_not(
 
 /// p, μ, area and rear with their errors, and that of the depth, with mpmath 1.3: Λ = Σ λ² − Σ τ² and Λ₃ = Σ λ³ − Σ τ³ over
 /// the retardation times λ and the relaxation times τ, all times v.
-const SLOW: &str = "\
-1.0 0.023756958915793 0.00010939324717359 1.500180400259 0.00552 -0.672 0.0063085714285714 0.0011265306122449
-1.5 0.021476432831361 0.00032791813222604 1.500180400259 0.00552 -0.672 0.0063085714285714 0.0016897959183673
-2.0 0.020793535477271 0.00025111344330666 1.500180400259 0.00552 -0.672 0.0063085714285714 0.0022530612244898";
+const SLOW: &str = include_str!("../data/slow_sliding.txt");
 
 #[test]
 fn slow_sliding_has_friction_contact_and_errors_of_second_order() {
     let solid = prony([1.5, 0.0], &[(3.0, 0.003), (0.6, 0.02)]);
     let slide = |body: &dyn Axisymmetric| slow_sliding(body, &solid, contact(0.7, 2.0));
-    for row in SLOW.lines() {
-        let row: Vec<f64> = row.split(' ').map(|cell| cell.parse().unwrap()).collect();
+    for row in numbers::<8>(SLOW) {
         let slow = slide(&power(0.4, row[0])).unwrap();
         let found = [slow.friction_coefficient, slow.contact_area, slow.rear];
         let found = found.map(|bar| [bar.value, bar.error]);

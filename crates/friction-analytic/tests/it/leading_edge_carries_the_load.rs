@@ -2,7 +2,7 @@ use casebook::{assert_close, assert_matches};
 use friction_analytic::{
     FrictionError, StationarySliding, line_sliding, one_sided_sinking_velocity, sinking_velocity,
 };
-use indenters::{AnalyticLine, EquivalentLine, Hyperboloid, RigidLine, SampledLine};
+use indenters::{AnalyticLine, RigidLine, SampledLine};
 
 use crate::support::{material_and_load, with_depth};
 
@@ -132,11 +132,4 @@ fn contacts_that_are_no_contacts_are_refused() {
     ] {
         assert_matches!(result, Err(FrictionError::InvalidContact { .. }));
     }
-}
-
-#[test]
-fn a_line_without_an_end_is_refused() {
-    let body = Hyperboloid::new(0.5, 0.3).unwrap();
-    let result = slide(&EquivalentLine(&body), 0.1);
-    assert_matches!(result, Err(FrictionError::Indenter(_)));
 }

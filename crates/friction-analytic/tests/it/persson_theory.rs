@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use casebook::{assert_close, assert_matches, prony, refused, refuses};
+use casebook::{assert_close, assert_matches, numbers, prony, refused, refuses};
 use friction_analytic::{
     FrictionError, PerssonSliding, RoughLoad, SelfAffineSpectrum, SurfaceWave, persson_of_spectrum,
     persson_of_waves,
@@ -11,15 +11,7 @@ use rheology::{Elastic, Prony};
 
 /// v, area, μ with S = 1, μ with S = (1 + P²)/2 and μ with S = P = 1 under the mean pressure 0.05. The frictions
 /// are good to 1e-10: with the quadrature in three other variables that at v = 0.5 ends 1.0e-10 lower.
-const ROWS: &str = "\
-0.0001 0.6779291151417846 0.0058907286640415505 0.004808210419460131 0.007552329034888992
-0.001 0.44516850868710944 0.04706651952523884 0.03546126573944275 0.07200585058861392
-0.004 0.18504509978785108 0.07765812999175029 0.05255043265769864 0.1885558127932433
-0.01 0.12322620931923102 0.07166329953123096 0.04663125749823417 0.21975499908440138
-0.03 0.09484398007623134 0.046438642336635326 0.028924182251975458 0.168836518464334
-0.1 0.08406834228880058 0.01940636430648678 0.011718008482619847 0.07850024595058967
-0.5 0.08050000905937799 0.004336775883071685 0.002588368758488003 0.018358594890230007
-5.0 0.0797389887808119 0.00044376071528739753 0.0002642014179287542 0.0018981388908148873";
+const ROWS: &str = include_str!("../data/persson.txt");
 const PRESSURE: f64 = 0.05;
 
 /// Waves from 1/4 to 1/64 of a unit length, with H = 0.8 and the slope 0.1.
@@ -50,10 +42,7 @@ fn theory(mean_pressure: f64, velocity: f64, relative_error: f64) -> PerssonSlid
 
 #[test]
 fn area_and_friction_are_those_of_the_casebook() {
-    for row in ROWS.lines() {
-        let row: Vec<f64> = (row.split(' ').map(str::parse::<f64>))
-            .collect::<Result<_, _>>()
-            .expect("numbers");
+    for row in numbers::<5>(ROWS) {
         let v = row[0];
         for relative_error in [1e-3, 1e-9] {
             let state = theory(PRESSURE, v, relative_error);

@@ -1,30 +1,21 @@
-use casebook::assert_close;
+use casebook::{Formula, assert_close};
 use indenters::{Cylinder, FlatPunch, HeightMap, PowerProfile, Sphere, Surface, Unmirrored};
 
-/// Paraboloids of both curvatures, turned and moved, or none.
-struct Own {
-    curvatures: [f64; 2],
-    angle: f64,
-    moved: [f64; 2],
-}
-
-impl Surface for Own {
-    fn height(&self, [x, y]: [f64; 2]) -> f64 {
-        let (sine, cosine) = self.angle.sin_cos();
-        let [x, y] = [x - self.moved[0], y - self.moved[1]];
+/// Paraboloids of both curvatures, turned and moved, or none; only the heights are those of the body.
+fn own(curvatures: [f64; 2], angle: f64, moved: [f64; 2]) -> impl Surface {
+    let (sine, cosine) = angle.sin_cos();
+    Formula::new([false; 2], move |[x, y]| {
+        let [x, y] = [x - moved[0], y - moved[1]];
         let [along, across] = [cosine * x + sine * y, cosine * y - sine * x];
-        self.curvatures[0] * along * along + self.curvatures[1] * across * across
-    }
-
-    fn gradient(&self, _position: [f64; 2]) -> [f64; 2] {
-        [0.0; 2]
-    }
+        let height = curvatures[0] * along * along + curvatures[1] * across * across;
+        (height, [0.0; 2])
+    })
 }
 
 /// Half widths of {a u² + b v² < h} along x and y, for u, v turned by the angle.
-fn half_widths(own: &Own, height: f64) -> [f64; 2] {
-    let (sine, cosine) = own.angle.sin_cos();
-    let [along, across] = own.curvatures.map(|curvature| height / curvature);
+fn half_widths(curvatures: [f64; 2], angle: f64, height: f64) -> [f64; 2] {
+    let (sine, cosine) = angle.sin_cos();
+    let [along, across] = curvatures.map(|curvature| height / curvature);
     [
         (along * cosine * cosine + across * sine * sine).sqrt(),
         (along * sine * sine + across * cosine * cosine).sqrt(),
@@ -40,16 +31,12 @@ fn an_own_surface_is_searched_tightly_at_every_scale() {
             (1e-3, 0.7, [0.0; 2]),
             (4.0, 1.9, [30.0, -7.0]),
         ] {
-            let own = Own {
-                curvatures: [1.0 / scale, aspect / scale],
-                angle,
-                moved: moved.map(|length| length * scale),
-            };
-            let extent = own.extent_below(scale);
-            let half_widths = half_widths(&own, scale);
+            let curvatures = [1.0 / scale, aspect / scale];
+            let moved = moved.map(|length: f64| length * scale);
+            let extent = own(curvatures, angle, moved).extent_below(scale);
+            let half_widths = half_widths(curvatures, angle, scale);
             for axis in [0, 1] {
-                let [start, end] =
-                    [-1.0, 1.0].map(|side| own.moved[axis] + side * half_widths[axis]);
+                let [start, end] = [-1.0, 1.0].map(|side| moved[axis] + side * half_widths[axis]);
                 // The origin is in it too.
                 let [start, end] = [start.min(0.0), end.max(0.0)];
                 let spare = 0.1 * (end - start);
@@ -67,11 +54,7 @@ fn an_own_surface_is_searched_tightly_at_every_scale() {
 
 #[test]
 fn an_endless_surface_has_an_endless_extent() {
-    let ridge = Own {
-        curvatures: [2.0, 0.0],
-        angle: 0.0,
-        moved: [0.0; 2],
-    };
+    let ridge = own([2.0, 0.0], 0.0, [0.0; 2]);
     let cylinder = Cylinder::new(0.25).unwrap();
     for (extent, spare) in [
         (ridge.extent_below(0.5), 0.05),

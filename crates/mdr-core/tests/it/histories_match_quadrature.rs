@@ -1,5 +1,6 @@
 //! Force and contact radius along a path of the depth match quadrature with 40 digits, and both casebooks.
 
+pub(crate) use casebook::numbers;
 use indenters::{
     Axisymmetric, Control, FlatCone, FlatPunch, HistoryPoint, Hyperboloid, PowerProfile, Sphere,
 };
@@ -37,15 +38,6 @@ pub(crate) fn stretched(name: &str, stretch: f64) -> Box<dyn Axisymmetric> {
         "flat-cone" => Box::new(FlatCone::new(0.02, 0.4 * by).expect("a cone")),
         _ => Box::new(Hyperboloid::new(0.05, 0.5 * by).expect("a hyperboloid")),
     }
-}
-
-/// Rows of numbers that blanks separate, between commas.
-pub(crate) fn numbers<const N: usize>(rows: &str) -> Vec<[f64; N]> {
-    let row = |row: &str| {
-        let mut cells = row.split_whitespace().map(str::parse::<f64>);
-        [(); N].map(|()| cells.next().expect("a cell").expect("a number"))
-    };
-    rows.split(',').map(row).collect()
 }
 
 /// Times and depths.
@@ -134,13 +126,7 @@ fn one_way_in_and_out() {
 /// Casebook-2.json, reapproach: 11 digits.
 #[test]
 fn pressing_again_before_the_surface_has_recovered() {
-    let expected = numbers::<3>(
-        "0.5 0.008113170658034765 0.07071067811865477, 1 0.020114789112124724 0.1,
-        1.15 0.012640425201550915 0.09111933986361723, 1.3 0.006649398554322738 0.0783200359258782,
-        1.5 0.012478303405807521 0.0944593877313644, 1.8 0.021399272337306686 0.10954451150103323,
-        2.1 0.03011547928571352 0.1224744871391589, 2.3 0.01772452165822294 0.1124200051921736,
-        2.6 0.004484729193578699 0.08314938993835587",
-    );
+    let expected = numbers::<3>(include_str!("../data/reapproach.txt"));
     let times: Vec<f64> = expected.iter().map(|row| row[0]).collect();
     // The same in many short segments.
     let finer = (0..360).map(|n| 0.01 * f64::from(n)).chain(times.clone());
@@ -221,12 +207,7 @@ fn under(body: &dyn Axisymmetric, forces: &[[f64; 2]], relative_error: f64) -> V
 #[test]
 fn depth_under_a_force_that_does_not_fall() {
     let forces = "0 0, 0 0.01, 1 0.01, 2 0.01, 2 0.02, 3 0.02, 6 0.02, 20 0.02";
-    let expected: Vec<[f64; 2]> = numbers(
-        "0.07211247851537042 0.005200209557629761, 0.08648615370306872 0.007479854782350828,
-        0.09544646473447954 0.009110027630310246, 0.1075640845496547 0.011570032285005265,
-        0.11931757126909669 0.014236682813555968, 0.1379324607537341 0.0190253637295804,
-        0.15441039910332832 0.023842571351249137",
-    );
+    let expected = numbers::<2>(include_str!("../data/force_control.txt"));
     let curve = under(&*body("paraboloid"), &numbers(forces), 1e-3);
     for (point, expected) in curve[1..].iter().zip(expected) {
         let got = [point.contact_radius, point.indentation_depth];

@@ -41,18 +41,13 @@ pub(crate) struct FitIndentation {
     #[arg(long, value_name = "N")]
     branches: Option<usize>,
     /// Poisson ratio.
-    #[arg(
-        long,
-        default_value_t = 0.5,
-        value_name = "NU",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, default_value_t = 0.5, value_name = "NU")]
     poisson_ratio: f64,
     /// Stiffness of the cantilever in N/m.
-    #[arg(long, value_name = "N/m", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N/m")]
     spring_constant: Option<f64>,
     /// Deflection per volt in m/V.
-    #[arg(long, value_name = "m/V", allow_negative_numbers = true)]
+    #[arg(long, value_name = "m/V")]
     sensitivity: Option<f64>,
     /// Fit up to the deepest point only: most bodies stick on the way back.
     #[arg(long)]
@@ -74,16 +69,16 @@ pub(crate) struct FitIndentation {
 #[group(required = true, multiple = false)]
 struct Body {
     /// Sphere of this radius in m.
-    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RADIUS")]
     sphere: Option<f64>,
     /// Cone of this angle between axis and flank in degrees.
-    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "ANGLE")]
     cone: Option<f64>,
     /// Four-sided pyramid of this angle between axis and face in degrees, as the cone of the same elastic force.
-    #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "ANGLE")]
     pyramid: Option<f64>,
     /// Flat end of this radius in m.
-    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RADIUS")]
     flat_punch: Option<f64>,
 }
 

@@ -38,12 +38,7 @@ pub(crate) struct FitMaterial {
     #[arg(long, requires = "out")]
     overwrite: bool,
     /// Poisson ratio, by which E becomes G = E/(2 (1 + ν)).
-    #[arg(
-        long,
-        default_value_t = 0.5,
-        value_name = "NU",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, default_value_t = 0.5, value_name = "NU")]
     poisson_ratio: f64,
     /// What a "storage modulus" is where the table does not say E or G.
     #[arg(long, value_name = "KIND")]
@@ -55,23 +50,13 @@ pub(crate) struct FitMaterial {
     #[arg(long, value_name = "N")]
     branches: Option<usize>,
     /// Excess error allowed for having few branches, without --branches [default: 0.02].
-    #[arg(
-        long,
-        value_name = "FRACTION",
-        conflicts_with = "branches",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "FRACTION", conflicts_with = "branches")]
     parsimony: Option<f64>,
     /// Keep --branches times equally spaced and smooth their moduli with this weight (Tikhonov); 1 is moderate.
-    #[arg(
-        long,
-        value_name = "WEIGHT",
-        requires = "branches",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "WEIGHT", requires = "branches")]
     smoothing: Option<f64>,
     /// Temperature of the master curve, in the unit of the table [default: that of the isotherm in the middle].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T")]
     reference_temperature: Option<f64>,
     /// Shift by the WLF law with these constants about the reference temperature, instead of automatically.
     #[arg(long, value_names = ["C1", "C2"], num_args = 2, conflicts_with = "arrhenius")]

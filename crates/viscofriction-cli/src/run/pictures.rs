@@ -55,21 +55,20 @@ fn arrow(x: [f64; 2], y: [f64; 2]) -> Series {
 
 /// One quantity over another, straight between the points.
 pub(super) fn curve(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
-    let [x, y] = axes([x, y], &points);
-    let line = Series::line(points, Line::thick(Dash::Solid), Colour::Blue);
-    Figure::single(Chart::new(x, y, vec![line]))
+    let line = Line::thick(Dash::Solid);
+    over(x, y, Series::line(points, line, Colour::Blue))
 }
 
 /// One quantity over another at points between which nothing is known.
 pub(super) fn points(x: &str, y: &str, points: Vec<[f64; 2]>) -> Figure {
-    let [x, y] = axes([x, y], &points);
-    let markers = Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue);
-    Figure::single(Chart::new(x, y, vec![markers]))
+    let marker = Marker::filled(Shape::Circle);
+    over(x, y, Series::markers(points, marker, Colour::Blue))
 }
 
-fn axes([x, y]: [&str; 2], points: &[[f64; 2]]) -> [Axis; 2] {
-    [(0, x), (1, y)]
-        .map(|(axis, label)| Axis::linear(label, around(points.iter().map(|point| point[axis]))))
+fn over(x: &str, y: &str, series: Series) -> Figure {
+    let range = |axis: usize| around(series.points.iter().map(|point| point[axis]));
+    let [x, y] = [Axis::linear(x, range(0)), Axis::linear(y, range(1))];
+    Figure::single(Chart::new(x, y, vec![series]))
 }
 
 /// A range that holds zero and all values, with some room.

@@ -25,7 +25,7 @@ pub(crate) struct Surface {
     /// Heights as asc, gsf, sur, x3p or xyz; or as CSV or npy as in scenes, with --spacing.
     file: PathBuf,
     /// Distances of neighbouring heights along x and y in m, of CSV and npy.
-    #[arg(long, num_args = 2, value_names = ["DX", "DY"], allow_negative_numbers = true)]
+    #[arg(long, num_args = 2, value_names = ["DX", "DY"])]
     spacing: Option<Vec<f64>>,
     /// The map repeats itself: slopes, curvatures and spectra are those of its waves.
     #[arg(long)]
@@ -165,13 +165,11 @@ fn rows(of: &Roughness) -> Vec<Row> {
         of.nayak,
     ];
     let values = heights.into_iter().chain(shape).chain(waves);
-    let names = QUANTITIES.lines().filter_map(|line| {
-        let (quantity, rest) = line.split_once('|')?;
-        let (symbol, unit) = rest.split_once('|')?;
-        Some((quantity, symbol, unit))
-    });
-    let row = |((quantity, symbol, unit), value)| (quantity, symbol, value, unit);
-    names.zip(values).map(row).collect()
+    let row = |(of, value): (&'static str, f64)| {
+        let of: Vec<&str> = of.split('|').collect();
+        (of[0], of[1], value, of[2])
+    };
+    QUANTITIES.lines().zip(values).map(row).collect()
 }
 
 fn table(rows: &[Row]) -> comfy_table::Table {

@@ -4,37 +4,34 @@
 //! is known from its exports and manuals; the numbers are made up.
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::Path;
 
 use viscofriction::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
 
-use crate::support::assert_close;
+use crate::support::{assert_close, table};
+
+const EXPORTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/exports");
 
 /// Frequency, \[Hz], storage and loss modulus in shear, \[MPa].
 const POINTS: [[f64; 3]; 3] = [[0.1, 1.5, 0.3], [1.0, 2.25, 0.45], [10.0, 4.0, 1.2]];
 
-/// TA Instruments TRIOS, text with carriage returns: steps between lines of metadata, units below the names.
-const TRIOS: &str = include_str!("../data/exports/trios.txt");
-
-/// Anton Paar RheoCompass, CSV in UTF-16: an empty first column, units in brackets, empty lines, a count of points.
-const RHEOCOMPASS: &str = include_str!("../data/exports/rheocompass.csv");
-
-/// Netzsch Proteus, CSV in Latin-1: metadata in comments, names with units in a comment too.
-const PROTEUS: &str = include_str!("../data/exports/proteus.csv");
-
-/// Mettler Toledo STARe, text: columns that are aligned by blanks, units right-aligned below them.
-const STARE: &str = include_str!("../data/exports/stare.txt");
-
-/// GABO Eplexor, text: from the highest frequency down, a modulus that is not read.
-const EPLEXOR: &str = include_str!("../data/exports/eplexor.txt");
-
-/// Malvern rSpace for Kinexus, CSV with a byte-order mark: quotes, and words for the moduli.
-const RSPACE: &str = include_str!("../data/exports/rspace.csv");
-
-/// PerkinElmer DMA 8000, text: a loss factor instead of a loss modulus.
-const PYRIS: &str = include_str!("../data/exports/pyris.txt");
+/// The bytes of a text in an encoding.
+fn encoded(text: &str, encoding: &str) -> Vec<u8> {
+    let marked = ["\u{feff}", text].concat();
+    match encoding {
+        "UTF-8" => text.into(),
+        "UTF-8 with CRLF" => text.replace('\n', "\r\n").into(),
+        "UTF-8 with BOM" => marked.into(),
+        "UTF-16" => marked.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+        _ => {
+            let bytes = text.chars().map(u8::try_from);
+            bytes.collect::<Result<_, _>>().expect("Latin-1")
+        }
+    }
+}
 
 /// What is read when storage modulus alone is one of this kind.
 #[track_caller]
@@ -65,28 +62,20 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 
 #[test]
 fn seven_layouts_of_instruments_have_the_same_points() {
-    let crlf = TRIOS.replace('\n', "\r\n");
-    let [utf16, rspace] = [RHEOCOMPASS, RSPACE].map(|text| ["\u{feff}", text].concat());
-    let utf16: Vec<u8> = utf16.encode_utf16().flat_map(u16::to_le_bytes).collect();
-    let latin1 = PROTEUS.chars().map(u8::try_from);
-    let latin1: Vec<u8> = latin1.collect::<Result<_, _>>().expect("Latin-1");
-    let [tension, shear] = [Deformation::Tension, Deformation::Shear].map(Some);
-    for (software, contents, deformation) in [
-        ("TRIOS", crlf.as_bytes(), shear),
-        ("RheoCompass", &utf16, shear),
-        ("Proteus", &latin1, None),
-        ("STARe", STARE.as_bytes(), None),
-        ("Eplexor", EPLEXOR.as_bytes(), None),
-        ("rSpace", rspace.as_bytes(), None),
-        ("Pyris", PYRIS.as_bytes(), tension),
-    ] {
-        let isotherms = isotherms(read(contents, deformation));
-        let expected = if software == "TRIOS" { 2 } else { 1 };
-        assert_eq!(isotherms.len(), expected, "{software}: {isotherms:?}");
+    for [file, encoding, modulus, count] in table("exports") {
+        let path = Path::new(EXPORTS).join(&file);
+        let text = fs::read_to_string(path).expect("an export");
+        let deformation = match &*modulus {
+            "E" => Some(Deformation::Tension),
+            "G" => Some(Deformation::Shear),
+            _ => None,
+        };
+        let isotherms = isotherms(read(&encoded(&text, &encoding), deformation));
+        assert_eq!(isotherms.len().to_string(), count, "{file}: {isotherms:?}");
         let points = &isotherms[0].1;
-        assert_eq!(points.len(), POINTS.len(), "{software}: {points:?}");
+        assert_eq!(points.len(), POINTS.len(), "{file}: {points:?}");
         for (read, written) in points.iter().flatten().zip(POINTS.iter().flatten()) {
-            assert_close(software, *read, *written, 1e-12);
+            assert_close(&file, *read, *written, 1e-12);
         }
     }
 }

@@ -6,15 +6,7 @@ use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::{Folder, argument, example, measured, rows, said, scene};
-
-/// Commands that write into `out`, and the file that they write last.
-const WRITING: &str = "
-run IN/hertz.toml --out out | result.json
-sweep IN/hertz.toml --vary load.normal_force=1,2 --out out/s.csv | s.csv
-sweep --out out/m.csv --merge rows.csv | m.csv
-fit-material moduli.csv --liquid --out out | material.toml
-";
+use crate::support::{Folder, argument, example, measured, said, scene, table};
 
 /// A folder with rows of a sweep in it, and an empty one for the output.
 fn prepared(name: &str) -> Folder {
@@ -29,7 +21,7 @@ fn prepared(name: &str) -> Folder {
 
 #[test]
 fn what_is_there_is_replaced_only_when_asked_for_and_keeps_link_and_permissions() {
-    for [line, written] in rows(WRITING) {
+    for [line, written] in table("writing") {
         let folder = prepared("existing");
         let file = folder.path("out").join(&written);
         folder.write("target", "mine");
@@ -68,7 +60,7 @@ fn pipe(folder: &Folder, name: &str) {
 
 #[test]
 fn only_regular_files_are_written() {
-    for [line, written] in rows(WRITING) {
+    for [line, written] in table("writing") {
         let folder = prepared("no-file");
         let file = format!("out/{written}");
         pipe(&folder, &file);
@@ -156,7 +148,7 @@ fn a_run_that_is_killed_leaves_whole_files() {
 /// A kill between writing a file and giving it its name leaves a part; it is too rare to wait for.
 #[test]
 fn parts_that_a_kill_left_are_cleared_away_and_no_other_files() {
-    for [line, written] in rows(WRITING) {
+    for [line, written] in table("writing") {
         let folder = prepared("parts");
         let of = ["viscofriction-4711", "viscofriction-0815", "old"];
         let [part, at_work, other] = of.map(|of| format!(".{written}.{of}.part"));
@@ -204,21 +196,10 @@ fn where_there_is_no_room_no_part_and_no_half_row_is_left() {
 #[test]
 fn a_closed_pipe_ends_every_command_quietly() {
     let folder = prepared("closed-pipe");
-    for line in [
-        "run IN/hertz.toml",
-        "run IN/hertz.toml --format json --explain",
-        "run IN/hertz.toml --out out",
-        "sweep IN/hertz.toml --vary load.normal_force=1:2:40",
-        "sweep --merge rows.csv",
-        "fit-material DATA/pyvisco_frequency_master.csv",
-        "scene-schema",
-        "completions zsh",
-        "--help",
-        "--version",
-    ] {
+    for [line] in table("what is printed") {
         let (reader, writer) = std::io::pipe().expect("a pipe");
         drop(reader);
-        let mut command = folder.command(line);
+        let mut command = folder.command(&line);
         let child = command.stdout(writer).stderr(Stdio::piped()).spawn();
         let output = child.expect("the command runs").wait_with_output();
         let output = output.expect("an end");

@@ -108,7 +108,7 @@ fn cases() -> [Case; 5] {
     ]
 }
 
-/// Standard normal numbers by Box and Muller from the generator splitmix64.
+/// Standard normal numbers by Box and Muller from a generator like splitmix64.
 struct Normal(u64);
 
 impl Normal {

@@ -4,7 +4,7 @@ use std::fs;
 
 use toml::{Table, Value};
 
-use crate::support::{Folder, assert_close, measured, rows};
+use crate::support::{Folder, assert_close, measured};
 
 /// The table `[material.prony]` that a fit has written.
 fn prony(folder: &Folder) -> Table {
@@ -77,25 +77,6 @@ fn a_liquid_and_a_relaxation_are_fitted_too() {
     }
     let table = "DATA/pyvisco_time_master.csv --branches 10";
     folder.done(format!("fit-material {table} --out out --overwrite"));
-}
-
-/// Options | what is said.
-const WRONG: &str = "
-good.csv --poisson-ratio 0.6 | --poisson-ratio must be greater than -1 and at most 0.5, but is 0.6
-good.csv --branches 0 | --branches must be from 1 to 200, but is 0
-good.csv --parsimony -1 | --parsimony
-good.csv --smoothing 1 | --branches
-good.csv --branches 2 --parsimony 0.1 | cannot be used with
-no-such-file.csv --branches 2 | no-such-file.csv
-";
-
-#[test]
-fn wrong_options_end_with_status_2() {
-    let folder = Folder::new("options");
-    folder.write("good.csv", "f,E',E''\nHz,MPa,MPa\n1,10,1\n2,11,1\n");
-    for [options, needed] in rows(WRONG) {
-        folder.ends(&format!("fit-material {options} --out out"), 2, &needed);
-    }
 }
 
 /// As they are, no positive branches come closer than a fifth to them.

@@ -6,9 +6,6 @@ use crate::support::{Folder, npy, scene, table};
 /// A scene that is right.
 const SCENE: &str = include_str!("../data/scene.toml");
 
-/// Wrong files, and what is said about them.
-const TABLES: &str = include_str!("../data/malformed.txt");
-
 /// Contents of a file, the place in it that is named, and what is said.
 type Case = (Vec<u8>, String, String);
 
@@ -19,9 +16,8 @@ fn cases(name: &str, place: impl Fn(&str) -> String) -> Vec<Case> {
         None if text.is_empty() => Vec::new(),
         None => format!("{text}\n").into(),
     };
-    table(TABLES, name)
-        .map(|[at, needed, text]| (contents(&text), place(&at), needed))
-        .collect()
+    let case = |[at, needed, text]: [String; 3]| (contents(&text), place(&at), needed);
+    table(name).into_iter().map(case).collect()
 }
 
 /// Runs the command on every one of the contents of the file: it ends with status 2, prints nothing, and says one line
@@ -57,13 +53,13 @@ fn replaced(lines: &str, text: &str) -> String {
 /// Every number that must be positive, replaced by all that is none, misspelt and left out.
 fn numbers() -> Vec<Case> {
     let mut cases = Vec::new();
-    for [section, keys] in table(TABLES, "numbers") {
+    for [section, keys] in table("numbers") {
         let is_body = section.starts_with("indenter");
         let (place, first) = if is_body { ("1-3", 1) } else { ("5-6", 5) };
         let keys: Vec<&str> = keys.split(' ').collect();
         for (index, key) in keys.iter().enumerate() {
-            let wrong =
-                table(TABLES, "no numbers").map(|[value, why]| (format!("{key} = {value}"), why));
+            let wrong = table("no numbers").into_iter();
+            let wrong = wrong.map(|[value, why]| (format!("{key} = {value}"), why));
             let unknown = (
                 format!("{key}s = 0.5"),
                 format!("s: unknown field `{key}s`"),
@@ -90,13 +86,13 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
     folder.write("map.csv", "1,1,1\n1,0,1\n1,1,1\n");
     let mut cases = numbers();
     let place = |line: &str| format!("scene.toml:{line}");
-    cases.extend(table(TABLES, "scenes").map(|[lines, named, needed, text]| {
+    for [lines, named, needed, text] in table("scenes") {
         let scene = replaced(&lines, &text.replace("\\0", "\0"));
-        (scene.into(), place(&named), needed)
-    }));
-    let unanswered = table(TABLES, "unanswered")
-        .map(|[parts, line, needed]| (scene(&parts).into(), place(&line), needed));
-    cases.extend(unanswered);
+        cases.push((scene.into(), place(&named), needed));
+    }
+    for [parts, named, needed] in table("unanswered") {
+        cases.push((scene(&parts).into(), place(&named), needed));
+    }
     assert!(cases.len() >= 280, "only {} scenes", cases.len());
     assert_refused(&folder, "scene.toml", "run scene.toml", cases);
     folder.write("scene.toml", SCENE);
@@ -107,7 +103,7 @@ fn a_malformed_scene_is_refused_with_line_and_key() {
 fn what_is_not_reached_says_which_keys_to_change() {
     let folder = Folder::new("unreached");
     folder.write("map.csv", "1,1,1\n1,0,1\n1,1,1\n");
-    for [parts, needed] in table(TABLES, "unreached") {
+    for [parts, needed] in table("unreached") {
         folder.write("scene.toml", scene(&parts));
         let said = folder.ends("run scene.toml", 1, &needed);
         assert_eq!(said.stderr.lines().count(), 1, "{parts}: {said:?}");
@@ -170,10 +166,10 @@ fn a_malformed_array_of_heights_is_refused_with_its_file() {
     ]
     .map(|(array, needed)| (array, place.clone(), needed.to_owned()))
     .into();
-    cases.extend(table(TABLES, "arrays").map(|[header, length, needed]| {
+    for [header, length, needed] in table("arrays") {
         let numbers = vec![0; length.parse().expect("a length")];
-        (npy(&header, &numbers), place.clone(), needed)
-    }));
+        cases.push((npy(&header, &numbers), place.clone(), needed));
+    }
     assert_refused(&folder, "map.NPY", "run scene.toml", cases);
 }
 
@@ -191,4 +187,17 @@ fn malformed_rows_and_moduli_are_refused_with_their_line_and_leave_nothing() {
     assert_refused(&folder, "moduli.csv", fit, wrong);
     let left = folder.names("").join(" ");
     assert_eq!(left, "moduli.csv rows.csv", "left of wrong files");
+}
+
+#[test]
+fn wrong_options_are_refused_and_leave_nothing() {
+    let folder = Folder::with("options", "cone-viscous.toml", &[]);
+    for [file, contents] in table("files of wrong options") {
+        folder.write(&file, contents);
+    }
+    let names = folder.names("");
+    for [line, needed] in table("wrong options") {
+        folder.ends(&line, 2, &needed);
+        assert_eq!(folder.names(""), names, "left by {line}");
+    }
 }

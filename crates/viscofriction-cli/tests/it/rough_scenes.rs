@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde_json::Value;
 
-use crate::support::{Folder, assert_close, number, rows};
+use crate::support::{Folder, assert_close, number};
 
 /// But for the load.
 const SURFACE: &str =
@@ -87,28 +87,5 @@ fn a_periodic_map_is_the_same_surface_on_any_grid() {
     for name in ["friction_coefficient", "area_fraction"] {
         let [one, other] = [0, 1].map(|index: usize| number(&answers[index], name));
         assert_close(name, one, other, 1e-9);
-    }
-}
-
-/// Load | what is said.
-const REFUSED: &str = "
-normal_force = 1.0 | load.mean_pressure: a periodic surface takes a mean_pressure
-mean_pressure = 0.0 | load.mean_pressure must be finite and greater than 0, but is 0
-mean_pressure = 1.0 | creeps for ever, and never comes to rest
-mean_pressure = 1.0 | indenter.self-affine.
-";
-
-#[test]
-fn what_a_rough_surface_cannot_do_is_refused() {
-    let folder = Folder::new("rough-refused");
-    let solid = "standard-solid = { equilibrium_modulus = 0.25, maxwell_modulus = 2.25,";
-    let fluid = SURFACE.replace(solid, "viscous = {");
-    let [shortest, longer] =
-        ["0.25", "3.0"].map(|length| format!("shortest_wavelength = {length}"));
-    let no_waves = SURFACE.replace(&shortest, &longer);
-    let surfaces = [SURFACE, SURFACE, &fluid, &no_waves];
-    for (surface, [load, said]) in surfaces.into_iter().zip(rows(REFUSED)) {
-        folder.write("wrong.toml", format!("{surface}{load}\n"));
-        folder.ends("run wrong.toml", 2, &said);
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::support::{Folder, argument, assert_close, estimate, number, rows, scene};
+use crate::support::{Folder, argument, assert_close, estimate, number, scene, table};
 
 #[test]
 fn every_committed_scene_is_answered() {
@@ -45,25 +45,12 @@ fn assert_bar_is_its_parts(result: &Value) {
     assert!(is_sum, "the parts add up to {sum:e}: {result}");
 }
 
-/// Scene, method | parts of its error.
-const PARTS: &str = "
-maxwell.toml --method mdr-transient | discretisation time_stepping truncation
-IN/cone-viscous.toml --method analytic
-IN/cone-viscous.toml --method mdr-steady | discretisation
-IN/cone-viscous.toml --method mdr-transient | discretisation truncation
-IN/cone-half-space.toml --method bem-steady | discretisation iteration
-IN/half-space-run-in.toml --method bem-transient | discretisation iteration
-IN/cylinder-solid.toml --method bem-steady | discretisation iteration
-IN/hertz.toml --method mdr-transient | discretisation
-IN/hertz.toml --method bem-transient | discretisation iteration
-";
-
 #[test]
 fn each_method_names_the_parts_that_it_has() {
     let folder = Folder::new("parts-of-bars");
     let maxwell = "paraboloid; maxwell; normal_force = 1, velocity = 0.05; elements = 64";
     folder.write("maxwell.toml", scene(maxwell));
-    for [line, expected] in rows(PARTS) {
+    for [line, expected] in table("parts of bars") {
         let result = folder.json(&line);
         assert_bar_is_its_parts(&result);
         let parts = result["error_parts"].as_object();
@@ -102,22 +89,10 @@ fn files_read_back_to_the_same_numbers() {
     assert!(same, "NPY and CSV hold the same field");
 }
 
-/// Scene and method | files beside `result.json`.
-const WRITTEN: &str = "
-IN/cone-half-space.toml --method bem-steady | pressure.csv pressure.npy pressure.png pressure.svg pressure_x.npy pressure_y.npy
-IN/half-space-run-in.toml --method bem-transient | history.csv history.png history.svg pressure.csv pressure.npy pressure.png pressure.svg pressure_x.npy pressure_y.npy
-IN/cone-viscous.toml --method mdr-transient | history.csv history.png history.svg
-IN/cylinder-solid.toml --method bem-steady | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
-line.toml | line_load.csv line_load.npy line_load.png line_load.svg
-IN/hertz.toml | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
-IN/cylinder-hertz.toml | line_pressure.csv line_pressure.npy line_pressure.png line_pressure.svg
-IN/creeping-punch.toml | history.csv history_over_time.png history_over_time.svg
-";
-
 /// Fields, histories and pictures of every method that has them.
 #[test]
 fn every_method_writes_the_files_of_what_it_knows() {
-    for [line, written] in rows(WRITTEN) {
+    for [line, written] in table("written") {
         let folder = Folder::new("files-of-method");
         let closed = "cone; viscous; normal_force = 1.0, velocity = 0.01; model = \"line\"";
         folder.write("line.toml", scene(closed));
@@ -146,16 +121,10 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
     assert!(said.stderr.contains(": it is 0."), "{said:?}");
 }
 
-/// Infinity is no number of a result, and no JSON.
-const OVERFLOWS: &str = "
-paraboloid; viscous; normal_force = 1e308, velocity = 0.01;  | tangential_force is inf
-indenter.paraboloid.curvature = 1e-290; material.elastic.shear_modulus = 1e-10; normal_force = 1e200, velocity = 0; duration = 1 | contact_area is inf
-";
-
 #[test]
 fn a_quantity_that_overflows_ends_with_status_1_and_its_name() {
     let folder = Folder::new("overflow");
-    for [parts, needed] in rows(OVERFLOWS) {
+    for [parts, needed] in table("overflows") {
         folder.write("scene.toml", scene(&parts));
         let said = folder.ends("run --format json scene.toml", 1, &needed);
         assert_eq!(said.stdout, "", "{parts}");

@@ -9,51 +9,43 @@ use std::time::Duration;
 use serde_json::Value;
 use viscofriction::Estimate;
 
-/// Bodies and materials of scenes by their names.
-const TABLES: &str = r#"
-paraboloid | indenter.paraboloid.curvature = 50.0
-cone | indenter.cone.slope = 0.1
-cylinder | indenter.cylinder.radius = 0.1
-map | indenter.height-map = { file = "map.csv", spacing = [4e-4, 4e-4] }
-viscous | material.viscous.viscosity = 1.0e4
-elastic | material.elastic = { shear_modulus = 1.0e6, poisson_ratio = 0.3 }
-maxwell | material.maxwell = { shear_modulus = 1.0e6, viscosity = 1.0e4 }
-solid | material.standard-solid = { equilibrium_modulus = 1e6, maxwell_modulus = 2e6, viscosity = 2e3 }
-prony | material.prony = { equilibrium_modulus = 1e5, branches = [{ modulus = 1e6, relaxation_time = 0.01 }, { modulus = 1e6, relaxation_time = 1.0 }] }
-"#;
+/// Cases of the tests.
+const TABLES: [&str; 3] = [
+    include_str!("../data/answers.txt"),
+    include_str!("../data/cases.txt"),
+    include_str!("../data/malformed.txt"),
+];
 
 /// The scene of `body; material; load; solution`, of which the first two may be names.
 #[track_caller]
 pub(crate) fn scene(parts: &str) -> String {
     let parts: Vec<&str> = parts.split("; ").collect();
-    let table = |name: &str| {
-        let known = rows(TABLES).find(|[known, _]| known == name);
-        known.map_or(name.to_owned(), |[_, table]| table)
+    let known = table("bodies and materials");
+    let known = |name: &str| {
+        let found = known.iter().find(|[known, _]| known == name);
+        found.map_or(name, |[_, table]| table).to_owned()
     };
-    let [body, material] = [parts[0], parts[1]].map(table);
+    let [body, material] = [parts[0], parts[1]].map(known);
     let [load, solve] = [parts[2], parts[3]];
     format!("load = {{ {load} }}\nsolve = {{ {solve} }}\n{body}\n{material}\n")
 }
 
-/// The rows of a table in cells, of which those at the end may be left out.
-pub(crate) fn rows<const N: usize>(table: &str) -> impl Iterator<Item = [String; N]> {
-    table.trim_matches('\n').lines().map(|line| {
-        let mut cells = line.splitn(N, " | ");
-        [(); N].map(|()| cells.next().unwrap_or_default().replace("\\n", "\n"))
-    })
-}
-
-/// The rows below the line `== name: columns` of a file of tables, without those that begin with `#`. A row that ends with
-/// ` |` has its last cell in the lines below it, indented by four blanks.
+/// The rows below the line `== name: columns` of a file of tables, without those that begin with `#`, in cells, of which
+/// those at the end may be left out. A row that ends with ` |` has its last cell in the lines below it, indented by four
+/// blanks.
 #[track_caller]
-pub(crate) fn table<const N: usize>(tables: &str, name: &str) -> impl Iterator<Item = [String; N]> {
-    let mut all = tables.split("\n== ").skip(1);
+pub(crate) fn table<const N: usize>(name: &str) -> Vec<[String; N]> {
+    let mut all = TABLES.iter().flat_map(|file| file.split("\n== ").skip(1));
     let found = all.find_map(|table| table.strip_prefix(name)?.strip_prefix(": "));
     let found = found.unwrap_or_else(|| panic!("no table {name}"));
     let lines = found.lines().skip(1).filter(|line| !line.starts_with('#'));
     let table = lines.collect::<Vec<_>>().join("\n");
     let table = table.replace(" |\n    ", " | ").replace("\n    ", "\\n");
-    rows(&table).collect::<Vec<_>>().into_iter()
+    let row = |line: &str| {
+        let mut cells = line.splitn(N, " | ");
+        [(); N].map(|()| cells.next().unwrap_or_default().replace("\\n", "\n"))
+    };
+    table.lines().map(row).collect()
 }
 
 /// A committed scene, or a file that one names.

@@ -62,24 +62,3 @@ fn a_periodic_map_is_described_by_its_waves() {
     // One of the four wave vectors of the ring, of which two opposite ones are one.
     assert_close("density", density[0], 0.25 / (q * q) / 4.0, 1e-12);
 }
-
-#[test]
-fn what_is_no_surface_is_refused() {
-    let folder = Folder::new("surface-refused");
-    folder.write("hole.xyz", measured());
-    folder.write("flat.csv", "1,1,1\n1,1,1\n1,1,1");
-    folder.write("row.csv", "1,2,3\n3,2,1");
-    for (arguments, needed) in [
-        ("hole.xyz", "1 of 1200 heights are missing; --fill-missing"),
-        ("hole.xyz --spacing 1 1", "leave out --spacing"),
-        ("flat.csv", "need --spacing DX DY"),
-        ("flat.csv --spacing 1 0", "DY in m, both above 0"),
-        ("flat.csv --spacing 1 1", "largest height above the lowest"),
-        ("row.csv --spacing 1 1", "rows of heights"),
-        ("none.xyz", "none.xyz"),
-        (".", "a regular file is needed"),
-    ] {
-        folder.ends(&format!("surface {arguments} --out no"), 2, needed);
-        assert!(folder.names("no").is_empty());
-    }
-}

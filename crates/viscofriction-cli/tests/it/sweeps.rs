@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Folder, rows, said};
+use crate::support::{Folder, said, table};
 
 const VARY: &str = "--vary indenter.cone.slope=0.05:0.2:4 --vary load.velocity=1e-3:1:5:log";
 
@@ -110,33 +110,6 @@ fn a_point_that_cannot_be_computed_is_a_row_and_status_1() {
     }
 }
 
-/// Values of a key | what is said.
-const WRONG: &str = "\
-load.velocity=1:-1:4 | scene.toml:10: load.velocity must be finite and at least 0
-load.speed=1:2:2 | load.speed: unknown field
-loads.velocity=1:2:2 | loads.velocity: the scene has no such table
-velocity=1:2:2 | velocity: the scene has no such table
-load.velocity=1:2 | KEY=START:STOP:COUNT[:log] or KEY=a,b,c is needed
-load.velocity=1,two | a value must be a number, but is two
-load.velocity=1:2:0 | COUNT must be a whole number from 1
-load.velocity=0:2:3:log | greater than 0 on a logarithmic scale
-load.velocity=a:2:3 | START must be a number
-load.velocity=1:inf:3 | STOP must be finite";
-
-#[test]
-fn wrong_points_are_refused_before_the_first_is_computed() {
-    let folder = quick("wrong-points");
-    for [vary, needed] in rows(WRONG) {
-        let line = format!("sweep scene.toml --out rows.csv --vary {vary}");
-        folder.ends(&line, 2, &needed);
-    }
-    for shard in ["0/3", "4/3", "1", "1/0", "a/b"] {
-        let line = format!("sweep scene.toml {VARY} --out rows.csv --shard {shard}");
-        folder.ends(&line, 2, "--shard");
-    }
-    assert_eq!(folder.names(""), ["scene.toml"], "files of wrong sweeps");
-}
-
 #[test]
 fn powers_of_ten_and_lists_are_met_exactly() {
     let folder = quick("exact-values");
@@ -156,19 +129,12 @@ fn powers_of_ten_and_lists_are_met_exactly() {
     assert_eq!(values("load.velocity=0.3, 0.1,2"), ["0.3", "0.1", "2.0"]);
 }
 
-/// What varies, in which scene | what the picture has.
-const DRAWN: &str = "\
-held.toml --vary load.indentation_depth=1e-5,2e-5 | normal force [N] | load.indentation_depth | N
-IN/cone-half-space.toml --vary load.velocity=1e-3:1:4:log | friction coefficient | load.velocity | 10
-IN/hertz.toml --vary load.normal_force=1,2,5 | indentation depth [m] | load.normal_force | 5
-IN/hertz.toml --vary load.normal_force=1e-3:1:4:log --vary indenter.paraboloid.curvature=10:50:5 | indentation depth [10⁻⁵ m] | load.normal_force | indenter.paraboloid.curvature";
-
 #[test]
 fn a_sweep_is_drawn_over_what_varies() {
     let depth = ("normal_force = 1.0", "indentation_depth = 1e-5");
     let folder = Folder::with("drawn-sweeps", "hertz.toml", &[depth]);
     fs::rename(folder.path("scene.toml"), folder.path("held.toml")).expect("a scene");
-    for [sweep, labels] in rows(DRAWN) {
+    for [sweep, labels] in table("drawn") {
         let said = folder.done(format!("sweep {sweep} --out rows.csv --overwrite"));
         assert!(!said.stderr.contains("no picture"), "{sweep}: {said:?}");
         let svg = folder.text("rows.svg");

@@ -155,7 +155,6 @@ impl Answer {
     }
 
     /// F_h = μ F_N, \[N] or \[N/m]; none where nothing slides.
-    #[must_use]
     pub fn tangential_force(&self) -> Option<Estimate> {
         let (friction, force) = (self.friction_coefficient?, self.normal_force);
         let error = friction.error * force.value + friction.value.abs() * force.error;
@@ -164,7 +163,6 @@ impl Answer {
 
     /// The friction coefficient, or where nothing slides the depth, or the force at a given depth: what the relative
     /// error is asked of.
-    #[must_use]
     pub fn asked(&self) -> Estimate {
         let (force, depth) = (self.normal_force, self.indentation_depth);
         let depth = depth.filter(|_| force.error == 0.0);
@@ -189,7 +187,6 @@ impl Answer {
     }
 
     /// All numbers by their names in CSV; those that are not known stay empty.
-    #[must_use]
     pub fn numbers(&self) -> Vec<(String, Option<f64>)> {
         let mut numbers = Vec::new();
         for (name, known) in self.quantities() {
@@ -215,7 +212,6 @@ impl Answer {
     }
 
     /// The names of all [`numbers`](Self::numbers).
-    #[must_use]
     pub fn columns() -> Vec<String> {
         let empty = Self::new(Method::Analytic, Model::HalfSpace, Estimate::exact(0.0));
         empty.numbers().into_iter().map(|(name, _)| name).collect()

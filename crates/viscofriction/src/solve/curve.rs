@@ -35,13 +35,11 @@ pub(crate) type OfPoint<P> = ([&'static str; 2], fn(&P) -> Estimate);
 
 impl CurveColumn {
     /// The largest value, at least 0.
-    #[must_use]
     pub fn largest(&self) -> f64 {
         self.over(|known| known.value.abs())
     }
 
     /// The largest error of all points.
-    #[must_use]
     pub fn error(&self) -> f64 {
         self.over(|known| known.error)
     }
@@ -65,7 +63,6 @@ impl Curve {
     }
 
     /// The column of a name; none where it is not known.
-    #[must_use]
     pub fn column(&self, name: &str) -> Option<&CurveColumn> {
         self.columns.iter().find(|column| column.name[0] == name)
     }

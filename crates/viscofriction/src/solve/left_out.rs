@@ -24,7 +24,6 @@ impl Omission {
     }
 
     /// What leaving it out of an answer to a problem saves, as a count where there is one that is exact.
-    #[must_use]
     pub fn saves(self, problem: &Problem, answer: &Answer) -> String {
         let (unknowns, iterations) = (answer.unknowns, answer.iterations);
         let n_footprint = |even| answer.grid.map_or(0, |grid| grid.n_elements(even));

@@ -183,22 +183,6 @@ mod tests {
         (friction, found.into_iter().flatten().collect())
     }
 
-    #[test]
-    fn a_depth_in_sliding_on_the_half_space_is_refused_and_left_out() {
-        let scene = |load: &str| {
-            let text = format!(
-                "[indenter.sphere]\nradius = 5e-3\n[material.springpot]\ncoefficient = 1e6\nexponent = 0.3\n\
-                 time_range = [1e-3, 1e3]\n[load]\n{load}\nvelocity = 0.01\n[solve]\nelements = 24"
-            );
-            let scene: Scene = text.parse().expect("a scene");
-            Problem::try_from(&scene)
-        };
-        let refused = scene("indentation_depth = 1e-5").expect_err("no depth");
-        assert!(refused.to_string().contains("time_range"), "{refused}");
-        let answer = solve(&scene("normal_force = 2.0").expect("a problem")).expect("friction");
-        assert_eq!(answer.indentation_depth, None, "{answer:?}");
-    }
-
     /// A series with an error that is seen changes no answer by more than the bars would have.
     #[test]
     fn bars_hold_the_error_of_a_series() {

@@ -32,14 +32,12 @@ pub enum Omission {
 
 impl Omission {
     /// The name of JSON with spaces for hyphens.
-    #[must_use]
     pub fn name(self) -> String {
         let name: &str = self.into();
         name.replace('-', " ")
     }
 
     /// Why it was not needed.
-    #[must_use]
     pub const fn because(self) -> &'static str {
         match self {
             Self::NumericalSolution => "there is a closed form or a quadrature",

@@ -56,7 +56,6 @@ pub enum Motion {
 
 impl Motion {
     /// Force or depth.
-    #[must_use]
     pub const fn control(&self) -> Control {
         match self {
             Self::Sliding(load) => load.control(),
