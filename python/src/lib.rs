@@ -8,6 +8,7 @@ mod background;
 mod indentation;
 mod materials;
 mod moduli;
+mod roughness;
 mod solving;
 mod tables;
 
@@ -20,6 +21,8 @@ mod native {
     use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
     #[pymodule_export]
     use super::moduli::{master_curve, read_moduli};
+    #[pymodule_export]
+    use super::roughness::surface_numbers;
     #[pymodule_export]
     use super::solving::{solve_loads, sweep_plan, sweep_points};
 }

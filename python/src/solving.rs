@@ -170,17 +170,24 @@ fn surface(
     spacing: [f64; 2],
     shortest: Option<f64>,
 ) -> PyResult<Surface> {
-    let heights = heights.as_array();
-    let shape = [heights.nrows(), heights.ncols()];
-    // Row by row, whatever the strides.
-    let heights = heights.iter().copied().collect();
-    let map = HeightMap::new(shape, spacing, heights).map_err(wrong)?;
+    let map = height_map(heights, spacing)?;
     Ok(match shortest {
         Some(shortest) => {
             Surface::Periodic(PeriodicSurface::through(&map, shortest).map_err(wrong)?)
         }
         None => Surface::Wall(map),
     })
+}
+
+pub(crate) fn height_map(
+    heights: &PyReadonlyArray2<'_, f64>,
+    spacing: [f64; 2],
+) -> PyResult<HeightMap> {
+    let heights = heights.as_array();
+    let shape = [heights.nrows(), heights.ncols()];
+    // Row by row, whatever the strides.
+    let heights = heights.iter().copied().collect();
+    HeightMap::new(shape, spacing, heights).map_err(wrong)
 }
 
 fn to_python(

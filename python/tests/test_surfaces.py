@@ -194,7 +194,7 @@ def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
     def answer(rows: int, columns: int, pressure: float) -> vf.Answer:
         x, y = np.meshgrid(np.arange(rows) / rows, np.arange(columns) / columns, indexing="ij")
         heights = 0.02 * np.cos(2 * np.pi * (x + 2 * y)) + 0.01 * np.cos(2 * np.pi * (3 * x - y) + 1.0)
-        road = vf.HeightMap(heights, (2.0 / rows, 1.0 / columns), periodic=True)
+        road = vf.HeightMap(heights, (2.0 / rows, 1.0 / columns), edges="periodic")
         return vf.slide(road, solid, mean_pressure=pressure, velocity=0.1, relative_error=0.02)
 
     one, other = answer(16, 8, 0.02), answer(20, 15, 0.02)
@@ -204,6 +204,38 @@ def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
     with pytest.raises(ValueError, match="only of a periodic surface"):
         vf.HeightMap(np.eye(4), 1.0, shortest_wavelength=1.0)
     with pytest.raises(ValueError, match="short enough for a wave"):
-        vf.slide(vf.HeightMap(np.eye(4), 1.0, periodic=True, shortest_wavelength=9.0), solid, mean_pressure=1.0, velocity=1.0)
-    smooth = vf.HeightMap(np.eye(4), 1.0, periodic=True, shortest_wavelength=2.5)
-    assert "periodic" in repr(smooth) and vf.slide(smooth, solid, mean_pressure=1e3, velocity=1.0).area_fraction == 1.0
+        vf.slide(vf.HeightMap(np.eye(4), 1.0, edges="periodic", shortest_wavelength=9.0), solid, mean_pressure=1.0, velocity=1.0)
+    smooth = vf.HeightMap(np.eye(4), 1.0, edges="periodic", shortest_wavelength=2.5)
+    assert "edges='periodic'" in repr(smooth) and vf.slide(smooth, solid, mean_pressure=1e3, velocity=1.0).area_fraction == 1.0
+
+
+def test_a_mirrored_map_has_no_steps() -> None:
+    """A ramp that is mirrored is a triangle wave; repeated as it is, it jumps, and the jump has steep waves."""
+    ramp = np.repeat(np.linspace(0.0, 1e-3, 32)[:, np.newaxis], 4, axis=1)
+    mirrored, jumping = (vf.HeightMap(ramp, 1e-3, edges=edges) for edges in ("mirrored", "periodic"))
+    assert mirrored.heights.shape == (64, 8) and mirrored.heights[32:].tolist() == mirrored.heights[31::-1].tolist()
+    assert mirrored.roughness.rms_gradient == pytest.approx(1 / 31, rel=0.1)
+    assert jumping.roughness.rms_gradient > 3 * mirrored.roughness.rms_gradient
+    with pytest.raises(ValueError, match="edges must be"):
+        vf.HeightMap(ramp, 1e-3, edges="open")  # type: ignore[arg-type]
+
+
+def test_roughness_of_a_wave_is_known() -> None:
+    x = 2 * np.pi * np.arange(32) / 32
+    wave = vf.HeightMap(1e-3 * np.cos(2 * x)[:, np.newaxis] * np.ones(8), (1e-2 / 32, 1e-2 / 8), edges="periodic")
+    found = wave.roughness
+    q = 2 * np.pi * 2 / 1e-2
+    assert found.rms_height == pytest.approx(1e-3 / np.sqrt(2), rel=1e-12)
+    assert found.rms_slopes == (pytest.approx(q * found.rms_height, rel=1e-12), 0.0)
+    assert found.rms_curvature == pytest.approx(q**2 * found.rms_height / 2, rel=1e-12)
+    assert found.kurtosis == pytest.approx(1.5, rel=1e-12) and found.peak == pytest.approx(1e-3, rel=1e-12)
+    assert found.spectrum.shape[1] == 2 and found.profile_spectra[0][:, 1].argmax() == 2
+
+
+def test_a_rough_surface_is_pressed() -> None:
+    """On an elastic material, with its pressure; on a fluid after a time the contact is that of the spring 1/J(t)."""
+    road = vf.SelfAffine((1e-2, 1e-2), 0.8, 0.1, 5e-3, 2.5e-3, 1)
+    pressed = vf.press(road, vf.Elastic(1e6), mean_pressure=1e5, relative_error=0.05)
+    assert pressed.pressure is not None and 0.1 < pressed.area_fraction < 0.9
+    fluid = vf.press(road, vf.Maxwell(2e6, 1e6), mean_pressure=1e5, duration=0.5, relative_error=0.05)
+    assert fluid.area_fraction == pytest.approx(pressed.area_fraction, rel=1e-9)

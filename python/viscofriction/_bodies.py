@@ -6,11 +6,12 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _native
 from ._arrays import numbers
 
 __all__ = [
@@ -24,12 +25,42 @@ __all__ = [
     "Hyperboloid",
     "Paraboloid",
     "Power",
+    "Roughness",
     "RoundTippedCone",
     "SelfAffine",
     "Sphere",
     "Superposition",
     "TruncatedParaboloid",
 ]
+
+
+#: What is beyond the edge of a height map: nothing, the same map, or its mirror images.
+Edges = Literal["wall", "periodic", "mirrored"]
+
+
+@dataclass(frozen=True, eq=False)
+class Roughness:
+    """What a rough surface is like; heights count from their mean towards the elastomer."""
+
+    #: Root mean square Sq, and mean Sa, of the heights [m]; their skewness Ssk and kurtosis Sku.
+    rms_height: float
+    mean_deviation: float
+    skewness: float
+    kurtosis: float
+    #: Height of the highest peak Sp and depth of the deepest pit Sv [m].
+    peak: float
+    pit: float
+    #: Root mean squares of the slopes along x and y; of the gradient, Sdq; and of the mean curvature [1/m].
+    rms_slopes: tuple[float, float]
+    rms_gradient: float
+    rms_curvature: float
+    #: Nayak's parameter α of an isotropic surface with these moments.
+    nayak: float
+    #: Rings of wave vectors, ``spectrum[:, 0]`` their mean wave number q [1/m] and ``[:, 1]`` the spectrum C [m⁴], with
+    #: ⟨z²⟩ = 2π ∫ q C dq.
+    spectrum: NDArray[np.float64]
+    #: Along x and y the wave number [1/m] and the mean spectrum [m³] of all profiles.
+    profile_spectra: tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 class Body:
@@ -176,30 +207,29 @@ class HeightMapFile(Body):
 
     The extension says the format: asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
     (ISO 25178-72), xyz (points of a grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
-    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out. The body ends with a wall at the
-    edges of the file, or with ``periodic`` repeats itself, as the sum of waves through its heights that are not shorter than
-    ``shortest_wavelength`` [m].
+    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out. ``edges`` and
+    ``shortest_wavelength`` [m] as of a ``HeightMap``.
     """
 
     file: str | os.PathLike[str]
     fill_missing: bool = False
     level: bool = False
-    periodic: bool = False
+    edges: Edges = "wall"
     shortest_wavelength: float | None = None
     _kind = "height-map"
 
     def _table(self) -> dict[str, Any]:
         keys = super()._table()[self._kind]
-        edges = "periodic" if keys.pop("periodic") else "wall"
-        return {self._kind: keys | {"file": os.path.abspath(self.file), "edges": edges}}
+        return {self._kind: keys | {"file": os.path.abspath(self.file)}}
 
 
 class HeightMap(Body):
     """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
 
-    It ends at the edge of the grid with a wall; or with ``periodic`` it repeats itself, as the sum of waves through its heights
-    that are not shorter than ``shortest_wavelength`` [m], and takes a mean pressure. ``spacing`` is (dx, dy) [m], or one number
-    for both. Any layout, and float32, will do.
+    With ``edges="wall"`` it ends at the edge of the grid. With ``"periodic"`` it repeats itself, as the sum of waves through its
+    heights that are not shorter than ``shortest_wavelength`` [m], and takes a mean pressure; with ``"mirrored"`` its mirror images
+    about its last row and column too, so that heights do not jump where a measured patch does not fit to itself. ``spacing`` is
+    (dx, dy) [m], or one number for both. Any layout, and float32, will do.
     """
 
     _kind = "height-map"
@@ -209,15 +239,22 @@ class HeightMap(Body):
         heights: ArrayLike,
         spacing: float | tuple[float, float],
         *,
-        periodic: bool = False,
+        edges: Edges = "wall",
         shortest_wavelength: float | None = None,
     ) -> None:
-        self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2)
+        if edges not in ("wall", "periodic", "mirrored"):
+            raise ValueError(f'edges must be "wall", "periodic" or "mirrored", but is {edges!r}')
+        given = numbers("heights", heights, dimensions=2)
+        self.heights: NDArray[np.float64] = (
+            np.pad(given, [(0, count) for count in given.shape], mode="symmetric") if edges == "mirrored" else given
+        )
+        self.edges: Edges = edges
         pair = spacing if isinstance(spacing, Sequence) else (spacing, spacing)
         steps = numbers("spacing", pair, dimensions=1)
         if steps.shape != (2,) or not (steps > 0).all():
             raise ValueError(f"spacing must be one or two numbers greater than 0, but is {spacing}")
         self.spacing: tuple[float, float] = (float(steps[0]), float(steps[1]))
+        periodic = edges != "wall"
         if shortest_wavelength is not None and not periodic:
             raise ValueError("shortest_wavelength: only of a periodic surface waves are left out")
         #: Of a periodic surface the length [m] of the shortest waves; None of one that ends.
@@ -225,7 +262,7 @@ class HeightMap(Body):
 
     @classmethod
     def from_topography(
-        cls, topography: Any, *, periodic: bool = False, shortest_wavelength: float | None = None
+        cls, topography: Any, *, edges: Edges = "wall", shortest_wavelength: float | None = None
     ) -> HeightMap:
         """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
         scaled = topography.to_unit("m") if topography.unit is not None else topography
@@ -234,12 +271,21 @@ class HeightMap(Body):
             raise ValueError("heights: points are missing; interpolate them first, topography.interpolate_undefined_data()")
         heights = np.asarray(measured)
         dx, dy = map(float, scaled.pixel_size)
-        return cls(heights.max() - heights, (dx, dy), periodic=periodic, shortest_wavelength=shortest_wavelength)
+        return cls(heights.max() - heights, (dx, dy), edges=edges, shortest_wavelength=shortest_wavelength)
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape
-        periodic = "" if self.shortest_wavelength is None else ", periodic"
-        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing}{periodic})"
+        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing}, edges={self.edges!r})"
+
+    @property
+    def roughness(self) -> Roughness:
+        """What the surface is like: parameters of ISO 25178-2, and power spectra.
+
+        They are exact for the heights: of a surface that repeats itself those of its waves; of one that ends, slopes and
+        curvatures are differences of neighbouring heights, and spectra those under a Hann window. A tilt is not taken out.
+        """
+        found = _native.surface_numbers(self.heights, self.spacing, self.edges != "wall")
+        return Roughness(**found)
 
     def _table(self) -> dict[str, Any]:
         # Its place in the scene, which the heights then take.

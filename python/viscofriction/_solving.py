@@ -72,6 +72,7 @@ def press(
     *,
     normal_force: ArrayLike | None = None,
     indentation_depth: ArrayLike | None = None,
+    mean_pressure: ArrayLike | None = None,
     duration: ArrayLike | None = None,
     thickness: ArrayLike | None = None,
     model: str | None = None,
@@ -83,16 +84,17 @@ def press(
 ) -> Answer:
     """Contact of a body that is pressed into a half space of the material, or a layer of it, without sliding.
 
-    Either normal force [N] or depth [m] is held for a duration [s], which an elastic material does not need; ``thickness`` [m] is that
+    Either normal force [N] or depth [m], or of a periodic surface mean pressure [Pa], is held for a duration [s], which an elastic material does not need; ``thickness`` [m] is that
     of a layer bonded to a rigid base. ``method=
-    "bem-transient"`` gives the field of pressure of every body; ``relative_error`` is asked of the depth, or of the force at a
-    given depth. Otherwise as ``slide``.
+    "bem-transient"`` gives the field of pressure of every body; ``relative_error`` is asked of the depth, of the force at a
+    given depth, or of the area of a periodic surface. Otherwise as ``slide``.
     """
     if duration is None and isinstance(material, Elastic):
         duration = 1.0
     loads = given(
         normal_force=normal_force,
         indentation_depth=indentation_depth,
+        mean_pressure=mean_pressure,
         duration=duration,
         thickness=thickness,
     )

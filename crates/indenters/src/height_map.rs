@@ -70,6 +70,23 @@ impl HeightMap {
         &self.heights
     }
 
+    /// The map beside its mirror images about its last row, about its last column and about both: when that is repeated its
+    /// edges fit, and no height jumps.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let [rows, columns] = self.shape;
+        let folded = |index: usize, length: usize| index.min(2 * length - 1 - index);
+        let height = |index: usize| {
+            let row = folded(index / (2 * columns), rows);
+            self.heights[row * columns + folded(index % (2 * columns), columns)]
+        };
+        Self {
+            shape: [2 * rows, 2 * columns],
+            heights: (0..4 * rows * columns).map(height).collect(),
+            ..*self
+        }
+    }
+
     /// Where the surface begins and ends along x and along y, seen from its lowest point, \[m].
     pub fn extent(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.between(axis, [0, self.shape[axis] - 1]))

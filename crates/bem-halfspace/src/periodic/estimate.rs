@@ -1,7 +1,7 @@
 //! Sliding of a sum of waves with error bars, from finer and finer grids of the same surface.
 
 use indenters::rough::PeriodicSurface;
-use numerics::{Estimate, between_zero_and_one};
+use numerics::{Estimate, between_zero_and_one, positive};
 
 use crate::grid::elements_along;
 use crate::periodic::kernel::Sliding;
@@ -67,20 +67,55 @@ pub fn steady_periodic(
     relative_error: f64,
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let sliding = Sliding::new(elastomer, load.velocity)?;
-    let mut guess = Vec::new();
     let goal = Goal {
         relative_error,
         friction: FRICTION,
         max_elements: max_elements as f64,
         periods: None,
     };
-    refine(surface, &goal, |grid, heights| {
+    let sliding = Sliding::new(elastomer, load.velocity)?;
+    solve(surface, &sliding, load.mean_pressure, &goal)
+}
+
+/// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s]: the area, to a
+/// relative error, and the depth.
+///
+/// The contact grows everywhere, so that it is that of a spring of the compliance J(t) (Lee & Radok 1960); so is the pressure
+/// of [`finest`](PeriodicEstimate::finest), which on a material that creeps is not its own.
+///
+/// # Errors
+/// As of [`steady_periodic`].
+pub fn press_periodic(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    [mean_pressure, time]: [f64; 2],
+    relative_error: f64,
+    max_elements: usize,
+) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
+    let goal = Goal {
+        relative_error,
+        friction: FRICTION,
+        max_elements: max_elements as f64,
+        periods: None,
+    };
+    let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
+    let mean_pressure = positive("mean_pressure", mean_pressure)?;
+    solve(surface, &spring, mean_pressure, &goal)
+}
+
+fn solve(
+    surface: &PeriodicSurface,
+    sliding: &Sliding,
+    mean_pressure: f64,
+    goal: &Goal,
+) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
+    let mut guess = Vec::new();
+    refine(surface, goal, |grid, heights| {
         let problem = Problem {
-            sliding: &sliding,
+            sliding,
             grid,
             heights,
-            mean_pressure: load.mean_pressure,
+            mean_pressure,
             tolerance: goal.tolerance(),
             max_products: PeriodicOptions::default().max_products,
         };

@@ -49,6 +49,21 @@ impl Sliding {
         })
     }
 
+    /// At rest, a time \[s] after a pressure was laid on: as on a spring of the compliance at that time.
+    pub(super) fn at_rest(
+        elastomer: &(impl Elastomer + ?Sized),
+        time: f64,
+    ) -> Result<Self, BemError> {
+        let creep = elastomer.material().creep();
+        let spring = CreepSpectrum::new(creep.creep_compliance(time)?, 0.0, Vec::new())?;
+        Ok(Self {
+            creep: spring,
+            factor: 0.5 * elastomer.material().half_space_factor(),
+            velocity: 0.0,
+            base: Base::of(elastomer),
+        })
+    }
+
     /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
         Ok(self.compliances(&[0.0])?[0].re * self.base.mean())

@@ -35,7 +35,7 @@ use crate::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{PeriodicEstimate, slide_periodic, steady_periodic};
+pub use estimate::{PeriodicEstimate, press_periodic, slide_periodic, steady_periodic};
 use kernel::Sliding;
 pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};
 

@@ -57,6 +57,30 @@ fn partial_contact_has_two_frictions_within_their_bars() {
     }
 }
 
+/// From rest, and pressed without sliding; where the stationary contact is that of the first the bars of both say so.
+#[test]
+fn the_way_from_rest_ends_in_the_stationary_state() {
+    let folder = Folder::new("rough-from-rest");
+    let scene = format!("solve.sliding_distance = 2.0\n{SURFACE}mean_pressure = 0.02\n");
+    folder.write("rest.toml", scene);
+    folder.done("run rest.toml --out slid");
+    let [slid, stationary] = [folder.json("rest.toml"), answer(&folder, 0.02)];
+    for name in ["friction_coefficient", "area_fraction"] {
+        let [[a, a_bar], [b, b_bar]] = [&slid, &stationary]
+            .map(|one| [name, &format!("{name}_error")].map(|name| number(one, name)));
+        assert!((a - b).abs() <= a_bar + b_bar, "{slid} {stationary}");
+    }
+    let way = folder.column("slid/history.csv", 3);
+    assert!(way[0] < 0.5 * way[way.len() - 1], "{way:?}");
+    let scene = format!("solve.duration = 1e9\n{SURFACE}mean_pressure = 0.02\n");
+    folder.write("pressed.toml", scene.replace("0.03", "0.0"));
+    let pressed = folder.json("pressed.toml");
+    assert!(pressed.get("friction_coefficient").is_none(), "{pressed}");
+    // The relaxed solid touches more than the one that slides.
+    let [more, less] = [&pressed, &stationary].map(|one| number(one, "area_fraction"));
+    assert!(more > less, "{pressed}");
+}
+
 /// The same two waves, written on two grids.
 #[test]
 fn a_periodic_map_is_the_same_surface_on_any_grid() {

@@ -114,6 +114,8 @@ pub enum Edges {
     Wall,
     /// The same grid, for ever; it takes load.mean_pressure.
     Periodic,
+    /// The grid and its mirror images, for ever: no height jumps at an edge. The periods are twice as long.
+    Mirrored,
 }
 
 /// A random self-affine surface, whose waves are drawn by the seed.

@@ -161,12 +161,16 @@ impl Answer {
         Some(Estimate::new(friction.value * force.value, error))
     }
 
-    /// The friction coefficient, or where nothing slides the depth, or the force at a given depth: what the relative
-    /// error is asked of.
+    /// The friction coefficient, or where nothing slides the area fraction of a periodic surface, the depth, or the force at a
+    /// given depth: what the relative error is asked of.
     pub fn asked(&self) -> Estimate {
         let (force, depth) = (self.normal_force, self.indentation_depth);
         let depth = depth.filter(|_| force.error == 0.0);
-        self.friction_coefficient.or(depth).unwrap_or(force)
+        let area = self.rough.map(|rough| rough.area_fraction);
+        self.friction_coefficient
+            .or(area)
+            .or(depth)
+            .unwrap_or(force)
     }
 
     /// Quantities by their names in JSON and CSV, in this order, each with its error.

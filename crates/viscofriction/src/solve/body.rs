@@ -219,13 +219,14 @@ fn with_edges(
         (Edges::Periodic, shortest) => PeriodicSurface::through(&map, shortest.unwrap_or(0.0))
             .map(Body::Periodic)
             .map_err(|error| ("edges", error.to_string())),
+        (Edges::Mirrored, shortest) => with_edges(map.mirrored(), Edges::Periodic, shortest),
         (Edges::Wall, Some(_)) => {
-            let problem = "only of edges = \"periodic\" waves are left out";
+            let problem = "only of edges = \"periodic\" or \"mirrored\" waves are left out";
             Err(("shortest_wavelength", problem.to_owned()))
         }
         (Edges::Wall, None) if map.extent().into_iter().flatten().any(|end| end == 0.0) => {
             let problem = "the lowest height lies on the edge of the map, where the contact would end with it; \
-                           edges = \"periodic\" repeats the map";
+                           edges = \"periodic\" repeats the map, and \"mirrored\" its mirror images too";
             Err(("file", problem.to_owned()))
         }
         (Edges::Wall, None) => Ok(Body::HeightMap(map)),

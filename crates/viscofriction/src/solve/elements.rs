@@ -4,7 +4,7 @@ use bem_halfspace::indent::{IndentPoint, follow};
 use bem_halfspace::slide::{PressureField, SlideRow, slide};
 use bem_halfspace::{
     ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, indent,
-    slide_periodic, steady, steady_line, steady_periodic,
+    press_periodic, slide_periodic, steady, steady_line, steady_periodic,
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
@@ -14,6 +14,7 @@ use numerics::{ErrorParts, Estimate, Request};
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::error::Result;
+use super::half_space::Simple;
 use super::problem::Problem;
 use crate::scene::{Method, Model};
 
@@ -98,6 +99,32 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough) -> Result<Answer> {
         rough.persson = persson(problem, surface, &load)?;
     }
     Ok(answer.under(estimate.finest.pressure))
+}
+
+/// A periodic surface that was pressed a time ago and does not slide.
+pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Result<Answer> {
+    let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
+    let pressed = [rough.load.mean_pressure(), time];
+    let estimate = press_periodic(
+        rough.surface,
+        &elastomer,
+        pressed,
+        rough.relative_error,
+        most,
+    )?;
+    let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
+    answer.iterations = estimate.finest.products;
+    answer.friction_coefficient = None;
+    answer.error_parts = ErrorParts::of_elements(answer.asked().error);
+    if let Some(rough) = &mut answer.rough {
+        rough.friction_from_dissipation = None;
+    }
+    let mut answer = answer.under(estimate.finest.pressure);
+    if !matches!(problem.simple, Some(Simple::Elastic)) {
+        // It depends on how the contact has grown.
+        answer.fields.pressure = None;
+    }
+    Ok(answer)
 }
 
 /// A periodic surface on the way from rest to the stationary state.

@@ -143,14 +143,15 @@ fn periodic<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let Sliding(load) = problem.motion else {
-        return Err(NOTHING_SLIDES);
+    let Control::NormalForce(force) = problem.motion.control() else {
+        return Err("a periodic surface is pressed by a mean pressure");
     };
-    let Control::NormalForce(force) = load.control() else {
-        return Err("a periodic surface slides under a mean pressure");
+    let velocity = match problem.motion {
+        Sliding(load) => load.velocity(),
+        _ => 0.0,
     };
     require(
-        problem.material.creep().fluidity() <= 0.0,
+        velocity == 0.0 || problem.material.creep().fluidity() <= 0.0,
         "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
     )?;
     let Accuracy::RelativeError(relative_error) = accuracy else {
@@ -159,9 +160,16 @@ fn periodic<'a>(
     let area: f64 = surface.period().iter().product();
     let rough = Rough {
         surface,
-        load: PeriodicLoad::new(force / area, load.velocity())
+        load: PeriodicLoad::new(force / area, velocity)
             .map_err(|_| "the mean pressure is no number above 0")?,
         relative_error,
+    };
+    let load = match problem.motion {
+        Sliding(load) => load,
+        Pressing(load) if method == BemTransient => {
+            return ready(move |_| elements::periodic_pressed(problem, rough, load.duration()));
+        }
+        Pressing(_) | History(_) => return Err(NOTHING_SLIDES),
     };
     match (method, load.sliding_distance()) {
         (BemSteady, None) => ready(move |_| elements::periodic(problem, rough)),
