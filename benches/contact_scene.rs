@@ -4,7 +4,7 @@ use bem_halfspace::{
     BemError, Contact, ContactOptions, ContactProblem, ContactState, Control, Convolution, Grid,
     solve_contact,
 };
-use casebook::SquareContact;
+use casebook::{COMPLIANCE, HERTZ_FORCE, hertz_heights};
 use indenters::IndenterError;
 use indenters::rough::SelfAffine;
 
@@ -13,8 +13,8 @@ use indenters::rough::SelfAffine;
 pub struct ContactScene {
     /// The grid and its influence coefficients.
     pub convolution: Convolution,
-    /// Body and force.
-    pub contact: SquareContact,
+    heights: Vec<f64>,
+    force: f64,
 }
 
 impl ContactScene {
@@ -26,7 +26,8 @@ impl ContactScene {
     pub fn hertz(n: usize, offset: f64) -> Result<Self, BemError> {
         Ok(Self {
             convolution: Convolution::new(&Grid::new([n; 2], [1.0 / n as f64; 2])?),
-            contact: SquareContact::hertz(n, offset),
+            heights: hertz_heights(n, offset),
+            force: HERTZ_FORCE,
         })
     }
 
@@ -38,7 +39,8 @@ impl ContactScene {
         let n = heights.len().isqrt();
         Ok(Self {
             convolution: Convolution::periodic(&Grid::new([n; 2], [1.0 / n as f64; 2])?),
-            contact: SquareContact::rough(heights),
+            heights,
+            force: 0.05,
         })
     }
 
@@ -49,9 +51,9 @@ impl ContactScene {
     pub fn solve(&self, tolerance: f64) -> Result<(Contact, ContactState), BemError> {
         let problem = ContactProblem {
             convolution: &self.convolution,
-            separation: &self.contact.heights,
-            compliance: SquareContact::COMPLIANCE,
-            control: Control::NormalForce(self.contact.force),
+            separation: &self.heights,
+            compliance: COMPLIANCE,
+            control: Control::NormalForce(self.force),
         };
         let options = ContactOptions {
             tolerance,

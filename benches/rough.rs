@@ -6,19 +6,16 @@
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
 
-use std::error::Error;
-use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{
     Grid, PeriodicLoad, PeriodicOptions, PeriodicSliding, steady_periodic_on_grid,
 };
-use benches::{ContactScene, memory, rough_heights};
+use benches::{ContactScene, Failure, report_each, rough_heights, with_memory};
 use casebook::{deviation, prony};
 
-/// Why there is no timing.
-type Failure = Box<dyn Error + Send + Sync>;
-
+const COLUMNS: &str =
+    "n ratio products error area time[s] bytes/element at-rest[s] sliding/at-rest";
 /// Ratio of the moduli, speed, and mean pressure on 512² elements.
 const SOLIDS: [[f64; 3]; 2] = [[100.0, 7e-4, 0.26], [1000.0, 3e-4, 1.2]];
 /// More waves carry the pressure that closes a tenth of the area, with this power of their number.
@@ -28,24 +25,16 @@ const TOLERANCE: f64 = 1e-6;
 const REFERENCE_TOLERANCE: f64 = 1e-8;
 
 fn main() -> Result<(), Failure> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.split_last() {
-        Some((last, sizes)) if last == "--bench" && !sizes.is_empty() => report_each(sizes),
-        Some((size, _)) if size != "--bench" => report(size.parse()?),
+        Some((&"--bench", sizes)) if !sizes.is_empty() => {
+            println!("{COLUMNS}");
+            report_each(&[], sizes)
+        }
+        Some((&size, _)) if size != "--bench" => report(size.parse()?),
         _ => report(256),
     }
-}
-
-/// Every size in a process of its own, whose memory is not that of the size before.
-fn report_each(sizes: &[String]) -> Result<(), Failure> {
-    println!("n ratio products error area time[s] bytes/element at-rest[s] sliding/at-rest");
-    for size in sizes {
-        let status = Command::new(std::env::current_exe()?).arg(size).status()?;
-        if !status.success() {
-            return Err(format!("no result for {size}").into());
-        }
-    }
-    Ok(())
 }
 
 fn report(n: usize) -> Result<(), Failure> {
@@ -69,11 +58,8 @@ fn report(n: usize) -> Result<(), Failure> {
             let solved = steady_periodic_on_grid(&grid, &heights, &material, &load, &options)?;
             Ok((solved, start.elapsed().as_secs_f64()))
         };
-        // Forgets the peak of what was before.
-        std::fs::write("/proc/self/clear_refs", "5")?;
-        let before = memory("VmRSS:").unwrap_or(f64::NAN);
-        let (solved, time) = solve(velocity, TOLERANCE)?;
-        let bytes = (memory("VmHWM:").unwrap_or(f64::NAN) - before) / grid.n_elements() as f64;
+        let ((solved, time), bytes) = with_memory(|| solve(velocity, TOLERANCE))?;
+        let bytes = bytes / grid.n_elements() as f64;
         let (reference, _) = solve(velocity, REFERENCE_TOLERANCE)?;
         let error = deviation(&solved.pressure.pressure, &reference.pressure.pressure);
         println!(

@@ -8,20 +8,16 @@
 
 #![expect(clippy::print_stdout, reason = "the table is the purpose")]
 
-use std::error::Error;
 use std::fs;
-use std::process::Command;
 use std::time::Instant;
 
 use bem_halfspace::{Contact, ContactState, Convolution, Grid};
-use benches::{ContactScene, memory, rough_heights};
+use benches::{ContactScene, Failure, report_each, rough_heights, with_memory};
 use casebook::deviation;
 use cpu_time::ThreadTime;
 
-/// Why there is no timing.
-type Failure = Box<dyn Error + Send + Sync>;
-
-const UNKNOWN: &str = "the system does not say how much memory the process has";
+const COLUMNS: &str = "scene n iterations error bytes/element setup[s] solve[s] pair[s] \
+                       solve/pair wall[s]";
 const REFERENCE_TOLERANCE: f64 = 1e-12;
 const REPETITIONS: usize = 3;
 /// Solves on the wall are repeated at least that long, because other guests of the machine disturb short ones more, \[s].
@@ -50,26 +46,13 @@ fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.split_last() {
-        Some((&"--bench", [name, sizes @ ..])) if !sizes.is_empty() => report_each(name, sizes),
+        Some((&"--bench", [name, sizes @ ..])) if !sizes.is_empty() => {
+            println!("{COLUMNS} on {THREADS:?} threads");
+            report_each(&[name], sizes)
+        }
         Some((size, [name])) => on_threads(1, || report(&scene(name, size)?))?,
         _ => on_threads(1, || report(&scene("hertz", "256")?))?,
     }
-}
-
-/// Every size in a process of its own, whose memory is not that of the size before.
-fn report_each(name: &str, sizes: &[&str]) -> Result<(), Failure> {
-    println!(
-        "scene n iterations error bytes/element setup[s] solve[s] pair[s] solve/pair wall[s] on {THREADS:?} threads"
-    );
-    for size in sizes {
-        let status = Command::new(std::env::current_exe()?)
-            .args([name, *size])
-            .status()?;
-        if !status.success() {
-            return Err(format!("no result for {name} {size}").into());
-        }
-    }
-    Ok(())
 }
 
 fn scene(name: &str, size: &str) -> Result<Scene, Failure> {
@@ -122,11 +105,9 @@ fn solve(scene: &Scene, tolerance: f64) -> Result<(Contact, ContactState, f64), 
 
 fn report(scene: &Scene) -> Result<(), Failure> {
     let grid = scene.contact.convolution.grid();
-    // Forgets the peak of making the scene.
-    fs::write("/proc/self/clear_refs", "5")?;
-    let before = memory("VmRSS:").ok_or(UNKNOWN)?;
-    let (contact, state, mut fastest) = solve(scene, scene.tolerance)?;
-    let bytes = (memory("VmHWM:").ok_or(UNKNOWN)? - before) / grid.n_elements() as f64;
+    let (solved, bytes) = with_memory(|| solve(scene, scene.tolerance))?;
+    let bytes = bytes / grid.n_elements() as f64;
+    let (contact, state, mut fastest) = solved;
     let mut pair = f64::INFINITY;
     for _ in 0..REPETITIONS {
         pair = pair.min(transform_pair(scene.padded)?);

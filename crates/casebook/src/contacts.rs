@@ -1,42 +1,21 @@
 //! Contacts of one instant, over `n` × `n` elements of the unit square.
 
-/// Contact radius of the Hertz contact.
+/// Contact radius of the Hertz contact, \[m].
 const RADIUS: f64 = 0.3;
+/// Normal force of the Hertz contact on a half space of E* = 1 Pa, \[N].
+pub const HERTZ_FORCE: f64 = 4.0 / 3.0 * (RADIUS * RADIUS * RADIUS);
+/// Depth of the Hertz contact in closed form, \[m].
+pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
+/// Compliance of the incompressible half space of E* = 1 Pa, \[1/Pa].
+pub const COMPLIANCE: f64 = 4.0;
 
-/// A rigid body and the force that presses it on a half space of E* = 1 Pa.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SquareContact {
-    /// Heights of the body, row-major, \[m].
-    pub heights: Vec<f64>,
-    /// Normal force, \[N].
-    pub force: f64,
-}
-
-impl SquareContact {
-    /// Compliance of the incompressible half space, \[1/Pa].
-    pub const COMPLIANCE: f64 = 4.0;
-    /// Depth of the Hertz contact in closed form, \[m].
-    pub const HERTZ_DEPTH: f64 = RADIUS * RADIUS;
-
-    /// Hertz contact with the radius 0.3, with the apex so many elements from the middle along x and y.
-    pub fn hertz(n: usize, offset: f64) -> Self {
-        let edge = 1.0 / n as f64;
-        let middle = 0.5 * n as f64 + offset;
-        let centre = |index: usize| (index as f64 + 0.5 - middle) * edge;
-        let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
-        Self {
-            heights: (0..n * n).map(height).collect(),
-            force: 4.0 / 3.0 * RADIUS.powi(3),
-        }
-    }
-
-    /// A surface under the mean pressure 0.05 Pa.
-    pub const fn rough(heights: Vec<f64>) -> Self {
-        Self {
-            heights,
-            force: 0.05,
-        }
-    }
+/// Heights of the body of the Hertz contact, row-major, with the apex so many elements from the middle along x and y, \[m].
+pub fn hertz_heights(n: usize, offset: f64) -> Vec<f64> {
+    let edge = 1.0 / n as f64;
+    let middle = 0.5 * n as f64 + offset;
+    let centre = |index: usize| (index as f64 + 0.5 - middle) * edge;
+    let height = |index: usize| 0.5 * (centre(index / n).powi(2) + centre(index % n).powi(2));
+    (0..n * n).map(height).collect()
 }
 
 /// Relative difference of two fields in the mean square.

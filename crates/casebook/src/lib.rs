@@ -14,7 +14,7 @@ mod rough;
 
 pub use assertions::{NEGATIVE, NOT_POSITIVE, refused, refuses};
 pub use bodies::{Formula, GaussianDip, superposition};
-pub use contacts::{SquareContact, deviation};
+pub use contacts::{COMPLIANCE, HERTZ_DEPTH, HERTZ_FORCE, deviation, hertz_heights};
 pub use materials::{model, prony, standard_solid};
 pub use rough::{RoughCase, rough_cases};
 

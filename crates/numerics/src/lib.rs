@@ -2,7 +2,7 @@
 //! checks of numbers.
 //!
 //! ```
-//! use numerics::{Goal, NotReached, Quantity, no_other_error, refine};
+//! use numerics::{Goal, NotReached, Quantity, refine};
 //!
 //! // The circumference of a circle from polygons, to six digits.
 //! let half_perimeter = |corners: usize| -> Result<f64, NotReached> {
@@ -17,7 +17,8 @@
 //!     others: 0.0,
 //!     selection: 1.0,
 //! };
-//! let pi = refine(&goal, |corners, _| half_perimeter(corners), |value| vec![Quantity::from(*value)], no_other_error)?;
+//! let quantities = |value: &f64| vec![Quantity::from(*value)];
+//! let pi = refine(&goal, |corners, _| half_perimeter(corners), quantities, |_, _| Ok(vec![]))?;
 //! assert!((pi.value - std::f64::consts::PI).abs() < pi.error[0]);
 //! assert!(pi.error[0] < 1e-6 * pi.value);
 //! # Ok::<(), NotReached>(())
@@ -44,8 +45,6 @@ pub use invalid_parameter::{
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use progress::{Progress, Unwatched, Watch};
 pub use quadrature::{integrate, integrate_from_ends};
-pub use refinement::{
-    Accuracy, Goal, NotReached, Quantity, Refined, Request, no_other_error, refine,
-};
+pub use refinement::{Accuracy, Goal, NotReached, Quantity, Refined, Request, refine};
 pub use root::{bracketed_root, golden_section, try_bracketed_root};
 pub use whole_part::whole_part;

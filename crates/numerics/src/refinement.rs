@@ -132,14 +132,6 @@ pub struct NotReached {
     pub elements: usize,
 }
 
-/// For [`refine`]: there are no errors but those that resolutions show.
-///
-/// # Errors
-/// None.
-pub fn no_other_error<T, E>(_: &T, _: &dyn Fn(f64)) -> Result<Vec<ErrorParts>, E> {
-    Ok(Vec::new())
-}
-
 const FIRST: usize = 16;
 /// Fewer are too few for three eighths of them.
 const FEWEST_FOR_EIGHTHS: usize = 16;
@@ -326,7 +318,7 @@ mod tests {
             }]
         };
         let solve = |elements, _: &dyn Fn(f64)| Ok::<f64, NotReached>(values(elements as f64));
-        refine(&goal, solve, quantities, no_other_error).expect("a value")
+        refine(&goal, solve, quantities, |_, _| Ok(Vec::new())).expect("a value")
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::{ContactOptions, ContactState, Control, Convolution, Grid};
-use casebook::SquareContact;
+use casebook::{COMPLIANCE, HERTZ_DEPTH, hertz_heights};
 
 use crate::support::{Pressing, assert_near, difference};
 
@@ -17,8 +17,8 @@ const FORCE: Control = Control::NormalForce(0.036);
 fn hertz(n: usize) -> Pressing {
     let grid = Grid::new([n, n], [1.0 / n as f64; 2]).expect("a valid grid");
     Pressing {
-        heights: SquareContact::hertz(n, 0.0).heights,
-        compliance: SquareContact::COMPLIANCE,
+        heights: hertz_heights(n, 0.0),
+        compliance: COMPLIANCE,
         options: OPTIONS,
         ..Pressing::new(Convolution::new(&grid), |_| 0.0)
     }
@@ -29,7 +29,7 @@ fn iterations_hardly_depend_on_the_grid() {
     let iterations = [128, 256, 512, 1024].map(|n| {
         let (contact, _) = hertz(n).solve(FORCE);
         // Second order in the depth: 0.09 (0.3/h)^-2 with a factor of order one.
-        let ratio = contact.indentation_depth / SquareContact::HERTZ_DEPTH;
+        let ratio = contact.indentation_depth / HERTZ_DEPTH;
         assert_near(n, ratio, 1.0, 4.0 / (n * n) as f64);
         contact.iterations
     });

@@ -1,7 +1,7 @@
 use casebook::assert_close;
 use rheology::ExponentialStep;
 
-use crate::support::{assert_same, named_spectrum, spectrum};
+use crate::support::{named_spectrum, spectrum};
 
 /// Output of one point with an input, whose state moves on.
 fn output(step: &ExponentialStep, input: f64, state: &mut [f64]) -> f64 {
@@ -44,26 +44,6 @@ fn constant_load_creeps_exactly_for_any_step() {
                     within 1e-14; "{model:?}: J after {count} steps of {time_step}"
                 );
             }
-        }
-    }
-}
-
-#[test]
-fn fields_of_many_points_are_those_of_each() {
-    let relaxation = spectrum(0.0, 0.0, &[1.0, 2.0, 0.5], &[0.1, 3.0, 40.0]);
-    let creep = relaxation.to_creep().unwrap();
-    let step = ExponentialStep::creep(&creep, 0.7).unwrap();
-    assert_eq!(step.n_fields(), 3, "two elements and free flow");
-    let mut together = vec![0.0; 2 * step.n_fields()];
-    let mut apart = vec![vec![0.0; step.n_fields()]; 2];
-    for inputs in [[1.0, -2.0], [0.5, 4.0], [0.0, 1e-3]] {
-        let mut history = [f64::NAN; 2];
-        step.history(&together, &mut history);
-        step.advance(&inputs, &mut together);
-        for (point, input) in inputs.into_iter().enumerate() {
-            let alone = output(&step, input, &mut apart[point]);
-            let beside_another = step.response() * input + history[point];
-            assert_same(&format!("point {point}"), beside_another, alone);
         }
     }
 }

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use bem_halfspace::ContactState;
 use benches::{ContactScene, rough_heights};
-use casebook::{SquareContact, deviation};
+use casebook::{HERTZ_DEPTH, deviation};
 use viscofriction::scene::Model;
 
 use super::scenes::HERTZ;
@@ -30,7 +30,7 @@ pub(super) fn hertz(measured: &mut Measured, edges: &[usize]) {
         measured.add(run, || {
             let (contact, state) = ContactScene::hertz(edge, 0.0)?.solve(TOLERANCE)?;
             let depth = [contact.indentation_depth];
-            Ok(found(&state, &depth, &[SquareContact::HERTZ_DEPTH]))
+            Ok(found(&state, &depth, &[HERTZ_DEPTH]))
         });
     }
 }
