@@ -17,7 +17,7 @@ mod transient;
 use indenters::{SlidingLoad, Surface};
 
 pub use crate::pressure_field::PressureField;
-pub use crate::stepping::{March, MarchState, Motion, MotionRow};
+pub use crate::stepping::{March, Motion, MotionRow};
 use crate::{BemError, Elastomer, GridOptions};
 pub use estimate::{SlideEstimate, slide, slide_memory};
 pub use stationary::{StationaryFriction, StationaryOptions, StationarySlide, slide_to_stationary};

@@ -9,7 +9,6 @@
 //! anywhere over the element in its middle. Of an indenter that is its own mirror image only the elements in front of the
 //! mirror are followed. Inside, heights are measured in a scale of the scene and lengths in Δx, so that only ratios enter.
 
-mod checkpoint;
 mod march;
 mod motion;
 mod press;
@@ -31,7 +30,6 @@ use crate::layer::Base;
 use crate::pressure_field::PressureField;
 use crate::resolution::Layout;
 use crate::{BemError, Elastomer, GridOptions};
-pub use checkpoint::MarchState;
 pub use motion::{Motion, MotionRow};
 use route::{Leg, Route};
 use slopes::MeanSlopes;

@@ -107,8 +107,6 @@ impl March<'_> {
     }
 
     /// Goes on with a smaller box when the contact has left most of it.
-    ///
-    /// Otherwise the solver would keep a smaller box of its own, and a march that is resumed would not.
     fn tighten(&mut self, contact: &Bounds) -> Result<(), BemError> {
         let shape = self.contact_box.bounds.shape();
         let needed = self.with_margin(contact);

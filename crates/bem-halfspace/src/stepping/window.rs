@@ -56,15 +56,9 @@ impl Window {
         &self.increment[rows.start * self.columns()..rows.end * self.columns()]
     }
 
-    pub(super) fn memory(&self, rows: Range<usize>) -> &[f64] {
+    fn memory(&self, rows: Range<usize>) -> &[f64] {
         let per_row = self.n_fields * self.columns();
         &self.memory[rows.start * per_row..rows.end * per_row]
-    }
-
-    /// The same, to be overwritten.
-    pub(super) fn memory_mut(&mut self, rows: Range<usize>) -> &mut [f64] {
-        let per_row = self.n_fields * self.columns();
-        &mut self.memory[rows.start * per_row..rows.end * per_row]
     }
 
     /// Displacement at the end of a step without load, from `first_row` on.

@@ -11,7 +11,6 @@ mod cylinders;
 mod ends_of_the_speed_range;
 mod error_bars;
 mod indentation_follows_lee_radok_and_ting;
-mod interrupted_marches;
 mod invariance;
 mod kernels;
 mod layers;
