@@ -50,6 +50,7 @@ impl Sliding {
     }
 
     /// At rest, a time \[s] after a pressure was laid on: as on a spring of the compliance at that time.
+    #[cfg(feature = "rough")]
     pub(super) fn at_rest(
         elastomer: &(impl Elastomer + ?Sized),
         time: f64,

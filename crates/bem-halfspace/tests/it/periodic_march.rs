@@ -6,7 +6,7 @@ use bem_halfspace::{
 use casebook::rough_cases;
 use rheology::Material;
 
-use crate::support::{assert_close, assert_near, assert_refused, elastic, prony};
+use crate::support::{assert_close, assert_refused, elastic, prony};
 
 const OPTIONS: ContactOptions = ContactOptions {
     tolerance: 1e-9,
@@ -56,6 +56,7 @@ fn full_contact_ends_in_the_exact_friction() {
 #[cfg(feature = "rough")]
 #[test]
 fn a_march_ends_in_the_stationary_state() {
+    use crate::support::assert_near;
     use bem_halfspace::{slide_periodic, steady_periodic};
     use indenters::rough::SelfAffine;
     let surface = SelfAffine {
