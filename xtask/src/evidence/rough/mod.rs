@@ -1,6 +1,9 @@
-//! Persson's theory beside random rough surfaces that slide: friction and area over speeds, loads, spectra and solids.
+//! Theories beside random rough surfaces that slide: friction and area over speeds, loads, spectra and solids.
+
+mod line;
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
@@ -15,6 +18,21 @@ use crate::tasks;
 
 /// Rows that were computed; an interrupted run goes on where it was.
 const ROWS: &str = "rough.csv";
+/// Column of the one-dimensional model.
+const LINE: &str = "line_friction_coefficient";
+/// What the quantities that are solved for are compared with: how it is called, and the columns of both.
+const THEORIES: [(&str, [&str; 2]); 4] = [
+    (
+        "friction / Persson (2001)",
+        ["friction_coefficient", "persson_friction_coefficient"],
+    ),
+    (
+        "friction / Persson (2006)",
+        ["friction_coefficient", "persson_friction_coefficient_2006"],
+    ),
+    ("friction / line", ["friction_coefficient", LINE]),
+    ("area / Persson", ["area_fraction", "persson_area_fraction"]),
+];
 /// Points that are computed before they are written.
 const AT_ONCE: usize = 64;
 /// Names and scenes of the solids; about the geometric means of their moduli of rest and glass, and speeds around the
@@ -32,6 +50,8 @@ const STYLES: [(Shape, Colour); 3] = [
 ];
 /// A theory is right where it is not farther from the surfaces than this.
 const WITHIN: f64 = 0.1;
+/// Ratios that are drawn.
+const DRAWN: RangeInclusive<f64> = 0.01..=10.0;
 /// Ends of the classes of the area fraction; what is below the first is not drawn.
 const AREAS: [f64; 7] = [1e-3, 0.01, 0.03, 0.1, 0.3, 0.6, 0.9];
 
@@ -60,7 +80,10 @@ pub(super) fn report(out: &Path, quick: bool) -> Result<Report> {
         let task = format!("rough surfaces, {} of {}", done * AT_ONCE, missing.len());
         let solved = tasks::in_parallel(task, some, |(solid, plan, point)| {
             let fields = plan.solve(*point)?.fields;
-            Ok(std::iter::once((*solid).to_owned()).chain(fields).collect())
+            let of_line = line::friction(&plan.problem(*point)?)?;
+            let of_line = of_line.map_or_else(String::new, |friction| friction.to_string());
+            let row = std::iter::once((*solid).to_owned()).chain(fields);
+            Ok(row.chain([of_line]).collect())
         })?;
         rows.extend(solved);
         write_atomically(&file, csv(&rows)?.as_bytes())?;
@@ -104,7 +127,7 @@ type Rows = Vec<Vec<String>>;
 /// What is in the file, if it is there.
 fn read(file: &Path, plan: &Plan) -> Result<Rows> {
     let header = std::iter::once("solid".to_owned()).chain(header(plan));
-    let header: Vec<String> = header.collect();
+    let header: Vec<String> = header.chain([LINE.to_owned()]).collect();
     if !file.exists() {
         return Ok(vec![header]);
     }
@@ -124,8 +147,8 @@ fn csv(rows: &Rows) -> Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Name of the solid, area fraction, and friction and area over those of the theory.
-type Ratios<'a> = (&'a str, [f64; 3]);
+/// Name of the solid, area fraction, and what was solved over what each theory says.
+type Ratios<'a> = (&'a str, f64, [Option<f64>; 4]);
 
 fn ratios(rows: &Rows) -> Vec<Ratios<'_>> {
     let ratios = |row: &Vec<String>| {
@@ -133,60 +156,68 @@ fn ratios(rows: &Rows) -> Vec<Ratios<'_>> {
             let place = rows[0].iter().position(|column| column == name)?;
             row.get(place)?.parse().ok()
         };
-        let area = of("area_fraction")?;
-        let friction = of("friction_coefficient")? / of("persson_friction_coefficient")?;
-        Some([area, friction, area / of("persson_area_fraction")?])
+        let over = |(_, [solved, theory]): (_, [&str; 2])| Some(of(solved)? / of(theory)?);
+        Some((of("area_fraction")?, THEORIES.map(over)))
     };
-    let rows = rows.iter();
-    rows.filter_map(|row| Some((&*row[0], ratios(row)?)))
-        .collect()
+    let with_name = |row| ratios(row).map(|(area, ratios)| (&*row[0], area, ratios));
+    rows.iter().filter_map(with_name).collect()
 }
 
-/// By solid and class of area: scenes, ratios with their scatter, and how many are within a tenth.
+/// By solid and class of area: scenes, and for each theory the median ratio, between what nine of ten are, and how many are
+/// within a tenth.
 fn table(ratios: &[Ratios]) -> comfy_table::Table {
-    let mut classes: BTreeMap<(&str, usize), Vec<[f64; 3]>> = BTreeMap::new();
-    for (solid, ratios) in ratios {
-        let class = AREAS.partition_point(|end| ratios[0] >= *end);
-        classes.entry((solid, class)).or_default().push(*ratios);
+    let mut classes: BTreeMap<(&str, usize), Vec<&Ratios>> = BTreeMap::new();
+    for one in ratios {
+        let class = AREAS.partition_point(|end| one.1 >= *end);
+        classes.entry((one.0, class)).or_default().push(one);
     }
-    let header = "solid|area fraction from|scenes|friction / theory|90 % between|within a tenth|area / theory|90 % between|within a tenth";
+    let header = ["solid", "area fraction from", "scenes"];
     let lines = classes.into_iter().map(|((solid, class), ratios)| {
         let from = if class == 0 { 0.0 } else { AREAS[class - 1] };
         let mut line = vec![solid.to_owned(), from.to_string(), ratios.len().to_string()];
-        for quantity in [1, 2] {
-            let mut values: Vec<f64> = ratios.iter().map(|ratios| ratios[quantity]).collect();
-            values.sort_by(f64::total_cmp);
-            let last = values.len() - 1;
-            let within = values.iter().filter(|ratio| (*ratio - 1.0).abs() <= WITHIN);
-            let within = 100 * within.count() / values.len();
-            let [low, high] = [last / 20, last - last / 20].map(|place| values[place]);
-            line.push(format!("{:.2}", median(values)));
-            line.push(format!("{low:.2} to {high:.2}"));
-            line.push(format!("{within} %"));
+        for theory in 0..THEORIES.len() {
+            let values = ratios.iter().filter_map(|ratios| ratios.2[theory]);
+            line.push(summary(values.collect()));
         }
         line
     });
-    markdown_table(header.split('|'), lines)
+    markdown_table(
+        header.into_iter().chain(THEORIES.map(|(name, _)| name)),
+        lines,
+    )
 }
 
-/// Friction over that of the theory, over the area.
+fn summary(mut values: Vec<f64>) -> String {
+    values.sort_by(f64::total_cmp);
+    let Some(last) = values.len().checked_sub(1) else {
+        return String::new();
+    };
+    let within = values.iter().filter(|ratio| (*ratio - 1.0).abs() <= WITHIN);
+    let within = 100 * within.count() / values.len();
+    let [low, high] = [last / 20, last - last / 20].map(|place| values[place]);
+    let median = median(values);
+    format!("{median:.2} ({low:.2} to {high:.2}), {within} %")
+}
+
+/// What was solved over what each theory says, over the area.
 fn figure(ratios: &[Ratios]) -> Figure {
-    let series = SOLIDS
-        .iter()
-        .zip(STYLES)
-        .map(|((name, _), (shape, colour))| {
-            let of_solid = ratios.iter().filter(|(solid, _)| solid == name);
-            let points = of_solid.map(|(_, [area, friction, _])| [*area, *friction]);
-            let points = points.filter(|[area, _]| *area > AREAS[0]).collect();
-            Series::markers(points, Marker::open(shape), colour).labelled(*name)
+    let charts = THEORIES.into_iter().enumerate();
+    let charts = charts.map(|(theory, (name, _))| {
+        let series = SOLIDS.iter().zip(STYLES);
+        let series = series.map(|((solid, _), (shape, colour))| {
+            let of_solid = ratios.iter().filter(|ratios| ratios.0 == *solid);
+            let points = of_solid.filter_map(|(_, area, ratios)| Some([*area, ratios[theory]?]));
+            let points = points.filter(|[area, ratio]| *area > AREAS[0] && DRAWN.contains(ratio));
+            Series::markers(points.collect(), Marker::open(shape), colour).labelled(*solid)
         });
-    Figure::single(Chart {
-        title: Some("Friction of rough surfaces over Persson's theory".to_owned()),
-        legend: LegendPlace::Below,
-        ..Chart::new(
-            Axis::log10("area fraction", [AREAS[0], 1.0]),
-            Axis::linear("friction / theory", [0.0, 1.5]),
-            series.collect(),
-        )
-    })
+        Chart {
+            legend: LegendPlace::Below,
+            ..Chart::new(
+                Axis::log10("area fraction", [AREAS[0], 1.0]),
+                Axis::log10(name, [*DRAWN.start(), *DRAWN.end()]),
+                series.collect(),
+            )
+        }
+    });
+    Figure::new(charts, 2)
 }
