@@ -206,10 +206,10 @@ impl Base {
     }
 
     /// The longest panel of a line on which polynomials follow c as well as they follow the potential of an element on a
-    /// panel next to its edge that is as long as its distance.
-    pub(crate) fn clearance(&self) -> f64 {
+    /// panel next to its edge that is as long as its distance; at a `distance` from the load.
+    pub(crate) fn clearance(&self, distance: f64) -> f64 {
         self.0.as_ref().map_or(f64::INFINITY, |thin| {
-            FRAC_1_SQRT_2 * SINGULAR * thin.thickness
+            FRAC_1_SQRT_2 * distance.hypot(SINGULAR * thin.thickness)
         })
     }
 
@@ -237,7 +237,7 @@ impl Base {
         let unit = thin.thickness;
         let table = &thin.correction;
         let [offset, edges] = [centre, seen].map(|lengths| lengths.map(|length| length / unit));
-        let smooth = integrate_smooth(SINGULAR, (offset, edges), |x, y| {
+        let smooth = integrate_smooth(SINGULAR, (offset, edges), &|x, y| {
             table.at((x * x + y * y).sqrt())
         });
         influence(centre, seen) + unit * smooth
@@ -329,15 +329,18 @@ impl Correction {
     }
 }
 
-/// A Chebyshev series over a part of the line.
+/// A polynomial on a part of the line.
 #[derive(Debug)]
 struct Panel<const N: usize> {
     start: f64,
-    length: f64,
+    /// 2 over its length.
+    scale: f64,
+    /// Of the powers of the distance from its middle in half lengths.
     coefficients: [f64; N],
 }
 
 impl<const N: usize> Panel<N> {
+    /// The Chebyshev series of a function, as powers by the recurrence of Clenshaw (1955).
     fn new([start, length]: [f64; 2], function: impl Fn(f64) -> f64) -> Self {
         let angle = |index: usize| PI * (index as f64 + 0.5) / N as f64;
         let value = |index| function(start + 0.5 * length * (1.0 + angle(index).cos()));
@@ -345,22 +348,52 @@ impl<const N: usize> Panel<N> {
         let coefficient = |order: usize| {
             let terms = values.iter().enumerate();
             let terms = terms.map(|(index, value)| value * (order as f64 * angle(index)).cos());
-            terms.sum::<f64>() * if order == 0 { 1.0 } else { 2.0 } / N as f64
+            terms.sum::<f64>() / N as f64
         };
+        let [mut last, mut coefficients] = [[0.0; N]; 2];
+        for order in (0..N).rev() {
+            let twice = if order == 0 { 1.0 } else { 2.0 };
+            let next = std::array::from_fn(|power| match power {
+                0 => twice * coefficient(order) - last[0],
+                _ => twice * coefficients[power - 1] - last[power],
+            });
+            (last, coefficients) = (coefficients, next);
+        }
         Self {
             start,
-            length,
-            coefficients: std::array::from_fn(coefficient),
+            scale: 2.0 / length,
+            coefficients,
         }
     }
 
-    /// By the recurrence of Clenshaw (1955).
     fn at(&self, rho: f64) -> f64 {
-        let x = 2.0 * (rho - self.start) / self.length - 1.0;
-        let [mut last, mut this] = [0.0; 2];
-        for coefficient in self.coefficients[1..].iter().rev() {
-            (last, this) = (this, 2.0 * x * this - last + coefficient);
+        let x = self.scale * (rho - self.start) - 1.0;
+        let coefficients = self.coefficients.iter().rev();
+        coefficients.fold(0.0, |sum, coefficient| sum * x + coefficient)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rheology::Elastic;
+
+    use super::*;
+
+    /// Its parts are integrated by shorter rules.
+    #[test]
+    fn a_rectangle_moves_the_surface_like_its_parts() {
+        let material = Elastic::new(1.0).expect("a modulus");
+        for thickness in [0.3, 1.0, 2.6, 4.2, 13.0, 130.0] {
+            let base = Base::of(&Layer::new(&material, thickness).expect("a thickness"));
+            for [x, y] in [[0.0, 0.0], [2.0, 1.0], [9.0, 30.0]] {
+                let part = |index: u8| {
+                    let [row, column] = [index / 8, index % 8].map(|n| f64::from(n) / 8.0 - 0.4375);
+                    base.influence([x + row, y + 0.5 * column], [0.125, 0.0625])
+                };
+                let whole = base.influence([x, y], [1.0, 0.5]);
+                let error = (0..64).map(part).sum::<f64>() - whole;
+                assert!(error.abs() < 5e-12, "{error:e} at {x}, {y} on {thickness}");
+            }
         }
-        x * this - last + self.coefficients[0]
     }
 }

@@ -8,34 +8,41 @@
 /// From this many edges on the Gauss rule errs by less than (1/16)^16 of the integrand.
 pub(crate) const FAR: f64 = 8.0;
 
-/// Gauss–Legendre rules on [−1, 1] (NIST DLMF 3.5) as positive nodes and weights, each with the distance in edges from
-/// which it errs by less than rounding: with n points the error is below (1/2·distance)^(2n) of the integrand.
-const RULES: [(f64, &[(f64, f64)]); 3] = [
-    (8192.0, &[(0.577_350_269_189_625_8, 1.0)]),
-    (
-        64.0,
-        &[
-            (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
-            (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
-        ],
-    ),
-    (
-        FAR,
-        &[
-            (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-            (0.525_532_409_916_329, 0.313_706_645_877_887_27),
-            (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-            (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-        ],
-    ),
-];
+/// A Gauss–Legendre rule on [−1, 1] (NIST DLMF 3.5): the weight of the middle, and positive nodes with their weights.
+type Rule = (f64, &'static [(f64, f64)]);
 
-/// The rule of six points.
-const SIX: &[(f64, f64)] = &[
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_35),
-];
+const TWO: Rule = (0.0, &[(0.577_350_269_189_625_8, 1.0)]);
+const THREE: Rule = (8.0 / 9.0, &[(0.774_596_669_241_483_4, 5.0 / 9.0)]);
+const FOUR: Rule = (
+    0.0,
+    &[
+        (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
+        (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+    ],
+);
+const SIX: Rule = (
+    0.0,
+    &[
+        (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+        (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+        (0.932_469_514_203_152, 0.171_324_492_379_170_35),
+    ],
+);
+const EIGHT: Rule = (
+    0.0,
+    &[
+        (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+        (0.525_532_409_916_329, 0.313_706_645_877_887_27),
+        (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+        (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+    ],
+);
+
+/// Rules, each with the distance in edges from which it errs by less than rounding: with n points the error is below
+/// (1/2·distance)^(2n) of the integrand.
+const RULES: [(f64, Rule); 3] = [(8192.0, TWO), (64.0, FOUR), (FAR, EIGHT)];
+/// The same of a smooth part of a kernel, to 1e-12 of the whole on the rectangle itself, which is as many times greater.
+const SMOOTH: [(f64, Rule); 4] = [(250.0, TWO), (25.0, THREE), (8.0, FOUR), (2.5, SIX)];
 
 /// A kernel on the plane, singular on the axis y = 0 only, and its antiderivatives.
 pub(crate) trait PlaneKernel {
@@ -59,7 +66,7 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
         x.hypot((y - 0.5 * b).max(0.0)),
         y.hypot((x - 0.5 * a).max(0.0)),
     ];
-    match (rule(clearance[0], a), rule(clearance[1], b)) {
+    match (rule(&RULES, clearance[0], a), rule(&RULES, clearance[1], b)) {
         (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
             gauss((along_y, y, b), |y| K::value(x, y))
         }),
@@ -73,59 +80,48 @@ pub(crate) fn integrate<K: PlaneKernel>([x, y]: [f64; 2], [a, b]: [f64; 2]) -> f
     }
 }
 
-/// The same of a function that is analytic up to `distance` from every point of the plane, along either direction: by
-/// rules of six points on panels that are at most 0.4 times as long, or of four to two where that gives twelve digits.
+/// The same of a function of the distance from the origin that is singular at an imaginary one.
 pub(crate) fn integrate_smooth(
-    distance: f64,
+    singular: f64,
     ([x, y], [a, b]): ([f64; 2], [f64; 2]),
-    function: impl Fn(f64, f64) -> f64,
+    function: &impl Fn(f64, f64) -> f64,
 ) -> f64 {
-    along(distance, [x - 0.5 * a, x + 0.5 * a], &|x| {
-        along(distance, [y - 0.5 * b, y + 0.5 * b], &|y| function(x, y))
-    })
-}
-
-fn along(distance: f64, [start, end]: [f64; 2], function: &impl Fn(f64) -> f64) -> f64 {
-    let length = end - start;
-    let nearest = if start < 0.0 && end > 0.0 {
-        0.0
-    } else {
-        start.abs().min(end.abs())
-    };
-    // The singularities lie around 0, and are the farther away the farther that is.
-    let ratio = (nearest * nearest + distance * distance).sqrt() / length;
-    let middle = start + 0.5 * length;
-    if ratio < 2.5 {
-        return along(distance, [start, middle], function)
-            + along(distance, [middle, end], function);
-    }
-    let rule = match ratio {
-        250.0.. => RULES[0].1,
-        25.0.. => {
-            // Of three points, the one in the middle is its own image.
-            let side = 0.6_f64.sqrt() * 0.5 * length;
-            let sides = function(middle - side) + function(middle + side);
-            return length / 18.0 * (5.0 * sides + 8.0 * function(middle));
+    let [beside, above] = [x.abs() - 0.5 * a, y.abs() - 0.5 * b].map(|gap| gap.max(0.0));
+    let clearance = (beside * beside + above * above + singular * singular).sqrt();
+    let part = |centre, edges| integrate_smooth(singular, (centre, edges), function);
+    match (rule(&SMOOTH, clearance, a), rule(&SMOOTH, clearance, b)) {
+        (Some(along_x), Some(along_y)) => gauss((along_x, x, a), |x| {
+            gauss((along_y, y, b), |y| function(x, y))
+        }),
+        (None, _) => {
+            let halves = [x - 0.25 * a, x + 0.25 * a];
+            halves.into_iter().map(|x| part([x, y], [0.5 * a, b])).sum()
         }
-        8.0.. => RULES[1].1,
-        _ => SIX,
-    };
-    gauss((rule, middle, length), function)
+        (_, None) => {
+            let halves = [y - 0.25 * b, y + 0.25 * b];
+            halves.into_iter().map(|y| part([x, y], [a, 0.5 * b])).sum()
+        }
+    }
 }
 
 /// The shortest rule for an edge whose singularities are that far; none near.
-fn rule(clearance: f64, edge: f64) -> Option<&'static [(f64, f64)]> {
-    let suits = |(distance, _): &&(f64, &'static [(f64, f64)])| clearance >= distance * edge;
-    RULES.iter().find(suits).map(|(_, rule)| *rule)
+fn rule(rules: &[(f64, Rule)], clearance: f64, edge: f64) -> Option<Rule> {
+    let suits = |(distance, _): &&(f64, Rule)| clearance >= distance * edge;
+    rules.iter().find(suits).map(|(_, rule)| *rule)
 }
 
 /// Integral of a function by a rule over the edge around `centre`.
-fn gauss((rule, centre, edge): (&[(f64, f64)], f64, f64), function: impl Fn(f64) -> f64) -> f64 {
+fn gauss(((middle, nodes), centre, edge): (Rule, f64, f64), function: impl Fn(f64) -> f64) -> f64 {
     let half = 0.5 * edge;
     let pair = |&(node, weight): &(f64, f64)| {
         weight * (function(centre - half * node) + function(centre + half * node))
     };
-    half * rule.iter().map(pair).sum::<f64>()
+    let pairs = nodes.iter().map(pair).sum::<f64>();
+    if middle > 0.0 {
+        half * (pairs + middle * function(centre))
+    } else {
+        half * pairs
+    }
 }
 
 /// x asinh(y / |x|), continued by 0 to x = 0.

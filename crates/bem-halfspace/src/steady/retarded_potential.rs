@@ -126,7 +126,7 @@ impl RetardedPotential {
         let mut end = self.position;
         let felt = 1.0 + self.base.reach();
         while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
-            end = (GROWTH * end).min(end + self.base.clearance());
+            end = (GROWTH * end).min(end + self.base.clearance(end));
             ends.push(end);
         }
         let rule = POINTS.len() - 1;
@@ -169,7 +169,8 @@ impl RetardedPotential {
         self.push_row(x + 1.0 - KEPT as f64);
         for column in 0..self.n_columns {
             let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
-            let distance = distance_from_edges([x, x + 1.0], clearance).min(self.base.clearance());
+            let distance = distance_from_edges([x, x + 1.0], clearance);
+            let distance = distance.min(self.base.clearance(distance));
             if let Some(rule) = shortest(&ROWS, distance) {
                 self.through_rows(column, rule);
             } else if let Some(rule) = shortest(&POINTS, distance) {
@@ -229,7 +230,7 @@ impl RetardedPotential {
         for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
             *increment = 0.0;
         }
-        for panel in panels(x, (clearance, self.base.clearance())).iter().rev() {
+        for panel in panels(x, clearance, &self.base).iter().rev() {
             let potentials = self.at_nodes(panel, column);
             for (index, delay) in self.delays.iter().enumerate() {
                 let (decay, weights) = self.over_panel(delay, panel);
@@ -268,21 +269,22 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
 }
 
 /// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
-/// one of the rules. The clearances are those of the edges across, and of all other singularities.
-fn panels(x: f64, clearance: (f64, f64)) -> Vec<Panel> {
+/// one of the rules. The clearance is that of the edges across.
+fn panels(x: f64, clearance: f64, base: &Base) -> Vec<Panel> {
     let mut ends = vec![x, -0.5, 0.5, x + 1.0];
     ends.retain(|end| (x..=x + 1.0).contains(end));
     ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
-        divide([pair[0], pair[1]], clearance, &mut panels);
+        divide([pair[0], pair[1]], (clearance, base), &mut panels);
     }
     panels
 }
 
-fn divide([start, end]: [f64; 2], clearance: (f64, f64), panels: &mut Vec<Panel>) {
+fn divide([start, end]: [f64; 2], (clearance, base): (f64, &Base), panels: &mut Vec<Panel>) {
     let length = end - start;
-    let distance = distance_from_edges([start, end], clearance.0).min(clearance.1);
+    let distance = distance_from_edges([start, end], clearance);
+    let distance = distance.min(base.clearance(distance));
     let rule =
         shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
     if let Some(rule) = rule {
@@ -294,20 +296,21 @@ fn divide([start, end]: [f64; 2], clearance: (f64, f64), panels: &mut Vec<Panel>
         return;
     }
     let middle = 0.5 * (start + end);
-    divide([start, middle], clearance, panels);
-    divide([middle, end], clearance, panels);
+    divide([start, middle], (clearance, base), panels);
+    divide([middle, end], (clearance, base), panels);
 }
 
 #[cfg(test)]
 mod tests {
     use numerics::integrate;
+    use rheology::Elastic;
 
     use super::*;
-    use crate::influence;
+    use crate::Layer;
     use crate::steady::sliding_creep::Delay;
 
     /// q ∫ e^(−q s) V(x + s) ds by the double-exponential rule, between all points where the integrand has a scale.
-    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2]) -> f64 {
+    fn reference(rate: f64, [x, y]: [f64; 2], edges: [f64; 2], base: &Base) -> f64 {
         let end = 60.0 / rate;
         let decays = (-3..=5).map(|power| 2.0_f64.powi(power) / rate);
         let distances = (-3..60).map(|power| 0.5 + 2.0_f64.powi(power) - x);
@@ -315,7 +318,7 @@ mod tests {
         let mut ends: Vec<f64> = decays.chain(distances).chain(singular).collect();
         ends.retain(|distance| (0.0..=end).contains(distance));
         ends.sort_by(f64::total_cmp);
-        let integrand = |s: f64| rate * (-rate * s).exp() * influence([x + s, y], edges);
+        let integrand = |s: f64| rate * (-rate * s).exp() * base.influence([x + s, y], edges);
         let parts = ends.windows(2).filter(|pair| pair[0] < pair[1]);
         parts
             .map(|pair| integrate(integrand, [pair[0], pair[1]], 1e-13).value)
@@ -333,12 +336,17 @@ mod tests {
         ];
         for (shift, aspect) in elements {
             for decade in (-12..=12).step_by(3) {
-                check(10.0_f64.powi(decade), shift, aspect);
+                check(10.0_f64.powi(decade), [shift, aspect], f64::INFINITY);
             }
+        }
+        for thickness in [0.04, 0.5, 8.0] {
+            check(0.1, [-0.37, 0.5], thickness);
         }
     }
 
-    fn check(rate: f64, shift: f64, aspect: f64) {
+    fn check(rate: f64, [shift, aspect]: [f64; 2], thickness: f64) {
+        let material = Elastic::new(1.0).expect("a modulus");
+        let layer = Layer::new(&material, thickness).expect("a thickness");
         let delay = Delay {
             rate,
             share: -(-rate).exp_m1(),
@@ -346,6 +354,7 @@ mod tests {
         let creep = ElementCreep {
             shift,
             delays: vec![delay],
+            base: Base::of(&layer),
             ..ElementCreep::default()
         };
         let first = 130.0 + shift;
@@ -358,10 +367,17 @@ mod tests {
             }
             for column in [0, 1, 3] {
                 let y = f64::from(column) * aspect;
-                let expected = reference(rate, [x, y], [1.0, aspect]);
+                let by = |base| reference(rate, [x, y], [1.0, aspect], &base);
+                let expected = by(Base::of(&layer));
+                // A layer leaves little of it far away.
+                let of_half_space = if thickness.is_finite() {
+                    by(Base::default())
+                } else {
+                    expected
+                };
                 let actual = retarded.value(column as usize);
-                let error = (actual / expected - 1.0).abs();
-                let scene = (rate, shift, aspect, [x, y]);
+                let error = (actual - expected).abs() / of_half_space;
+                let scene = (rate, shift, aspect, [x, y], thickness);
                 assert!(error < 1e-10, "{error:e} at {scene:?}");
             }
         }
