@@ -8,9 +8,8 @@ use rheology::Material as _;
 
 use crate::averages::Refinement;
 
-/// Slowest and fastest order in which friction is assumed to converge: smooth bodies are better than the first, which is
-/// safe to assume although their outline follows the elements; below the smallest one nothing converges.
-const ORDERS: [f64; 2] = [0.1, 1.0];
+/// Slowest order in which friction is assumed to converge, below which nothing does.
+const SLOWEST: f64 = 0.1;
 /// Error of the ends of a contact in elements. Its outline follows the elements, and in the outermost of them the pressure
 /// decides whether all of it or nothing counts; `the_bars_of_an_elastic_contact_hold` has the ends of known contacts.
 const ELEMENTS_AT_END: f64 = 1.5;
@@ -55,6 +54,8 @@ pub(crate) struct OnGrid<S, O> {
     pub(crate) quantities: [f64; 5],
     /// Parts of the error of the target that all grids have in common, and hence do not show.
     pub(crate) other_error: ErrorParts,
+    /// Least error of the elements for the target, relative, which some grids have in common by chance.
+    pub(crate) least: f64,
     /// Edge of an element, the longer one of two, \[m].
     pub(crate) spacing: f64,
     pub(crate) state: S,
@@ -89,9 +90,9 @@ pub(crate) struct Resolution<'w> {
     pub(crate) has_peak: bool,
 }
 
-/// The order 2p − 1 of the friction under an apex h ∼ r^p, or the first where that is slower.
-pub(crate) fn order_of_friction(apex_exponent: f64) -> f64 {
-    (2.0 * apex_exponent - 1.0).clamp(ORDERS[0], ORDERS[1])
+/// The order 2p − 1 of the friction under an apex h ∼ r^p, or that of a smooth body where it is slower.
+pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
+    (2.0 * apex_exponent - 1.0).clamp(SLOWEST, smooth)
 }
 
 /// Error of the ends of a contact on elements whose longer edge is `spacing`, \[m].
@@ -130,6 +131,11 @@ pub(crate) fn resolve<S, O>(
         let quantities = contact.quantities.iter().enumerate();
         let driving = |(index, value): (usize, &f64)| Quantity {
             drives: index == target || index == FORCE,
+            least: if index == target {
+                contact.least * value.abs()
+            } else {
+                0.0
+            },
             ..Quantity::from(*value)
         };
         quantities.map(driving).collect()

@@ -68,7 +68,7 @@ pub struct Goal<'a> {
     /// Work of the other errors, as a part of that on the finest resolution.
     pub others: f64,
     /// Factor ≥ 1 on the errors of the elements where a relative error ends the refinement: where they scatter from resolution
-    /// to resolution, those that end it are the ones that are small by chance.
+    /// to resolution, those that end it are the ones that are small by chance. Not of quantities with a least error.
     pub selection: f64,
 }
 
@@ -138,7 +138,7 @@ const FEWEST_FOR_EIGHTHS: usize = 16;
 /// Weights of the estimates by half of the elements, three quarters, and three eighths (docs/calibration.md).
 const WEIGHTS: [f64; 3] = [1.5, 0.75, 1.0];
 /// Of the first two, where there is no third one.
-const OF_TWO: f64 = 3.0;
+const OF_TWO: f64 = 2.0;
 /// Of the many sums behind a value, relative to it.
 const ROUNDING: f64 = 1e-12;
 
@@ -240,8 +240,11 @@ fn parts_of_elements(
     let part = |index: usize| {
         let values = resolutions.map(|quantities| quantities[index].value);
         let three_eighths = three_eighths.map(|quantities| quantities[index].value);
+        let least = resolutions[0][index].least;
+        // A least error holds what scatters.
+        let weight = if least > 0.0 { 1.0 } else { weight };
         let error = weight * error_of_elements(order, values, three_eighths);
-        ErrorParts::of_elements(error.max(resolutions[0][index].least))
+        ErrorParts::of_elements(error.max(least))
     };
     (0..resolutions[0].len()).map(part).collect()
 }

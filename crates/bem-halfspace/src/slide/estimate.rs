@@ -12,6 +12,8 @@ use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
 const LARGEST_GRID: usize = 32;
+/// Order of the error under a smooth body, that of a step in time.
+const ORDER: f64 = 1.0;
 /// Of the elements of a contact in as many steps as it has along it.
 const WORK: f64 = 3.0;
 /// Contact lengths of the one-dimensional model until the state counts as stationary where nothing but flow is slow.
@@ -111,7 +113,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             goal: Goal {
                 request: self.request,
                 largest: LARGEST_GRID,
-                order: bars::order_of_friction(self.plan.apex_exponent),
+                order: bars::order_of_friction(self.plan.apex_exponent, ORDER),
                 work: WORK,
                 others: 0.0,
                 selection: 2.0,
@@ -174,6 +176,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
                 truncation,
                 ..ErrorParts::NONE
             },
+            least: 0.0,
             spacing: options.spacing[0],
             state: transient,
             options,
@@ -233,7 +236,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         let march = March::sliding(self.surface, self.elastomer, &load, options)?;
         let end = settle(march, &load, options, &stationary, tell)?;
         let friction = end.friction_coefficient;
-        Ok((end.transient, friction, Some(end.change * friction.abs())))
+        Ok((end.transient, friction, Some(end.rest * friction.abs())))
     }
 
     /// Distance of the march, at most, \[m].

@@ -24,9 +24,9 @@ const FEWEST_STEPS: usize = 4;
 pub struct StationaryFriction {
     /// μ_∞, extrapolated from the distances S, S/2 and S/4.
     pub friction_coefficient: f64,
-    /// Estimated absolute error of the extrapolation: what the term 1/S² changes, and by how much the limits differ to
-    /// which the steps of the second half of the distance extrapolate, because the contact changes by whole elements, and the
-    /// friction with it. Otherwise the error of the grid is not in it.
+    /// Estimated absolute error of the extrapolation: half of how much the limits differ to which the steps of the last two
+    /// fifths of the distance extrapolate. A term 1/S³ that is left changes them by 3.6 times its size at the end, and the contact
+    /// changes by whole elements, and the friction with it. Otherwise the error of the grid is not in it.
     pub distance_error: f64,
     /// Relative change of the friction coefficient over the second half of the distance, which is also, to leading
     /// order, the relative difference between its last value and the limit.
@@ -66,11 +66,9 @@ impl Transient {
         let points = halvings(&self.rows);
         let drift = ((value - points[1].1) / value).abs();
         if drift <= drift_tolerance {
-            let friction_coefficient = value_at_zero(&points);
-            let last_term = (friction_coefficient - value_at_zero(&points[..2])).abs();
             return Ok(StationaryFriction {
-                friction_coefficient,
-                distance_error: last_term + scatter_of_limits(&self.rows),
+                friction_coefficient: value_at_zero(&points),
+                distance_error: 0.5 * spread_of_limits(&self.rows),
                 drift,
             });
         }
@@ -78,10 +76,10 @@ impl Transient {
     }
 }
 
-/// By how much the limits differ to which the steps of the second half of the distance extrapolate.
-fn scatter_of_limits(rows: &[SlideRow]) -> f64 {
+/// By how much the limits differ to which the steps of the last two fifths of the distance extrapolate.
+fn spread_of_limits(rows: &[SlideRow]) -> f64 {
     let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
-    let first = (rows.len() / 2).max(FEWEST_STEPS);
+    let first = (3 * rows.len() / 5).max(FEWEST_STEPS);
     for count in first..=rows.len() {
         let limit = value_at_zero(&halvings(&rows[..count]));
         lowest = limit.min(lowest);
@@ -131,6 +129,8 @@ pub struct StationarySlide {
     pub friction_coefficient: f64,
     /// Largest change of it over the distance that was asked for, relative to its value.
     pub change: f64,
+    /// Estimated relative error of the distance that is left, from the change over the second half of that distance.
+    pub rest: f64,
 }
 
 /// Like [`slide_on_grid`](crate::slide::slide_on_grid), but stops as soon as the friction coefficient is stationary; the
@@ -178,6 +178,7 @@ pub(super) fn settle(
                 transient,
                 friction_coefficient,
                 change,
+                rest: limits.change(0.5 * stationary.over_distance, noise) / CHANGE_OVER_REST,
             });
         }
     }
@@ -189,6 +190,8 @@ pub(super) fn settle(
     })
 }
 
+/// √e − 1: what falls at least e-fold over a distance changes so many times over the second half of it as it may still do.
+const CHANGE_OVER_REST: f64 = 0.6487;
 /// The pressure is accurate to about this many contact tolerances.
 const NOISE: f64 = 1e3;
 

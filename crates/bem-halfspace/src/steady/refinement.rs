@@ -35,6 +35,9 @@ const AREA_ORDER: f64 = 1.0;
 /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
 /// lesser of two bars holds less often than either.
 const BETTER: f64 = 0.5;
+/// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
+/// little by chance: without it 95.6 of 100 bars hold on random solids and cylinders, with it 98.5 (docs/calibration.md).
+const RECOVERING: f64 = 1.5;
 /// Refinements of which an error bar can come, at least.
 const FEWEST: i32 = 5;
 /// Elements of the footprint for each unknown pressure that is allowed: a steep body touches with a thin crescent.
@@ -201,6 +204,7 @@ impl Grids<'_> {
             if dissipated.error < BETTER * friction.error {
                 friction = dissipated;
             }
+            friction.error *= RECOVERING;
         }
         let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
         friction.error += unresolved * friction.value.abs();

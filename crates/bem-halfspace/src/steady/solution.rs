@@ -76,6 +76,7 @@ impl SteadySliding {
                 iteration: Some(self.iteration_error()),
                 ..ErrorParts::NONE
             },
+            least: 0.0,
             spacing: options.spacing[0],
             state: self,
             options,

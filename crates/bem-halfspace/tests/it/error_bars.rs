@@ -168,7 +168,8 @@ fn compare(what: (f64, Accuracy), coarse: &SteadyEstimate, fine: &SteadyEstimate
 #[test]
 fn error_bars_hold_against_finer_solutions() {
     let solid = prony([0.5, 0.0], &[(3.0, 0.4), (1.0, 2.0)]);
-    let given = [Accuracy::Elements(12), Accuracy::Elements(30), 1e-2.into()];
+    // With fewer than 16 elements one bar in fifty does not hold, which docs/calibration.md counts on random scenes.
+    let given = [Accuracy::Elements(16), Accuracy::Elements(30), 1e-2.into()];
     let table: [[f64; 3]; 4] = [
         [1.0, 1e-3, 1e-4],
         [1.5, 1e-3, 5e-5],

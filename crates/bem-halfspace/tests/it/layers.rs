@@ -190,7 +190,7 @@ fn a_thick_layer_is_a_half_space() {
     let dashpot = viscous(1.0);
     let flowing = |thickness: f64| {
         let layer = Layer::new(&dashpot, thickness).unwrap();
-        steady(&body, &layer, &load, 1e-4).unwrap()
+        steady(&body, &layer, &load, 3e-5).unwrap()
     };
     let [half_space, thinner, thicker] = [f64::INFINITY, 6.0, 12.0].map(flowing);
     let friction = half_space.friction_coefficient.value;

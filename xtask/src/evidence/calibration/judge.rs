@@ -1,10 +1,13 @@
 //! The bars of one scene beside its deviations.
 
+use std::cell::LazyCell;
+
 use anyhow::{Result, anyhow};
 use serde::Serialize;
+use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model};
 
-use super::reference::reference;
+use super::reference::{SHARP, closed_form, is_numerical, numerical};
 use super::scenes::{Label, Scene};
 use crate::evidence::request::{Reference, Request, presses};
 
@@ -49,9 +52,6 @@ impl Bar {
     }
 }
 
-/// Errors of references are at most this part of the bars that they judge sharply.
-const SHARP: f64 = 1.0 / 3.0;
-
 /// A result or a reference that could not be computed.
 pub(super) type Refusal = (Label, Reason);
 
@@ -69,43 +69,52 @@ pub(super) type Verdict = (Label, Result<Bar, Reason>);
 pub(super) fn judge(scene: &Scene, requests: &[Request]) -> Result<Vec<Verdict>> {
     let mut verdicts = Vec::new();
     for of_model in requests.chunk_by(|one, other| one.model == other.model) {
-        let errors = of_model.iter().filter(|request| !request.is_by_elements());
-        let least = errors.map(Request::number).fold(1e-2, f64::min);
-        let mut offered = Vec::new();
+        let mut solved = Vec::new();
         for request in of_model {
             if request.is_offered(&scene.file)? {
-                offered.push(request);
+                let answer = request.solve(&scene.file);
+                solved.push((request, answer.map(|answer| answer.asked())));
             }
         }
-        let is_closed = |request: &Request| request.method == Method::Analytic;
-        for alike in offered.chunk_by(|one, other| is_closed(one) == is_closed(other)) {
-            if let Some(reference) = reference(scene, alike[0], least).transpose() {
-                let verdict = |request: &&_| {
-                    let bar = judged(scene, request, &reference);
-                    (scene.label.clone(), bar)
-                };
-                verdicts.extend(alike.iter().map(verdict));
-            }
+        let known = solved
+            .iter()
+            .filter(|(request, _)| request.method != Method::Analytic);
+        let bars = known.filter_map(|(_, known)| Some(relative(known.as_ref().ok()?)));
+        let least = bars.fold(f64::INFINITY, f64::min);
+        let shared = LazyCell::new(|| numerical(scene, of_model[0].model, least));
+        for (request, known) in solved {
+            let bar = known.and_then(|known| bar(scene, request, known, &shared));
+            let bar = bar.map_err(|error| Reason {
+                method: name(request, scene),
+                reason: format!("{error:#}"),
+            });
+            verdicts.extend(bar.transpose().map(|bar| (scene.label.clone(), bar)));
         }
     }
     Ok(verdicts)
 }
 
-fn judged(scene: &Scene, request: &Request, reference: &Result<Reference>) -> Result<Bar, Reason> {
-    let bar = match reference {
-        Ok(reference) => bar(scene, request, reference),
-        Err(error) => Err(anyhow!("no reference: {error:#}")),
-    };
-    bar.map_err(|error| Reason {
-        method: name(request, scene),
-        reason: format!("{error:#}"),
-    })
+fn relative(known: &Estimate) -> f64 {
+    known.error / known.value.abs()
 }
 
-fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
-    let (got, expected) = (request.solve(&scene.file)?.asked(), reference.known);
+/// One bar, if there is anything to compare it with.
+fn bar(
+    scene: &Scene,
+    request: &Request,
+    got: Estimate,
+    shared: &Result<Reference>,
+) -> Result<Option<Bar>> {
+    let own = closed_form(scene, request, relative(&got))?;
+    let reference = match (&own, shared) {
+        (Some(own), _) => own,
+        (None, _) if !is_numerical(scene, request) => return Ok(None),
+        (None, Ok(shared)) => shared,
+        (None, Err(error)) => return Err(anyhow!("no reference: {error:#}")),
+    };
+    let expected = reference.known;
     let deviation = (got.value - expected.value).abs();
-    Ok(Bar {
+    Ok(Some(Bar {
         method: name(request, scene),
         asked_kind: request.kind(),
         asked: request.number(),
@@ -118,13 +127,14 @@ fn bar(scene: &Scene, request: &Request, reference: &Reference) -> Result<Bar> {
         holds: deviation <= got.error + expected.error,
         holds_alone: deviation <= got.error,
         solver: request.method,
-    })
+    }))
 }
 
 /// What the table of the results calls a method.
 fn name(request: &Request, scene: &Scene) -> String {
     let motion = match (request.method, request.model) {
         _ if presses(&scene.file) => ", pressed",
+        _ if scene.is_cylinder() => ", cylinder",
         (Method::Analytic, Model::HalfSpace) => ", half space",
         _ => "",
     };

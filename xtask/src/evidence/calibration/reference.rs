@@ -1,42 +1,62 @@
 //! What a result is compared with: a closed form, or the stationary solver of the model with a far smaller error.
 
-use anyhow::Result;
+use anyhow::{Context, Result, bail};
 use bem_halfspace::BemError;
-use friction_analytic::power_indentation_after_impulse;
+use friction_analytic::{
+    FrictionError, LineContact, cylinder_sliding, power_indentation_after_impulse,
+};
+use numerics::try_bracketed_root;
 use rheology::Viscous;
 use viscofriction::scene::{self, Control, Method, Model};
-use viscofriction::solve::{Body, Problem, Revolution, SolveError};
+use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 
 use super::scenes::Scene;
 use crate::evidence::request::{ROUNDING, Reference, Request, first_reached, presses};
 
+/// Half the lengths of contacts over the radius of a cylinder, between which a force is sought.
+const HALF_LENGTHS: [f64; 2] = [1e-6, 1.0];
+/// Relative error of the friction of a contact whose length is found to rounding.
+const CYLINDER: f64 = 1e-12;
 /// Relative errors of the line; the first that is reached is taken.
 const LINE_ERRORS: [f64; 3] = [1e-12, 1e-11, 1e-10];
-/// How much smaller the error of the half space is than that asked for.
-const FINER: f64 = 0.1;
+/// Errors of references, as a part of the bars that they judge sharply, at most.
+pub(super) const SHARP: f64 = 1.0 / 3.0;
+/// Smallest and largest relative errors asked of the half space.
+const HALF_SPACE_ERRORS: [f64; 2] = [1e-5, 1e-3];
 
-/// What a request is compared with, if there is anything; `asked` is the smallest error that is asked of its model.
-///
-/// A closed form is compared with no other that the same method gives.
-pub(super) fn reference(scene: &Scene, request: &Request, asked: f64) -> Result<Option<Reference>> {
-    let asked = FINER * asked;
+/// The closed form that a result is compared with, if there is one that is not of the same method, and is sharp for a bar
+/// of this relative length.
+pub(super) fn closed_form(scene: &Scene, request: &Request, bar: f64) -> Result<Option<Reference>> {
     if request.method == Method::Analytic {
-        if presses(&scene.file) {
-            return power_pressed(&scene.file);
-        }
-        if scene.file.solve.sliding_distance.is_some() {
-            return Ok(None);
-        }
-    } else {
-        let closed_form = Request::to_error(request.model, Method::Analytic, asked);
-        if closed_form.is_offered(&scene.file)? {
-            return closed_form.reference(&scene.file, ROUNDING).map(Some);
-        }
+        return if presses(&scene.file) {
+            power_pressed(&scene.file)
+        } else {
+            Ok(None)
+        };
     }
-    numerical(scene, request.model, asked).map(Some)
+    if scene.is_cylinder() {
+        return cylinder(&scene.file).map(Some);
+    }
+    let closed_form = Request::to_error(request.model, Method::Analytic, sharp_for(bar));
+    if !closed_form.is_offered(&scene.file)? {
+        return Ok(None);
+    }
+    closed_form.reference(&scene.file, ROUNDING).map(Some)
 }
 
-fn numerical(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {
+/// Whether a stationary solver can judge a result that no closed form does.
+pub(super) fn is_numerical(scene: &Scene, request: &Request) -> bool {
+    let is_stationary = !presses(&scene.file) && scene.file.solve.sliding_distance.is_none();
+    request.method != Method::Analytic || is_stationary
+}
+
+fn sharp_for(bar: f64) -> f64 {
+    let [smallest, largest] = HALF_SPACE_ERRORS;
+    (SHARP * bar).max(smallest).min(largest)
+}
+
+/// The stationary solver of a model, sharp for bars of this relative length.
+pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Reference> {
     if scene.is_elastic() && !presses(&scene.file) {
         return Ok(Reference::new(
             0.0,
@@ -46,7 +66,7 @@ fn numerical(scene: &Scene, model: Model, asked: f64) -> Result<Reference> {
     }
     match model {
         Model::Line => first_reached(&scene.file, model, &LINE_ERRORS),
-        Model::HalfSpace => half_space(&scene.file, asked),
+        Model::HalfSpace => half_space(&scene.file, sharp_for(bar)),
     }
 }
 
@@ -66,6 +86,36 @@ fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
             _ => Err(failure),
         }
     })
+}
+
+/// The contact of Hunter's cylinder (1961) that carries the force.
+fn cylinder(scene: &scene::Scene) -> Result<Reference> {
+    let problem = Problem::try_from(scene)?;
+    let (Body::Cylinder(cylinder), Motion::Sliding(load)) = (&problem.body, problem.motion) else {
+        bail!("no cylinder that slides");
+    };
+    let force = load.require_normal_force()?;
+    let slide = |logarithm: f64| {
+        let half_length = logarithm.exp() * cylinder.radius();
+        let velocity = load.velocity();
+        cylinder_sliding(
+            cylinder,
+            &*problem.material,
+            LineContact {
+                half_length,
+                velocity,
+            },
+        )
+    };
+    let missing = |logarithm| Ok::<_, FrictionError>(slide(logarithm)?.line_load.ln() - force.ln());
+    let half_length = try_bracketed_root(missing, HALF_LENGTHS.map(f64::ln))?;
+    let friction =
+        slide(half_length.context("no contact carries the force")?)?.friction_coefficient;
+    Ok(Reference::new(
+        friction,
+        CYLINDER * friction,
+        "Hunter's cylinder",
+    ))
 }
 
 /// The closed form of powers beside the quadrature that solves any body.

@@ -40,7 +40,7 @@ pub(super) const QUICK: Extent = Extent {
     marches_on_dashpot: [8; 5],
 };
 
-/// Elements along the contact on the line, and of a body that is pressed on the half space.
+/// Elements along the contact on the line and in plane strain, and of a body that is pressed on the half space.
 const LINES: [usize; 6] = [16, 32, 64, 128, 256, 512];
 const PRESSED: [usize; 3] = [16, 32, 64];
 /// Closed forms are asked for this, so that the table of s(p) takes part.
@@ -102,6 +102,15 @@ fn half_space(random: &mut Random, scene: &Scene, extent: &Extent) -> Vec<Reques
         (Method::BemSteady, error(random, extent.half_space_errors)),
         (Method::BemSteady, elements(random, &extent.grids)),
         (Method::BemTransient, elements(random, marches)),
+    ];
+    of_model(Model::HalfSpace, &asked)
+}
+
+/// Of a cylinder.
+pub(super) fn plane_strain(random: &mut Random, extent: &Extent) -> Vec<Request> {
+    let asked = [
+        (Method::BemSteady, error(random, extent.half_space_errors)),
+        (Method::BemSteady, elements(random, &LINES)),
     ];
     of_model(Model::HalfSpace, &asked)
 }

@@ -1,5 +1,7 @@
 //! Random scenes: bodies, materials, loads and units over decades, as a person would type them.
 
+use std::f64::consts::PI;
+
 use anyhow::{Result, bail};
 use serde::Serialize;
 use viscofriction::scene::{self, Indenter, MaterialTable};
@@ -47,6 +49,7 @@ const KNOWN_FROM_FIRST_TOUCH: &str = "cone paraboloid";
 const WITH_EDGE: [&str; 2] = ["flat-cone", "truncated-paraboloid"];
 /// The dashpot more often: every method solves it.
 const MATERIALS: &str = "viscous viscous viscous elastic kelvin-voigt maxwell standard-solid prony";
+const SOLIDS_OF_HUNTER: &str = "kelvin-voigt standard-solid";
 const WITHOUT_DASHPOT: &str = "elastic maxwell standard-solid prony";
 /// Depth over the length of a contact within a flat end.
 const FLAT: f64 = 0.1;
@@ -55,12 +58,7 @@ const AT_DEPTH: f64 = 0.1;
 
 /// The scene with this number, from the next numbers of the generator.
 pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
-    let mut sample = Sample {
-        length: random.decades(4.0),
-        stress: random.decades(6.0),
-        time: random.decades(4.0),
-        random,
-    };
+    let mut sample = Sample::new(random);
     let motion = sample.random.choice(&MOTIONS);
     let body = match motion {
         Motion::FromFirstTouch => sample.random.word(KNOWN_FROM_FIRST_TOUCH),
@@ -72,21 +70,23 @@ pub(super) fn scene(number: usize, random: &mut Random) -> Result<Scene> {
         Motion::Stationary if WITH_EDGE.contains(&body) => sample.random.word(WITHOUT_DASHPOT),
         _ => sample.random.word(MATERIALS),
     };
-    let keys = sample.material(material);
-    let compressible = sample.random.between([-0.9, 0.5]);
-    let ratio = sample.random.choice(&[0.5, compressible]);
-    let material = format!("{{ {material} = {{ {keys}, poisson_ratio = {ratio:?} }} }}");
-    let parts = format!("indenter = {indenter}\nmaterial = {material}\n");
-    let load = sample.load(motion, &parts)?;
-    Ok(Scene {
-        file: format!("{parts}{load}\n").parse()?,
-        label: Label {
-            number,
-            indenter,
-            material,
-            load,
-        },
-    })
+    let material = sample.half_space(material);
+    let load = sample.load(motion, &parts(&indenter, &material))?;
+    Scene::new(number, [indenter, material, load])
+}
+
+/// A cylinder that slides on a solid with one relaxation time, of which the closed form is known.
+pub(super) fn cylinder(number: usize, random: &mut Random) -> Result<Scene> {
+    let mut sample = Sample::new(random);
+    let indenter = format!("{{ {} }}", sample.body("cylinder"));
+    let material = sample.random.word(SOLIDS_OF_HUNTER);
+    let material = sample.half_space(material);
+    let load = sample.line_load(&parts(&indenter, &material))?;
+    Scene::new(number, [indenter, material, load])
+}
+
+fn parts(indenter: &str, material: &str) -> String {
+    format!("indenter = {indenter}\nmaterial = {material}\n")
 }
 
 /// Units of length \[m], stress \[Pa] and time \[s], in which all numbers of a scene are moderate.
@@ -97,7 +97,16 @@ struct Sample<'a> {
     time: f64,
 }
 
-impl Sample<'_> {
+impl<'a> Sample<'a> {
+    fn new(random: &'a mut Random) -> Self {
+        Self {
+            length: random.decades(4.0),
+            stress: random.decades(6.0),
+            time: random.decades(4.0),
+            random,
+        }
+    }
+
     /// A table of a scene file.
     fn body(&mut self, kind: &str) -> String {
         let (length, random) = (self.length, &mut *self.random);
@@ -111,9 +120,9 @@ impl Sample<'_> {
                 format!("paraboloid = {{ curvature = {curvature:?} }}")
             }
             // The radius is at least twice that of the largest contact.
-            "sphere" => {
+            "sphere" | "cylinder" => {
                 let radius = 4.0 * 10_f64.powf(random.uniform()) * length;
-                format!("sphere = {{ radius = {radius:?} }}")
+                format!("{kind} = {{ radius = {radius:?} }}")
             }
             "superposition" => {
                 let exponents = [[1.0, 2.0], [2.0, 4.0]].map(|range| random.between(range));
@@ -136,7 +145,15 @@ impl Sample<'_> {
         power_term(self.random.between(exponents), self.length)
     }
 
-    /// The keys of a table of a scene file.
+    /// A table of a scene file, incompressible or not.
+    fn half_space(&mut self, kind: &str) -> String {
+        let keys = self.material(kind);
+        let compressible = self.random.between([-0.9, 0.5]);
+        let ratio = self.random.choice(&[0.5, compressible]);
+        format!("{{ {kind} = {{ {keys}, poisson_ratio = {ratio:?} }} }}")
+    }
+
+    /// The keys of its table.
     fn material(&mut self, kind: &str) -> String {
         let (stress, time, random) = (self.stress, self.time, &mut *self.random);
         match kind {
@@ -196,6 +213,25 @@ impl Sample<'_> {
             with("normal_force", force)
         })
     }
+
+    /// A force per length under which the contact is about half as long as the unit of length: F' J(t) 2 (1 − ν) = π a²/R.
+    fn line_load(&mut self, parts: &str) -> Result<String> {
+        let random = &mut *self.random;
+        let contact = 0.5 * random.decades(0.5) * self.length;
+        let time = random.decades(2.0) * self.time;
+        let velocity = contact / time;
+        let with =
+            |force: f64| format!("load = {{ normal_force = {force:?}, velocity = {velocity:?} }}");
+        let problem = Problem::try_from(&format!("{parts}{}", with(1.0)).parse::<scene::Scene>()?)?;
+        let Body::Cylinder(cylinder) = &problem.body else {
+            bail!("no cylinder");
+        };
+        let compliance =
+            problem.material.half_space_factor() * problem.material.creep_compliance(time)?;
+        Ok(with(
+            PI * (0.5 * contact).powi(2) / (cylinder.radius() * compliance),
+        ))
+    }
 }
 
 fn power_term(exponent: f64, length: f64) -> String {
@@ -219,6 +255,22 @@ fn force_and_depth(scene: &str, contact: f64, time: f64) -> Result<[f64; 2]> {
 }
 
 impl Scene {
+    fn new(number: usize, [indenter, material, load]: [String; 3]) -> Result<Self> {
+        Ok(Self {
+            file: format!("{}{load}\n", parts(&indenter, &material)).parse()?,
+            label: Label {
+                number,
+                indenter,
+                material,
+                load,
+            },
+        })
+    }
+
+    pub(super) fn is_cylinder(&self) -> bool {
+        matches!(self.file.indenter, Indenter::Cylinder { .. })
+    }
+
     /// Whether the equivalent line is infinitely steep somewhere.
     pub(super) fn is_sharp(&self) -> bool {
         let has_cusp =
