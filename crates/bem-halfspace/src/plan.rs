@@ -38,8 +38,6 @@ impl GridPlan {
             Control::IndentationDepth(depth) => depth,
         };
         let footprint = Footprint::sliding(surface, elastomer, load)?;
-        // The contact is the longer, and the elements with it.
-        let depth = Footprint::risen(surface, elastomer, depth)?;
         match surface.as_axisymmetric() {
             Some(body) => Self::of_body(body, footprint, depth),
             None => Ok(Self::of_surface(surface, footprint, depth)),
@@ -61,7 +59,6 @@ impl GridPlan {
             Control::IndentationDepth(depth) => [depth; 2],
         };
         let footprint = Footprint::reached(surface, elastomer, highest)?;
-        let depth = Footprint::risen(surface, elastomer, depth)?;
         Ok(Self::of_surface(surface, footprint, depth))
     }
 
