@@ -36,7 +36,7 @@ const AREA_ORDER: f64 = 1.0;
 /// lesser of two bars holds less often than either.
 const BETTER: f64 = 0.5;
 /// Weight of the error on materials that recover, where all outlines scatter and the refinement that ends is one that does so
-/// little by chance: without it 95.6 of 100 bars hold on random solids and cylinders, with it 98.5 (docs/calibration.md).
+/// little by chance: without it 95.8 of 100 bars hold on random solids and cylinders, with it 98.6 (docs/calibration.md).
 const RECOVERING: f64 = 1.5;
 /// Refinements of which an error bar can come, at least.
 const FEWEST: i32 = 5;
