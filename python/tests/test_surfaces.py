@@ -78,7 +78,7 @@ FILES = {
 
 
 def pressed(body: vf.Body) -> dict[str, Any]:
-    return vf.press(body, vf.Elastic(1e6), indentation_depth=2e-5, relative_error=0.02).to_dict()
+    return vf.press(body, vf.Elastic(1e6), indentation_depth=2e-5, relative_error=0.005).to_dict()
 
 
 @pytest.fixture(scope="module")
