@@ -13,6 +13,9 @@ const SLOWEST: f64 = 0.1;
 /// Error of the ends of a contact in elements. Its outline follows the elements, and in the outermost of them the pressure
 /// decides whether all of it or nothing counts; `the_bars_of_an_elastic_contact_hold` has the ends of known contacts.
 const ELEMENTS_AT_END: f64 = 1.5;
+/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
+/// lesser of two bars holds less often than either.
+const BETTER: f64 = 0.2;
 
 /// A contact with the error bar of every quantity; an error of 0 says that the quantity is given.
 ///
@@ -52,6 +55,8 @@ pub struct ContactEstimate<S, O> {
 pub(crate) struct OnGrid<S, O> {
     /// Friction coefficient, normal force, depth, contact area and largest pressure.
     pub(crate) quantities: [f64; 5],
+    /// Friction coefficient from the dissipated power, of stationary states.
+    pub(crate) dissipated: Option<f64>,
     /// Parts of the error of the target that all grids have in common, and hence do not show.
     pub(crate) other_error: ErrorParts,
     /// Least error of the elements for the target, relative, which some grids have in common by chance.
@@ -66,6 +71,8 @@ pub(crate) struct OnGrid<S, O> {
 pub(crate) const FRICTION: usize = 0;
 pub(crate) const FORCE: usize = 1;
 pub(crate) const DEPTH: usize = 2;
+/// After those of every contact.
+const DISSIPATED: usize = 5;
 /// Their names, in errors.
 pub(crate) const NAMES: [&str; 3] = [
     "friction coefficient",
@@ -128,7 +135,7 @@ pub(crate) fn resolve<S, O>(
         (Target::Depth, Control::IndentationDepth(_)) => FORCE,
     };
     let quantities = |contact: &OnGrid<S, O>| {
-        let quantities = contact.quantities.iter().enumerate();
+        let quantities = contact.quantities.iter().chain(&contact.dissipated);
         let driving = |(index, value): (usize, &f64)| Quantity {
             drives: index == target || index == FORCE,
             least: if index == target {
@@ -138,21 +145,30 @@ pub(crate) fn resolve<S, O>(
             },
             ..Quantity::from(*value)
         };
-        quantities.map(driving).collect()
+        quantities.enumerate().map(driving).collect()
     };
     let others = |contact: &OnGrid<S, O>, _: &dyn Fn(f64)| {
-        let mut others = vec![ErrorParts::NONE; contact.quantities.len()];
+        let mut others = vec![ErrorParts::NONE; DISSIPATED + 1];
         others[target] = contact.other_error;
+        others[DISSIPATED] = contact.other_error;
         Ok(others)
     };
     let refined = numerics::refine(&resolution.goal, solve, quantities, others)?;
-    let [friction, force, depth, area, peak] = std::array::from_fn(|index| {
+    let [mut friction, force, depth, area, peak] = std::array::from_fn(|index| {
         Estimate::new(refined.value.quantities[index], refined.error[index])
     });
+    let mut error_parts = refined.parts[target];
+    if let Some(dissipated) = refined.value.dissipated {
+        let error = refined.error[DISSIPATED];
+        if error < BETTER * friction.error {
+            friction = Estimate::new(dissipated, error);
+            error_parts = refined.parts[DISSIPATED];
+        }
+    }
     let [given_force, given_depth] = given(control);
     Ok(ContactEstimate {
         friction_coefficient: friction,
-        error_parts: refined.parts[target],
+        error_parts,
         normal_force: given_force.unwrap_or(force),
         indentation_depth: Some(given_depth.unwrap_or(depth)),
         contact_area: area,

@@ -70,19 +70,27 @@ impl Footprint {
         elastomer: &(impl Elastomer + ?Sized),
         height: f64,
     ) -> Result<Self, BemError> {
-        let footprint = Self::below(surface, height)?;
+        Self::below(surface, Self::risen(surface, elastomer, height)?)
+    }
+
+    /// The height up to which a surface is met where a half space meets it up to a `height`.
+    pub(crate) fn risen(
+        surface: &(impl Surface + ?Sized),
+        elastomer: &(impl Elastomer + ?Sized),
+        height: f64,
+    ) -> Result<f64, BemError> {
         let base = Base::of(elastomer);
         if !base.is_layer() {
-            return Ok(footprint);
+            return Ok(height);
         }
-        let half_length = |footprint: Self| -> Result<f64, BemError> {
-            Ok(footprint.sides()?.concat().into_iter().fold(0.0, f64::max))
+        let half_length = |height| -> Result<f64, BemError> {
+            let sides = Self::below(surface, height)?.sides()?;
+            Ok(sides.concat().into_iter().fold(0.0, f64::max))
         };
-        let length = half_length(footprint)?;
-        let doubled = half_length(Self::below(surface, 2.0 * height)?)?;
+        let length = half_length(height)?;
         // In front of a wall no length is left for the rim.
-        let exponent = (LN_2 / (doubled / length).ln()).min(8.0);
-        Self::below(surface, base.rise(length, exponent) * height)
+        let exponent = (LN_2 / (half_length(2.0 * height)? / length).ln()).min(8.0);
+        Ok(base.rise(length, exponent) * height)
     }
 
     /// The rectangle that holds every point of a surface below a `height` above its lowest point, \[m]; a body that ends

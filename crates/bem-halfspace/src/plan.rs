@@ -9,6 +9,8 @@ use crate::{BemError, Elastomer};
 
 /// Elements along the contact length of the one-dimensional model on the coarsest grids.
 const COARSEST: f64 = 5.0;
+/// Edge of the coarsest elements in thicknesses of a layer; twice as long ones are refused.
+const THICKNESSES: f64 = 16.0;
 /// Height that is left of a steep flank one element further in, at least, on the coarsest grids.
 const RESOLVED: f64 = 0.3;
 /// Refinements by √2 at most; the limit of unknowns ends most before.
@@ -38,10 +40,12 @@ impl GridPlan {
             Control::IndentationDepth(depth) => depth,
         };
         let footprint = Footprint::sliding(surface, elastomer, load)?;
-        match surface.as_axisymmetric() {
-            Some(body) => Self::of_body(body, footprint, depth),
-            None => Ok(Self::of_surface(surface, footprint, depth)),
-        }
+        Self::risen(surface, elastomer, depth, |depth| {
+            match surface.as_axisymmetric() {
+                Some(body) => Self::of_body(body, footprint, depth),
+                None => Ok(Self::of_surface(surface, footprint, depth)),
+            }
+        })
     }
 
     /// For a body that is pressed into an elastic material.
@@ -59,7 +63,24 @@ impl GridPlan {
             Control::IndentationDepth(depth) => [depth; 2],
         };
         let footprint = Footprint::reached(surface, elastomer, highest)?;
-        Ok(Self::of_surface(surface, footprint, depth))
+        Self::risen(surface, elastomer, depth, |depth| {
+            Ok(Self::of_surface(surface, footprint, depth))
+        })
+    }
+
+    /// The plan for the longer contact with a layer that rises, but with elements that are not too long for its thickness
+    /// unless those for a half space are.
+    fn risen(
+        surface: &dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        depth: f64,
+        plan: impl Fn(f64) -> Result<Self, BemError>,
+    ) -> Result<Self, BemError> {
+        let mut shortest = plan(depth)?;
+        let risen = plan(Footprint::risen(surface, elastomer, depth)?)?.coarsest_spacing;
+        let longest = THICKNESSES * elastomer.thickness();
+        shortest.coarsest_spacing = shortest.coarsest_spacing.max(risen.min(longest));
+        Ok(shortest)
     }
 
     fn of_body(

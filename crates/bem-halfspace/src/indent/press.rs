@@ -317,6 +317,7 @@ impl PressSolution {
                 self.contact_area,
                 self.pressure.as_ref().map_or(0.0, PressureField::largest),
             ],
+            dissipated: None,
             other_error: ErrorParts {
                 iteration: Some(options.contact.tolerance * error),
                 ..ErrorParts::NONE

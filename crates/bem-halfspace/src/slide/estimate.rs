@@ -171,6 +171,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         let iteration = || iteration_error(self.surface, &transient.pressure);
         Ok(OnGrid {
             quantities,
+            dissipated: None,
             other_error: ErrorParts {
                 iteration: (!self.creep.is_elastic()).then(iteration),
                 truncation,

@@ -7,6 +7,7 @@ use crate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::steady::loading::Loading;
 use crate::steady::refinement::{Problem, refine};
+use crate::steady::sliding_creep::SlidingCreep;
 use crate::steady::solution::SteadyEstimate;
 use crate::steady::{RefinementOptions, SteadyOptions, steady_on_grid};
 use crate::{BemError, Elastomer};
@@ -114,11 +115,13 @@ fn with_elements(
 ) -> Result<SteadyEstimate, BemError> {
     let plan = GridPlan::sliding(surface, elastomer, load)?;
     let has_peak = peak_has_limit(surface, elastomer);
-    let resolution = resolution(request, load.control(), plan.apex_exponent, has_peak);
+    let order = bars::order_of_friction(plan.apex_exponent, ORDER);
+    let resolution = resolution(request, load.control(), order, has_peak);
+    let creep = SlidingCreep::new(elastomer, load.velocity())?;
     let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)?;
-        Ok(state.on_grid(options, load.sliding_distance()))
+        Ok(state.on_grid(&creep, options, load.sliding_distance()))
     })?;
     with_depth(load, estimate)
 }
@@ -127,14 +130,14 @@ fn with_elements(
 pub(super) fn resolution(
     request: Request<'_>,
     control: Control,
-    apex_exponent: f64,
+    order: f64,
     has_peak: bool,
 ) -> Resolution<'_> {
     Resolution {
         goal: Goal {
             request,
             largest: usize::MAX,
-            order: bars::order_of_friction(apex_exponent, ORDER),
+            order,
             work: WORK,
             others: 0.0,
             selection: 2.0,

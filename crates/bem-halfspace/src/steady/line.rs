@@ -76,6 +76,9 @@ const REAR: f64 = 2.0;
 const FRONT: f64 = 2.5;
 const FRONT_BY_MEMORY: f64 = 0.5;
 
+/// Order of the error of a smooth profile, which has no outline that follows the elements (docs/calibration.md).
+const ORDER: f64 = 1.2;
+
 /// Unknown pressures at most; as many are factorised at once.
 const MOST_UNKNOWNS: usize = 2000;
 
@@ -170,12 +173,11 @@ fn with_elements(
 ) -> Result<SteadyEstimate, BemError> {
     let (loading, plan) = (&problem.loading, &problem.plan);
     let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
-    let (control, exponent) = (loading.control, plan.apex_exponent);
-    let resolution = resolution(request, control, exponent, problem.has_peak);
+    let resolution = resolution(request, loading.control, ORDER, problem.has_peak);
     let mut known = bars::resolve(&resolution, |elements, _| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
-        Ok(state.on_grid(options, None))
+        Ok(state.on_grid(&loading.creep, options, None))
     })?;
     known.contact_area.value /= strip;
     known.contact_area.error /= strip;

@@ -337,16 +337,15 @@ impl Grids<'_> {
         let per_length = self.problem.loading.strip.map_or(1.0, f64::recip);
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
-        let ends = states.iter().map(|state| state.contact_x);
-        let lengths = ends.map(|[rear, front]| front - rear);
-        let half_length = 0.5 * lengths.fold(f64::INFINITY, f64::min);
+        let creep = &self.problem.loading.creep;
+        let unresolved = states.iter().map(|state| state.unresolved(creep));
         let averages = Refinement {
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),
             friction_from_dissipation: Average::of_halves(&states, |state| {
                 state.friction_from_dissipation
             }),
-            unresolved: (self.problem.loading.creep).unresolved(spacing[0], half_length),
+            unresolved: unresolved.fold(0.0, f64::max),
             normal_force: average(&|state| state.normal_force).times(per_length),
             indentation_depth: average(&|state| state.depth.at(distance)),
             contact_area: average(&|state| state.contact_area).times(per_length),

@@ -11,6 +11,7 @@ use crate::steady::SteadyOptions;
 use crate::steady::depth::SinkingDepth;
 use crate::steady::mesh::Mesh;
 use crate::steady::pivoting::Solution;
+use crate::steady::sliding_creep::SlidingCreep;
 
 /// A stationary state with its error bars.
 pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
@@ -61,9 +62,11 @@ impl SteadySliding {
 
     pub(super) fn on_grid(
         self,
+        creep: &SlidingCreep,
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
+        let unresolved = self.unresolved(creep) * self.friction_coefficient.abs();
         OnGrid {
             quantities: [
                 self.friction_coefficient,
@@ -72,15 +75,22 @@ impl SteadySliding {
                 self.contact_area,
                 self.pressure.largest(),
             ],
+            dissipated: Some(self.friction_from_dissipation),
             other_error: ErrorParts {
                 iteration: Some(self.iteration_error()),
-                ..ErrorParts::NONE
+                ..ErrorParts::of_elements(unresolved)
             },
             least: 0.0,
             spacing: options.spacing[0],
             state: self,
             options,
         }
+    }
+
+    /// Part of the friction that the elements may miss because the surface forgets within them.
+    pub(super) fn unresolved(&self, creep: &SlidingCreep) -> f64 {
+        let [rear, front] = self.contact_x;
+        creep.unresolved(self.pressure.grid.spacing()[0], 0.5 * (front - rear))
     }
 
     /// Turns a solution in the units of the mesh into one in SI.

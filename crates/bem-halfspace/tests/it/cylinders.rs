@@ -8,7 +8,7 @@ use casebook::group;
 use friction_analytic::{CylinderSliding, LineContact, cylinder_sliding};
 use indenters::Cylinder;
 use numerics::Estimate;
-use rheology::Prony;
+use rheology::{Prony, RelaxationSpectrum};
 
 use crate::support::{assert_bar, assert_close, assert_near, three_elements, under_force};
 
@@ -27,7 +27,10 @@ fn unit_cylinder() -> Cylinder {
 impl Scene {
     /// G₁ = τ = 1, with G_∞ = γ and τ v = 1/z, and Hunter's closed form.
     fn hunter(gamma: f64, z: f64) -> (Self, CylinderSliding) {
-        let (material, velocity) = (three_elements(gamma, 1.0, 1.0), z.recip());
+        Self::on(three_elements(gamma, 1.0, 1.0), z.recip())
+    }
+
+    fn on(material: Prony, velocity: f64) -> (Self, CylinderSliding) {
         let contact = LineContact {
             half_length: 1.0,
             velocity,
@@ -68,6 +71,15 @@ fn a_cylinder_on_a_three_element_solid_is_hunters_within_the_error_bar() {
                 state => state.expect("a state").friction_coefficient,
             };
             assert_near((gamma, z), known.value, expected, known.error);
+        }
+    }
+    // A solid of Kelvin and Voigt that forgets within an element or two.
+    let spectrum = RelaxationSpectrum::new(1.0, 1.0, Vec::new()).expect("a spectrum");
+    let solid = Prony::new(spectrum).expect("a solid");
+    for velocity in [0.0482, 0.0584, 0.0672, 0.0979] {
+        let (scene, exact) = Scene::on(solid.clone(), velocity);
+        for relative_error in [1e-2, 6e-3, 3e-3, 1e-3] {
+            scene.check(velocity, relative_error, exact.friction_coefficient);
         }
     }
     // Slow and fast cylinders, and stiff solids.

@@ -132,8 +132,13 @@ pub(crate) fn slow_half_space(
         error => within(found.value, slow.elastic_error + error / found.value),
     };
     let ends = [slow.rear.value, front];
-    slow.friction_coefficient.is_within(asked).then(|| Answer {
-        friction_coefficient: Some(slow.friction_coefficient),
+    let mut friction = slow.friction_coefficient;
+    if let Control::IndentationDepth(_) = load.control() {
+        // It is that under the force of the elastic contact, and falls with the force less than in proportion.
+        friction.error += slow.elastic_error * friction.value;
+    }
+    friction.is_within(asked).then(|| Answer {
+        friction_coefficient: Some(friction),
         normal_force: widened(elastic.normal_force),
         indentation_depth: elastic.indentation_depth.map(widened),
         contact_area: Some(slow.contact_area),
