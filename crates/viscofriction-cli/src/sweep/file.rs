@@ -94,10 +94,7 @@ impl SweepFile {
     }
 }
 
-/// The file that may be written.
-///
-/// # Errors
-/// [`WrongInput`] as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
+/// The file that may be written, as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
 pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongInput> {
     let file = OutputFile::new(path, existing != Existing::Refuse);
     let file = file.map_err(|WrongInput(mut problem)| {
