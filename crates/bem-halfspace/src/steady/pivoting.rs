@@ -79,7 +79,8 @@ pub(super) fn solve(
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
             let chosen = progress.choose(&state.violations);
-            if !progress.allows_neighbourhood() || !search.solve_neighbourhood(&state) {
+            // That too may repeat itself.
+            if progress.vain > BLOCKS || !search.solve_neighbourhood(&state) {
                 search.pivot(chosen);
             }
         }
@@ -107,11 +108,6 @@ struct Progress {
 }
 
 impl Progress {
-    /// Whether small problems may be solved by themselves; that too may repeat itself.
-    const fn allows_neighbourhood(&self) -> bool {
-        self.vain <= BLOCKS
-    }
-
     /// The violations that change: all, then the larger ones, then every other one, then the last.
     fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
         if violations.len() < self.fewest {

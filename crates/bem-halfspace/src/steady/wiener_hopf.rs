@@ -38,7 +38,7 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
     let [length, _] = transform.padded;
     let potential = |row: usize, column: usize| table.potential(signed_offset(row, length), column);
     let counter_sweep = transform.spectrum(potential, invert_causal_factor);
-    let sweep = with_inverse_creep(&counter_sweep, table.creep(), length);
+    let sweep = with_inverse_creep(&counter_sweep, &table.creep, length);
     [sweep, counter_sweep]
 }
 

@@ -234,7 +234,13 @@ pub(crate) fn transient(
         grid: Some(of_march(&estimate.options)?),
         ..answer(&estimate, Method::BemTransient, ends)
     };
-    answer.fields.history = estimate.finest.rows.iter().map(history_row).collect();
+    let row = |row: &SlideRow| HistoryRow {
+        sliding_distance_m: row.sliding_distance,
+        time_s: row.time,
+        indentation_depth_m: row.indentation_depth,
+        friction_coefficient: row.friction_coefficient,
+    };
+    answer.fields.history = estimate.finest.rows.iter().map(row).collect();
     answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
 }
@@ -291,13 +297,4 @@ fn of_march(options: &GridOptions) -> Result<Grid> {
         footprint: options.footprint.elements(options.spacing)?,
         factorised: false,
     })
-}
-
-fn history_row(row: &SlideRow) -> HistoryRow {
-    HistoryRow {
-        sliding_distance_m: row.sliding_distance,
-        time_s: row.time,
-        indentation_depth_m: row.indentation_depth,
-        friction_coefficient: row.friction_coefficient,
-    }
 }
