@@ -63,7 +63,6 @@ pub(crate) fn picture(figure: &Figure) -> Result<(String, Vec<u8>)> {
 }
 
 /// A file that is whole or not there.
-#[derive(Debug, Clone)]
 pub(crate) struct OutputFile {
     path: PathBuf,
     overwrite: bool,

@@ -35,7 +35,6 @@ const HOPELESS: f64 = 1e-3;
 const PEAK: f64 = 10.0;
 
 /// Loads of the elements in contact, all greater than zero, in the units of the mesh.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Solution {
     pub(super) loads: Vec<(usize, f64)>,
     pub(super) depth: f64,
@@ -93,7 +92,6 @@ pub(super) fn solve(
 }
 
 /// An element in tension or penetrating, and by how much in the units of the mesh, which are the same for both.
-#[derive(Debug, Clone, Copy)]
 struct Violation {
     element: usize,
     size: f64,

@@ -43,7 +43,6 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
 }
 
 /// An approximate inverse of the product with the stationary kernel on a region.
-#[derive(Debug)]
 pub(super) struct WienerHopf {
     inverses: RegionFilter<2>,
     /// Weight of the order that is exact at the front.

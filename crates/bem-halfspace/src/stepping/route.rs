@@ -25,7 +25,6 @@ pub(crate) struct Leg {
 }
 
 /// All steps, and which rows those to come pass.
-#[derive(Debug, Clone)]
 pub(crate) struct Route {
     pub(crate) legs: Vec<Leg>,
     /// Lowest and highest row under the lowest point from each leg on.

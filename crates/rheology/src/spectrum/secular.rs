@@ -15,7 +15,6 @@ pub(super) struct Pole {
 }
 
 /// A root x, and −1/(x S'(x)), which stays within the range of `f64` where −1/S' does not.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Root {
     pub(super) position: f64,
     pub(super) relative_inverse_slope: f64,

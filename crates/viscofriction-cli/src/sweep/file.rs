@@ -113,7 +113,6 @@ fn whole(contents: &[u8]) -> &[u8] {
 }
 
 /// The whole lines of a file of rows.
-#[derive(Debug)]
 pub(crate) struct RowTable {
     pub(super) header: Vec<String>,
     pub(super) rows: Vec<Row>,

@@ -80,7 +80,6 @@ const LARGEST_GRID: u64 = 1 << 22;
 const BYTES_PER_ELEMENT: u64 = 200;
 
 /// A periodic surface, and what it is asked for.
-#[derive(Clone, Copy)]
 pub(crate) struct Rough<'a> {
     pub(crate) surface: &'a PeriodicSurface,
     pub(crate) load: PeriodicLoad,
