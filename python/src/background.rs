@@ -15,10 +15,8 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// The results of `work` for 0 to `count` − 1, on `threads` threads of their own or on those of the process, in order.
 ///
-/// After an interruption no new work begins; what is under way ends unseen.
-///
-/// # Errors
-/// What `progress`, called with how many are done and how many there are, or a handler of signals raises.
+/// After an interruption no new work begins; what is under way ends unseen. What `progress`, called with how many are done
+/// and how many there are, or a handler of signals raises is passed on.
 pub(crate) fn all<T: Send + 'static>(
     py: Python<'_>,
     count: usize,

@@ -1,6 +1,6 @@
 //! Properties of materials, and materials from measurements.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -15,11 +15,6 @@ use crate::moduli::points;
 use crate::solving::{mapped, read};
 use crate::tables::{table, wrong};
 
-fn of_table(table: toml::Table, folder: &Path) -> PyResult<HalfSpace> {
-    let table = MaterialTable::try_from(table).map_err(wrong)?;
-    half_space(&table, folder, read).map_err(wrong)
-}
-
 /// One of the functions of a material, for each angular frequency or time.
 #[pyfunction]
 pub(crate) fn material_curve<'py>(
@@ -28,10 +23,11 @@ pub(crate) fn material_curve<'py>(
     quantity: &str,
     values: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let material = MaterialTable::try_from(table(scene, "")?).map_err(wrong)?;
     let HalfSpace {
         material,
         expansion,
-    } = of_table(table(scene, "")?, &folder)?;
+    } = half_space(&material, &folder, read).map_err(wrong)?;
     let (relaxation, creep) = (material.relaxation(), material.creep());
     let modulus = |omega: f64| relaxation.complex_modulus(omega);
     let is_time = matches!(quantity, "relaxation_modulus" | "creep_compliance");

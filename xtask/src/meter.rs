@@ -31,11 +31,8 @@ pub(crate) fn measure<T>(work: impl Fn() -> T) -> (T, Cost) {
     (value, cost)
 }
 
-/// The median cost of several runs of `work`, of more the shorter they are. Processor time decides, so that other work
-/// on the machine does not.
-///
-/// # Errors
-/// That of the first run; a failure is not repeated.
+/// The median cost of several runs of `work`, of more the shorter they are; a failure of the first is not repeated.
+/// Processor time decides, so that other work on the machine does not.
 pub(crate) fn measure_median<T, E>(work: impl Fn() -> Result<T, E>) -> Result<(T, Cost), E> {
     let (value, first) = measure(&work);
     let value = value?;

@@ -14,7 +14,6 @@ use numerics::Estimate;
 use rheology::{StandardSolid, Viscous};
 
 /// A profile h = c r^p, pressed and slid.
-#[derive(Debug, Clone, Copy)]
 pub(crate) struct Scene {
     pub(crate) body: PowerProfile,
     pub(crate) material: Viscous,

@@ -124,10 +124,8 @@ impl Footprint {
         }
     }
 
-    /// Distances of the edges behind and ahead of, right and left of the lowest point, \[m].
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for one that is not finite and greater than 0.
+    /// Distances of the edges behind and ahead of, right and left of the lowest point, \[m]; refuses those that are not
+    /// finite and greater than 0.
     pub(crate) fn sides(&self) -> Result<[[f64; 2]; 2], BemError> {
         let mut sides = [self.x, self.y];
         let names = ["footprint along x", "footprint along y"];

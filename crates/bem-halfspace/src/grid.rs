@@ -87,10 +87,7 @@ pub(crate) fn elements_along(length: f64, spacing: f64) -> Result<usize, BemErro
     whole((length / spacing * (1.0 - 4.0 * f64::EPSILON)).ceil())
 }
 
-/// A whole number of elements as an integer, 0 for negative ones.
-///
-/// # Errors
-/// [`BemError::GridTooLarge`] when the number is beyond any grid, or none.
+/// A whole number of elements as an integer, 0 for negative ones; refuses one that is beyond any grid, and what is none.
 pub(crate) fn whole(elements: f64) -> Result<usize, BemError> {
     if elements > MAX_ELEMENTS || elements.is_nan() {
         return Err(BemError::GridTooLarge {

@@ -137,10 +137,7 @@ impl Base {
         }))
     }
 
-    /// The same with lengths in edges of an element.
-    ///
-    /// # Errors
-    /// [`InvalidParameter`] for a layer that is thinner by far.
+    /// The same with lengths in edges of an element; refuses a layer that is thinner by far.
     pub(crate) fn in_units_of(&self, edge: f64) -> Result<Self, InvalidParameter> {
         let Some(thin) = self.0.clone() else {
             return Ok(Self(None));

@@ -19,7 +19,6 @@ pub(crate) const MAX_REFINEMENTS: i32 = 24;
 const SHORTER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// The grids on which a surface is solved.
-#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GridPlan {
     pub(crate) footprint: Footprint,
     /// Δx of the coarsest grids, \[m].

@@ -53,7 +53,9 @@ fn average(
 ) -> Result<f64, IndenterError> {
     let piece = |ends: [f64; 2]| integrate(&function, ends, 0.01 * relative_tolerance);
     let mut open: Vec<[f64; 2]> = angles.windows(2).map(|a| [a[0], a[1]]).collect();
-    let scale = magnitude(&function, &open);
+    // ∫ |f| dφ, roughly.
+    let magnitude = |ends: &[f64; 2]| integrate(|phi| function(phi).abs(), *ends, 0.01).value;
+    let scale = open.iter().map(magnitude).sum();
     finite("height of the line", scale)?;
     let (mut value, mut error, mut bisections) = (0.0, 0.0, 0);
     while let Some(ends) = open.pop() {
@@ -77,10 +79,4 @@ fn average(
         });
     }
     Ok(FRAC_2_PI * value)
-}
-
-/// ∫ |f| dφ, roughly.
-fn magnitude(function: impl Fn(f64) -> f64, intervals: &[[f64; 2]]) -> f64 {
-    let part = |ends: &[f64; 2]| integrate(|phi| function(phi).abs(), *ends, 0.01).value;
-    intervals.iter().map(part).sum()
 }

@@ -19,7 +19,6 @@ const LOOKOUT_STRIDE: usize = 64;
 const MARGIN: f64 = 1e-9;
 
 /// The part of a line that a chain can touch.
-#[derive(Debug, Clone)]
 pub(crate) struct ElementHeights {
     /// Heights above the lowest element, \[m], from the rear to the front.
     pub(crate) heights: Vec<f64>,

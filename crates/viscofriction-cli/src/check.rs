@@ -8,7 +8,7 @@ use viscofriction::solve::problem_of;
 
 use crate::input::read_input;
 use crate::material::check_table;
-use crate::sweep::check_rows;
+use crate::sweep::RowTable;
 
 /// A kind of file that the commands read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,14 +35,14 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
     match kind {
         InputKind::Scene => {
             let source = Source::new(file, contents.to_vec())?;
-            problem_of(&source, None, read_input).map(|_| ())
+            problem_of(&source, None, read_input).map(drop)
         }
-        InputKind::Profile => profile(file, contents).map(|_| ()).map_err(WrongInput),
+        InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {
             let map = height_map(file, contents, [1.0; 2]);
-            map.map(|_| ()).map_err(WrongInput)
+            map.map(drop).map_err(WrongInput)
         }
         InputKind::Moduli => check_table(file, contents),
-        InputKind::SweepRows => check_rows(file, contents),
+        InputKind::SweepRows => RowTable::new(file, contents).map(drop),
     }
 }

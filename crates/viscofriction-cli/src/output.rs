@@ -63,17 +63,14 @@ pub(crate) fn picture(figure: &Figure) -> Result<(String, Vec<u8>)> {
 }
 
 /// A file that is whole or not there.
-#[derive(Debug, Clone)]
 pub(crate) struct OutputFile {
     path: PathBuf,
     overwrite: bool,
 }
 
 impl OutputFile {
-    /// A file to be written; a symbolic link stands for the file that it names.
-    ///
-    /// # Errors
-    /// [`WrongInput`] for a device, a pipe, a socket or a folder, and for a file that is there unless it may be replaced.
+    /// A file to be written; a symbolic link stands for the file that it names. A device, a pipe, a socket and a folder are
+    /// refused, and a file that is there unless it may be replaced.
     pub(crate) fn new(path: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         match fs::metadata(path) {
@@ -175,10 +172,7 @@ fn followed(path: &Path) -> PathBuf {
     }
 }
 
-/// Takes what only one program may write, and keeps it as long as the file is open.
-///
-/// # Errors
-/// [`WrongInput`] while another program has it.
+/// Takes what only one program may write, and keeps it as long as the file is open; refused while another program has it.
 pub(crate) fn lock(file: &File, path: &Path) -> Result<(), WrongInput> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(WrongInput(format!(
@@ -198,10 +192,8 @@ pub(crate) struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// A folder that was made, or is there without any of the files that may be written, named between spaces.
-    ///
-    /// # Errors
-    /// [`WrongInput`] as of [`OutputFile::new`] and [`lock`], before anything is computed.
+    /// A folder that was made, or is there without any of the files that may be written, named between spaces; refused as
+    /// by [`OutputFile::new`] and [`lock`].
     pub(crate) fn new(path: &Path, overwrite: bool, names: &str) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         if path.exists() && !path.is_dir() {

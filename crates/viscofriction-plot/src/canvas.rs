@@ -34,7 +34,6 @@ impl Area {
 }
 
 /// Pen of a line or outline.
-#[derive(Debug, Clone)]
 pub(crate) struct Pen {
     pub(crate) colour: &'static str,
     pub(crate) width: f64,

@@ -16,8 +16,12 @@ pub(crate) fn draw_series(canvas: &mut Canvas, frame: &Frame, series: &[Series])
         if let Some(line) = one.line {
             canvas.polyline(&pixels, &line_pen(line, one.colour));
         }
-        for ends in error_bars(frame, one) {
-            draw_error_bar(canvas, ends, one);
+        let pen = Pen::solid(one.colour.hex(), 1.1);
+        for [upper, lower] in error_bars(frame, one) {
+            canvas.line(upper, lower, &pen);
+            for [x, y] in [upper, lower] {
+                canvas.line([x - CAP, y], [x + CAP, y], &pen);
+            }
         }
         if let Some(marker) = one.marker {
             for &at in pixels.iter().step_by(marker.every) {
@@ -54,14 +58,6 @@ pub(crate) fn line_pen(line: Line, colour: Colour) -> Pen {
         colour: colour.hex(),
         width: line.width,
         dash: (!lengths.is_empty()).then(|| lengths.join(" ")),
-    }
-}
-
-fn draw_error_bar(canvas: &mut Canvas, [upper, lower]: [Pixel; 2], series: &Series) {
-    let pen = Pen::solid(series.colour.hex(), 1.1);
-    canvas.line(upper, lower, &pen);
-    for [x, y] in [upper, lower] {
-        canvas.line([x - CAP, y], [x + CAP, y], &pen);
     }
 }
 

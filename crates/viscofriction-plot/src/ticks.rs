@@ -5,7 +5,6 @@ use std::iter::successors;
 use crate::axis::{Axis, Scale};
 
 /// Mark on an axis.
-#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     /// Position in the unit of the axis.
     pub(crate) value: f64,

@@ -20,7 +20,6 @@ pub fn to_npy(values: &[f64], shape: &[usize]) -> Vec<u8> {
 }
 
 /// Numbers in rows and columns.
-#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NpyTable {
     /// Rows and columns.
     pub(crate) shape: [usize; 2],

@@ -14,7 +14,6 @@ pub(super) struct Request {
 }
 
 /// What a result is compared with.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Reference {
     pub(super) known: Estimate,
     /// Where it comes from.

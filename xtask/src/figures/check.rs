@@ -22,7 +22,6 @@ const ERROR_BAR: Tolerance = Tolerance::Relative(1e-3);
 const OUTLINE: f64 = 1.001;
 
 /// How much a recomputed number may differ.
-#[derive(Debug, Clone, Copy)]
 enum Tolerance {
     Relative(f64),
     Absolute(f64),

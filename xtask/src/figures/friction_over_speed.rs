@@ -24,7 +24,6 @@ const MIN_ELEMENTS: f64 = 12.0;
 const DRIFT_TOLERANCE: f64 = 0.03;
 
 /// The indenter of a figure.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Indenter {
     name: &'static str,
     pub(super) file: &'static str,

@@ -119,7 +119,8 @@ pub fn solve_contact(
         state.prepare_for(problem.convolution);
         state.take_guess(grid, load_per_pressure);
         let solved = solve_in_front_of_mirrors(loads, state, &options.into());
-        state.scale_load(grid, 1.0 / load_per_pressure);
+        let pressure_per_load = 1.0 / load_per_pressure;
+        state.for_each_load(grid, |load| load * pressure_per_load);
         solved
     });
     state.list_contact();

@@ -14,7 +14,6 @@ pub(super) struct LoadProblem<'a> {
 }
 
 /// The result of a solve beside the load.
-#[derive(Debug, Clone, Copy)]
 pub(crate) struct Solved {
     pub(crate) indentation_depth: f64,
     pub(crate) total_load: f64,
@@ -25,7 +24,6 @@ pub(crate) struct Solved {
 }
 
 /// When an iteration ends.
-#[derive(Debug, Clone, Copy)]
 pub(crate) struct Accuracy {
     /// See [`ContactOptions::tolerance`].
     pub(super) tolerance: f64,

@@ -83,11 +83,7 @@ impl ContactState {
         });
     }
 
-    pub(super) fn scale_load(&mut self, grid: &Grid, factor: f64) {
-        self.for_each_load(grid, |load| load * factor);
-    }
-
-    fn for_each_load(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
+    pub(super) fn for_each_load(&mut self, grid: &Grid, replace: impl Fn(f64) -> f64 + Sync) {
         for_each_row(&mut self.load, grid.shape()[1], |_, row| {
             for load in row {
                 *load = replace(*load);

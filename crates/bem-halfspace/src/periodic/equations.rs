@@ -49,7 +49,6 @@ pub(super) struct Equations {
 }
 
 /// |gap| in the contact, \[m].
-#[derive(Debug, Clone, Copy)]
 struct Residual {
     largest: f64,
     root_mean_square: f64,

@@ -67,13 +67,8 @@ pub fn steady_periodic(
     relative_error: f64,
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let goal = Goal {
-        relative_error,
-        friction: FRICTION,
-        max_elements: max_elements as f64,
-        periods: None,
-    };
     let sliding = Sliding::new(elastomer, load.velocity)?;
+    let goal = Goal::stationary(relative_error, max_elements);
     solve(surface, &sliding, load.mean_pressure, &goal)
 }
 
@@ -92,14 +87,9 @@ pub fn press_periodic(
     relative_error: f64,
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let goal = Goal {
-        relative_error,
-        friction: FRICTION,
-        max_elements: max_elements as f64,
-        periods: None,
-    };
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
     let mean_pressure = positive("mean_pressure", mean_pressure)?;
+    let goal = Goal::stationary(relative_error, max_elements);
     solve(surface, &spring, mean_pressure, &goal)
 }
 
@@ -151,10 +141,9 @@ pub fn slide_periodic(
     let edge = period / first_shape(surface)[0] as f64;
     let distance = elements_along(sliding_distance, edge)? as f64 * edge;
     let goal = Goal {
-        relative_error,
         friction: OTHERS,
-        max_elements: max_elements as f64,
         periods: Some(distance / period),
+        ..Goal::stationary(relative_error, max_elements)
     };
     let options = ContactOptions {
         tolerance: goal.tolerance(),
@@ -224,10 +213,10 @@ fn refine<S>(
         let (found, state) = solve(&grid, &heights)?;
         grids.push(found);
         let mut finer = 2.0;
-        if let Some(bars) = goal.bars(&grids) {
-            let asked = goal.asked(&bars).1;
+        if let Some(bars) = goal.bars(&grids, state) {
+            let asked = bars.asked().1;
             if asked.is_within(goal.relative_error) {
-                return Ok(bars.with(state));
+                return Ok(bars);
             }
             // No error falls faster than with the second order.
             let excess = asked.error / (goal.relative_error * asked.value.abs());
@@ -239,6 +228,15 @@ fn refine<S>(
 }
 
 impl Goal {
+    const fn stationary(relative_error: f64, max_elements: usize) -> Self {
+        Self {
+            relative_error,
+            friction: FRICTION,
+            max_elements: max_elements as f64,
+            periods: None,
+        }
+    }
+
     fn tolerance(&self) -> f64 {
         (TOLERANCE * self.relative_error).min(LARGEST_TOLERANCE)
     }
@@ -251,9 +249,9 @@ impl Goal {
         if rows * columns <= limit {
             return Ok(());
         }
-        Err(match self.bars(grids) {
+        Err(match self.bars(grids, ()) {
             Some(bars) => {
-                let (quantity, Estimate { value, error }) = self.asked(&bars);
+                let (quantity, Estimate { value, error }) = bars.asked();
                 BemError::NotReached {
                     quantity,
                     value,
@@ -268,17 +266,8 @@ impl Goal {
         })
     }
 
-    /// What the relative error is of.
-    fn asked(&self, bars: &PeriodicEstimate<()>) -> (&'static str, Estimate) {
-        if bars.friction_coefficient.value == 0.0 {
-            ("area fraction", bars.area_fraction)
-        } else {
-            ("friction coefficient", bars.friction_coefficient)
-        }
-    }
-
     /// From three grids or more.
-    fn bars(&self, grids: &[Found]) -> Option<PeriodicEstimate<()>> {
+    fn bars<S>(&self, grids: &[Found], finest: S) -> Option<PeriodicEstimate<S>> {
         let [.., coarse, middle, fine] = grids else {
             return None;
         };
@@ -299,19 +288,18 @@ impl Goal {
             friction_from_dissipation: dissipation,
             area_fraction: of(&|found| found.area_fraction, OTHERS),
             mean_depth: of(&|found| found.mean_depth, OTHERS),
-            finest: (),
+            finest,
         })
     }
 }
 
-impl PeriodicEstimate<()> {
-    fn with<S>(self, finest: S) -> PeriodicEstimate<S> {
-        PeriodicEstimate {
-            friction_coefficient: self.friction_coefficient,
-            friction_from_dissipation: self.friction_from_dissipation,
-            area_fraction: self.area_fraction,
-            mean_depth: self.mean_depth,
-            finest,
+impl<S> PeriodicEstimate<S> {
+    /// What the relative error is of.
+    fn asked(&self) -> (&'static str, Estimate) {
+        if self.friction_coefficient.value == 0.0 {
+            ("area fraction", self.area_fraction)
+        } else {
+            ("friction coefficient", self.friction_coefficient)
         }
     }
 }

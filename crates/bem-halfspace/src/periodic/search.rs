@@ -55,7 +55,6 @@ pub(super) struct Problem<'a> {
 }
 
 /// A solved contact; the pressure is a field of its own.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Solved {
     /// Mean of h + u over the contact, \[m].
     pub(super) depth: f64,

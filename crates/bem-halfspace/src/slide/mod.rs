@@ -76,9 +76,5 @@ pub fn follow(
     options: &GridOptions,
 ) -> Result<Vec<MotionRow>, BemError> {
     let mut march = March::new(&surface, elastomer, motions, options)?;
-    let mut rows = Vec::with_capacity(motions.len());
-    while let Some(row) = march.step()? {
-        rows.push(row);
-    }
-    Ok(rows)
+    std::iter::from_fn(|| march.step().transpose()).collect()
 }

@@ -18,7 +18,6 @@ pub(super) struct Filters<const N: usize> {
 }
 
 /// Filters of fields on the bounding box of a region.
-#[derive(Debug)]
 pub(super) struct RegionFilter<const N: usize> {
     filters: Arc<Filters<N>>,
     workspace: Workspace,

@@ -23,7 +23,6 @@ pub(super) struct Equation {
 }
 
 /// Scale and control of a stationary problem on any grid.
-#[derive(Debug, Clone)]
 pub(super) struct Loading {
     pub(super) creep: SlidingCreep,
     /// Unit of heights D, \[m].
@@ -151,7 +150,6 @@ fn distance_at_depth(
 }
 
 /// Scales and control on one grid, for loads in units of 4π D/(2 (1 − ν) J(Δx/v) Δx).
-#[derive(Debug, Clone)]
 pub(super) struct GridLoading {
     pub(super) creep: ElementCreep,
     /// Force or depth that is asked for.

@@ -27,7 +27,6 @@ const FOOT: f64 = 0.1;
 const GUESSED_HEIGHT: f64 = 0.5;
 
 /// An element that may touch.
-#[derive(Debug, Clone, Copy)]
 struct Element {
     row: usize,
     column: usize,

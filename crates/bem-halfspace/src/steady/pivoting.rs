@@ -35,7 +35,6 @@ const HOPELESS: f64 = 1e-3;
 const PEAK: f64 = 10.0;
 
 /// Loads of the elements in contact, all greater than zero, in the units of the mesh.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Solution {
     pub(super) loads: Vec<(usize, f64)>,
     pub(super) depth: f64,
@@ -79,7 +78,8 @@ pub(super) fn solve(
         } else {
             search.tolerance = (search.tolerance * TOLERANCE_RATIO).max(LAST * target);
             let chosen = progress.choose(&state.violations);
-            if !progress.allows_neighbourhood() || !search.solve_neighbourhood(&state) {
+            // That too may repeat itself.
+            if progress.vain > BLOCKS || !search.solve_neighbourhood(&state) {
                 search.pivot(chosen);
             }
         }
@@ -92,7 +92,6 @@ pub(super) fn solve(
 }
 
 /// An element in tension or penetrating, and by how much in the units of the mesh, which are the same for both.
-#[derive(Debug, Clone, Copy)]
 struct Violation {
     element: usize,
     size: f64,
@@ -107,11 +106,6 @@ struct Progress {
 }
 
 impl Progress {
-    /// Whether small problems may be solved by themselves; that too may repeat itself.
-    const fn allows_neighbourhood(&self) -> bool {
-        self.vain <= BLOCKS
-    }
-
     /// The violations that change: all, then the larger ones, then every other one, then the last.
     fn choose(&mut self, violations: &[Violation]) -> Vec<usize> {
         if violations.len() < self.fewest {

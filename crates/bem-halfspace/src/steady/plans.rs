@@ -29,7 +29,8 @@ impl Plans {
         aspect: f64,
         shape: [usize; 2],
     ) -> Arc<WakeTable> {
-        if !self.table.is_for(creep, aspect) {
+        let is_other = self.table.aspect.total_cmp(&aspect).is_ne();
+        if is_other || self.table.creep != *creep {
             *self = Self::default();
         }
         let filtered = wiener_hopf::period(shape);

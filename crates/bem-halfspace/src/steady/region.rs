@@ -3,7 +3,6 @@
 use crate::bounds::Bounds;
 
 /// Elements of a mesh in their bounding box, images by mirror symmetry included.
-#[derive(Debug)]
 pub(super) struct Region {
     /// Rows and columns of the box.
     pub(super) shape: [usize; 2],

@@ -19,7 +19,6 @@ use crate::{BemError, Elastomer};
 const SLOWEST: f64 = 1e-100;
 
 /// A material at a sliding speed.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlidingCreep {
     spectrum: CreepSpectrum,
     /// 2 (1 − ν).

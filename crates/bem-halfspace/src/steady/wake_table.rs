@@ -19,9 +19,9 @@ use crate::steady::sliding_creep::ElementCreep;
 /// lengths are in Δx, so that one table serves every spacing with the same creep over an element.
 #[derive(Debug, Clone, Default)]
 pub(super) struct WakeTable {
-    creep: ElementCreep,
+    pub(super) creep: ElementCreep,
     /// Δy/Δx.
-    aspect: f64,
+    pub(super) aspect: f64,
     /// Largest offsets along x, either way, and along y.
     reach: [usize; 2],
     values: Vec<f64>,
@@ -30,15 +30,6 @@ pub(super) struct WakeTable {
 }
 
 impl WakeTable {
-    /// Whether the table is for this creep and elements of this aspect ratio.
-    pub(super) fn is_for(&self, creep: &ElementCreep, aspect: f64) -> bool {
-        self.creep == *creep && self.aspect.total_cmp(&aspect).is_eq()
-    }
-
-    pub(super) const fn creep(&self) -> &ElementCreep {
-        &self.creep
-    }
-
     /// Makes the table cover offsets up to `reach`; what is wider already is kept.
     pub(super) fn cover(
         table: &mut Arc<Self>,

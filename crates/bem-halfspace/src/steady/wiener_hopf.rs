@@ -38,12 +38,11 @@ pub(super) fn inverse_factors(table: &WakeTable, transform: &PlaneTransform) -> 
     let [length, _] = transform.padded;
     let potential = |row: usize, column: usize| table.potential(signed_offset(row, length), column);
     let counter_sweep = transform.spectrum(potential, invert_causal_factor);
-    let sweep = with_inverse_creep(&counter_sweep, table.creep(), length);
+    let sweep = with_inverse_creep(&counter_sweep, &table.creep, length);
     [sweep, counter_sweep]
 }
 
 /// An approximate inverse of the product with the stationary kernel on a region.
-#[derive(Debug)]
 pub(super) struct WienerHopf {
     inverses: RegionFilter<2>,
     /// Weight of the order that is exact at the front.

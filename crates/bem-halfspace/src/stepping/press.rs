@@ -18,7 +18,9 @@ impl March<'_> {
     pub(super) fn press(&mut self, leg: &Leg) -> Result<MotionRow, BemError> {
         let mut enlarged = false;
         loop {
-            self.fill_box();
+            let separation = (&self.separation[..], self.layout.followed()[1]);
+            let bounds = self.contact_box.bounds;
+            bounds.cut(separation, &mut self.contact_box.separation);
             let control = self.scaled(leg.end.control);
             let accuracy = (&self.options.contact).into();
             let solved = self.contact_box.solve(control, &accuracy)?;
@@ -63,12 +65,6 @@ impl March<'_> {
             Control::NormalForce(force) => Control::NormalForce(force * self.load_per_force()),
             Control::IndentationDepth(depth) => Control::IndentationDepth(depth / self.scale),
         }
-    }
-
-    fn fill_box(&mut self) {
-        let field = (&self.separation[..], self.layout.followed()[1]);
-        let bounds = self.contact_box.bounds;
-        bounds.cut(field, &mut self.contact_box.separation);
     }
 
     fn find_increment(&mut self, first_row: usize) {

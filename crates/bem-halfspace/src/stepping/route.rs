@@ -25,7 +25,6 @@ pub(crate) struct Leg {
 }
 
 /// All steps, and which rows those to come pass.
-#[derive(Debug, Clone)]
 pub(crate) struct Route {
     pub(crate) legs: Vec<Leg>,
     /// Lowest and highest row under the lowest point from each leg on.
@@ -34,11 +33,7 @@ pub(crate) struct Route {
 
 impl Route {
     /// The path through the ends of motions, from a centre of an element at time and position zero; steps that are equally
-    /// long have the same `time_step`, to the last bit.
-    ///
-    /// # Errors
-    /// [`BemError::InvalidParameter`] for no ends, times that do not increase from above zero, or positions and
-    /// controls out of range; [`BemError::GridTooLarge`] for a path too long.
+    /// long have the same `time_step`, to the last bit. Refuses what [`March::new`](crate::slide::March::new) does.
     pub(crate) fn through(
         motions: impl Iterator<Item = Motion>,
         spacing: f64,

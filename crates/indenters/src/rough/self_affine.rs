@@ -88,7 +88,9 @@ impl SelfAffine {
         }
         let ratio = (inverse * self.roll_off_wavelength).max(1.0);
         let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
-        generator.set_stream(stream([m, n]));
+        // Every wave vector has a stream of its own.
+        let [row, column] = [m, n].map(|number| i64::from(number) + i64::from(LARGEST_NUMBER));
+        generator.set_stream((row.unsigned_abs() << 32) | column.unsigned_abs());
         let mut uniform = || ((generator.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
         // The modulus of a complex Gaussian number.
         let modulus = (-2.0 * uniform().ln()).sqrt();
@@ -104,10 +106,3 @@ impl SelfAffine {
 const LARGEST_NUMBER: u16 = 1 << 15;
 /// Wave lengths that are a whole part of the period count although they are rounded.
 const SLACK: f64 = 1e-12;
-
-/// A number for every wave vector.
-fn stream(numbers: [i32; 2]) -> u64 {
-    let [m, n] =
-        numbers.map(|number| (i64::from(number) + i64::from(LARGEST_NUMBER)).unsigned_abs());
-    (m << 32) | n
-}

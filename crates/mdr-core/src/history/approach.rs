@@ -40,7 +40,6 @@ pub(super) struct Edge {
 }
 
 /// The body on its way.
-#[derive(Debug)]
 pub(super) struct Approach {
     radii: Radii,
     /// Error of the sum of the loads that the polynomials of the radii make, [Pa m²].

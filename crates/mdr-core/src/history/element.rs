@@ -37,7 +37,6 @@ pub(super) struct Leg {
 }
 
 /// An element in contact.
-#[derive(Debug, Clone)]
 pub(super) struct Touched {
     since: Instant,
     /// σ_k at that moment.
@@ -45,7 +44,6 @@ pub(super) struct Touched {
 }
 
 /// An element that the body has left.
-#[derive(Debug, Clone)]
 pub(super) struct Free {
     since: Instant,
     height: f64,
@@ -54,7 +52,6 @@ pub(super) struct Free {
 }
 
 /// What became of an element in the last event of its history.
-#[derive(Debug, Clone)]
 pub(super) enum State {
     Untouched,
     Touched(Touched),

@@ -205,7 +205,6 @@ fn touched_again(
 }
 
 /// What errors are made of.
-#[derive(Debug, Clone, Copy)]
 struct Bars {
     /// 8/(2 (1 − ν)).
     factor: f64,

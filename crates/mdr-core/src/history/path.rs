@@ -216,7 +216,6 @@ impl Path {
 pub(super) const ROUNDING: f64 = 1e-14;
 
 /// The branches between two instants.
-#[derive(Debug, Clone)]
 pub(super) struct Lag {
     /// e^(−(t − s)/τ_k).
     pub(super) decays: Vec<f64>,

@@ -166,7 +166,6 @@ impl Radii {
 }
 
 /// A radius over the powers of θ.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Polynomial {
     coefficients: [f64; ORDER],
     n_terms: usize,

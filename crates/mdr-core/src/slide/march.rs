@@ -119,7 +119,12 @@ impl March {
     pub(super) fn advance(&mut self) -> Result<Option<Stepped>, MdrError> {
         self.n_steps += 1;
         let time = self.n_steps as f64 * self.time_step;
-        self.travel();
+        // The line moves on by one element: each comes under the place behind, and one that is at rest enters in front.
+        let n_elements = self.values.len();
+        for field in self.state.chunks_exact_mut(n_elements) {
+            field.copy_within(1.., 0);
+            field[n_elements - 1] = 0.0;
+        }
         let depth_before = self.depth;
         self.step.history(&self.state, &mut self.values);
         for value in &mut self.values {
@@ -151,15 +156,6 @@ impl March {
             span: front + 1 - rear,
             steepness: sums.steepness,
         }))
-    }
-
-    /// Moves the line on by one element: each comes under the place behind, and one that is at rest enters in front.
-    fn travel(&mut self) {
-        let n_elements = self.values.len();
-        for field in self.state.chunks_exact_mut(n_elements) {
-            field.copy_within(1.., 0);
-            field[n_elements - 1] = 0.0;
-        }
     }
 
     /// Loads the elements that would be above the line, from the rear to the front.

@@ -31,7 +31,6 @@ pub(super) struct Foundation {
     modes: Vec<Mode>,
 }
 
-#[derive(Debug, Clone, Copy)]
 struct Branch {
     modulus: f64,
     length: f64,
@@ -44,7 +43,6 @@ struct Mode {
 }
 
 /// A boundary layer `amplitude · e^(−ratio (1 + t))`.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Layer {
     pub(super) amplitude: f64,
     pub(super) ratio: f64,

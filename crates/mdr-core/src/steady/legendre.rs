@@ -39,12 +39,9 @@ impl Interpolation {
     /// The polynomial with the values of `function` at the nodes, which include both ends.
     pub(super) fn of(&self, function: impl Fn(f64) -> f64) -> Polynomial {
         let values = self.nodes.map(function);
-        self.rows.map(|row| dot(&row, &values))
+        let coefficient = |row: Polynomial| row.iter().zip(&values).map(|(a, b)| a * b).sum();
+        self.rows.map(coefficient)
     }
-}
-
-fn dot(first: &Polynomial, second: &Polynomial) -> f64 {
-    first.iter().zip(second).map(|(a, b)| a * b).sum()
 }
 
 /// p(t), by Clenshaw's recurrence.

@@ -184,23 +184,18 @@ impl<D: Fn(f64) -> Result<f64, MdrError>> Builder<D> {
             } else if indivisible {
                 pieces.push(piece.straightened());
             } else {
-                self.check_count(pieces.len() + waiting.len(), middle)?;
+                if pieces.len() + waiting.len() >= MAX_PIECES {
+                    return Err(MdrError::TooMuchDetail {
+                        parts: "polynomials",
+                        allowed: MAX_PIECES,
+                        position: middle,
+                    });
+                }
                 waiting.push([middle, ends[1]]);
                 waiting.push([ends[0], middle]);
             }
         }
         Ok(())
-    }
-
-    fn check_count(&self, pieces: usize, position: f64) -> Result<(), MdrError> {
-        if pieces < MAX_PIECES {
-            return Ok(());
-        }
-        Err(MdrError::TooMuchDetail {
-            parts: "polynomials",
-            allowed: MAX_PIECES,
-            position,
-        })
     }
 
     fn split_at_turning_point(

@@ -15,7 +15,6 @@ const GROWTH: f64 = 1.99;
 const ROUNDING: f64 = 1e-9;
 
 /// A side of a kink on which the slope has no limit.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct SteepKink {
     pub(super) position: f64,
     /// The part of the line that is steep, \[m].

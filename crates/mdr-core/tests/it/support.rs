@@ -76,7 +76,6 @@ pub(crate) fn body(kind: usize, size: f64, unit: f64) -> Box<dyn Axisymmetric> {
 }
 
 /// A line given by its heights alone: what is claimed of it does not depend on its slope.
-#[derive(Debug, Clone)]
 pub(crate) struct Line<H> {
     pub(crate) height: H,
     pub(crate) domain: [f64; 2],

@@ -206,7 +206,9 @@ impl Problem<'_> {
     /// Squared relative error of every point; the two rows of a frequency are one point.
     fn point_errors(&self, series: &Series) -> Vec<f64> {
         let square = |row: &Row| (row.weight * (series.value(row) - row.value)).powi(2);
-        let points = self.rows.chunk_by(Row::same_point);
+        let points = self
+            .rows
+            .chunk_by(|one, other| one.at.to_bits() == other.at.to_bits());
         points.map(|point| point.iter().map(square).sum()).collect()
     }
 }

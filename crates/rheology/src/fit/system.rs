@@ -29,11 +29,6 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Whether both numbers belong to one measurement.
-    pub(super) fn same_point(&self, other: &Self) -> bool {
-        self.at.to_bits() == other.at.to_bits()
-    }
-
     /// What a spring of unit modulus contributes.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {

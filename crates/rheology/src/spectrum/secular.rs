@@ -15,7 +15,6 @@ pub(super) struct Pole {
 }
 
 /// A root x, and −1/(x S'(x)), which stays within the range of `f64` where −1/S' does not.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Root {
     pub(super) position: f64,
     pub(super) relative_inverse_slope: f64,
@@ -143,12 +142,6 @@ impl Secular<'_> {
         (self.poles[place.near].position - self.poles[pole].position) + place.offset
     }
 
-    /// x − y of two roots.
-    fn between(&self, place: Place, other: Place) -> f64 {
-        let poles = self.poles[place.near].position - self.poles[other.near].position;
-        poles + (place.offset - other.offset)
-    }
-
     /// −1/(x S') at one of the roots, from the product over all roots and poles.
     ///
     /// ```text
@@ -167,7 +160,8 @@ impl Secular<'_> {
             if l == index {
                 return from_pole / position;
             }
-            from_pole / self.between(place, *other)
+            let between = self.poles[place.near].position - self.poles[other.near].position;
+            from_pole / (between + (place.offset - other.offset))
         });
         let product: f64 = factors.product();
         if self.level > 0.0 {

@@ -22,6 +22,7 @@ use crate::input::read_input;
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
 pub(crate) use output_files::prony;
+pub(crate) use picture::decades;
 
 /// Arguments of the command.
 #[derive(Debug, Args)]

@@ -36,13 +36,14 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
     let marker = Marker::filled(Shape::Diamond);
     let errors = Series::markers(points(1 + 2 * n), marker, Colour::Black);
     let charts = [
-        chart(x, "modulus [Pa]", measured.chain(fitted).collect()),
-        chart(x, "relative error of the modulus", vec![errors]),
+        decades(x, "modulus [Pa]", measured.chain(fitted).collect()),
+        decades(x, "relative error of the modulus", vec![errors]),
     ];
     Figure::new(charts, 2)
 }
 
-fn chart(x: &str, y: &str, series: Vec<Series>) -> Chart {
+/// Series over the decades that they take.
+pub(crate) fn decades(x: &str, y: &str, series: Vec<Series>) -> Chart {
     let values = |axis: usize| series.iter().flat_map(|s| &s.points).map(move |p| p[axis]);
     let [x, y] = [Axis::decades(x, values(0)), Axis::decades(y, values(1))];
     Chart::new(x, y, series)

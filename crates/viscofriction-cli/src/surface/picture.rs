@@ -4,6 +4,8 @@ use viscofriction::indenters::HeightMap;
 use viscofriction::indenters::rough::PowerSpectrum;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
+use crate::material::decades;
+
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     let isotropic = spectrum.radial.iter();
     let isotropic = isotropic.map(|ring| [ring.wave_number, ring.density]);
@@ -47,11 +49,5 @@ fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {
 fn chart(label: &str, mut series: Vec<Series>) -> Chart {
     // Waves along one axis alone have no spectrum along the other.
     series.retain(|one| !one.points.is_empty());
-    let values = |axis: usize| {
-        let points = series.iter().flat_map(|one| &one.points);
-        points.map(move |point| point[axis])
-    };
-    let x = Axis::decades("wave number [1/m]", values(0));
-    let y = Axis::decades(label, values(1));
-    Chart::new(x, y, series)
+    decades("wave number [1/m]", label, series)
 }

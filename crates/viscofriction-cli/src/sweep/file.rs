@@ -94,10 +94,7 @@ impl SweepFile {
     }
 }
 
-/// The file that may be written.
-///
-/// # Errors
-/// [`WrongInput`] as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
+/// The file that may be written, as of [`OutputFile::new`]; a sweep can also go on with a file that is there.
 pub(super) fn checked(path: &Path, existing: Existing) -> Result<PathBuf, WrongInput> {
     let file = OutputFile::new(path, existing != Existing::Refuse);
     let file = file.map_err(|WrongInput(mut problem)| {
@@ -116,15 +113,14 @@ fn whole(contents: &[u8]) -> &[u8] {
 }
 
 /// The whole lines of a file of rows.
-#[derive(Debug, Default)]
-pub(super) struct RowTable {
+pub(crate) struct RowTable {
     pub(super) header: Vec<String>,
     pub(super) rows: Vec<Row>,
 }
 
 impl RowTable {
     /// The rows of a file of the given contents, up to its last whole line.
-    pub(super) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
+    pub(crate) fn new(path: &Path, contents: &[u8]) -> Result<Self, WrongInput> {
         let mut reader = csv::Reader::from_reader(whole(contents));
         let wrong = |line: usize, problem: &dyn std::fmt::Display| {
             wrong_row(path, line, &format!("no row of a sweep: {problem}"))

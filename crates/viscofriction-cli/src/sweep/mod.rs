@@ -19,6 +19,7 @@ use viscofriction::sweep::{Plan, Row, Shard, Vary, header};
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{print_text, say};
 use crate::progress;
+pub(crate) use file::RowTable;
 use file::{Existing, SweepFile, checked, line};
 use picture::PictureFiles;
 
@@ -160,10 +161,6 @@ fn compute(
     });
     bar.finish_and_clear();
     taken
-}
-
-pub(crate) fn check_rows(file: &Path, contents: &[u8]) -> Result<(), WrongInput> {
-    file::RowTable::new(file, contents).map(|_| ())
 }
 
 fn wrong_row(path: &Path, line: usize, problem: &str) -> WrongInput {

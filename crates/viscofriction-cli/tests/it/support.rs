@@ -67,7 +67,6 @@ pub(crate) struct Said {
 }
 
 /// A folder in which the program runs.
-#[derive(Debug)]
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {

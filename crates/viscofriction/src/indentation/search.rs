@@ -17,7 +17,6 @@ const SHORTEST: f64 = 1.0 / 3.0;
 const LONGEST: f64 = 30.0;
 
 /// A minimum.
-#[derive(Clone)]
 pub(super) struct Found<'a> {
     pub(super) model: Model<'a>,
     pub(super) parameters: Vec<f64>,

@@ -8,7 +8,6 @@ use super::{FitOptions, Flag, IndentationCurve, IndentationError};
 use crate::mdr_core::MdrError;
 
 /// An elastic fit of the approach.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Start {
     pub(super) contact_point: f64,
     pub(super) baseline: f64,

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 /// A measurement, in SI and in shear.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     pub(super) line: usize,
     /// ω or t, greater than 0.

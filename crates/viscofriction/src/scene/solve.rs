@@ -109,12 +109,6 @@ impl Method {
 }
 
 impl Solve {
-    /// The model that the answer belongs to: the one given, or that of the method, or the half space.
-    pub(crate) fn checked_model(&self) -> Model {
-        let of_method = self.method.and_then(Method::model);
-        self.model.or(of_method).unwrap_or(Model::HalfSpace)
-    }
-
     /// How well the answer is asked for.
     pub(crate) fn accuracy(&self) -> Result<Accuracy, SceneError> {
         match (self.relative_error, self.elements) {

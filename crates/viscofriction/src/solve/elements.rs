@@ -80,7 +80,6 @@ const LARGEST_GRID: u64 = 1 << 22;
 const BYTES_PER_ELEMENT: u64 = 200;
 
 /// A periodic surface, and what it is asked for.
-#[derive(Clone, Copy)]
 pub(crate) struct Rough<'a> {
     pub(crate) surface: &'a PeriodicSurface,
     pub(crate) load: PeriodicLoad,
@@ -234,7 +233,13 @@ pub(crate) fn transient(
         grid: Some(of_march(&estimate.options)?),
         ..answer(&estimate, Method::BemTransient, ends)
     };
-    answer.fields.history = estimate.finest.rows.iter().map(history_row).collect();
+    let row = |row: &SlideRow| HistoryRow {
+        sliding_distance_m: row.sliding_distance,
+        time_s: row.time,
+        indentation_depth_m: row.indentation_depth,
+        friction_coefficient: row.friction_coefficient,
+    };
+    answer.fields.history = estimate.finest.rows.iter().map(row).collect();
     answer.fields.pressure = Some(estimate.finest.pressure);
     Ok(answer)
 }
@@ -291,13 +296,4 @@ fn of_march(options: &GridOptions) -> Result<Grid> {
         footprint: options.footprint.elements(options.spacing)?,
         factorised: false,
     })
-}
-
-fn history_row(row: &SlideRow) -> HistoryRow {
-    HistoryRow {
-        sliding_distance_m: row.sliding_distance,
-        time_s: row.time,
-        indentation_depth_m: row.indentation_depth,
-        friction_coefficient: row.friction_coefficient,
-    }
 }

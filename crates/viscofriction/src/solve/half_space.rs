@@ -188,10 +188,7 @@ pub(crate) enum Simple {
     Maxwell(Maxwell),
 }
 
-/// The material as one of the simple ones, or nothing.
-///
-/// # Errors
-/// [`RheologyError::InvalidParameter`] when a reduced modulus is out of range.
+/// The material as one of the simple ones, or nothing; refuses a reduced modulus that is out of range.
 pub(crate) fn simple(material: &dyn Material) -> Result<Option<Simple>, RheologyError> {
     let spectrum = material.relaxation();
     let factor = material.half_space_factor();

@@ -112,9 +112,12 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (BemSteady, Sliding(load)) => {
             // After a distance the friction is not yet that of the stationary state.
             let is_stationary = load.sliding_distance().is_none();
+            // A box is transformed unless its contact is factorised.
+            let is_factorised = answer.grid.is_some_and(|grid| grid.factorised);
+            let transforms = is_factorised.then_some(Omission::Transforms);
             vec![
                 mirror,
-                Some(outside_or_transforms(answer)),
+                transforms.or(Some(Omission::OutsideContact)),
                 is_stationary.then_some(Omission::TimeSteps),
             ]
         }
@@ -137,14 +140,6 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         (MdrTransient, Sliding(_)) | (BemSteady, Pressing(_)) => Vec::new(),
     };
     candidates.into_iter().flatten().collect()
-}
-
-/// A box is transformed unless its contact is factorised.
-const fn outside_or_transforms(answer: &Answer) -> Omission {
-    match answer.grid {
-        Some(grid) if grid.factorised => Omission::Transforms,
-        _ => Omission::OutsideContact,
-    }
 }
 
 /// Values that an element of the half space remembers where it is followed in time.

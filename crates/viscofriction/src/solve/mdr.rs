@@ -46,7 +46,13 @@ pub(crate) fn transient(
         iterations: state.finest.rows.len(),
         ..Answer::new(Method::MdrTransient, Model::Line, state.normal_force)
     };
-    answer.fields.history = state.finest.rows.iter().map(history).collect();
+    let row = |row: &SlideRow| HistoryRow {
+        sliding_distance_m: row.sliding_distance,
+        time_s: row.time,
+        indentation_depth_m: row.indentation_depth,
+        friction_coefficient: row.friction_coefficient,
+    };
+    answer.fields.history = state.finest.rows.iter().map(row).collect();
     Ok(answer)
 }
 
@@ -110,13 +116,4 @@ pub(super) fn following(problem: &Problem, relative_error: f64) -> Follow {
 
 fn contact_box([rear, front]: [Estimate; 2]) -> ContactBox {
     ContactBox::along([rear.value, front.value], rear.error.max(front.error))
-}
-
-fn history(row: &SlideRow) -> HistoryRow {
-    HistoryRow {
-        sliding_distance_m: row.sliding_distance,
-        time_s: row.time,
-        indentation_depth_m: row.indentation_depth,
-        friction_coefficient: row.friction_coefficient,
-    }
 }

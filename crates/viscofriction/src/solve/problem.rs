@@ -84,6 +84,7 @@ impl Problem {
             None => f64::INFINITY,
         };
         let not_reduced = |error: RheologyError| SceneError::at("material", error.to_string());
+        let of_method = scene.solve.method.and_then(Method::model);
         let problem = Self {
             body,
             simple: simple(&*elastomer.material).map_err(not_reduced)?,
@@ -94,7 +95,7 @@ impl Problem {
             history,
             accuracy: scene.solve.accuracy()?,
             method: scene.solve.method,
-            model: scene.solve.checked_model(),
+            model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
             max_memory: scene.solve.checked_memory()?,
         };

@@ -38,7 +38,6 @@ pub(crate) struct Source<'a> {
 }
 
 /// What a table does not say.
-#[derive(Clone, Copy)]
 pub(crate) struct Meaning<'a> {
     /// What a modulus is that has neither E nor G in its name.
     pub(crate) deformation: Option<Deformation>,

@@ -7,7 +7,7 @@ use friction_analytic::{
 };
 use numerics::try_bracketed_root;
 use rheology::Viscous;
-use viscofriction::scene::{self, Control, Method, Model};
+use viscofriction::scene::{self, Control, MaterialTable, Method, Model};
 use viscofriction::solve::{Body, Motion, Problem, Revolution, SolveError};
 
 use super::scenes::Scene;
@@ -57,7 +57,8 @@ fn sharp_for(bar: f64) -> f64 {
 
 /// The stationary solver of a model, sharp for bars of this relative length.
 pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Reference> {
-    if scene.is_elastic() && !presses(&scene.file) {
+    let is_elastic = matches!(scene.file.material, MaterialTable::Elastic { .. });
+    if is_elastic && !presses(&scene.file) {
         return Ok(Reference::new(
             0.0,
             0.0,

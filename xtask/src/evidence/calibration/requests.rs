@@ -7,7 +7,6 @@ use crate::evidence::request::{Request, presses};
 use crate::random::Random;
 
 /// How much is computed.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
     /// Every n-th scene is also solved on the half space, which costs most.
     half_space_every: usize,

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use anyhow::{Result, bail};
 use serde::Serialize;
-use viscofriction::scene::{self, Indenter, MaterialTable};
+use viscofriction::scene::{self, Indenter};
 use viscofriction::solve::{Body, Problem};
 
 use crate::random::Random;
@@ -282,10 +282,5 @@ impl Scene {
     pub(super) fn has_edge(&self) -> bool {
         let key = self.file.indenter.key();
         WITH_EDGE.iter().any(|name| key.ends_with(name))
-    }
-
-    /// Whether the half space has no friction, whatever slides over it.
-    pub(super) fn is_elastic(&self) -> bool {
-        matches!(self.file.material, MaterialTable::Elastic { .. })
     }
 }

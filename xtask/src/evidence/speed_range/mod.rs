@@ -41,7 +41,6 @@ impl Decades {
 }
 
 /// What is computed; errors are relative.
-#[derive(Debug, Clone, Copy)]
 struct Extent {
     curve_ratios: &'static [f64],
     curve_speeds: Decades,

@@ -13,7 +13,6 @@ use numerics::{bracketed_root, integrate};
 use rheology::{RelaxationBranch, RelaxationSpectrum};
 
 /// Stationary sliding of a cone.
-#[derive(Debug, Clone, Copy)]
 pub(super) struct ConeOnSolid {
     pub(super) normal_force: f64,
     pub(super) friction_coefficient: f64,

@@ -5,7 +5,6 @@ use viscofriction::scene::{Accuracy, Method, Model};
 use crate::evidence::request::Request;
 
 /// A scene with its name and, where the file leaves it open, the speed \[m/s].
-#[derive(Debug, Clone, Copy)]
 pub(super) struct Scene {
     pub(super) name: &'static str,
     pub(super) text: &'static str,

@@ -22,7 +22,6 @@ const CLOSED_ROUNDING: f64 = 1e-15;
 const ROUNDING: f64 = 1e-12;
 
 /// What a run finds; errors are relative.
-#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Found {
     /// Deviation from the reference; of a field in the mean square.
     pub(super) error: f64,

@@ -140,7 +140,6 @@ impl Iteration<'_> {
 }
 
 /// The largest violations, as lengths.
-#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Violations {
     /// Largest |gap| in the contact; NaN where numbers overflow.
     pub(super) gap: f64,
