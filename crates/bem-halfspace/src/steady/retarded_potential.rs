@@ -4,7 +4,8 @@
 //! loaded element, where it is singular; the exponentials are integrated exactly. The panels of a polynomial of n points
 //! leave an error of the order ρ⁻ⁿ of the potential, ρ the sum of the half axes of the ellipse around the panel that
 //! reaches the singularity (Bernstein): 6 for a panel next to it, 4 distance/length far away. Where the potential is
-//! smooth over several rows, the polynomial goes through its values at the rows, of which each is computed once.
+//! smooth over several rows, the polynomial goes through its values at the rows, of which each is computed once. What a
+//! layer adds is singular beside the edges, not nearer than they are.
 
 use std::collections::VecDeque;
 
@@ -126,7 +127,7 @@ impl RetardedPotential {
         let mut end = self.position;
         let felt = 1.0 + self.base.reach();
         while slowest * (end - self.position) < LARGEST_EXPONENT && end < felt.min(1e150) {
-            end = (GROWTH * end).min(end + self.base.clearance(end));
+            end *= GROWTH;
             ends.push(end);
         }
         let rule = POINTS.len() - 1;
@@ -170,7 +171,6 @@ impl RetardedPotential {
         for column in 0..self.n_columns {
             let clearance = (self.aspect * (column as f64 - 0.5)).max(0.0);
             let distance = distance_from_edges([x, x + 1.0], clearance);
-            let distance = distance.min(self.base.clearance(distance));
             if let Some(rule) = shortest(&ROWS, distance) {
                 self.through_rows(column, rule);
             } else if let Some(rule) = shortest(&POINTS, distance) {
@@ -230,7 +230,7 @@ impl RetardedPotential {
         for increment in self.increments[column..].iter_mut().step_by(self.n_columns) {
             *increment = 0.0;
         }
-        for panel in panels(x, clearance, &self.base).iter().rev() {
+        for panel in panels(x, clearance).iter().rev() {
             let potentials = self.at_nodes(panel, column);
             for (index, delay) in self.delays.iter().enumerate() {
                 let (decay, weights) = self.over_panel(delay, panel);
@@ -270,21 +270,20 @@ fn shortest(rules: &[(f64, usize)], distance: f64) -> Option<usize> {
 
 /// Panels of the element ahead of `x`: divided where the potential is singular, then halved until each is short enough for
 /// one of the rules. The clearance is that of the edges across.
-fn panels(x: f64, clearance: f64, base: &Base) -> Vec<Panel> {
+fn panels(x: f64, clearance: f64) -> Vec<Panel> {
     let mut ends = vec![x, -0.5, 0.5, x + 1.0];
     ends.retain(|end| (x..=x + 1.0).contains(end));
     ends.dedup();
     let mut panels = Vec::new();
     for pair in ends.windows(2) {
-        divide([pair[0], pair[1]], (clearance, base), &mut panels);
+        divide([pair[0], pair[1]], clearance, &mut panels);
     }
     panels
 }
 
-fn divide([start, end]: [f64; 2], (clearance, base): (f64, &Base), panels: &mut Vec<Panel>) {
+fn divide([start, end]: [f64; 2], clearance: f64, panels: &mut Vec<Panel>) {
     let length = end - start;
     let distance = distance_from_edges([start, end], clearance);
-    let distance = distance.min(base.clearance(distance));
     let rule =
         shortest(&POINTS, distance / length).or((length <= SHORTEST).then_some(POINTS.len() - 1));
     if let Some(rule) = rule {
@@ -296,8 +295,8 @@ fn divide([start, end]: [f64; 2], (clearance, base): (f64, &Base), panels: &mut 
         return;
     }
     let middle = 0.5 * (start + end);
-    divide([start, middle], (clearance, base), panels);
-    divide([middle, end], (clearance, base), panels);
+    divide([start, middle], clearance, panels);
+    divide([middle, end], clearance, panels);
 }
 
 #[cfg(test)]
