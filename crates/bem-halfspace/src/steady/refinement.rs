@@ -13,7 +13,7 @@ use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_r
 
 use crate::BemError;
 use crate::averages::{Average, Refinement};
-use crate::bars::{self, FORCE, FRICTION, NAMES};
+use crate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
 use crate::steady::extrapolation::extrapolate;
 use crate::steady::loading::Loading;
@@ -112,14 +112,19 @@ pub(super) fn refine(
         let friction = grids.friction(&refinements);
         let force = grids.force(&refinements);
         let rounding = ROUNDING * finest.state.mean_slope;
-        let is_known = friction.is_within(relative_error) || friction.error <= rounding;
-        if is_known && force.is_within(relative_error) {
+        // Without friction the contact is known as well as its depth.
+        let (name, driving) = match grids.depth(&refinements) {
+            Some(depth) if friction.error <= rounding => (NAMES[DEPTH], depth),
+            None if friction.error <= rounding => (NAMES[FORCE], force),
+            _ => (NAMES[FRICTION], friction),
+        };
+        if driving.is_within(relative_error) && force.is_within(relative_error) {
             return Ok(grids.estimate(friction, force, refinements, finest));
         }
         if !grids.allows(index + 1, &finest.averages) {
-            return Err(not_reached(friction, force, relative_error));
+            return Err(not_reached((name, driving), force, relative_error));
         }
-        let excess = [friction, force].map(|known| known.error / known.value.abs());
+        let excess = [driving, force].map(|known| known.error / known.value.abs());
         let excess = excess[0].max(excess[1]) / relative_error;
         grids.expect(index, excess, &finest.averages);
         index += 1;
@@ -150,9 +155,13 @@ fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     Ok(order)
 }
 
-fn not_reached(friction: Estimate, force: Estimate, relative_error: f64) -> BemError {
+fn not_reached(
+    driving: (&'static str, Estimate),
+    force: Estimate,
+    relative_error: f64,
+) -> BemError {
     let (quantity, Estimate { value, error }) = if force.is_within(relative_error) {
-        (NAMES[FRICTION], friction)
+        driving
     } else {
         (NAMES[FORCE], force)
     };
@@ -236,6 +245,15 @@ impl Grids<'_> {
         given.unwrap_or_else(|| limit(refinements, self.order, |r| r.normal_force))
     }
 
+    /// The depth that is given, or the limit of those under the force; none where it has no meaning, in plane strain on a half
+    /// space.
+    fn depth(&self, refinements: &[Refinement]) -> Option<Estimate> {
+        let Loading { creep, strip, .. } = &self.problem.loading;
+        let [_, given] = bars::given(self.problem.loading.control);
+        let has_depth = strip.is_none() || creep.base().is_layer();
+        given.or_else(|| has_depth.then(|| limit(refinements, self.order, |r| r.indentation_depth)))
+    }
+
     fn estimate(
         &self,
         friction: Estimate,
@@ -244,7 +262,6 @@ impl Grids<'_> {
         finest: Solved,
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
-        let [_, depth] = bars::given(self.problem.loading.control);
         let known = |of: fn(&Refinement) -> Average| limit(&refinements, self.order, of);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
@@ -254,7 +271,7 @@ impl Grids<'_> {
                 ..ErrorParts::of_elements(friction.error)
             },
             normal_force,
-            indentation_depth: depth.or_else(|| Some(known(|r| r.indentation_depth))),
+            indentation_depth: self.depth(&refinements),
             contact_area: limit(&refinements, AREA_ORDER, |r| r.contact_area),
             peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
             contact_box_error: bars::of_box(dx.max(dy)),

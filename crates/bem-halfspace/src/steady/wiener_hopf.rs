@@ -109,7 +109,8 @@ fn with_inverse_creep(factors: &Spectrum, creep: &ElementCreep, length: usize) -
             difference * kept + -(-delay.rate).exp_m1()
         };
         let delays = creep.delays.iter();
-        let shares = delays.map(|delay| delayed(delay).inv() * delay.share);
+        // Of a memory longer than 1e154 elements the square of what is forgotten within one is no number.
+        let shares = delays.map(|delay| delayed(delay).finv() * delay.share);
         let recovered = shares.sum::<Complex<f64>>() + creep.instant;
         if creep.flow > 0.0 {
             difference / (difference * recovered + creep.flow)

@@ -14,8 +14,8 @@ use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
 use rheology::{Compressible, Material, Prony};
 
 use crate::support::{
-    after, assert_close, assert_near, cone, elastic, paraboloid, three_elements, under_force,
-    viscous,
+    after, assert_bar, assert_bars_agree, assert_close, assert_near, cone, elastic, paraboloid,
+    three_elements, under_force, viscous,
 };
 
 /// ν, s and M(s); casebook-2.json, "layer".
@@ -165,6 +165,25 @@ fn a_cylinder_slides_as_an_independent_solver_finds() {
     assert_within_bar("width", found.contact_area, 2.0 * 0.073_904_070_412_448_22);
     assert_within_bar("peak", peak.unwrap(), 0.215_895_694_783_608_37);
     assert_within_bar("depth", depth.unwrap(), 0.003_948_654_133_675_425);
+}
+
+/// Without friction the depth has the error asked for: that of the body pressed, and in plane strain that of a finer solution.
+#[test]
+fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
+    let spring = material(0.3);
+    let layer = Layer::new(&spring, 0.1).unwrap();
+    let (body, load) = (paraboloid(0.5), under_force(0.001, 0.1));
+    let slid = steady(&body, &layer, &load, 1e-3).unwrap();
+    let pressed = press(&body, &layer, Control::NormalForce(0.001), 2e-4).unwrap();
+    let [slid, pressed] = [slid.indentation_depth, pressed.indentation_depth].map(Option::unwrap);
+    assert_bars_agree("body", slid, pressed);
+    assert!(slid.error <= 1e-3 * slid.value, "{slid:?}");
+    let cylinder = Cylinder::new(1.0).unwrap();
+    let [rough, fine] = [1e-3, 1e-4].map(|error| {
+        let found = steady_line(&cylinder, &layer, &load, error).unwrap();
+        found.indentation_depth.unwrap()
+    });
+    assert_bar("cylinder", rough, fine.value, 1e-3);
 }
 
 /// Also of a layer that flows, under which a body does not sink for ever.
