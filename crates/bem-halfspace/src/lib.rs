@@ -66,7 +66,9 @@ pub use influence::influence;
 pub use layer::{Elastomer, Layer, layer_factor};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
-pub use periodic::{PeriodicEstimate, press_periodic, slide_periodic, steady_periodic};
+pub use periodic::{
+    PeriodicEstimate, press_periodic, slide_periodic, steady_periodic, steady_periodic_at_depth,
+};
 pub use periodic::{
     PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
     slide_periodic_on_grid, steady_periodic_on_grid,

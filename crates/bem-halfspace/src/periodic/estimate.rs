@@ -1,7 +1,11 @@
 //! Sliding of a sum of waves with error bars, from finer and finer grids of the same surface.
 
+use std::cell::RefCell;
+
 use indenters::rough::PeriodicSurface;
-use numerics::{Estimate, between_zero_and_one, positive};
+use numerics::{
+    Estimate, between_zero_and_one, in_range, not_negative, positive, try_bracketed_root,
+};
 
 use crate::grid::elements_along;
 use crate::periodic::kernel::Sliding;
@@ -33,6 +37,11 @@ const LARGEST_TOLERANCE: f64 = 1e-5;
 const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
+/// Tolerance of a depth that is given, as a part of the root mean square of the heights, over that of the contact.
+const DEPTH: f64 = 3.0;
+/// Steps of the logarithm of the pressure until the depth lies between two of them, and the longest of them.
+const MOST_STEPS_OF_PRESSURE: usize = 200;
+const LONGEST_STEP: f64 = 4.0;
 /// Elements times steps of a march that are not exceeded: about half an hour of one thread.
 const MOST_STEPS: f64 = 2e9;
 
@@ -48,7 +57,9 @@ pub struct PeriodicEstimate<S> {
     pub friction_from_dissipation: Option<Estimate>,
     /// Part of the period in contact.
     pub area_fraction: Estimate,
-    /// Depth of the mean plane, \[m].
+    /// Mean pressure, \[Pa]; without an error where it is given.
+    pub mean_pressure: Estimate,
+    /// Depth of the mean plane, \[m]; without an error where it is given.
     pub mean_depth: Estimate,
     /// What was found on the finest grid.
     pub finest: S,
@@ -69,7 +80,28 @@ pub fn steady_periodic(
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let sliding = Sliding::new(elastomer, load.velocity)?;
     let goal = Goal::stationary(relative_error, max_elements);
-    solve(surface, &sliding, load.mean_pressure, &goal)
+    solve(surface, &sliding, Held::Pressure(load.mean_pressure), goal)
+}
+
+/// Solves the stationary sliding of a sum of waves whose mean plane is held at a depth \[m], with a velocity ≥ 0 \[m/s], to a
+/// relative error of the friction and of the mean pressure.
+///
+/// On a half space the depth is below the mean of the deformed surface, and hence between minus the height of the mean plane
+/// above the lowest point, at touch, and 0, at which all gaps are closed under any pressure.
+///
+/// # Errors
+/// [`BemError::InvalidParameter`] for a depth at which nothing touches, or all of a half space; and those of
+/// [`steady_periodic`].
+pub fn steady_periodic_at_depth(
+    surface: &PeriodicSurface,
+    elastomer: &(impl Elastomer + ?Sized),
+    [mean_depth, velocity]: [f64; 2],
+    relative_error: f64,
+    max_elements: usize,
+) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
+    let sliding = Sliding::new(elastomer, not_negative("velocity", velocity)?)?;
+    let goal = Goal::stationary(relative_error, max_elements);
+    solve(surface, &sliding, Held::Depth(mean_depth), goal)
 }
 
 /// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s]: the area, to a
@@ -90,35 +122,113 @@ pub fn press_periodic(
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
     let mean_pressure = positive("mean_pressure", mean_pressure)?;
     let goal = Goal::stationary(relative_error, max_elements);
-    solve(surface, &spring, mean_pressure, &goal)
+    solve(surface, &spring, Held::Pressure(mean_pressure), goal)
+}
+
+/// What is held constant.
+#[derive(Clone, Copy)]
+enum Held {
+    Pressure(f64),
+    Depth(f64),
 }
 
 fn solve(
     surface: &PeriodicSurface,
     sliding: &Sliding,
-    mean_pressure: f64,
-    goal: &Goal,
+    held: Held,
+    mut goal: Goal,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let mut guess = Vec::new();
-    refine(surface, goal, |grid, heights| {
-        let problem = Problem {
-            sliding,
-            grid,
-            heights,
-            mean_pressure,
-            tolerance: goal.tolerance(),
-            max_products: PeriodicOptions::default().max_products,
+    let tolerance = goal.tolerance();
+    let guess = RefCell::new(Vec::new());
+    let mut pressure_before = None;
+    goal.depth = match held {
+        Held::Depth(depth) => Some(depth),
+        Held::Pressure(_) => None,
+    };
+    refine(surface, &goal, |grid, heights| {
+        let under = |mean_pressure| {
+            let problem = Problem {
+                sliding,
+                grid,
+                heights,
+                mean_pressure,
+                tolerance,
+                max_products: PeriodicOptions::default().max_products,
+            };
+            solve_from(&mut guess.borrow_mut(), problem)
         };
-        let state = solve_from(&mut guess, problem)?;
+        let (mean_pressure, state, missed) = match held {
+            Held::Pressure(pressure) => (pressure, under(pressure)?, 0.0),
+            Held::Depth(depth) => {
+                let roughness = check_depth(depth, heights, sliding)?;
+                let start = match pressure_before {
+                    Some(pressure) => pressure,
+                    None => sliding.pressure_of(surface.period()[0], roughness)?,
+                };
+                at_depth([depth, roughness, DEPTH * tolerance], start, under)?
+            }
+        };
+        pressure_before = Some(mean_pressure);
         let found = Found {
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: state.area_fraction,
+            mean_pressure,
             mean_depth: state.mean_depth,
-            residual: state.residual,
+            residual: state.residual.max(missed),
         };
         Ok((found, state))
     })
+}
+
+/// The root mean square of the heights, if their mean plane can have the depth.
+fn check_depth(depth: f64, heights: &[f64], sliding: &Sliding) -> Result<f64, BemError> {
+    let n = heights.len() as f64;
+    let mean = heights.iter().sum::<f64>() / n;
+    let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+    let deepest = if sliding.is_on_layer() {
+        f64::INFINITY
+    } else {
+        0.0
+    };
+    let touches = lowest - mean < depth && depth < deepest;
+    let allowed = "above minus the height of the mean plane over the lowest point, and on a half space below 0";
+    in_range("mean_depth", depth, touches, allowed)?;
+    let squares = heights.iter().map(|height| (height - mean).powi(2));
+    Ok((squares.sum::<f64>() / n).sqrt())
+}
+
+/// The mean pressure under which the mean plane has a depth, the contact, and by which part of the roughness the depth is
+/// missed. The pressure grows about like the exponential function of the depth over the roughness (Persson 2007).
+fn at_depth(
+    [depth, roughness, tolerance]: [f64; 3],
+    start: f64,
+    under: impl Fn(f64) -> Result<PeriodicSliding, BemError>,
+) -> Result<(f64, PeriodicSliding, f64), BemError> {
+    let last = RefCell::new(None);
+    let missing = |logarithm: f64| {
+        let pressure = logarithm.exp();
+        let state = under(pressure)?;
+        let missing = (state.mean_depth - depth) / roughness;
+        *last.borrow_mut() = Some((pressure, state, missing.abs()));
+        Ok::<f64, BemError>(if missing.abs() <= tolerance {
+            0.0
+        } else {
+            missing
+        })
+    };
+    let mut first = start.ln();
+    let mut value = missing(first)?;
+    for _ in 0..MOST_STEPS_OF_PRESSURE {
+        let second = first - (2.0 * value).clamp(-LONGEST_STEP, LONGEST_STEP);
+        let next = if value == 0.0 { 0.0 } else { missing(second)? };
+        if next * value <= 0.0 {
+            try_bracketed_root(missing, [first, second])?;
+            break;
+        }
+        (first, value) = (second, next);
+    }
+    Ok(last.into_inner().expect("at least one pressure"))
 }
 
 /// Slides a sum of waves from rest over a distance \[m], rounded up to elements of the first grid, to a relative error of the
@@ -156,6 +266,7 @@ pub fn slide_periodic(
             friction: last.friction_coefficient,
             from_dissipation: None,
             area_fraction: last.area_fraction,
+            mean_pressure: load.mean_pressure,
             mean_depth: last.mean_depth,
             residual: options.tolerance,
         };
@@ -175,6 +286,8 @@ struct Goal {
     relative_error: f64,
     friction: Fall,
     max_elements: f64,
+    /// Depth of the mean plane, where that is given.
+    depth: Option<f64>,
     /// Length of a march in periods.
     periods: Option<f64>,
 }
@@ -184,6 +297,7 @@ struct Found {
     friction: f64,
     from_dissipation: Option<f64>,
     area_fraction: f64,
+    mean_pressure: f64,
     mean_depth: f64,
     /// Of the contact.
     residual: f64,
@@ -233,6 +347,7 @@ impl Goal {
             relative_error,
             friction: FRICTION,
             max_elements: max_elements as f64,
+            depth: None,
             periods: None,
         }
     }
@@ -287,7 +402,14 @@ impl Goal {
             friction_coefficient: better.unwrap_or(slopes),
             friction_from_dissipation: dissipation,
             area_fraction: of(&|found| found.area_fraction, OTHERS),
-            mean_depth: of(&|found| found.mean_depth, OTHERS),
+            mean_pressure: match self.depth {
+                Some(_) => of(&|found| found.mean_pressure, OTHERS),
+                None => Estimate::exact(fine.mean_pressure),
+            },
+            mean_depth: match self.depth {
+                Some(depth) => Estimate::exact(depth),
+                None => of(&|found| found.mean_depth, OTHERS),
+            },
             finest,
         })
     }
@@ -296,10 +418,16 @@ impl Goal {
 impl<S> PeriodicEstimate<S> {
     /// What the relative error is of.
     fn asked(&self) -> (&'static str, Estimate) {
-        if self.friction_coefficient.value == 0.0 {
+        let first = if self.friction_coefficient.value == 0.0 {
             ("area fraction", self.area_fraction)
         } else {
             ("friction coefficient", self.friction_coefficient)
+        };
+        let relative = |known: Estimate| known.error / known.value.abs();
+        if relative(self.mean_pressure) > relative(first.1) {
+            ("mean pressure [Pa]", self.mean_pressure)
+        } else {
+            first
         }
     }
 }

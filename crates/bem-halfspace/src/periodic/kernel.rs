@@ -65,6 +65,18 @@ impl Sliding {
         })
     }
 
+    #[cfg(feature = "rough")]
+    pub(super) const fn is_on_layer(&self) -> bool {
+        self.base.is_layer()
+    }
+
+    /// Largest pressure of a wave along x of this length that lifts a half space by an amplitude, \[Pa].
+    #[cfg(feature = "rough")]
+    pub(super) fn pressure_of(&self, length: f64, amplitude: f64) -> Result<f64, BemError> {
+        let wave_number = 2.0 * PI / length;
+        Ok(amplitude * wave_number / self.compliances(&[wave_number])?[0].norm())
+    }
+
     /// How deep the mean pressure 1 \[Pa] presses a layer that is given time, \[m/Pa].
     pub(super) fn mean_compliance(&self) -> Result<f64, BemError> {
         Ok(self.compliances(&[0.0])?[0].re * self.base.mean())

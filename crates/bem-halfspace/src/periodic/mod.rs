@@ -35,7 +35,9 @@ use crate::reductions::dot;
 use crate::{BemError, Elastomer, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
-pub use estimate::{PeriodicEstimate, press_periodic, slide_periodic, steady_periodic};
+pub use estimate::{
+    PeriodicEstimate, press_periodic, slide_periodic, steady_periodic, steady_periodic_at_depth,
+};
 use kernel::Sliding;
 pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};
 
@@ -145,7 +147,7 @@ pub fn steady_periodic_on_grid(
     solve_from(&mut Vec::new(), problem)
 }
 
-/// From a guess of the pressure on elements of twice the edges, or from none; it becomes the pressure of this grid.
+/// From a guess of the pressure on this grid or on elements of twice the edges, or from none; it becomes the pressure of this grid.
 fn solve_from(guess: &mut Vec<f64>, problem: search::Problem) -> Result<PeriodicSliding, BemError> {
     in_pool(problem.grid.n_elements(), || solve_here(guess, problem))
 }

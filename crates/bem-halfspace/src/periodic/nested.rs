@@ -17,7 +17,7 @@ const SMALLEST_EDGE: usize = 32;
 const COARSE_TOLERANCE: f64 = 1e-4;
 const COARSE_PRODUCTS: usize = 300;
 
-/// Solves the problem with the equations of its grid from a guess on elements of twice the edges, or from none. The guess
+/// Solves the problem with the equations of its grid from a guess on them, or on elements of twice the edges, or from none. The guess
 /// becomes the pressure, and outside the contact the gap, as a negative pressure.
 pub(super) fn solve(
     problem: Problem,
@@ -29,7 +29,7 @@ pub(super) fn solve(
     }
     if 4 * guess.len() == problem.heights.len() {
         *guess = doubled(guess, problem.grid.blocks().shape());
-    } else {
+    } else if guess.len() != problem.heights.len() {
         guess.clear();
         start(&problem, guess)?;
     }

@@ -235,12 +235,14 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
     }
 }
 
-/// The bars of friction and area hold the numbers of the casebook, whose own uncertainty is smaller.
+/// The bars of friction and area hold the numbers of the casebook, whose own uncertainty is smaller; so do those of the mean
+/// pressure between the ends of the bar of the depth.
 #[cfg(feature = "rough")]
 #[test]
 fn the_bars_of_the_casebook_hold() {
-    use bem_halfspace::steady_periodic;
+    use bem_halfspace::{steady_periodic, steady_periodic_at_depth};
     use indenters::rough::{PeriodicSurface, Wave};
+    use numerics::Estimate;
     for case in rough_cases("cases") {
         #[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
         let wave = |[m, n, amplitude, phase]: &[f64; 4]| Wave {
@@ -257,5 +259,56 @@ fn the_bars_of_the_casebook_hold() {
         assert_near(&case.id, bar.value, exact, bar.error);
         let bar = estimate.area_fraction;
         assert_near(&case.id, bar.value, case.area, bar.error);
+        let held = |depth| {
+            let held = [depth, case.velocity];
+            steady_periodic_at_depth(&surface, &case.material, held, 0.1, 1 << 18)
+        };
+        let Estimate { value, error } = estimate.mean_depth;
+        if value + error >= 0.0 {
+            assert_refused(&case.id, held(0.0), "mean_depth");
+            continue;
+        }
+        let [higher, deeper] = [value - error, value + error].map(|depth| {
+            let held =
+                held(depth).unwrap_or_else(|error| panic!("{} at {depth}: {error}", case.id));
+            assert_near(&case.id, held.mean_depth.value, depth, 0.0);
+            held.mean_pressure
+        });
+        let holds = higher.value - higher.error <= case.mean_pressure
+            && case.mean_pressure <= deeper.value + deeper.error;
+        assert!(holds, "{}: {higher:?} to {deeper:?}", case.id);
+    }
+}
+
+/// A compressible layer is pressed as deep by its mean pressure as it says, and carries as much there; deeper than touch.
+#[cfg(feature = "rough")]
+#[test]
+fn a_layer_carries_at_a_depth_what_makes_it() {
+    use bem_halfspace::{Layer, steady_periodic, steady_periodic_at_depth};
+    use indenters::rough::{PeriodicSurface, Wave};
+    use rheology::Compressible;
+
+    use crate::support::assert_bars_agree;
+
+    let wave = |n| Wave {
+        numbers: [n, 1],
+        amplitude: 0.01,
+        phase: 0.3,
+    };
+    let surface = PeriodicSurface::new([1.0; 2], vec![wave(1), wave(2)]).expect("a surface");
+    let solid = Compressible::new(&prony([0.25, 0.0], &[(2.25, 1.0)]), 0.3).expect("a ratio");
+    let layer = Layer::new(&solid, 0.1).expect("a thickness");
+    let load = PeriodicLoad::new(0.01, 0.1).expect("a load");
+    let under = steady_periodic(&surface, &layer, &load, 1e-2, 1 << 18).expect("a state");
+    let held = [under.mean_depth.value, 0.1];
+    let held = steady_periodic_at_depth(&surface, &layer, held, 1e-2, 1 << 18).expect("a state");
+    let pressure = held.mean_pressure;
+    assert_near("mean pressure", pressure.value, 0.01, pressure.error);
+    assert!(pressure.error <= 1e-4, "{pressure:?}");
+    let frictions = [under.friction_coefficient, held.friction_coefficient];
+    assert_bars_agree("friction", frictions[0], frictions[1]);
+    for depth in [-0.1, f64::NAN] {
+        let held = steady_periodic_at_depth(&surface, &layer, [depth, 0.1], 1e-2, 1 << 18);
+        assert_refused(depth, held, "mean_depth");
     }
 }
