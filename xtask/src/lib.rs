@@ -56,6 +56,9 @@ enum Command {
         /// says how far it came.
         #[arg(long, default_value_t = 1e-3, value_name = "E")]
         relative_error: f64,
+        /// How the factors are printed.
+        #[arg(long, value_enum, default_value_t)]
+        format: scaling::Format,
     },
     /// Compute the function s(p) that friction-analytic interpolates; takes long, and goes on where it was interrupted.
     ScalingTable {
@@ -79,7 +82,8 @@ pub fn execute() -> ExitCode {
         Command::ScalingFactors {
             exponents,
             relative_error,
-        } => scaling::print(&exponents, relative_error),
+            format,
+        } => scaling::print(&exponents, relative_error, format),
         Command::ScalingTable { out } => scaling::generate_table(&out),
         Command::Evidence(options) => evidence::evidence(options),
         Command::Dependencies(options) => ci::write_dependencies(&options),

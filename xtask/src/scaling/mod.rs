@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
 use bem_halfspace::steady::RefinementOptions;
+use clap::ValueEnum;
 use numerics::Estimate;
+use serde::Serialize;
 
 use crate::output::{WrongInput, markdown_table};
 use crate::scene::{Scene, as_far_as_reached};
@@ -28,23 +30,61 @@ pub(crate) struct ScalingFactor {
     seconds: f64,
 }
 
-/// Computes the factors and prints them as a table.
-pub(crate) fn print(exponents: &[f64], relative_error: f64) -> Result<()> {
+/// How the factors are printed: as Markdown, or all their digits by name.
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(crate) enum Format {
+    #[default]
+    Table,
+    Csv,
+    Json,
+}
+
+#[derive(Serialize)]
+struct Row {
+    exponent: f64,
+    scaling_factor: f64,
+    error: f64,
+    unknowns: usize,
+    seconds: f64,
+}
+
+/// Computes the factors and prints them.
+pub(crate) fn print(exponents: &[f64], relative_error: f64, format: Format) -> Result<()> {
     validate(exponents, relative_error)?;
     let rows = in_parallel("scaling factors", exponents, |&exponent| {
         scaling_factor(exponent, relative_error, MAX_UNKNOWNS)
     })?;
-    let lines = rows.iter().map(|row| {
-        [
-            row.exponent.to_string(),
-            format!("{:.6}", row.value.value),
-            format!("{:.1e}", row.value.error),
-            row.unknowns.to_string(),
-            format!("{:.3}", row.seconds),
-        ]
+    let named = rows.iter().map(|row| Row {
+        exponent: row.exponent,
+        scaling_factor: row.value.value,
+        error: row.value.error,
+        unknowns: row.unknowns,
+        seconds: row.seconds,
     });
-    let header = ["p", "s_p", "error", "unknowns", "seconds"];
-    println!("{}", markdown_table(header, lines));
+    match format {
+        Format::Table => {
+            let lines = named.map(|row| {
+                [
+                    row.exponent.to_string(),
+                    format!("{:.6}", row.scaling_factor),
+                    format!("{:.1e}", row.error),
+                    row.unknowns.to_string(),
+                    format!("{:.3}", row.seconds),
+                ]
+            });
+            let header = ["p", "s_p", "error", "unknowns", "seconds"];
+            println!("{}", markdown_table(header, lines));
+        }
+        Format::Csv => {
+            let mut table = csv::Writer::from_writer(std::io::stdout());
+            named.into_iter().try_for_each(|row| table.serialize(row))?;
+            table.flush()?;
+        }
+        Format::Json => println!(
+            "{}",
+            serde_json::to_string_pretty(&named.collect::<Vec<_>>())?
+        ),
+    }
     Ok(())
 }
 

@@ -28,6 +28,13 @@ fn scaling_factors_of_cone_and_paraboloid_are_printed_with_their_errors() {
         assert!(off <= error && error <= 0.01 * factor, "{table}");
     }
     assert_eq!(rows.len(), 2, "{table}");
+    let json = printed("scaling-factors --exponent 2 --relative-error 0.01 --format json");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let factor = json[0]["scaling_factor"].as_f64().expect("a factor");
+    assert!((factor - rows[1][1]).abs() < 1e-6, "{json} and {table}");
+    let csv = printed("scaling-factors --exponent 2 --relative-error 0.01 --format csv");
+    let header = "exponent,scaling_factor,error,unknowns,seconds\n2.0,";
+    assert!(csv.starts_with(&format!("{header}{factor},")), "{csv}");
 }
 
 #[test]
