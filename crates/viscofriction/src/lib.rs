@@ -38,6 +38,11 @@ pub mod sweep;
 mod table;
 mod text;
 
+/// The programs of that page compile and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/rust.md")]
+struct FromRust;
+
 pub use bem_halfspace::slide::PressureField;
 pub use numerics::{ErrorParts, Estimate, Watch};
 pub use scene::Scene;

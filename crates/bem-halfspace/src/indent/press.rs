@@ -293,6 +293,8 @@ fn estimate(
     let estimate = bars::resolve(&resolution, |elements, _| {
         let mut options = grid(&plan, elements);
         let state = if let Some(radius) = punch {
+            // Refuses a grid of which counting the elements would take for ever.
+            options.footprint.elements(options.spacing)?;
             let [spacing, wider] = disc_of_elements(radius, elements);
             options.spacing = [spacing; 2];
             let mut state = spring.solve(&FlatPunch::new(wider)?, control, &options)?;

@@ -38,7 +38,7 @@ const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
 /// Tolerance of a depth that is given, as a part of the root mean square of the heights, over that of the contact.
-const DEPTH: f64 = 3.0;
+const DEPTH_TOLERANCE: f64 = 3.0;
 /// Steps of the logarithm of the pressure until the depth lies between two of them, and the longest of them.
 const MOST_STEPS_OF_PRESSURE: usize = 200;
 const LONGEST_STEP: f64 = 4.0;
@@ -79,8 +79,9 @@ pub fn steady_periodic(
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let sliding = Sliding::new(elastomer, load.velocity)?;
-    let goal = Goal::stationary(relative_error, max_elements);
-    solve(surface, &sliding, Held::Pressure(load.mean_pressure), goal)
+    let held = Held::Pressure(load.mean_pressure);
+    let goal = Goal::stationary(held, relative_error, max_elements);
+    solve(surface, &sliding, &goal)
 }
 
 /// Solves the stationary sliding of a sum of waves whose mean plane is held at a depth \[m], with a velocity ≥ 0 \[m/s], to a
@@ -100,8 +101,8 @@ pub fn steady_periodic_at_depth(
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let sliding = Sliding::new(elastomer, not_negative("velocity", velocity)?)?;
-    let goal = Goal::stationary(relative_error, max_elements);
-    solve(surface, &sliding, Held::Depth(mean_depth), goal)
+    let goal = Goal::stationary(Held::Depth(mean_depth), relative_error, max_elements);
+    solve(surface, &sliding, &goal)
 }
 
 /// Presses a sum of waves into a material with a mean pressure > 0 \[Pa] that is held for a time > 0 \[s]: the area, to a
@@ -120,9 +121,9 @@ pub fn press_periodic(
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let spring = Sliding::at_rest(elastomer, positive("time", time)?)?;
-    let mean_pressure = positive("mean_pressure", mean_pressure)?;
-    let goal = Goal::stationary(relative_error, max_elements);
-    solve(surface, &spring, Held::Pressure(mean_pressure), goal)
+    let held = Held::Pressure(positive("mean_pressure", mean_pressure)?);
+    let goal = Goal::stationary(held, relative_error, max_elements);
+    solve(surface, &spring, &goal)
 }
 
 /// What is held constant.
@@ -135,17 +136,12 @@ enum Held {
 fn solve(
     surface: &PeriodicSurface,
     sliding: &Sliding,
-    held: Held,
-    mut goal: Goal,
+    goal: &Goal,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
     let tolerance = goal.tolerance();
     let guess = RefCell::new(Vec::new());
     let mut pressure_before = None;
-    goal.depth = match held {
-        Held::Depth(depth) => Some(depth),
-        Held::Pressure(_) => None,
-    };
-    refine(surface, &goal, |grid, heights| {
+    refine(surface, goal, |grid, heights| {
         let under = |mean_pressure| {
             let problem = Problem {
                 sliding,
@@ -157,7 +153,7 @@ fn solve(
             };
             solve_from(&mut guess.borrow_mut(), problem)
         };
-        let (mean_pressure, state, missed) = match held {
+        let (mean_pressure, state, missed) = match goal.held {
             Held::Pressure(pressure) => (pressure, under(pressure)?, 0.0),
             Held::Depth(depth) => {
                 let roughness = check_depth(depth, heights, sliding)?;
@@ -165,7 +161,11 @@ fn solve(
                     Some(pressure) => pressure,
                     None => sliding.pressure_of(surface.period()[0], roughness)?,
                 };
-                at_depth([depth, roughness, DEPTH * tolerance], start, under)?
+                at_depth(
+                    [depth, roughness, DEPTH_TOLERANCE * tolerance],
+                    start,
+                    under,
+                )?
             }
         };
         pressure_before = Some(mean_pressure);
@@ -205,30 +205,43 @@ fn at_depth(
     start: f64,
     under: impl Fn(f64) -> Result<PeriodicSliding, BemError>,
 ) -> Result<(f64, PeriodicSliding, f64), BemError> {
-    let last = RefCell::new(None);
-    let missing = |logarithm: f64| {
-        let pressure = logarithm.exp();
-        let state = under(pressure)?;
+    let at = |logarithm: f64| -> Result<(f64, PeriodicSliding, f64), BemError> {
+        let state = under(logarithm.exp())?;
         let missing = (state.mean_depth - depth) / roughness;
-        *last.borrow_mut() = Some((pressure, state, missing.abs()));
-        Ok::<f64, BemError>(if missing.abs() <= tolerance {
-            0.0
-        } else {
-            missing
-        })
+        Ok((logarithm, state, missing))
     };
-    let mut first = start.ln();
-    let mut value = missing(first)?;
+    let mut first = at(start.ln())?;
     for _ in 0..MOST_STEPS_OF_PRESSURE {
-        let second = first - (2.0 * value).clamp(-LONGEST_STEP, LONGEST_STEP);
-        let next = if value == 0.0 { 0.0 } else { missing(second)? };
-        if next * value <= 0.0 {
-            try_bracketed_root(missing, [first, second])?;
+        if first.2.abs() <= tolerance {
             break;
         }
-        (first, value) = (second, next);
+        let step = (2.0 * first.2).clamp(-LONGEST_STEP, LONGEST_STEP);
+        let second = at(first.0 - step)?;
+        if first.2 * second.2 < 0.0 {
+            let ends = [(first.0, first.2), (second.0, second.2)];
+            let last = RefCell::new(second);
+            let missing = |logarithm: f64| -> Result<f64, BemError> {
+                let is_known = |end: &&(f64, f64)| end.0.total_cmp(&logarithm).is_eq();
+                if let Some((_, missing)) = ends.iter().find(is_known) {
+                    return Ok(*missing);
+                }
+                let found = at(logarithm)?;
+                let missing = found.2;
+                *last.borrow_mut() = found;
+                Ok(if missing.abs() <= tolerance {
+                    0.0
+                } else {
+                    missing
+                })
+            };
+            try_bracketed_root(missing, ends.map(|end| end.0))?;
+            first = last.into_inner();
+            break;
+        }
+        first = second;
     }
-    Ok(last.into_inner().expect("at least one pressure"))
+    let (logarithm, state, missing) = first;
+    Ok((logarithm.exp(), state, missing.abs()))
 }
 
 /// Slides a sum of waves from rest over a distance \[m], rounded up to elements of the first grid, to a relative error of the
@@ -250,10 +263,11 @@ pub fn slide_periodic(
     let period = surface.period()[0];
     let edge = period / first_shape(surface)[0] as f64;
     let distance = elements_along(sliding_distance, edge)? as f64 * edge;
+    let held = Held::Pressure(load.mean_pressure);
     let goal = Goal {
         friction: OTHERS,
         periods: Some(distance / period),
-        ..Goal::stationary(relative_error, max_elements)
+        ..Goal::stationary(held, relative_error, max_elements)
     };
     let options = ContactOptions {
         tolerance: goal.tolerance(),
@@ -286,8 +300,7 @@ struct Goal {
     relative_error: f64,
     friction: Fall,
     max_elements: f64,
-    /// Depth of the mean plane, where that is given.
-    depth: Option<f64>,
+    held: Held,
     /// Length of a march in periods.
     periods: Option<f64>,
 }
@@ -342,12 +355,12 @@ fn refine<S>(
 }
 
 impl Goal {
-    const fn stationary(relative_error: f64, max_elements: usize) -> Self {
+    const fn stationary(held: Held, relative_error: f64, max_elements: usize) -> Self {
         Self {
             relative_error,
             friction: FRICTION,
             max_elements: max_elements as f64,
-            depth: None,
+            held,
             periods: None,
         }
     }
@@ -402,13 +415,13 @@ impl Goal {
             friction_coefficient: better.unwrap_or(slopes),
             friction_from_dissipation: dissipation,
             area_fraction: of(&|found| found.area_fraction, OTHERS),
-            mean_pressure: match self.depth {
-                Some(_) => of(&|found| found.mean_pressure, OTHERS),
-                None => Estimate::exact(fine.mean_pressure),
+            mean_pressure: match self.held {
+                Held::Pressure(pressure) => Estimate::exact(pressure),
+                Held::Depth(_) => of(&|found| found.mean_pressure, OTHERS),
             },
-            mean_depth: match self.depth {
-                Some(depth) => Estimate::exact(depth),
-                None => of(&|found| found.mean_depth, OTHERS),
+            mean_depth: match self.held {
+                Held::Pressure(_) => of(&|found| found.mean_depth, OTHERS),
+                Held::Depth(depth) => Estimate::exact(depth),
             },
             finest,
         })
