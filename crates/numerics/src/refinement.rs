@@ -163,7 +163,7 @@ pub fn refine<T, E: From<NotReached>>(
     };
     let mut progress = Progress::new(watch, goal.work_before(elements));
     let on = |eighths: usize, elements: usize, progress: &mut Progress| {
-        let elements = (eighths * elements).div_ceil(8);
+        let elements = eighths.saturating_mul(elements).div_ceil(8);
         progress.during(goal.work_on(elements as f64), |tell| solve(elements, tell))
     };
     let mut half = quantities(&on(4, elements, &mut progress)?);

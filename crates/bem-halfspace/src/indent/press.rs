@@ -28,6 +28,8 @@ const LEAST: f64 = 0.07;
 /// By so many edges of an element a disc of elements has to be wider than a flat punch to be as stiff: uniform pressures do not
 /// follow the singular one at the edge. On a half space, 160 to 512 elements along a disc err by 3e-5 to 5e-7 with it.
 const EDGE: f64 = 0.113;
+/// With fewer elements along a disc grids of different spacings have the same one.
+const FEWEST_OF_DISC: usize = 4;
 /// Of a transform of the elements along x and y, and of all steps of a history.
 const WORK: f64 = 2.0;
 
@@ -293,7 +295,11 @@ fn estimate(
     let estimate = bars::resolve(&resolution, |elements, _| {
         let mut options = grid(&plan, elements);
         let state = if let Some(radius) = punch {
-            // Refuses a grid of which counting the elements would take for ever.
+            if elements < FEWEST_OF_DISC {
+                let needed = FEWEST_OF_DISC;
+                return Err(BemError::GridTooCoarse { elements, needed });
+            }
+            // Refuses more than any grid has, which would take for ever to count.
             options.footprint.elements(options.spacing)?;
             let [spacing, wider] = disc_of_elements(radius, elements);
             options.spacing = [spacing; 2];

@@ -14,8 +14,8 @@ use numerics::{Accuracy, Estimate, LobattoRule, lobatto_rule};
 use rheology::{Compressible, Material, Prony};
 
 use crate::support::{
-    after, assert_bar, assert_bars_agree, assert_close, assert_near, cone, elastic, paraboloid,
-    three_elements, under_force, viscous,
+    after, assert_bar, assert_bars_agree, assert_close, assert_near, assert_refused, cone, elastic,
+    paraboloid, three_elements, under_force, viscous,
 };
 
 /// ν, s and M(s); casebook-2.json, "layer".
@@ -289,6 +289,26 @@ fn a_cylinder_slides_over_a_layer_that_flows() {
         1e-3,
     );
     assert!(friction(3e-2, 9e-3) > 0.0);
+}
+
+/// The smallest discs of elements are alike, so that no error could come of them, and the largest are beyond all grids.
+#[test]
+fn a_punch_needs_elements_and_not_too_many() {
+    let (punch, spring) = (FlatPunch::new(1.0).unwrap(), elastic(1.0));
+    let pressed = |elements| {
+        let elements = Accuracy::Elements(elements);
+        press(&punch, &spring, Control::IndentationDepth(0.01), elements)
+    };
+    for (elements, name) in [
+        (2, "GridTooCoarse"),
+        (6, "GridTooCoarse"),
+        (usize::MAX, "GridTooLarge"),
+    ] {
+        assert_refused(elements, pressed(elements), name);
+    }
+    for elements in 7..=16 {
+        assert_within_bar("disc", pressed(elements).unwrap().normal_force, 0.08);
+    }
 }
 
 #[test]
