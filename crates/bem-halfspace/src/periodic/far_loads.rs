@@ -23,11 +23,11 @@ use crate::{BemError, Grid};
 /// Length of a block in elements.
 const BLOCK: usize = Bands::LARGEST_BLOCK;
 /// Residual of the equation of the blocks, relative to its right side: with 1e-2 a contact of 1024² elements takes half as
-/// many products again.
-const TOLERANCE: f64 = 5e-4;
+/// many products again, and with 5e-4 a dense one on a solid of many branches three times as many.
+const TOLERANCE: f64 = 1e-4;
 /// Directions that are tried, and earlier ones that are kept, at most. More to be kept take longer than they save.
 const MOST: usize = 40;
-const KEPT: usize = 4;
+const KEPT: usize = 2;
 
 pub(super) struct FarLoads {
     columns: usize,

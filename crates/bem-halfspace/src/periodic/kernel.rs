@@ -134,12 +134,6 @@ impl Kernel {
         })
     }
 
-    /// How many times softer waves with crests along the motion are, which relax at every speed, than the longest wave with
-    /// crests across it.
-    pub(super) fn softness_along_motion(&self) -> f64 {
-        self.at_centre[0].norm() / self.at_centre[1].norm()
-    }
-
     /// Displacements where the gaps are evaluated.
     pub(super) fn displace(&mut self, pressure: &[f64], result: &mut [f64]) {
         let symbol = |row: usize, [_, q]: [f64; 2]| self.factors[row] / q;
