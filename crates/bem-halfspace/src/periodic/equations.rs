@@ -122,10 +122,10 @@ impl Equations {
         let target = mean.min(part * self.residual(&gap).root_mean_square);
         let fitting = NUMBERS_PER_ELEMENT * self.spread.len() / (2 * inside.len());
         let steps = [MOST_STEPS, fitting.clamp(1, MOST_KEPT) - 1];
-        minimise::<f32>([&mut pressure, &mut gap], &inside, steps, |gap| {
+        minimise::<f32>([&mut pressure, &mut gap], &inside, steps, |gap, from| {
             let residual = self.residual(gap);
             let is_small = residual.root_mean_square <= target || residual.largest <= largest;
-            (!is_small).then(|| self.direction(gap))
+            (!is_small).then(|| self.direction(from))
         });
         (self.pressure, self.gap) = (pressure, gap);
         self.residual(&self.gap).root_mean_square

@@ -108,16 +108,16 @@ impl FarLoads {
         self.kernel.relax(mean, means, &mut residual);
         let target = TOLERANCE * norm(&residual);
         let unknowns = [&mut displacement[..], &mut residual[..]];
-        minimise::<f32>(unknowns, &copies(1.0, n), [MOST, KEPT], |residual| {
+        minimise::<f32>(unknowns, &copies(1.0, n), [MOST, KEPT], |residual, from| {
             if norm(residual) <= target {
                 return None;
             }
-            let pairs = residual.iter().zip(&self.weights);
+            let pairs = from.iter().zip(&self.weights);
             let load: Vec<f64> = pairs.map(|(r, weight)| (mean - weight) * r).collect();
             let mut image = copies(0.0, n);
             self.kernel.relax(mean, &load, &mut image);
-            add(&mut image, -1.0, residual);
-            Some([residual.to_vec(), image])
+            add(&mut image, -1.0, from);
+            Some([from.to_vec(), image])
         });
         // What is subtracted has to be what the equation knows: the softest waves multiply any difference by the ratio of
         // the moduli.

@@ -116,9 +116,10 @@ impl<'mesh> ContactEquations<'mesh> {
         let allowed = tolerance * (n as f64).sqrt();
         loads.push(depth);
         let unknowns = [&mut loads[..], &mut gaps[..]];
-        minimise::<f64>(unknowns, &vec![1.0; n], [MOST_DIRECTIONS; 2], |gaps| {
+        let most = [MOST_DIRECTIONS; 2];
+        minimise::<f64>(unknowns, &vec![1.0; n], most, |gaps, from| {
             (norm(gaps) > allowed).then(|| {
-                let (mut loads, depth) = self.correct(gaps);
+                let (mut loads, depth) = self.correct(from);
                 let moved = self.displacements_below(&loads, depth);
                 loads.push(depth);
                 [loads, moved]
