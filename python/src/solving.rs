@@ -33,12 +33,15 @@ impl Scenes {
         for (column, values) in &self.columns {
             column(&mut scene, values[index]);
         }
-        let mut problem = Problem::new(&scene, &self.folder, read).map_err(wrong)?;
-        match &self.surface {
-            Some(Surface::Wall(map)) => problem.body = Body::HeightMap(map.clone()),
-            Some(Surface::Periodic(waves)) => problem.body = Body::Periodic(waves.clone()),
-            None => {}
-        }
+        let body = self.surface.as_ref().map(|surface| match surface {
+            Surface::Wall(map) => Body::HeightMap(map.clone()),
+            Surface::Periodic(waves) => Body::Periodic(waves.clone()),
+        });
+        let problem = match body {
+            Some(body) => Problem::with_body(&scene, body, &self.folder, read),
+            None => Problem::new(&scene, &self.folder, read),
+        };
+        let problem = problem.map_err(wrong)?;
         choose(&problem).map_err(wrong)?;
         Ok(problem)
     }
@@ -128,7 +131,7 @@ pub(crate) fn solve_loads<'py>(
     let problems = (0..count).map(|index| {
         let problem = scenes.problem(index)?;
         // A body of many numbers is not kept for each.
-        Ok(matches!(problem.body, Body::Revolution(_)).then_some(problem))
+        Ok(matches!(problem.body(), Body::Revolution(_)).then_some(problem))
     });
     let problems: Vec<Option<Problem>> = problems.collect::<PyResult<_>>()?;
     let is_quick = |problem: &Problem| matches!(choose(problem), Ok(Method::Analytic));

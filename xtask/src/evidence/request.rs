@@ -66,11 +66,10 @@ impl Request {
     /// The scene as this method has to solve it; where nothing slides both models are the same.
     fn problem(&self, scene: &Scene) -> Result<Problem> {
         let of_method = self.method.model().filter(|_| presses(scene));
-        let mut problem = Problem::try_from(scene)?;
-        problem.method = Some(self.method);
-        problem.model = of_method.unwrap_or(self.model);
-        problem.accuracy = self.accuracy;
-        Ok(problem)
+        let mut scene = scene.clone();
+        scene.solve.method = Some(self.method);
+        scene.solve.model = Some(of_method.unwrap_or(self.model));
+        Ok(Problem::try_from(&scene)?.with_accuracy(self.accuracy))
     }
 
     /// Whether the method solves such scenes.

@@ -64,9 +64,9 @@ pub(crate) struct Timed<'a> {
 /// Reads the scene, solves it, and prints the answer.
 pub(crate) fn run(options: &Run) -> Result<()> {
     let source = read_scene(&options.scene)?;
-    let (mut problem, method) = problem_of(&source, options.method, read_input)?;
-    problem.max_memory = problem.max_memory.or_else(half_of_free_memory);
-    let fits = check_memory(&problem, method, problem.accuracy);
+    let (problem, method) = problem_of(&source, options.method, read_input)?;
+    let problem = problem.or_max_memory(half_of_free_memory());
+    let fits = check_memory(&problem, method, problem.accuracy());
     fits.map_err(|error| source.locate(&error))?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
@@ -103,7 +103,7 @@ const CHEAPEST: &str = ", the cheapest that answers the scene";
 
 /// Solves on as many threads as the scene says, or on all.
 fn in_pool(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
-    let threads = problem.threads.unwrap_or(0);
+    let threads = problem.threads().unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()?;
@@ -116,7 +116,7 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
         Format::Json => print_line(&serde_json::to_string_pretty(timed)?),
         Format::Table => {
             let (method, model) = (answer.method.name(), table::model(problem, answer));
-            let is_chosen = problem.method.is_none();
+            let is_chosen = problem.method().is_none();
             let cheapest = if is_chosen { CHEAPEST } else { "" };
             print_line(&format!("{method}{cheapest}; {model}; {seconds:.3} s"))?;
             print_line(&table::table(answer))?;

@@ -68,8 +68,8 @@ pub(super) fn parts(parts: &ErrorParts) -> Option<String> {
 /// The model in words.
 pub(super) fn model(problem: &Problem, answer: &Answer) -> String {
     match answer.model {
-        Model::HalfSpace if problem.thickness.is_finite() => {
-            format!("layer of {:?} m", problem.thickness)
+        Model::HalfSpace if problem.thickness().is_finite() => {
+            format!("layer of {:?} m", problem.thickness())
         }
         Model::HalfSpace => "half space".to_owned(),
         Model::Line => "one-dimensional model".to_owned(),

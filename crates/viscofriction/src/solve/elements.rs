@@ -119,7 +119,7 @@ pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Re
         rough.friction_from_dissipation = None;
     }
     let mut answer = answer.under(estimate.finest.pressure);
-    if !matches!(problem.simple, Some(Simple::Elastic)) {
+    if !matches!(problem.simple(), Some(Simple::Elastic)) {
         // It depends on how the contact has grown.
         answer.fields.pressure = None;
     }
@@ -150,7 +150,7 @@ pub(crate) fn periodic_transient(
 }
 
 fn largest_grid(problem: &Problem) -> usize {
-    let fitting = problem.max_memory.map(|bytes| bytes / BYTES_PER_ELEMENT);
+    let fitting = problem.max_memory().map(|bytes| bytes / BYTES_PER_ELEMENT);
     let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
     #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
     let most = most as usize;
@@ -165,7 +165,7 @@ fn of_rough<S>(
 ) -> Answer {
     let area: f64 = rough.surface.period().iter().product();
     let mean_pressure = Estimate::exact(rough.load.mean_pressure());
-    let is_layer = problem.thickness.is_finite();
+    let is_layer = problem.thickness().is_finite();
     Answer {
         friction_coefficient: Some(estimate.friction_coefficient),
         error_parts: ErrorParts::of_elements(estimate.friction_coefficient.error),
@@ -187,7 +187,7 @@ fn persson(
     surface: &PeriodicSurface,
     load: &PeriodicLoad,
 ) -> Result<Option<Persson>> {
-    if problem.thickness.is_finite() {
+    if problem.thickness().is_finite() {
         return Ok(None);
     }
     let wave = |wave: &Wave| SurfaceWave {
@@ -199,7 +199,7 @@ fn persson(
         mean_pressure: load.mean_pressure(),
         velocity: load.velocity(),
     };
-    let theory = persson_of_waves(&waves, &problem.material, load)?;
+    let theory = persson_of_waves(&waves, problem.material(), load)?;
     Ok(Some(Persson {
         area_fraction: theory.area_fraction.value,
         friction_coefficient: theory.friction_coefficient.value,
@@ -271,7 +271,7 @@ pub(crate) fn followed(
     surface: &dyn Surface,
     request: Request,
 ) -> Result<Answer> {
-    let found = follow(surface, &problem.elastomer()?, &problem.history, request)?;
+    let found = follow(surface, &problem.elastomer()?, problem.history(), request)?;
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [
         (FORCE, |point| point.normal_force),

@@ -46,7 +46,7 @@ impl Omission {
                 format!("each of {iterations} time steps leaves a row of elements behind")
             }
             Self::HistoryFields => {
-                let n_fields = n_fields(&problem.material.creep());
+                let n_fields = n_fields(&problem.material().creep());
                 format!("0 values per element instead of {n_fields}")
             }
             Self::NumericalSolution => "no elements and no iteration".to_owned(),
@@ -80,8 +80,8 @@ impl Grid {
 /// Whether body and motion are their own mirror images along x and y; none of bodies that no other method answers for, one
 /// element of which along y leaves nothing to leave out.
 fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
-    let [along, across] = problem.body.surface()?.mirrors();
-    let is_pressed = matches!(problem.motion, Pressing(_));
+    let [along, across] = problem.body().surface()?.mirrors();
+    let is_pressed = matches!(problem.motion(), Pressing(_));
     Some([along && is_pressed, across])
 }
 
@@ -90,8 +90,8 @@ fn mirrors(problem: &Problem) -> Option<[bool; 2]> {
 pub(crate) fn left_out(problem: &Problem, answer: &Answer) -> Vec<Omission> {
     let mut parts = candidates(problem, answer);
     parts.retain(|omission| {
-        let other = omission.done_by(answer.model, problem.motion);
-        other.is_none_or(|method| work(problem, method, problem.accuracy).is_ok())
+        let other = omission.done_by(answer.model, problem.motion());
+        other.is_none_or(|method| work(problem, method, problem.accuracy()).is_ok())
     });
     parts
 }
@@ -101,7 +101,7 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         return Vec::new();
     };
     let mirror = even.contains(&true).then_some(Omission::MirrorHalf);
-    let candidates = match (answer.method, problem.motion) {
+    let candidates = match (answer.method, problem.motion()) {
         (Analytic, Sliding(_)) => {
             vec![Some(Omission::NumericalSolution), Some(Omission::TimeSteps)]
         }
@@ -128,8 +128,8 @@ fn candidates(problem: &Problem, answer: &Answer) -> Vec<Omission> {
         ],
         (BemTransient, Pressing(_)) => {
             // A depth that is held needs another force at every time.
-            let constant = matches!(problem.motion.control(), Control::NormalForce(_));
-            let remembers = constant && n_fields(&problem.material.creep()) > 1;
+            let constant = matches!(problem.motion().control(), Control::NormalForce(_));
+            let remembers = constant && n_fields(&problem.material().creep()) > 1;
             vec![
                 Some(Omission::TimeSteps),
                 mirror,

@@ -82,7 +82,7 @@ pub(crate) fn followed(
     relative_error: f64,
 ) -> Result<Answer> {
     let options = following(problem, relative_error);
-    let curve = indent_along(body, &*problem.material, &problem.history, &options)?;
+    let curve = indent_along(body, problem.material(), problem.history(), &options)?;
     let last = curve.last().copied();
     let last = last.ok_or(MdrError::Empty { list: "history" })?;
     let radius = last.contact_radius;
@@ -92,7 +92,7 @@ pub(crate) fn followed(
         indentation_depth: Some(last.indentation_depth),
         contact_box: touches.then(|| contact_box([ends, radius])),
         iterations: curve.len(),
-        ..Answer::new(method, problem.model, last.normal_force)
+        ..Answer::new(method, problem.model(), last.normal_force)
     };
     answer.fields.curve = curve_of(&curve);
     Ok(answer)

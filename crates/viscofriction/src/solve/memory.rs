@@ -41,7 +41,8 @@ fn check(
     elements: usize,
     [key, finer]: [&'static str; 2],
 ) -> Result<(), SceneError> {
-    let Some((needed, allowed)) = needed(problem, method, elements).zip(problem.max_memory) else {
+    let Some((needed, allowed)) = needed(problem, method, elements).zip(problem.max_memory())
+    else {
         return Ok(());
     };
     if needed <= allowed as f64 {
@@ -106,17 +107,17 @@ impl Watch for Limited<'_> {
 /// Of methods that march or have elements, \[bytes]; none of the others, and where the problem is refused anyway.
 fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
     let elastomer = problem.elastomer().ok()?;
-    let surface = problem.body.surface()?;
-    match (method, problem.motion) {
+    let surface = problem.body().surface()?;
+    match (method, problem.motion()) {
         (BemSteady, Sliding(load)) => steady_memory(surface, &elastomer, &load, elements).ok(),
         (BemTransient, Sliding(load)) => slide_memory(surface, &elastomer, &load, elements).ok(),
         (BemTransient, Pressing(load)) => indent_memory(surface, &elastomer, &load, elements).ok(),
         (BemTransient, History(_)) => {
-            follow_memory(surface, &elastomer, &problem.history, elements).ok()
+            follow_memory(surface, &elastomer, problem.history(), elements).ok()
         }
         (MdrTransient, Sliding(load)) => {
             let line = EquivalentLine(surface.as_axisymmetric()?);
-            mdr_core::slide_memory(&line, &problem.material, &load, elements).ok()
+            mdr_core::slide_memory(&line, problem.material(), &load, elements).ok()
         }
         _ => None,
     }

@@ -53,7 +53,7 @@ pub fn solve(problem: &Problem) -> Result<Answer> {
 /// # Errors
 /// As for [`solve`].
 pub fn solve_watched(problem: &Problem, watch: &dyn Watch) -> Result<Answer> {
-    watched(problem, choose(problem)?, problem.accuracy, watch)
+    watched(problem, choose(problem)?, problem.accuracy(), watch)
 }
 
 /// Asks a method that answers the scene.
@@ -79,7 +79,7 @@ fn watched(
     let answer = problem.with_modulus_error(answer, accuracy)?;
     let left_out = left_out(problem, &answer);
     // Closed forms of pressing are those of both models.
-    let model = method.model().unwrap_or(problem.model);
+    let model = method.model().unwrap_or(problem.model());
     let answer = Answer {
         model,
         left_out,

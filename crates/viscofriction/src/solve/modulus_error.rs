@@ -18,14 +18,14 @@ const PER_MODULUS: f64 = 4.0;
 impl Problem {
     /// Relative error of the moduli, 0 of a material that stands for itself.
     pub(crate) fn modulus_error(&self) -> f64 {
-        self.expansion
+        self.expansion()
             .map_or(0.0, |expansion| expansion.relative_error)
     }
 
     /// What is asked of a method, so that the bars have room for the error of the moduli.
     pub(crate) fn of_the_method(&self, accuracy: Accuracy) -> Accuracy {
         match accuracy {
-            Accuracy::RelativeError(error) if self.expansion.is_some() => {
+            Accuracy::RelativeError(error) if self.expansion().is_some() => {
                 Accuracy::RelativeError(OF_THE_METHOD * error)
             }
             other => other,
@@ -35,21 +35,21 @@ impl Problem {
     /// The answer with the error of the moduli in its bars, unless it needs the material at other times, or the bar becomes
     /// larger than what was asked.
     pub(crate) fn with_modulus_error(&self, answer: Answer, accuracy: Accuracy) -> Result<Answer> {
-        let Some(expansion) = self.expansion else {
+        let Some(expansion) = self.expansion() else {
             return Ok(answer);
         };
         self.check_times(&answer, expansion.time_range)?;
         let relative = PER_MODULUS * expansion.relative_error;
-        if let Motion::History(_) = self.motion {
+        if let Motion::History(_) = self.motion() {
             return Ok(match answer.method {
                 Method::BemTransient => answer.curve_widened(relative),
                 // The one-dimensional model has it in its bars.
                 _ => answer,
             });
         }
-        let slope = mean_slope(&self.body, &answer).unwrap_or(0.0);
+        let slope = mean_slope(self.body(), &answer).unwrap_or(0.0);
         let mut answer = answer.widened(relative, slope);
-        if answer.model == Model::HalfSpace && matches!(self.motion, Motion::Sliding(_)) {
+        if answer.model == Model::HalfSpace && matches!(self.motion(), Motion::Sliding(_)) {
             // Far from a sliding contact the surface sinks with the creep at times that no range holds.
             answer.indentation_depth = None;
         }
@@ -71,16 +71,16 @@ impl Problem {
     fn check_times(&self, answer: &Answer, [shortest, longest]: [f64; 2]) -> Result<()> {
         let contact = answer.contact_box.as_ref();
         let length = contact.map(|contact| contact.x[1] - contact.x[0]);
-        let times: Vec<f64> = match self.motion {
+        let times: Vec<f64> = match self.motion() {
             Motion::Pressing(load) => vec![load.duration()],
             Motion::Sliding(load) => {
                 let lengths = [length, load.sliding_distance()].into_iter().flatten();
                 lengths.map(|length| length / load.velocity()).collect()
             }
             Motion::History(_) => {
-                let between = self.history.windows(2);
+                let between = self.history().windows(2);
                 let between = between.map(|pair| pair[1].time - pair[0].time);
-                let all = self.history.last().zip(self.history.first());
+                let all = self.history().last().zip(self.history().first());
                 let all = all.map(|(last, first)| last.time - first.time);
                 between.filter(|time| *time > 0.0).chain(all).collect()
             }
@@ -195,7 +195,7 @@ mod tests {
                 let scene: Scene = text.parse().expect("a scene");
                 let problem = Problem::try_from(&scene).expect("a problem");
                 let answer = solve(&problem).expect("an answer");
-                let slope = mean_slope(&problem.body, &answer).expect("a slope");
+                let slope = mean_slope(problem.body(), &answer).expect("a slope");
                 (quantities(&answer), slope)
             };
             let pot = format!(

@@ -21,11 +21,11 @@ const BY_COST: [Method; 5] = [
 /// [`NotOffered`], with what is offered instead.
 pub fn choose(problem: &Problem) -> Result<Method, NotOffered> {
     let why = |method| {
-        let refused = || work(problem, method, problem.accuracy).err();
-        other_model(method, problem.model).or_else(refused)
+        let refused = || work(problem, method, problem.accuracy()).err();
+        other_model(method, problem.model()).or_else(refused)
     };
     let offered = || BY_COST.into_iter().filter(|&m| why(m).is_none());
-    match problem.method {
+    match problem.method() {
         None => offered().next().ok_or_else(|| {
             let refusals = BY_COST.into_iter().filter_map(|m| Some((m, why(m)?)));
             let refusals = refusals.collect();

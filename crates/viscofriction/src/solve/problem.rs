@@ -15,32 +15,28 @@ use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
 use crate::text::{ReadFile, WrongInput};
 
 /// What is asked of the methods.
+///
+/// It is read only, because its parts belong together: to ask something else, change the scene.
+///
+/// ```compile_fail
+/// fn another_material(problem: &mut viscofriction::Problem) {
+///     problem.material = Box::new(viscofriction::rheology::Elastic::new(1e6).unwrap());
+/// }
+/// ```
 #[derive(Debug)]
 pub struct Problem {
-    /// The rigid body.
-    pub body: Body,
-    /// The elastomer.
-    pub material: Box<dyn Material>,
-    /// Its thickness, \[m]; infinite for a half space.
-    pub thickness: f64,
-    /// How well it stands for a fractional element; none of a material that stands for itself.
-    pub expansion: Option<Expansion>,
-    /// How the body is pressed and moves.
-    pub motion: Motion,
-    /// Points of the history that the body follows; none of any other motion.
-    pub history: Vec<HistoryPoint>,
-    /// How well the answer is asked for.
-    pub accuracy: Accuracy,
-    /// The method that the scene names; without it the cheapest is taken.
-    pub method: Option<Method>,
-    /// What the elastomer is taken to be.
-    pub model: Model,
-    /// Threads that the scene asks for; the caller provides them.
-    pub threads: Option<usize>,
-    /// Memory that one solution may take, \[bytes]; none for as much as it needs.
-    pub max_memory: Option<u64>,
-    /// The material, where it is one of those that have closed forms.
-    pub(crate) simple: Option<Simple>,
+    body: Body,
+    material: Box<dyn Material>,
+    thickness: f64,
+    expansion: Option<Expansion>,
+    motion: Motion,
+    history: Vec<HistoryPoint>,
+    accuracy: Accuracy,
+    method: Option<Method>,
+    model: Model,
+    threads: Option<usize>,
+    max_memory: Option<u64>,
+    simple: Option<Simple>,
 }
 
 /// How the body moves.
@@ -72,6 +68,19 @@ impl Problem {
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
         let body = body(&scene.indenter, folder, read)?;
+        Self::with_body(scene, body, folder, read)
+    }
+
+    /// The problem of a scene with another body in the place of its indenter.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn with_body(
+        scene: &Scene,
+        body: Body,
+        folder: &Path,
+        read: ReadFile,
+    ) -> Result<Self, SceneError> {
         let history = scene.load.checked_history(folder, read)?;
         let history = history.unwrap_or_default();
         let motion = match history.last() {
@@ -101,6 +110,80 @@ impl Problem {
         };
         problem.check_control()?;
         Ok(problem)
+    }
+
+    /// To another accuracy, which need not be one that scenes may ask for.
+    #[must_use]
+    pub const fn with_accuracy(mut self, accuracy: Accuracy) -> Self {
+        self.accuracy = accuracy;
+        self
+    }
+
+    /// With a limit of memory, \[bytes], where the scene gives none.
+    #[must_use]
+    pub fn or_max_memory(mut self, bytes: Option<u64>) -> Self {
+        self.max_memory = self.max_memory.or(bytes);
+        self
+    }
+
+    /// The rigid body.
+    pub const fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The elastomer.
+    pub fn material(&self) -> &dyn Material {
+        &*self.material
+    }
+
+    /// Thickness of the elastomer, \[m]; infinite for a half space.
+    pub const fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// How well the material stands for a fractional element; none of a material that stands for itself.
+    pub const fn expansion(&self) -> Option<Expansion> {
+        self.expansion
+    }
+
+    /// How the body is pressed and moves.
+    pub const fn motion(&self) -> Motion {
+        self.motion
+    }
+
+    /// Points of the history that the body follows; none of any other motion.
+    pub fn history(&self) -> &[HistoryPoint] {
+        &self.history
+    }
+
+    /// How well the answer is asked for.
+    pub const fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// The method that the scene names; without it the cheapest is taken.
+    pub const fn method(&self) -> Option<Method> {
+        self.method
+    }
+
+    /// What the elastomer is taken to be.
+    pub const fn model(&self) -> Model {
+        self.model
+    }
+
+    /// Threads that the scene asks for; the caller provides them.
+    pub const fn threads(&self) -> Option<usize> {
+        self.threads
+    }
+
+    /// Memory that one solution may take, \[bytes]; none for as much as it needs.
+    pub const fn max_memory(&self) -> Option<u64> {
+        self.max_memory
+    }
+
+    /// The material, where it is one of those that have closed forms.
+    pub(crate) const fn simple(&self) -> Option<&Simple> {
+        self.simple.as_ref()
     }
 
     /// What the body is pressed into.

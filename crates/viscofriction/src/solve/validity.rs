@@ -16,7 +16,7 @@ const DEEPEST: f64 = 1.0 / 3.0;
 
 /// Sentences about the validity of an answer, none where linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
-    let body = &problem.body;
+    let body = problem.body();
     let mut warnings = Vec::new();
     if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > STEEPEST) {
         warnings.push(format!(
@@ -35,11 +35,11 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
             sphere.radius()
         ));
     }
-    if depth > DEEPEST * problem.thickness {
+    if depth > DEEPEST * problem.thickness() {
         warnings.push(format!(
             "the indentation depth {depth:.3e} m is more than a third of the thickness {:.3e} m of the layer, where linear \
              theory ends",
-            problem.thickness
+            problem.thickness()
         ));
     }
     warnings

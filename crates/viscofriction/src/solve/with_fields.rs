@@ -29,10 +29,10 @@ const N_TIMES: usize = 60;
 /// So are that of a body whose slope jumps inside the contact, as of a flat cone, and the history on an elastic material.
 #[must_use]
 pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
-    let pressure = match (&problem.body, answer.method) {
+    let pressure = match (problem.body(), answer.method) {
         (Body::Revolution(body), Method::Analytic) => {
             if let (Motion::Pressing(load), false) =
-                (problem.motion, problem.simple == Some(Simple::Elastic))
+                (problem.motion(), problem.simple() == Some(&Simple::Elastic))
             {
                 answer.fields.curve = mdr::curve_of(&since_touch(problem, body, load.duration()));
             }
@@ -44,11 +44,11 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
     if let Some(pressure) = pressure {
         answer.fields.line_pressure = pressure;
     }
-    if let (Motion::History(_), Body::Revolution(body)) = (problem.motion, &problem.body)
+    if let (Motion::History(_), Body::Revolution(body)) = (problem.motion(), problem.body())
         && answer.method != Method::BemTransient
     {
         let options = mdr::following(problem, WORK);
-        let work = work_along(&**body, &*problem.material, &problem.history, &options);
+        let work = work_along(&**body, problem.material(), problem.history(), &options);
         let column = work.map(|values| CurveColumn {
             name: curve::WORK,
             values,
@@ -62,9 +62,10 @@ pub fn with_fields(problem: &Problem, mut answer: Answer) -> Answer {
 /// out.
 fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<CurvePoint> {
     let point = |time: f64| {
-        let answer = pressed(body, &*problem.material, problem.motion.control(), time);
+        let answer = pressed(body, problem.material(), problem.motion().control(), time);
         let answer = answer.and_then(Answer::finite);
-        let answer = answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy));
+        let answer =
+            answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy()));
         let answer = answer.ok()?;
         let contact = answer.contact_box?;
         Some(CurvePoint {
@@ -74,7 +75,9 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
             contact_radius: Estimate::new(contact.x[1], contact.error),
         })
     };
-    let shortest = problem.expansion.map_or(0.0, |series| series.time_range[0]);
+    let shortest = problem
+        .expansion()
+        .map_or(0.0, |series| series.time_range[0]);
     let time = |index: usize| duration * (index as f64 / N_TIMES as f64).powi(4);
     let times = (0..=N_TIMES).map(time).filter(|time| *time >= shortest);
     times.filter_map(point).collect()
@@ -86,12 +89,12 @@ fn pressure_of_revolution(
     body: &Revolution,
     answer: &Answer,
 ) -> Option<Vec<[f64; 2]>> {
-    let time = match (problem.motion, problem.motion.control()) {
-        _ if problem.simple == Some(Simple::Elastic) => 0.0,
+    let time = match (problem.motion(), problem.motion().control()) {
+        _ if problem.simple() == Some(&Simple::Elastic) => 0.0,
         (Motion::Pressing(load), Control::IndentationDepth(_)) => load.duration(),
         _ => return None,
     };
-    let modulus = stiffness(&*problem.material, time).ok()?;
+    let modulus = stiffness(problem.material(), time).ok()?;
     let depth = answer.indentation_depth?.value;
     let [_, edge] = answer.contact_box.as_ref()?.x;
     // There it is infinite, and near there no quadrature knows it well enough.

@@ -33,11 +33,11 @@ const NOTHING_SLIDES: Refusal =
 /// The work of a method, whichever method and model the problem names.
 pub(crate) fn work(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
     let has_layers = matches!(method, BemSteady | BemTransient);
-    require(has_layers || !problem.thickness.is_finite(), NO_LAYER)?;
-    if let History(_) = problem.motion {
+    require(has_layers || !problem.thickness().is_finite(), NO_LAYER)?;
+    if let History(_) = problem.motion() {
         return followed(problem, method, accuracy);
     }
-    match (&problem.body, method) {
+    match (problem.body(), method) {
         (Body::Cylinder(cylinder), _) => line_contact(problem, cylinder, method, accuracy),
         (Body::Revolution(body), Analytic) => closed(problem, body, accuracy),
         (Body::Revolution(body), MdrSteady | MdrTransient) => {
@@ -68,16 +68,16 @@ fn require(holds: bool, refusal: Refusal) -> Result<(), Refusal> {
 
 /// Whether a single body sinks for ever, as it does not on a layer.
 fn sinks(problem: &Problem) -> bool {
-    problem.material.creep().fluidity() > 0.0 && !problem.thickness.is_finite()
+    problem.material().creep().fluidity() > 0.0 && !problem.thickness().is_finite()
 }
 
 fn has_force(problem: &Problem) -> bool {
-    matches!(problem.motion.control(), Control::NormalForce(_))
+    matches!(problem.motion().control(), Control::NormalForce(_))
 }
 
 /// Of a body of revolution the one-dimensional model is exact here, on the half space too.
 fn followed(problem: &Problem, method: Method, accuracy: Accuracy) -> Work<'_> {
-    match (method, &problem.body) {
+    match (method, problem.body()) {
         (MdrSteady | BemSteady, _) => Err(NOTHING_SLIDES),
         (BemTransient, body) => {
             let surface = body.surface().ok_or(ENDLESS)?;
@@ -99,7 +99,7 @@ fn line_contact<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let Control::NormalForce(force) = problem.motion.control() else {
+    let Control::NormalForce(force) = problem.motion().control() else {
         return Err(
             "a line contact has no depth, which grows with the logarithm of the length; give load.normal_force",
         );
@@ -108,15 +108,15 @@ fn line_contact<'a>(
     let of_revolution = "it needs a body of revolution, and a cylinder is none";
     require(!is_line, of_revolution)?;
     require(
-        problem.model == Model::HalfSpace,
+        problem.model() == Model::HalfSpace,
         "the one-dimensional model is for bodies of revolution; a cylinder is on the half space",
     )?;
-    let material = &*problem.material;
-    match (method, problem.motion) {
+    let material = problem.material();
+    match (method, problem.motion()) {
         (Analytic, motion) => {
             require(matches!(accuracy, Accuracy::RelativeError(_)), NO_ELEMENTS)?;
             let pressed = move |time| cylinder_pressed(cylinder, material, force, time);
-            match (motion, &problem.simple) {
+            match (motion, problem.simple()) {
                 (Pressing(load), _) => ready(move |_| pressed(load.duration())),
                 (_, Some(Simple::Elastic)) => ready(move |_| pressed(1.0).map(without_friction)),
                 _ => Err("there is no closed form for a cylinder that slides on this material"),
@@ -143,15 +143,15 @@ fn periodic<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let Control::NormalForce(force) = problem.motion.control() else {
+    let Control::NormalForce(force) = problem.motion().control() else {
         return Err("a periodic surface is pressed by a mean pressure");
     };
-    let velocity = match problem.motion {
+    let velocity = match problem.motion() {
         Sliding(load) => load.velocity(),
         _ => 0.0,
     };
     require(
-        velocity == 0.0 || problem.material.creep().fluidity() <= 0.0,
+        velocity == 0.0 || problem.material().creep().fluidity() <= 0.0,
         "under waves with crests along the motion a half space that flows creeps for ever, and never comes to rest",
     )?;
     let Accuracy::RelativeError(relative_error) = accuracy else {
@@ -164,7 +164,7 @@ fn periodic<'a>(
             .map_err(|_| "the mean pressure is no number above 0")?,
         relative_error,
     };
-    let load = match problem.motion {
+    let load = match problem.motion() {
         Sliding(load) => load,
         Pressing(load) if method == BemTransient => {
             return ready(move |_| elements::periodic_pressed(problem, rough, load.duration()));
@@ -188,7 +188,7 @@ fn boundary_elements<'a>(
     accuracy: Accuracy,
 ) -> Work<'a> {
     let is_stationary = method == BemSteady;
-    let load = match problem.motion {
+    let load = match problem.motion() {
         Sliding(load) => load,
         Pressing(load) if !is_stationary => {
             return ready(move |watch| {
@@ -221,8 +221,8 @@ fn one_dimensional<'a>(
     method: Method,
     accuracy: Accuracy,
 ) -> Work<'a> {
-    let material = &*problem.material;
-    match (method, problem.motion) {
+    let material = problem.material();
+    match (method, problem.motion()) {
         (MdrSteady, Sliding(load)) => {
             require(load.sliding_distance().is_none(), STATIONARY)?;
             let Accuracy::RelativeError(error) = accuracy else {
@@ -250,9 +250,9 @@ fn closed<'a>(problem: &'a Problem, body: &'a Revolution, accuracy: Accuracy) ->
     let Accuracy::RelativeError(asked) = accuracy else {
         return Err(NO_ELEMENTS);
     };
-    let (control, material) = (problem.motion.control(), &*problem.material);
+    let (control, material) = (problem.motion().control(), problem.material());
     let pressed = move |duration| analytic::pressed(body, material, control, duration);
-    match (problem.motion, &problem.simple, problem.model) {
+    match (problem.motion(), problem.simple(), problem.model()) {
         (History(_), _, _) => Err(NOTHING_SLIDES),
         (Pressing(load), _, _) => ready(move |_| pressed(load.duration())),
         // Nothing is lost in a spring: the pressure is even, and the slope under it odd.
@@ -269,7 +269,11 @@ fn closed_line<'a>(problem: &'a Problem, body: &'a Revolution, load: SlidingLoad
         Revolution::Power(profile) if [1.0, 2.0].contains(&profile.exponent()) => Some(profile),
         _ => None,
     };
-    match (&problem.simple, load.sliding_distance(), cone_or_paraboloid) {
+    match (
+        problem.simple(),
+        load.sliding_distance(),
+        cone_or_paraboloid,
+    ) {
         (Some(Simple::Viscous(material)), None, _) => {
             ready(move |_| analytic::viscous_line(body, material, &load))
         }
@@ -304,10 +308,10 @@ fn closed_half_space<'a>(
     load: SlidingLoad,
     asked: f64,
 ) -> Work<'a> {
-    let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, &problem.simple)
+    let (Revolution::Power(profile), Some(Simple::Viscous(material))) = (body, problem.simple())
     else {
         require(load.sliding_distance().is_none(), STATIONARY)?;
-        let slow = analytic::slow_half_space(body, &*problem.material, &load, asked);
+        let slow = analytic::slow_half_space(body, problem.material(), &load, asked);
         let slow = slow.ok_or(
             "on the half space the friction of powers on a viscous material is tabulated, and that of smooth bodies \
              that slide slowly over a solid is known; this is faster, or neither",

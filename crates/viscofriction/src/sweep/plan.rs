@@ -96,9 +96,9 @@ impl Plan {
         for point in 0..self.n_points() {
             let problem = self.problem(point)?;
             let method = choose(&problem).map_err(|error| not_offered(&self.source, &error))?;
-            let fits = check_memory(&problem, method, problem.accuracy);
+            let fits = check_memory(&problem, method, problem.accuracy());
             fits.map_err(|error| self.source.locate(&error))?;
-            threads = problem.threads;
+            threads = problem.threads();
         }
         Ok(threads)
     }
@@ -126,10 +126,7 @@ impl Plan {
                 set(&mut table, key, *value)?;
             }
             let problem = Problem::new(&scene_file(table)?, self.source.folder(), self.read)?;
-            Ok(Problem {
-                max_memory: problem.max_memory.or(self.max_memory),
-                ..problem
-            })
+            Ok(problem.or_max_memory(self.max_memory))
         };
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);

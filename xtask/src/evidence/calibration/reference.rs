@@ -92,7 +92,8 @@ fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
 /// The contact of Hunter's cylinder (1961) that carries the force.
 fn cylinder(scene: &scene::Scene) -> Result<Reference> {
     let problem = Problem::try_from(scene)?;
-    let (Body::Cylinder(cylinder), Motion::Sliding(load)) = (&problem.body, problem.motion) else {
+    let (Body::Cylinder(cylinder), Motion::Sliding(load)) = (problem.body(), problem.motion())
+    else {
         bail!("no cylinder that slides");
     };
     let force = load.require_normal_force()?;
@@ -101,7 +102,7 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
         let velocity = load.velocity();
         cylinder_sliding(
             cylinder,
-            &*problem.material,
+            problem.material(),
             LineContact {
                 half_length,
                 velocity,
@@ -123,11 +124,11 @@ fn cylinder(scene: &scene::Scene) -> Result<Reference> {
 fn power_pressed(scene: &scene::Scene) -> Result<Option<Reference>> {
     let problem = Problem::try_from(scene)?;
     let (Body::Revolution(Revolution::Power(profile)), Control::NormalForce(force)) =
-        (&problem.body, problem.motion.control())
+        (problem.body(), problem.motion().control())
     else {
         return Ok(None);
     };
-    let material = &*problem.material;
+    let material = problem.material();
     let compliance = material.creep_compliance(scene.solve.indentation_time()?)?;
     let impulse = force * (material.half_space_factor() * compliance);
     let contact = power_indentation_after_impulse(profile, &Viscous::new(1.0)?, impulse)?;

@@ -223,11 +223,11 @@ impl<'a> Sample<'a> {
         let with =
             |force: f64| format!("load = {{ normal_force = {force:?}, velocity = {velocity:?} }}");
         let problem = Problem::try_from(&format!("{parts}{}", with(1.0)).parse::<scene::Scene>()?)?;
-        let Body::Cylinder(cylinder) = &problem.body else {
+        let Body::Cylinder(cylinder) = problem.body() else {
             bail!("no cylinder");
         };
         let compliance =
-            problem.material.half_space_factor() * problem.material.creep_compliance(time)?;
+            problem.material().half_space_factor() * problem.material().creep_compliance(time)?;
         Ok(with(
             PI * (0.5 * contact).powi(2) / (cylinder.radius() * compliance),
         ))
@@ -242,14 +242,14 @@ fn power_term(exponent: f64, length: f64) -> String {
 /// D = h(a) = 2 (1 − ν) F J(t)/(4 a); at least a tenth of the contact where the end is flat.
 fn force_and_depth(scene: &str, contact: f64, time: f64) -> Result<[f64; 2]> {
     let problem = Problem::try_from(&scene.parse::<scene::Scene>()?)?;
-    let Body::Revolution(body) = &problem.body else {
+    let Body::Revolution(body) = problem.body() else {
         bail!("all random bodies are bodies of revolution");
     };
     let depth = match body.profile_height(contact) {
         height if height > 0.0 => height,
         _ => FLAT * contact,
     };
-    let material = &*problem.material;
+    let material = problem.material();
     let compliance = material.half_space_factor() * material.creep_compliance(time)?;
     Ok([4.0 * contact * depth / compliance, depth])
 }

@@ -23,7 +23,8 @@ const MOST_ELEMENTS: usize = 1 << 18;
 
 /// The friction coefficient, to 5 %; none where it is not known as well.
 pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
-    let (Body::Periodic(surface), Motion::Sliding(load)) = (&problem.body, &problem.motion) else {
+    let (Body::Periodic(surface), Motion::Sliding(load)) = (problem.body(), problem.motion())
+    else {
         anyhow::bail!("a periodic surface that slides");
     };
     let period = surface.period();
@@ -42,7 +43,7 @@ pub(super) fn friction(problem: &Problem) -> Result<Option<f64>> {
     let [fewest, most] = [ends.clone().min(), ends.max()].map(Option::unwrap_or_default);
     let [longest, shortest] = [fewest, most].map(|number| length / f64::from(number));
     let line = PeriodicSurface::new([length, shortest], waves)?;
-    let material = Compressible::new(&*problem.material, 0.0)?;
+    let material = Compressible::new(problem.material(), 0.0)?;
     let thickness = THIN * shortest;
     let layer = Layer::new(&material, thickness)?;
     let force = load.normal_force().context("a line under a force")?;
