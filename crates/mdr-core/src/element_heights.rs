@@ -27,7 +27,8 @@ pub(crate) struct ElementHeights {
     /// Height above the lowest element up to which no element is missing, \[m]; infinite with the whole line.
     pub(crate) ceiling: f64,
     anchor: f64,
-    anchor_index: usize,
+    /// The element at the lowest point.
+    pub(crate) anchor_index: usize,
     /// Spacing of the elements, \[m].
     pub(crate) spacing: f64,
 }

@@ -12,6 +12,7 @@ use numerics::positive;
 use rheology::{CreepSpectrum, ExponentialStep, Material};
 
 use super::on_grid::SlideRow;
+use super::unresolved::{Fast, LastStep};
 use crate::MdrError;
 use crate::compensated::CompensatedSum;
 use crate::contact::Instant;
@@ -36,8 +37,7 @@ pub(super) struct March {
     /// Compliance α of a step, [1/Pa], and what all elements are compressed by in sum, \[m].
     compliance: f64,
     compression: f64,
-    /// Σ G_k min(1, Δx/(v τ_k)) \[Pa] and Σ G_k min(Δx, v τ_k) \[Pa m], of what is relaxed after a step.
-    fast_moduli: [f64; 2],
+    fast: Fast,
     normal_force: f64,
     time_step: f64,
     n_steps: usize,
@@ -100,7 +100,7 @@ impl March {
             depth: 0.0,
             compliance,
             compression: positive("compression", compression)?,
-            fast_moduli: fast_moduli(material, load.velocity(), spacing),
+            fast: Fast::of(material, load.velocity(), spacing),
             creep,
             half_space_factor,
             step,
@@ -108,6 +108,24 @@ impl March {
             time_step,
             n_steps: 0,
         })
+    }
+
+    /// What this resolution does not see of the `last` step: errors of friction and depth \[m].
+    pub(super) fn unresolved(&self, line: &(impl RigidLine + ?Sized), last: &SlideRow) -> [f64; 2] {
+        if self.creep.is_elastic() {
+            return [0.0; 2];
+        }
+        let step = LastStep {
+            elements: &self.line,
+            loads: &self.values,
+            depth: self.depth,
+            normal_force: self.normal_force,
+            fast: &self.fast,
+        };
+        let [tangential, normal] = step.unresolved(line);
+        // The force grows with the depth at least in proportion, and a change of the depth moves the friction again.
+        let friction = tangential + 2.0 * last.friction_coefficient.abs() * normal;
+        [friction, normal * self.depth]
     }
 
     /// Distance slid at the end of the step to come, \[m].
@@ -179,38 +197,6 @@ impl March {
         sums
     }
 
-    /// What a line that rises by more than its neighbours do within one element may do to the friction coefficient and the
-    /// depth \[m] of the last step, on all resolutions alike.
-    ///
-    /// ```text
-    /// δμ = w_f (h_(f+1) − d)⁺/Δx · 4 Δx/F_N + (2/F_N) Σ_k G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²
-    /// δd/d = (8/F_N) Σ_k G_k min(Δx, v τ_k) Σ_j |r_j − r_(j−1)|
-    /// ```
-    /// The foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and branches
-    /// that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r, which is
-    /// r_(j−1) where it rises evenly, and which the step does not see.
-    pub(super) fn unresolved(&self) -> [f64; 2] {
-        let (line, depth) = (&self.line, self.depth);
-        let heights = &line.heights;
-        let rise = |element: usize| heights[element + 1].min(depth) - heights[element];
-        let (mut beyond, mut jumps, mut squares) = (0.0, 0.0, 0.0);
-        for (element, value) in self.values.iter().enumerate() {
-            let part = 4.0 * line.spacing * value;
-            if part > 0.0 && element + 1 < heights.len() {
-                let before = if element > 0 { rise(element - 1) } else { 0.0 };
-                let jump = rise(element) - before;
-                jumps += jump.abs();
-                squares += jump * jump;
-                beyond = part * (heights[element + 1] - depth).max(0.0) / line.spacing;
-            }
-        }
-        let [stored, carried] = self.fast_moduli;
-        [
-            (beyond + 2.0 * stored * squares) / self.normal_force,
-            depth * (8.0 * carried * jumps / self.normal_force),
-        ]
-    }
-
     fn row(
         &self,
         n_contact: usize,
@@ -235,17 +221,6 @@ impl March {
             contact_length: n_contact as f64 * line.spacing,
         })
     }
-}
-
-fn fast_moduli(material: &(impl Material + ?Sized), velocity: f64, spacing: f64) -> [f64; 2] {
-    let relaxation = material.relaxation();
-    let sum = |weight: fn(f64, f64) -> f64| -> f64 {
-        let branches = relaxation.branches().iter();
-        let terms = branches.map(|b| b.modulus * weight(spacing, velocity * b.relaxation_time));
-        terms.sum::<f64>() / material.half_space_factor()
-    };
-    let part = |spacing: f64, length: f64| (spacing / length).min(1.0);
-    [sum(part), sum(f64::min)]
 }
 
 /// Slopes [h̃(x + Δx) − h̃(x)]/Δx during a step that ends at x, and for the elastic share those around its end.

@@ -3,6 +3,7 @@
 mod march;
 mod memory;
 mod on_grid;
+mod unresolved;
 
 use indenters::{RigidLine, SlidingLoad};
 use numerics::{ErrorParts, Estimate, Goal, Quantity, Request, refine};
@@ -31,6 +32,9 @@ const ORDERS: [f64; 2] = [0.1, 1.0];
 const KINKED: f64 = 2.42;
 /// An end of the contact lies within a step of the outermost element, and is loaded within one more.
 const STEPS_OF_ENDS: f64 = 2.0;
+
+/// Steps before the end whose values tell how they scatter.
+const LAST_STEPS: usize = 6;
 
 /// The end of a march from first touch; an error of 0 says that a quantity is given, or exact.
 #[derive(Debug, Clone, PartialEq)]
@@ -166,13 +170,15 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             outline = above.clamp(0.0, last.indentation_depth) / last.n_contact as f64;
         }
         let is_elastic = self.material.creep().is_elastic();
+        let scatter = |value| self.scatter(&march.transient.rows, value);
         vec![
             Quantity {
                 rounding: if is_elastic { 0.0 } else { ROUNDING * slope },
+                least: scatter(|row| row.friction_coefficient),
                 ..friction
             },
             Quantity {
-                least: outline,
+                least: outline.max(scatter(|row| row.indentation_depth)),
                 ..known(depth)
             },
             end(rear),
@@ -180,8 +186,18 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         ]
     }
 
-    /// What all resolutions have in common: the step in time, the distance that is left, and a front that no element
-    /// resolves.
+    /// Before the stationary state elements come and go at the ends of the contact, and values jump by that from step to step.
+    fn scatter(&self, rows: &[SlideRow], value: fn(&SlideRow) -> f64) -> f64 {
+        let Some(_) = self.load.sliding_distance() else {
+            return 0.0;
+        };
+        let last = &rows[rows.len().saturating_sub(LAST_STEPS)..];
+        let jump = |rows: &[SlideRow]| value(&rows[0]) - 2.0 * value(&rows[1]) + value(&rows[2]);
+        let jumps = last.windows(3).map(|rows| jump(rows).abs());
+        jumps.fold(0.0, f64::max)
+    }
+
+    /// What all resolutions have in common: the step in time, the distance that is left, and what no element resolves.
     fn other_errors(&self, march: &March, tell: &dyn Fn(f64)) -> Result<Vec<ErrorParts>, MdrError> {
         let steps = self.errors_of_step(march, tell)?;
         let rest = self.remainders(&march.transient.rows);
@@ -191,10 +207,8 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
             ..ErrorParts::NONE
         };
         let mut parts: Vec<ErrorParts> = (0..4).map(part).collect();
-        if has_steep_kinks(self.line) && !self.material.creep().is_elastic() {
-            for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
-                part.discretisation = Some(unresolved);
-            }
+        for (part, unresolved) in parts.iter_mut().zip(march.transient.unresolved) {
+            part.discretisation = Some(unresolved);
         }
         Ok(parts)
     }
@@ -214,14 +228,16 @@ impl<'a, L: RigidLine + ?Sized, M: Material + ?Sized> Motion<'a, L, M> {
         Ok(Some(std::array::from_fn(|k| (ahead[k] - values[k]).abs())))
     }
 
-    /// What is left of an exponential approach, by its change over the last contact length and over the one before; over a
-    /// given distance nothing is left out.
+    /// What is left of an exponential approach, by its change over the last contact length and over the one before; nothing
+    /// where the given distance was slid to its end and not only until the state was stationary.
     ///
     /// A march may end after little more than one contact length; then the change before it is that since the first step.
     fn remainders(&self, rows: &[SlideRow]) -> Option<[Option<f64>; 4]> {
-        let (last, None) = (rows.last()?, self.load.sliding_distance()) else {
+        let last = rows.last()?;
+        let is_there = |distance: f64| last.sliding_distance >= distance * (1.0 - ROUNDING);
+        if self.load.sliding_distance().is_some_and(is_there) {
             return None;
-        };
+        }
         let remainder = |value: fn(&SlideRow) -> f64| {
             let end = rows.len() - 1;
             let back = |lengths: usize| value(&rows[end.saturating_sub(lengths * last.n_contact)]);

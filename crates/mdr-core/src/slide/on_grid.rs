@@ -41,7 +41,8 @@ pub struct SlideOptions {
 
 impl SlideOptions {
     /// Options with a number of `elements` along the stationary contact, a drift tolerance of 1e-9, and 100 contact lengths
-    /// of sliding, of which about 20 are needed; where the load has a sliding distance, the spacing is a whole part of it.
+    /// of sliding, of which about 20 are needed; where the load has a sliding distance, it is a whole number of steps, and of
+    /// at least as many as `elements`.
     ///
     /// # Errors
     /// [`MdrError::InvalidParameter`] for a lone dashpot under an apex h ∼ r^p with p ≤ 1/2, whose friction diverges;
@@ -59,11 +60,10 @@ impl SlideOptions {
         in_range("apex exponent", value, !diverges, allowed)?;
         let problem = Problem::new(line, material, load.velocity())?;
         let length = problem.contact_span(load.control())?;
-        let mut spacing = length / elements.max(1) as f64;
+        // A whole part of the distance, and no more than the distance itself, so that resolutions have steps in proportion.
+        let whole = |distance: f64| distance / (distance / length).ceil().max(1.0);
+        let spacing = load.sliding_distance().map_or(length, whole) / elements.max(1) as f64;
         enough_elements(elements, spacing)?;
-        if let Some(distance) = load.sliding_distance() {
-            spacing = distance / (distance / spacing).ceil().max(1.0);
-        }
         Ok(Self {
             spacing,
             drift_tolerance: 1e-9,
@@ -120,7 +120,7 @@ pub struct Transient {
     pub last: SlideRow,
     /// Larger of the relative changes of depth and friction coefficient over the last contact length.
     pub drift: f64,
-    /// What a front that rises within one element and is relaxed within one step may do to friction and depth.
+    /// What is shorter than one element may do to friction and depth.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) unresolved: [f64; 2],
 }
@@ -177,9 +177,15 @@ pub(super) fn march(
     let mut elements = first_elements(line, material, load, options.spacing)?;
     loop {
         let ceiling = elements.ceiling;
-        let march = March::from_first_touch(line, elements, material, load)?;
-        match march_on(march, load, options, tell)? {
-            Some(transient) => return Ok(transient),
+        let mut march = March::from_first_touch(line, elements, material, load)?;
+        match march_on(&mut march, load, options, tell)? {
+            Some(transient) => {
+                let unresolved = march.unresolved(line, &transient.last);
+                return Ok(Transient {
+                    unresolved,
+                    ..transient
+                });
+            }
             None => elements = ElementHeights::below(line, options.spacing, 2.0 * ceiling)?,
         }
     }
@@ -187,7 +193,7 @@ pub(super) fn march(
 
 /// The transient, or nothing when the chain was not high enough.
 fn march_on(
-    mut march: March,
+    march: &mut March,
     load: &SlidingLoad,
     options: &SlideOptions,
     tell: &dyn Fn(f64),
@@ -217,7 +223,7 @@ fn march_on(
     match rows.last() {
         Some(last) if given.is_some() || drift <= options.drift_tolerance => Ok(Some(Transient {
             last: *last,
-            unresolved: march.unresolved(),
+            unresolved: [0.0; 2],
             drift,
             rows,
         })),

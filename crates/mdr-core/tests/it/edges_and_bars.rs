@@ -1,13 +1,14 @@
 //! No body is pressed deeper than its profile exists, springs have no friction, and bars hold.
 
+use friction_analytic::transient_sliding;
 use indenters::{
-    Axisymmetric, Control, EquivalentLine, FlatPunch, PiecewiseLinearProfile, PressingLoad,
-    RigidLine, SlidingLoad, Sphere, contact_radius,
+    Axisymmetric, Control, EquivalentLine, FlatPunch, Hyperboloid, PiecewiseLinearProfile,
+    PowerProfile, PressingLoad, RigidLine, RoundTippedCone, SlidingLoad, Sphere, contact_radius,
 };
 use mdr_core::{MdrError, indent, press, slide, steady};
 use numerics::{Accuracy, Estimate};
 use proptest::prelude::*;
-use rheology::{Compressible, Elastic, Material};
+use rheology::{Compressible, Elastic, Material, Prony, Viscous};
 
 use crate::support::{
     Line, assert_agree, assert_close, at_depth, body, decades, fixed_cases, load, named, power,
@@ -75,6 +76,70 @@ fn bar_holds(
     let estimates = [friction, depth, got.normal_force, rear, front];
     for (got, (name, exact)) in estimates.into_iter().zip(named(&exact)) {
         assert_agree([got, exact], &(name, elements));
+    }
+}
+
+/// A tip, or a part of the contact behind the lowest point, that no element of a few resolutions sees.
+#[test]
+fn bars_hold_what_is_shorter_than_one_element() {
+    let sphere = Sphere::new(0.44).expect("a sphere");
+    let hyperboloids = [[5.3365, 0.18575], [0.0215, 0.0813], [0.215, 0.3267]]
+        .map(|[radius, slope]| Hyperboloid::new(radius, slope).expect("a hyperboloid"));
+    let [wide, sharp, tip] = &hyperboloids;
+    let round = RoundTippedCone::new(0.01736, 0.5792).expect("a cone");
+    let kelvin_voigt = |[modulus, viscosity]: [f64; 2]| prony([modulus, viscosity], &[]);
+    let fluid = |viscosity: f64, branches: &[(f64, f64)]| prony([0.0, viscosity], branches);
+    let flowing = fluid(0.011, &[(0.3707, 1.011), (0.2736, 1.306)]);
+    let cases: [(&dyn Axisymmetric, Prony, [f64; 2]); 5] = [
+        (
+            wide,
+            kelvin_voigt([166_537.0, 15_146.0]),
+            [220_535.0, 276.2],
+        ),
+        (&sphere, kelvin_voigt([1.158, 1.3245]), [0.0157, 2.636]),
+        (sharp, fluid(0.936, &[]), [0.0657, 0.0186]),
+        (tip, flowing, [0.6189, 0.00556]),
+        (&round, fluid(0.189, &[(0.354, 0.0104)]), [0.339, 0.0355]),
+    ];
+    for (body, material, [force, velocity]) in cases {
+        for elements in [16, 17, 40] {
+            bar_holds(body, &material, &load(force, velocity), elements);
+        }
+    }
+}
+
+/// A distance that is shorter than the contact, or its element, is divided into steps too: twice the friction was known to
+/// 13 digits once.
+#[test]
+fn distances_are_slid_exactly_and_bars_see_their_steps() {
+    let (dashpot, motion) = (Viscous::new(2.0).expect("a material"), load(0.8, 0.5));
+    for (exponent, part) in [1.0, 2.0]
+        .into_iter()
+        .flat_map(|exponent| [3e-3, 0.05, 0.17, 0.3, 1.0, 7.3, 120.0].map(|part| (exponent, part)))
+    {
+        let body = PowerProfile::new(0.3, exponent).expect("a body");
+        let distance = part * body.line_position(0.2);
+        let exact = transient_sliding(&body, &dashpot, &motion, distance / motion.velocity());
+        let exact = exact.expect("a closed form");
+        let load = motion.after(distance).expect("a distance");
+        let line = EquivalentLine(&body);
+        for accuracy in [0.1, 1e-2, 2e-3] {
+            let got = slide(&line, &dashpot, &load, accuracy).expect("a march");
+            let case = (exponent, part, accuracy);
+            for (got, exact) in [
+                (got.friction_coefficient, exact.friction_coefficient),
+                (got.indentation_depth, exact.indentation_depth),
+                (got.ends[0], exact.contact_line[0]),
+                (got.ends[1], exact.contact_line[1]),
+            ] {
+                assert_agree([got, Estimate::exact(exact)], &case);
+            }
+            // Once stationary it stays.
+            let slid = got.finest.last.sliding_distance;
+            if got.finest.drift > got.options.drift_tolerance {
+                assert_close([slid, distance], 1e-14, 0.0, &case);
+            }
+        }
     }
 }
 

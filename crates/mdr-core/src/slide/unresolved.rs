@@ -1,0 +1,163 @@
+//! What a march does not see because it is shorter than one element, and what may therefore be alike on all resolutions.
+//!
+//! ```text
+//! F' = 4 [w Δx/2 + Σ_k G_k l_k² |r/Δx − h̃'| + 2 Σ_k G_k l_k Σ_j |r_j − r_(j−1)|],   l_k = min(Δx, v τ_k)
+//! H' = 4 [w Δx/2 |h̃'| + (η₀ v + Σ_k G_k l_k) (∫ h̃'² dx − r²/Δx)
+//!         + w_f (h_(f+1) − d)⁺ + Σ_k ½ G_k min(1, Δx/(v τ_k)) Σ_j (r_j − r_(j−1))²]
+//! δd = d F'/F_N,   δμ = H'/F_N + 2 μ F'/F_N
+//! ```
+//! The contact may go on behind its rearmost element, with the load w that this has at the end of the step. It is left at the
+//! slope h̃' there and not at the mean r/Δx over the last element. A tip inside an element is steeper than the mean.
+//! At a steep kink the foremost element f meets the slope up to its neighbour, although the contact ends at the depth d; and
+//! branches that relax within a step may store half of G_k r², and carry G_k r over v τ_k, while an element rises by r,
+//! which is r_(j−1) where it rises evenly, and which the step does not see.
+
+use indenters::RigidLine;
+use rheology::Material;
+
+use crate::element_heights::ElementHeights;
+use crate::steady::has_steep_kinks;
+
+/// Chords by which the tip in an element at the lowest point is seen, and of which part of the distance from there to its end
+/// the next one begins.
+const TIP_CHORDS: usize = 64;
+const NEXT_CHORD: f64 = 0.75;
+/// Of a power x⁴ these chords leave out a tenth.
+const LEFT_OUT: f64 = 1.25;
+
+/// What a material does within a step, in terms of its moduli over 2 (1 − ν).
+pub(super) struct Fast {
+    /// η₀ v, \[Pa m].
+    viscous: f64,
+    /// Σ G_k min(1, Δx/(v τ_k)), \[Pa].
+    stored: f64,
+    /// Σ G_k l_k, \[Pa m].
+    carried: f64,
+    /// Σ G_k l_k², [Pa m²].
+    left: f64,
+}
+
+/// The last step of a march.
+pub(super) struct LastStep<'a> {
+    pub(super) elements: &'a ElementHeights,
+    /// Load potentials, \[Pa].
+    pub(super) loads: &'a [f64],
+    pub(super) depth: f64,
+    pub(super) normal_force: f64,
+    pub(super) fast: &'a Fast,
+}
+
+impl Fast {
+    pub(super) fn of(material: &(impl Material + ?Sized), velocity: f64, spacing: f64) -> Self {
+        let relaxation = material.relaxation();
+        let sum = |weight: fn(f64, f64) -> f64| -> f64 {
+            let branches = relaxation.branches().iter();
+            let terms = branches.map(|b| b.modulus * weight(spacing, velocity * b.relaxation_time));
+            terms.sum::<f64>() / material.half_space_factor()
+        };
+        Self {
+            viscous: relaxation.viscosity() * velocity / material.half_space_factor(),
+            stored: sum(|spacing, length| (spacing / length).min(1.0)),
+            carried: sum(f64::min),
+            left: sum(|spacing, length| spacing.min(length).powi(2)),
+        }
+    }
+}
+
+impl LastStep<'_> {
+    /// H'/F_N and F'/F_N.
+    pub(super) fn unresolved(&self, line: &(impl RigidLine + ?Sized)) -> [f64; 2] {
+        let is_loaded = |load: &f64| *load > 0.0;
+        let Some(rear) = self.loads.iter().position(is_loaded) else {
+            return [0.0; 2];
+        };
+        let mut parts = self.behind(line, rear);
+        parts[0] += (self.fast.viscous + self.fast.carried) * self.in_tip(line);
+        if has_steep_kinks(line) {
+            let at_kinks = self.at_kinks();
+            parts = [0, 1].map(|k| parts[k] + at_kinks[k]);
+        }
+        parts.map(|part| 4.0 * part / self.normal_force)
+    }
+
+    /// Of what follows the rearmost element, where the line goes on.
+    fn behind(&self, line: &(impl RigidLine + ?Sized), rear: usize) -> [f64; 2] {
+        let position = self.elements.position(rear);
+        let [slope, behind] = [position, position.next_down()].map(|x| line.slope(x));
+        let mean = self.rise(rear) / self.elements.spacing;
+        if rear == 0 || !(slope.is_finite() && behind.is_finite() && mean.is_finite()) {
+            return [0.0; 2];
+        }
+        let at_once = self.fast.viscous + self.fast.carried;
+        let load = (self.loads[rear] - at_once * (mean - behind)).max(0.0);
+        let carried = 0.5 * load * self.elements.spacing;
+        [
+            carried * behind.abs(),
+            carried + self.fast.left * (mean - slope).abs(),
+        ]
+    }
+
+    /// ∫ h̃'² dx beyond that of the mean slopes in the loaded elements around the lowest point, by ever shorter chords.
+    fn in_tip(&self, line: &(impl RigidLine + ?Sized)) -> f64 {
+        let ElementHeights {
+            anchor_index,
+            lowest_height,
+            spacing,
+            ..
+        } = *self.elements;
+        let anchor = self.elements.position(anchor_index);
+        let sides = [
+            (Some(anchor_index), spacing),
+            (anchor_index.checked_sub(1), -spacing),
+        ];
+        let loaded = sides.into_iter().filter(|(element, _)| {
+            let load = element.and_then(|element| self.loads.get(element));
+            load.is_some_and(|load| *load > 0.0)
+        });
+        let excess = |step: f64| {
+            let rise = |part: f64| line.height(anchor + part * step) - lowest_height;
+            let (mut part, mut above) = (1.0, rise(1.0));
+            let mut squares = -above * above;
+            for _ in 0..TIP_CHORDS {
+                let (nearer, below) = (NEXT_CHORD * part, rise(NEXT_CHORD * part));
+                squares += (above - below).powi(2) / (part - nearer);
+                (part, above) = (nearer, below);
+            }
+            (squares + above * above / part) / spacing
+        };
+        loaded
+            .map(|(_, step)| LEFT_OUT * excess(step).max(0.0))
+            .sum()
+    }
+
+    /// Of lines that rise by more than their neighbours do within one element.
+    fn at_kinks(&self) -> [f64; 2] {
+        let (mut beyond, mut jumps, mut squares) = (0.0, 0.0, 0.0);
+        let n_elements = self.elements.heights.len();
+        let loaded = self.loads.iter().enumerate().take(n_elements - 1);
+        for (element, load) in loaded.filter(|(_, load)| **load > 0.0) {
+            let before = if element > 0 {
+                self.rise(element - 1)
+            } else {
+                0.0
+            };
+            let jump = self.rise(element) - before;
+            jumps += jump.abs();
+            squares += jump * jump;
+            beyond = load * (self.elements.heights[element + 1] - self.depth).max(0.0);
+        }
+        [
+            beyond + 0.5 * self.fast.stored * squares,
+            2.0 * self.fast.carried * jumps,
+        ]
+    }
+
+    /// By how much an element rises, up to the depth.
+    fn rise(&self, element: usize) -> f64 {
+        let heights = &self.elements.heights;
+        let next = heights
+            .get(element + 1)
+            .map_or(self.depth, |height| height.min(self.depth));
+        next - heights[element]
+    }
+}
