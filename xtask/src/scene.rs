@@ -104,7 +104,7 @@ pub(crate) fn as_far_as_reached(
             value,
             error,
             ..
-        }) => Ok(Estimate { value, error }),
+        }) => Ok(Estimate::new(value, error)),
         Err(other) => Err(other),
     }
 }

@@ -127,11 +127,11 @@ pub fn persson_of_spectrum(
         let is_missed = |(_, bar): &(_, Estimate)| !bar.is_within(relative_error);
         match bars.into_iter().find(is_missed) {
             None => return Ok(result),
-            Some((quantity, Estimate { value, error })) if steps >= MOST_STEPS => {
+            Some((quantity, known)) if steps >= MOST_STEPS => {
                 return Err(FrictionError::NotConverged {
                     quantity,
-                    value,
-                    error,
+                    value: known.value,
+                    error: known.error,
                 });
             }
             Some(_) => coarse = fine,

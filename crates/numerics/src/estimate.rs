@@ -1,27 +1,56 @@
 //! A value with its error.
 
 use std::iter::Sum;
-use std::ops::{Add, Mul};
+use std::ops::{Add, Deref, Mul};
 
-/// A computed number and what it may be off by.
+/// A computed number and what it may be off by; read as `.value` and `.error`.
+///
+/// The error is never negative and never NaN, so that no comparison with it passes by accident.
+/// What is no number is kept as 0 ± ∞: nothing is known.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(transparent))]
+pub struct Estimate(ValueWithError);
+
+/// The two numbers of an [`Estimate`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Estimate {
-    /// The computed number.
+pub struct ValueWithError {
+    /// The computed number, never NaN.
     pub value: f64,
-    /// Estimated absolute error, in the unit of the value.
+    /// Estimated absolute error ≥ 0, in the unit of the value; infinite where nothing is known.
     pub error: f64,
 }
 
+/// Both numbers can be read, and neither changed alone.
+impl Deref for Estimate {
+    type Target = ValueWithError;
+
+    fn deref(&self) -> &ValueWithError {
+        &self.0
+    }
+}
+
 impl Estimate {
-    /// A number and its absolute error.
+    /// A number and its absolute error; an error that is negative or NaN is infinite.
     pub const fn new(value: f64, error: f64) -> Self {
-        Self { value, error }
+        let unknown = (0.0, f64::INFINITY);
+        let (value, error) = match (value.is_nan(), error >= 0.0) {
+            (true, _) => unknown,
+            (false, true) => (value, error),
+            (false, false) => (value, f64::INFINITY),
+        };
+        Self(ValueWithError { value, error })
     }
 
     /// A number without error.
     pub const fn exact(value: f64) -> Self {
-        Self { value, error: 0.0 }
+        Self::new(value, 0.0)
+    }
+
+    /// The same number with an error that is larger by `more`, in the unit of the value.
+    #[must_use]
+    pub const fn widened(self, more: f64) -> Self {
+        Self::new(self.0.value, self.0.error + more)
     }
 
     /// Whether the value is finite and its error at most the relative one.
@@ -35,10 +64,7 @@ impl Add for Estimate {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            error: self.error + other.error,
-        }
+        Self::new(self.value + other.value, self.error + other.error)
     }
 }
 
@@ -52,10 +78,7 @@ impl Mul<f64> for Estimate {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {
-        Self {
-            value: factor * self.value,
-            error: factor.abs() * self.error,
-        }
+        Self::new(factor * self.value, factor.abs() * self.error)
     }
 }
 
@@ -73,5 +96,19 @@ mod tests {
         assert_eq!([0.099, 0.1].map(within), [false, true], "of 0.5 in -5");
         let overflown = Estimate::exact(f64::INFINITY);
         assert!(!overflown.is_within(1.0), "of no number");
+    }
+
+    #[test]
+    fn an_error_is_a_number_of_at_least_zero() {
+        for error in [-1e-300, f64::NEG_INFINITY, f64::NAN] {
+            let estimate = Estimate::new(2.0, error);
+            assert_eq!(estimate, Estimate::new(2.0, f64::INFINITY), "from {error}");
+            assert!(!estimate.is_within(0.1), "from {error}");
+        }
+        let unknown = Estimate::exact(f64::NAN);
+        assert_eq!(unknown, Estimate::new(0.0, f64::INFINITY), "from NaN");
+        assert_eq!(unknown * 0.0, unknown, "nothing is known of a multiple");
+        let widened = Estimate::new(2.0, 0.5).widened(f64::NAN);
+        assert_eq!(widened, Estimate::new(2.0, f64::INFINITY), "widened by NaN");
     }
 }

@@ -38,7 +38,7 @@ mod root;
 mod whole_part;
 
 pub use error_parts::ErrorParts;
-pub use estimate::Estimate;
+pub use estimate::{Estimate, ValueWithError};
 pub use invalid_parameter::{
     InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
 };

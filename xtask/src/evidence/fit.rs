@@ -29,7 +29,7 @@ pub(super) fn exponent(points: &[[f64; 2]]) -> Estimate {
     let value = centred().map(|[x, y]| x * y).sum::<f64>() / squares;
     let misfit: f64 = centred().map(|[x, y]| (y - value * x).powi(2)).sum();
     let error = (misfit / ((count - 2.0) * squares)).sqrt();
-    Estimate { value, error }
+    Estimate::new(value, error)
 }
 
 #[cfg(test)]

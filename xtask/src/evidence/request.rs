@@ -23,7 +23,7 @@ pub(super) struct Reference {
 impl Reference {
     pub(super) fn new(value: f64, error: f64, source: &str) -> Self {
         Self {
-            known: Estimate { value, error },
+            known: Estimate::new(value, error),
             source: source.to_owned(),
         }
     }
@@ -83,13 +83,13 @@ impl Request {
 
     /// The result as a reference; `rounding` is the smallest relative error of a closed form.
     pub(super) fn reference(&self, scene: &Scene, rounding: f64) -> Result<Reference> {
-        let Estimate { value, error } = self.solve(scene)?.asked();
+        let known = self.solve(scene)?.asked();
         let source = match self.method {
             Method::Analytic => "closed form".to_owned(),
             method => format!("{} to {:.1e}", method.name(), self.number()),
         };
-        let error = error.max(rounding * value.abs());
-        Ok(Reference::new(value, error, &source))
+        let error = known.error.max(rounding * known.value.abs());
+        Ok(Reference::new(known.value, error, &source))
     }
 }
 

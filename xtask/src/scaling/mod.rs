@@ -128,10 +128,11 @@ pub(crate) fn scaling_factor(
         .with_context(|| format!("scaling factor of p = {exponent}"))?;
     let value = Estimate::new(friction.value / line, friction.error / line);
     let Some(unknowns) = unknowns else {
-        let Estimate { value, error } = value;
         bail!(
-            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {value} \
-             with an error of {error:.1e}"
+            "the scaling factor of p = {exponent} was not reached to the relative error {relative_error:e}: it is {} \
+             with an error of {:.1e}",
+            value.value,
+            value.error
         )
     };
     Ok(ScalingFactor {

@@ -37,7 +37,7 @@ pub(crate) struct Node {
 }
 
 impl Node {
-    pub(crate) const fn new(exponent: f64, factor: Estimate) -> Self {
+    pub(crate) fn new(exponent: f64, factor: Estimate) -> Self {
         Self {
             exponent,
             scaling_factor: factor.value,

@@ -379,11 +379,11 @@ impl Goal {
         }
         Err(match self.bars(grids, ()) {
             Some(bars) => {
-                let (quantity, Estimate { value, error }) = bars.asked();
+                let (quantity, known) = bars.asked();
                 BemError::NotReached {
                     quantity,
-                    value,
-                    error,
+                    value: known.value,
+                    error: known.error,
                     relative_error: self.relative_error,
                 }
             }

@@ -1,7 +1,7 @@
 //! Sliding from first touch on with an error bar of every quantity: over a distance, or until the state is stationary.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, ErrorParts, Goal, Request};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request};
 use rheology::{CreepSpectrum, Material as _};
 
 use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
@@ -131,7 +131,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         if self.creep.is_elastic() {
             // There is none but what the elements make of it.
             let friction = &mut estimate.friction_coefficient;
-            friction.error = friction.value.abs();
+            *friction = Estimate::new(friction.value, friction.value.abs());
             estimate.error_parts = ErrorParts::of_elements(friction.error);
         }
         if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {

@@ -179,8 +179,8 @@ fn with_elements(
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
         Ok(state.on_grid(&loading.creep, options, None))
     })?;
-    known.contact_area.value /= strip;
-    known.contact_area.error /= strip;
+    let area = known.contact_area;
+    known.contact_area = Estimate::new(area.value / strip, area.error / strip);
     Ok(known)
 }
 

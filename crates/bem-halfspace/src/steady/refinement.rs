@@ -140,11 +140,10 @@ fn limit(
     quantity: impl Fn(&Refinement) -> Average,
 ) -> Estimate {
     let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
-    let mut limit = extrapolate(&values, order);
-    if let Some(last) = refinements.last() {
-        limit.error += quantity(last).scatter;
-    }
-    limit
+    let scatter = refinements
+        .last()
+        .map_or(0.0, |last| quantity(last).scatter);
+    extrapolate(&values, order).widened(scatter)
 }
 
 /// Order of the error of the averages.
@@ -160,15 +159,15 @@ fn not_reached(
     force: Estimate,
     relative_error: f64,
 ) -> BemError {
-    let (quantity, Estimate { value, error }) = if force.is_within(relative_error) {
+    let (quantity, known) = if force.is_within(relative_error) {
         driving
     } else {
         (NAMES[FORCE], force)
     };
     BemError::NotReached {
         quantity,
-        value,
-        error,
+        value: known.value,
+        error: known.error,
         relative_error,
     }
 }
@@ -213,11 +212,10 @@ impl Grids<'_> {
             if dissipated.error < BETTER * friction.error {
                 friction = dissipated;
             }
-            friction.error *= RECOVERING;
+            friction = Estimate::new(friction.value, RECOVERING * friction.error);
         }
         let unresolved = refinements.last().map_or(0.0, |last| last.unresolved);
-        friction.error += unresolved * friction.value.abs();
-        friction
+        friction.widened(unresolved * friction.value.abs())
     }
 
     /// On a dashpot the scatter falls as fast as the rest of the error.
@@ -232,11 +230,10 @@ impl Grids<'_> {
             scatter: 0.0,
             ..refinement.friction_coefficient
         };
-        let mut friction = limit(refinements, self.order, value);
+        let friction = limit(refinements, self.order, value);
         let last = refinements.iter().rev().take(counted);
         let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
-        friction.error += scatter.fold(0.0, f64::max);
-        friction
+        friction.widened(scatter.fold(0.0, f64::max))
     }
 
     /// The normal force that is given, or the limit of those at the depth.

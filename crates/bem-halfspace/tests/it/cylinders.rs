@@ -67,7 +67,7 @@ fn a_cylinder_on_a_three_element_solid_is_hunters_within_the_error_bar() {
                 scene.check((gamma, z), relative_error, expected);
             }
             let known = match scene.solve(1e-6) {
-                Err(BemError::NotReached { value, error, .. }) => Estimate { value, error },
+                Err(BemError::NotReached { value, error, .. }) => Estimate::new(value, error),
                 state => state.expect("a state").friction_coefficient,
             };
             assert_near((gamma, z), known.value, expected, known.error);

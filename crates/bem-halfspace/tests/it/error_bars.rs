@@ -222,7 +222,7 @@ fn reached(scene: &Scene<impl Material>, relative_error: f64, max_unknowns: usiz
             value,
             error,
             ..
-        }) => (quantity, Estimate { value, error }),
+        }) => (quantity, Estimate::new(value, error)),
         other => panic!("{other:?} with {max_unknowns} unknowns"),
     };
     let at_depth = matches!(scene.load.control(), Control::IndentationDepth(_));

@@ -241,7 +241,7 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
 fn the_bars_of_the_casebook_hold() {
     use bem_halfspace::{steady_periodic, steady_periodic_at_depth};
     use indenters::rough::{PeriodicSurface, Wave};
-    use numerics::Estimate;
+    use numerics::ValueWithError;
     for case in rough_cases("cases") {
         #[expect(clippy::cast_possible_truncation, reason = "whole numbers")]
         let wave = |[m, n, amplitude, phase]: &[f64; 4]| Wave {
@@ -262,7 +262,7 @@ fn the_bars_of_the_casebook_hold() {
             let held = [depth, case.velocity];
             steady_periodic_at_depth(&surface, &case.material, held, 0.1, 1 << 18)
         };
-        let Estimate { value, error } = estimate.mean_depth;
+        let ValueWithError { value, error } = *estimate.mean_depth;
         if value + error >= 0.0 {
             assert_refused(&case.id, held(0.0), "mean_depth");
             continue;

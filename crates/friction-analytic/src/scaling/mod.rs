@@ -56,9 +56,8 @@ pub fn half_space_power_friction(
 ) -> Result<Estimate, FrictionError> {
     let line = power_sliding(profile, material, load)?;
     let factor = scaling_factor(profile.exponent())?;
-    let mut friction = factor * line.friction_coefficient;
-    friction.error += factor.value * line.error;
-    Ok(friction)
+    let friction = factor * line.friction_coefficient;
+    Ok(friction.widened(factor.value * line.error))
 }
 
 /// Lagrange's polynomial in ln(2p − 1) through the nodes.
@@ -69,7 +68,7 @@ fn interpolate(nodes: &[[f64; 3]], exponent: f64) -> Estimate {
         let others = nodes[..index].iter().chain(&nodes[index + 1..]);
         let factors =
             others.map(|[other, ..]| (at - place(*other)) / (place(node) - place(*other)));
-        Estimate { value, error } * factors.product::<f64>()
+        Estimate::new(value, error) * factors.product::<f64>()
     };
     nodes.iter().enumerate().map(term).sum()
 }
@@ -113,7 +112,7 @@ mod tests {
     fn the_table_is_given_back_and_not_continued() {
         for &[exponent, value, error] in NODES.iter() {
             let found = scaling_factor(exponent).unwrap();
-            assert_eq!(found, Estimate { value, error }, "p = {exponent}");
+            assert_eq!(found, Estimate::new(value, error), "p = {exponent}");
         }
         casebook::refuses("exponent", &[0.5, 64.1, f64::NAN], scaling_factor);
     }

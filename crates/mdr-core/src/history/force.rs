@@ -55,8 +55,10 @@ impl Pressed<'_> {
             if change <= self.options.relative_error * deepest {
                 for point in &mut better {
                     let depth = &mut point.indentation_depth;
-                    depth.error = change + 2.0 * self.options.modulus_error * depth.value.abs();
-                    point.contact_radius.error = radius_change;
+                    let error = change + 2.0 * self.options.modulus_error * depth.value.abs();
+                    *depth = Estimate::new(depth.value, error);
+                    let radius = &mut point.contact_radius;
+                    *radius = Estimate::new(radius.value, radius_change);
                 }
                 better[..grown.len()].copy_from_slice(&grown);
                 return Ok(better);

@@ -45,7 +45,7 @@ pub fn work_along(
         let largest = work.iter().copied().map(f64::abs).fold(0.0, f64::max);
         if change <= options.relative_error * largest {
             let error = change + bar;
-            let known = |value| Estimate { value, error };
+            let known = |value| Estimate::new(value, error);
             return Ok(work.into_iter().map(known).collect());
         }
         if 2 * parts * history.len() > MOST_PARTS {

@@ -1,7 +1,7 @@
 //! A line on a foundation at one speed, and the depth at which it carries a force.
 
 use indenters::{Control, RigidLine};
-use numerics::{Estimate, positive};
+use numerics::{Estimate, ValueWithError, positive};
 use rheology::Material;
 
 use super::SteadySliding;
@@ -56,7 +56,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         let mut tolerance = FIRST_TOLERANCE * relative_error;
         loop {
             let state = self.state(control, tolerance)?;
-            let Estimate { value, error } = sought(&state);
+            let ValueWithError { value, error } = *sought(&state);
             let wanted = relative_error * value.abs();
             if error <= wanted {
                 return self.with_ends(state, tolerance);
@@ -202,7 +202,7 @@ impl<'a, L: RigidLine + ?Sized> Problem<'a, L> {
         let ends = self.solve(depth.value - depth.error, finer)?.ends();
         let rounding = ROUNDING_OF_ENDS * (ends[1] - ends[0]);
         for (end, finer) in state.ends.iter_mut().zip(ends) {
-            end.error = 2.0 * (end.value - finer).abs() + rounding;
+            *end = Estimate::new(end.value, 2.0 * (end.value - finer).abs() + rounding);
         }
         Ok(state)
     }

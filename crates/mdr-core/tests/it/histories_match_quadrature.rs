@@ -296,7 +296,7 @@ fn work_is_the_area_under_the_curve() {
             let (value, error) = (area, 1e-11);
             let work = known.next().expect("work");
             assert!(work.error <= 1e-4 * 2e-4, "{work:?}");
-            assert_agree([work, Estimate { value, error }], &to);
+            assert_agree([work, Estimate::new(value, error)], &to);
         }
     }
     assert_eq!(known.next(), None, "all knots");

@@ -38,11 +38,11 @@ pub(super) fn table(answer: &Answer) -> Table {
     });
     let rows = rows.into_iter().chain(of_rough.into_iter().flatten());
     for (name, known, unit) in rows {
-        if let Some(Estimate { value, error }) = known {
-            let is_exact = error == 0.0;
-            let error = format!("{error:.1e}");
+        if let Some(known) = known {
+            let is_exact = known.error == 0.0;
+            let error = format!("{:.1e}", known.error);
             let error = if is_exact { "" } else { &error };
-            table.add_row([name, &short(value), error, unit]);
+            table.add_row([name, &short(known.value), error, unit]);
         }
     }
     table

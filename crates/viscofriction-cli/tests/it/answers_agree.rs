@@ -38,7 +38,7 @@ fn answers_are_those_of_closed_forms_and_of_other_methods() {
             let exact = || Estimate::exact(numbers.next().expect("a value"));
             let mut expected = expected.unwrap_or_else(exact);
             if parts.starts_with("map") {
-                expected.error += BILINEAR * expected.value;
+                expected = expected.widened(BILINEAR * expected.value);
             }
             let part = numbers.next().expect("a part");
             let what = format!("{field} of {parts}");

@@ -97,7 +97,7 @@ impl Statistics {
         Finding {
             name,
             unit,
-            estimate: is_determined.then_some(Estimate { value, error }),
+            estimate: is_determined.then_some(Estimate::new(value, error)),
             interval: ends.map(|end| end.map(shown)),
         }
     }

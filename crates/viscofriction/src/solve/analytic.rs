@@ -135,7 +135,7 @@ pub(crate) fn slow_half_space(
     let mut friction = slow.friction_coefficient;
     if let Control::IndentationDepth(_) = load.control() {
         // It is that under the force of the elastic contact, and falls with the force less than in proportion.
-        friction.error += slow.elastic_error * friction.value;
+        friction = friction.widened(slow.elastic_error * friction.value.abs());
     }
     friction.is_within(asked).then(|| Answer {
         friction_coefficient: Some(friction),

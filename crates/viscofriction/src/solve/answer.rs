@@ -267,9 +267,9 @@ impl Serialize for Answer {
         map.serialize_entry("method", &self.method)?;
         map.serialize_entry("model", &self.model)?;
         for (name, known) in self.quantities() {
-            if let Some(Estimate { value, error }) = known {
-                map.serialize_entry(name, &value)?;
-                map.serialize_entry(&format!("{name}_error"), &error)?;
+            if let Some(known) = known {
+                map.serialize_entry(name, &known.value)?;
+                map.serialize_entry(&format!("{name}_error"), &known.error)?;
             }
         }
         if let Some(persson) = self.rough.and_then(|rough| rough.persson) {

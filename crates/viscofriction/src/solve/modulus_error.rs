@@ -1,6 +1,6 @@
 //! The error of a series that stands for a fractional element, as a part of all bars.
 
-use numerics::{Estimate, NotReached};
+use numerics::{NotReached, ValueWithError};
 
 use super::answer::Answer;
 use super::curve::{AREA, DEPTH, FORCE};
@@ -53,7 +53,7 @@ impl Problem {
             // Far from a sliding contact the surface sinks with the creep at times that no range holds.
             answer.indentation_depth = None;
         }
-        let Estimate { value, error } = answer.asked();
+        let ValueWithError { value, error } = *answer.asked();
         match accuracy {
             Accuracy::RelativeError(asked) if error > asked * value.abs() => {
                 Err(SolveError::TooCoarse(NotReached {
@@ -110,10 +110,10 @@ impl Answer {
         let found = given_or_found.filter(|found| found.error > 0.0);
         let others = [self.contact_area.as_mut(), self.peak_pressure.as_mut()];
         for quantity in found.chain(others.into_iter().flatten()) {
-            quantity.error += relative * quantity.value.abs();
+            *quantity = quantity.widened(relative * quantity.value.abs());
         }
         if let Some(friction) = &mut self.friction_coefficient {
-            friction.error += relative * slope.max(friction.value.abs());
+            *friction = friction.widened(relative * slope.max(friction.value.abs()));
         }
         if let Some(contact) = &mut self.contact_box {
             contact.error += relative * (contact.x[1] - contact.x[0]);
@@ -127,7 +127,7 @@ impl Answer {
         for column in &mut curve.columns {
             let widened = relative * column.largest();
             let found = column.values.iter_mut().filter(|found| found.error > 0.0);
-            found.for_each(|found| found.error += widened);
+            found.for_each(|found| *found = found.widened(widened));
         }
         self.normal_force = curve.last(FORCE).unwrap_or(self.normal_force);
         self.indentation_depth = curve.last(DEPTH);
@@ -139,6 +139,8 @@ impl Answer {
 #[cfg(test)]
 mod tests {
     use rheology::Springpot;
+
+    use numerics::Estimate;
 
     use super::*;
     use crate::scene::Scene;

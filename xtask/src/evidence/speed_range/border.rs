@@ -64,7 +64,7 @@ impl Scan<'_> {
             let at = |speed: f64| first.at_speed(speed).loss_tangent();
             let value = at(speed.value)?;
             let error = (at(speed.value + speed.error)? - value).abs();
-            Ok(Estimate { value, error })
+            Ok(Estimate::new(value, error))
         };
         let low = lowest.map(loss_tangent).transpose()?;
         let high = highest.map(loss_tangent).transpose()?;

@@ -2,7 +2,6 @@
 
 use anyhow::Result;
 use casebook::deviation;
-use numerics::Estimate;
 use serde::Serialize;
 use viscofriction::scene::{self, Method, Model};
 
@@ -197,10 +196,10 @@ fn row(request: &Request, scene: &scene::Scene, reference: &Reference) -> Row {
 
 fn found(request: &Request, scene: &scene::Scene, reference: &Reference) -> Result<Found> {
     let answer = request.solve(scene)?;
-    let Estimate { value, error } = answer.asked();
+    let known = answer.asked();
     Ok(Found {
-        error: deviation(&[value], &[reference.known.value]),
-        error_bar: Some(error / value.abs()),
+        error: deviation(&[known.value], &[reference.known.value]),
+        error_bar: Some(known.error / known.value.abs()),
         unknowns: answer.unknowns,
     })
 }
