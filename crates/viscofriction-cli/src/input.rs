@@ -1,8 +1,10 @@
 //! What the commands read: files and the standard input, none of them without end.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 
 use viscofriction::WrongInput;
 use viscofriction::scene::Source;
@@ -12,8 +14,46 @@ const LARGEST_FILE: u64 = 1 << 30;
 /// A scene is written by a person, and names the files that are large.
 const LARGEST_SCENE: u64 = 1 << 24;
 
+/// A file whatever name or link it is opened by: its device and its number there.
+#[cfg(unix)]
+type Identity = (u64, u64);
+/// A file whatever link it is opened by, with the name that it has in its folder.
+#[cfg(not(unix))]
+type Identity = std::path::PathBuf;
+
+fn identity(path: &Path) -> io::Result<Identity> {
+    #[cfg(unix)]
+    return {
+        use std::os::unix::fs::MetadataExt as _;
+        path.metadata().map(|file| (file.dev(), file.ino()))
+    };
+    #[cfg(not(unix))]
+    path.canonicalize()
+}
+
+/// The inputs of this command, none of which any option replaces.
+static INPUTS: Mutex<BTreeSet<Identity>> = Mutex::new(BTreeSet::new());
+
+/// Keeps a file from being replaced by this command; [`read_input`] does so too.
+pub(crate) fn protect(path: &Path) {
+    let mut inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
+    inputs.extend(identity(path));
+}
+
+/// Whether this command reads the file, under this name or another.
+pub(crate) fn is_input(path: &Path) -> bool {
+    let inputs = INPUTS.lock().unwrap_or_else(PoisonError::into_inner);
+    identity(path).is_ok_and(|file| inputs.contains(&file))
+}
+
 /// Reads a whole file that the command line or a scene names.
 pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
+    protect(path);
+    read_file(path)
+}
+
+/// Reads a whole file that the command may also write.
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, WrongInput> {
     let read = || {
         if !path.metadata()?.is_file() {
             let needed = "a regular file is needed, and not a folder, a device or a pipe";
@@ -27,6 +67,8 @@ pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
 /// The scene in a file, or on the standard input.
 pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
     let contents = if path == Path::new("-") {
+        // A file that a shell has opened for it is an input too.
+        protect(Path::new("/dev/stdin"));
         let contents = read_at_most(LARGEST_SCENE, io::stdin());
         contents.map_err(|error| WrongInput(format!("-: {error}")))?
     } else {

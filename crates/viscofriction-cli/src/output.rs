@@ -10,6 +10,8 @@ use serde::Serialize;
 use viscofriction::WrongInput;
 use viscofriction_plot::{Figure, PNG_WIDTH, draw, render_png};
 
+use crate::input::is_input;
+
 pub(crate) fn print_line(text: &dyn std::fmt::Display) -> Result<()> {
     print_text(&format!("{text}\n"))
 }
@@ -70,13 +72,16 @@ pub(crate) struct OutputFile {
 
 impl OutputFile {
     /// A file to be written; a symbolic link stands for the file that it names. A device, a pipe, a socket and a folder are
-    /// refused, and a file that is there unless it may be replaced.
+    /// refused, an input of the same command, and a file that is there unless it may be replaced.
     pub(crate) fn new(path: &Path, overwrite: bool) -> Result<Self, WrongInput> {
         let wrong = |problem: &str| WrongInput(format!("--out {}: {problem}", path.display()));
         match fs::metadata(path) {
             Ok(file) if !file.is_file() => {
                 Err(wrong("only a regular file is written, and this is none"))
             }
+            Ok(_) if is_input(path) => Err(wrong(
+                "this command reads that file, and replaces none that it reads",
+            )),
             Ok(_) if !overwrite => Err(wrong("the file is there already; --overwrite replaces it")),
             Err(error) if error.kind() != ErrorKind::NotFound => Err(wrong(&error.to_string())),
             _ => Ok(Self {
@@ -158,7 +163,8 @@ pub(crate) fn remove_parts(folder: &Path, names: &[&str]) {
         let part = entry.file_name().to_string_lossy().into_owned();
         let of = |name: &&str| part.starts_with(&part_start(name));
         let is_left = || File::open(entry.path()).is_ok_and(|part| part.try_lock().is_ok());
-        if part.ends_with(PART_END) && names.iter().any(of) && is_left() {
+        let is_part = part.ends_with(PART_END) && names.iter().any(of);
+        if is_part && is_left() && !is_input(&entry.path()) {
             fs::remove_file(entry.path()).ok();
         }
     }

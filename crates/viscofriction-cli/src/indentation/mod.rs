@@ -15,7 +15,7 @@ use viscofriction::indentation::{
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
 use viscofriction::numerics::in_range;
 
-use crate::input::read_input;
+use crate::input::{protect, read_input};
 use crate::material::prony;
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
@@ -112,6 +112,7 @@ const NAMES: &str = "findings.csv correlation.csv fit.csv fit.svg fit.png materi
 /// Reads the curves, fits them, and writes what they say.
 pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let body = options.body.shape()?;
+    options.curves.iter().for_each(|file| protect(file));
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let [file] = &options.curves[..] else {

@@ -12,7 +12,7 @@ use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
 use viscofriction::scene::{height_map, measured};
 
-use crate::input::read_input;
+use crate::input::{protect, read_input};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 
 /// Arguments of the command.
@@ -49,6 +49,7 @@ const NAMES: &str = "roughness.csv spectrum.csv profiles.csv surface.svg surface
 
 /// Reads the map, and writes what it is like.
 pub(crate) fn describe(options: &Surface) -> Result<()> {
+    protect(&options.file);
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
     let (surface, notes) = options.tidied()?;

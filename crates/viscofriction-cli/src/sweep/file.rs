@@ -10,7 +10,7 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, header, identity};
 
 use super::wrong_row;
-use crate::input::read_input;
+use crate::input::read_file;
 use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts, to_csv};
 
 /// What happens to a file that is there.
@@ -29,36 +29,48 @@ pub(super) struct SweepFile {
     path: PathBuf,
     table: RowTable,
     file: File,
+    /// Length of what stays, \[bytes].
+    kept: u64,
 }
 
 impl SweepFile {
-    /// Begins a file, or goes on with one; what an interruption left of its last line is cut off.
+    /// Takes a file that is to be begun or gone on with, and leaves it as it is until [`Self::begin`].
     pub(super) fn open(path: PathBuf, plan: &Plan, existing: Existing) -> Result<Self> {
         let writing = || format!("writing {}", path.display());
         fs::create_dir_all(folder_of(&path)).with_context(writing)?;
         let mut options = OpenOptions::new();
         let options = options.write(true).create(true).truncate(false);
-        let mut file = options.open(&path).with_context(writing)?;
+        let file = options.open(&path).with_context(writing)?;
         lock(&file, &path)?;
         remove_parts(folder_of(&path), &[&name_of(&path)]);
         let contents = match existing {
-            Existing::GoOn => read_input(&path)?,
+            Existing::GoOn => read_file(&path)?,
             Existing::Refuse | Existing::Replace => Vec::new(),
         };
         let table = RowTable::new(&path, &contents)?;
-        let is_new = table.header.is_empty();
-        if !is_new {
+        if !table.header.is_empty() {
             check(&path, plan, &table)?;
         }
-        file.set_len(whole(&contents).len() as u64)
-            .and_then(|()| file.seek(SeekFrom::End(0)))
-            .with_context(writing)?;
-        let mut file = Self { path, table, file };
-        if is_new {
-            file.table.header = header(plan);
-            file.write(&line(&header(plan))?)?;
+        let kept = whole(&contents).len() as u64;
+        Ok(Self {
+            path,
+            table,
+            file,
+            kept,
+        })
+    }
+
+    /// Cuts off what is given up, and what an interruption left of the last line.
+    pub(super) fn begin(&mut self, plan: &Plan) -> Result<()> {
+        self.file
+            .set_len(self.kept)
+            .and_then(|()| self.file.seek(SeekFrom::End(0)))
+            .with_context(|| format!("writing {}", self.path.display()))?;
+        if self.table.header.is_empty() {
+            self.table.header = header(plan);
+            self.write(&line(&header(plan))?)?;
         }
-        Ok(file)
+        Ok(())
     }
 
     /// The points that the file has.

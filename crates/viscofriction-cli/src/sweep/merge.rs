@@ -15,12 +15,12 @@ use crate::output::{OutputFile, print_text, say};
 
 /// Joins files of one sweep, in the order of the points, and says which points none of them has.
 pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> Result<()> {
+    let table = joined(paths)?;
     let files = out.map(|out| {
         let pictures = PictureFiles::new(out, overwrite)?;
         Ok::<_, WrongInput>((OutputFile::new(out, overwrite)?, pictures))
     });
     let files = files.transpose()?;
-    let table = joined(paths)?;
     if let Some((out, pictures)) = files {
         out.write(table.text()?.as_bytes())?;
         pictures.draw(&table)?;

@@ -120,6 +120,10 @@ fn into_file(
         }
     };
     pictures.remove_parts();
+    if existing == Existing::Replace {
+        pictures.claim(&plan.fingerprint)?;
+    }
+    file.begin(plan)?;
     let there = file.points();
     points.retain(|point| !there.contains(point));
     compute(plan, &points, threads, |row| file.append(row))?;

@@ -8,6 +8,7 @@ use viscofriction::WrongInput;
 use viscofriction_plot::{Axis, Chart, Colour, Field, Figure, Marker, Series, Shape};
 
 use super::file::RowTable;
+use crate::input::read_file;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
@@ -43,8 +44,19 @@ impl PictureFiles {
 
     /// The files of a sweep that is taken up again: its own picture is drawn anew, another one stays.
     pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
-        let drawn = std::fs::read_to_string(beside(rows, "svg")).unwrap_or_default();
-        Self::new(rows, drawn.ends_with(&signature(fingerprint)))
+        let drawn = read_file(&beside(rows, "svg")).unwrap_or_default();
+        Self::new(rows, drawn.ends_with(signature(fingerprint).as_bytes()))
+    }
+
+    /// Makes the pictures that are to be replaced those of this sweep, so that it goes on with them when it is taken up again;
+    /// the caller holds the lock of the rows.
+    pub(super) fn claim(&self, fingerprint: &str) -> Result<()> {
+        let is_there = [&self.svg, &self.png].map(|file| file.path().exists());
+        if is_there == [false; 2] {
+            return Ok(());
+        }
+        let empty = format!("{EMPTY}{}", signature(fingerprint));
+        self.svg.write(empty.as_bytes())
     }
 
     /// Removes what a sweep that was killed has left of them; the caller holds the lock of the rows.
@@ -78,6 +90,9 @@ fn beside(rows: &Path, extension: &str) -> PathBuf {
     name.push(format!(".{extension}"));
     PathBuf::from(name)
 }
+
+/// A picture without anything in it.
+const EMPTY: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\"/>\n";
 
 /// By this the picture of a sweep is known.
 fn signature(fingerprint: &str) -> String {

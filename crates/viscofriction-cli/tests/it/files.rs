@@ -1,7 +1,7 @@
 //! Nothing that a person has is lost, nothing is left by halves, and nothing is read without end.
 #![cfg(unix)]
 
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File, Permissions, hard_link};
 use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -38,6 +38,36 @@ fn what_is_there_is_replaced_only_when_asked_for_and_keeps_link_and_permissions(
         let mode = fs::metadata(&file).expect("the file").permissions().mode();
         assert_eq!(mode & 0o777, 0o666, "{line}");
         folder.ends(&line, 2, there);
+    }
+}
+
+#[test]
+fn no_option_replaces_what_its_own_command_reads() {
+    for [line, input, written] in table("inputs") {
+        let folder = prepared("inputs");
+        let map = "indenter.height-map = { file = \"map.csv\", spacing = [1, 1] }";
+        let parts = format!("{map}; elastic; normal_force = 1, velocity = 0; duration = 1");
+        folder.write("scene.toml", scene(&parts));
+        folder.write("map.csv", "3,2,3\n2,1,2\n3,2,4\n");
+        folder.write("curve.csv", "t (s),d (m),F (N)\n0,0,0\n");
+        let before = folder.text(&input);
+        let [link, written] = [folder.path(&input), folder.path("out").join(&written)];
+        let links: [fn(_, _) -> _; 2] = [hard_link::<_, &_>, symlink];
+        for make in links {
+            make(link.clone(), &written).expect("a link");
+            for more in ["", " --overwrite", " --resume"] {
+                if more != " --resume" || line.contains("--vary") {
+                    let mut command = folder.command(&format!("{line}{more}"));
+                    let scene = File::open(folder.path("scene.toml")).expect("a scene");
+                    let said = said(command.stdin(scene));
+                    let needed = "this command reads that file, and replaces none that it reads";
+                    let refused = said.status == Some(2) && said.stderr.contains(needed);
+                    assert!(refused, "{line}{more}: {said:?}");
+                    assert_eq!(folder.text(&input), before, "{line}{more}");
+                }
+            }
+            fs::remove_file(&written).expect("a link");
+        }
     }
 }
 

@@ -48,6 +48,28 @@ fn a_sweep_killed_at_any_moment_keeps_its_rows_and_goes_on_to_the_same() {
 }
 
 #[test]
+fn a_sweep_killed_while_it_overwrites_goes_on() {
+    let folder = slow("killed-overwriting");
+    let expected = swept(&folder, "whole.csv", "");
+    let line = format!("sweep scene.toml {VARY} --out rows.csv --overwrite");
+    for pictures in [&["rows.svg", "rows.png"][..], &["rows.png"]] {
+        // Of another sweep, and of somebody else.
+        folder.done("sweep IN/hertz.toml --vary load.normal_force=1,2 --out rows.csv --overwrite");
+        for name in ["rows.svg", "rows.png"] {
+            fs::remove_file(folder.path(name)).expect("a picture");
+        }
+        for name in pictures {
+            folder.write(name, "mine");
+        }
+        let begins = || folder.text("rows.csv").contains("cone.slope");
+        assert!(folder.kill_when(&line, begins), "the sweep ended before");
+        assert_eq!(swept(&folder, "rows.csv", "--resume"), expected);
+        let svg = folder.text("rows.svg");
+        assert!(svg.contains("friction coefficient"), "{svg}");
+    }
+}
+
+#[test]
 fn a_file_cut_anywhere_or_with_a_gap_gets_what_it_lacks() {
     let folder = quick("cut-sweep");
     let expected = swept(&folder, "whole.csv", "");
