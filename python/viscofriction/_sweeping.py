@@ -48,7 +48,7 @@ class Sweep:
 
     def to_dict(self) -> dict[str, list[Any]]:
         """Columns by their names, as numbers where they are numbers."""
-        texts = ("sweep", "method", "model", "failure")
+        texts = ("sweep", "check", "method", "model", "failure")
         columns: dict[str, list[Any]] = {}
         for index, name in enumerate(self._header):
             cells = [row[index] for row in self._rows]

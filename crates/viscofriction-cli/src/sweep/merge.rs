@@ -53,6 +53,11 @@ fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
             return Err(wrong_row(path, 1, problem));
         }
         for (index, row) in table.rows.into_iter().enumerate() {
+            if !row.is_unchanged(&header) {
+                let problem =
+                    "the row is not as it was computed: its point or its values were changed";
+                return Err(wrong_row(path, index + 2, problem));
+            }
             let first = rows.values().next();
             let same = first.is_none_or(|first| first.fields[0] == row.fields[0]);
             let other = rows.get(&row.point).is_some_and(|known| *known != row);

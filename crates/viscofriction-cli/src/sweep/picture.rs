@@ -20,7 +20,7 @@ const QUANTITIES: [(&str, &str); 3] = [
     ("normal_force", "normal force [N]"),
 ];
 /// The column before the keys that vary, and the one behind them.
-const AROUND_KEYS: [&str; 2] = ["points", "method"];
+const AROUND_KEYS: [&str; 2] = ["points", "check"];
 /// Values that follow each other by an equal step or factor do so up to this part of it.
 const EQUAL: f64 = 1e-6;
 /// Values of a list that span a larger factor are drawn over their logarithm.

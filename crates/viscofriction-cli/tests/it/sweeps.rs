@@ -99,6 +99,23 @@ fn shards_join_to_the_whole_and_say_what_is_missing() {
 }
 
 #[test]
+fn a_row_with_other_parameters_than_those_it_was_computed_for_is_not_joined() {
+    let folder = quick("changed-rows");
+    let rows = swept(&folder, "rows.csv", "");
+    for (was, is) in [
+        (",5,20,", ",6,20,"),
+        (",20,0.05,", ",30,0.05,"),
+        (",0.05,", ",0.06,"),
+        (",0.001,", ",0.01,"),
+    ] {
+        assert!(rows.contains(was), "no {was} in {rows}");
+        folder.write("changed.csv", rows.replacen(was, is, 1));
+        let merge = "sweep --out all.csv --merge changed.csv";
+        folder.ends(merge, 2, "the row is not as it was computed");
+    }
+}
+
+#[test]
 fn several_threads_and_a_limit_of_memory_write_the_same_rows() {
     let folder = slow("threads");
     let expected = swept(&folder, "whole.csv", "");

@@ -138,10 +138,13 @@ impl Plan {
     }
 }
 
+/// The column behind the values of a point, by which a change of one of them is noticed.
+const CHECK: &str = "check";
+
 /// The names of the columns.
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
-    let before = before.chain(["method", "model"]).map(str::to_owned);
+    let before = before.chain([CHECK, "method", "model"]).map(str::to_owned);
     let after = ["unknowns", "failure"].map(str::to_owned);
     before.chain(Answer::columns()).chain(after).collect()
 }
@@ -157,6 +160,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether it says the point and the values that it was computed for, by the names of the columns.
+    pub fn is_unchanged(&self, header: &[String]) -> bool {
+        let end = header.iter().position(|name| name == CHECK);
+        let identity = end.and_then(|end| self.fields.split_at_checked(end));
+        identity.is_some_and(|(identity, rest)| rest.first() == Some(&check(identity)))
+    }
+
     /// Whether the point has no answer.
     pub fn failed(&self) -> bool {
         self.fields.last().is_some_and(|why| !why.is_empty())
@@ -187,13 +197,18 @@ fn written(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// What tells a row from every other: sweep, point counted from 1, number of points, values.
+/// What tells a row from every other: sweep, point counted from 1, number of points, values, and a check of all these.
 pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
     let numbers = [point + 1, plan.n_points()].map(|number| number.to_string());
     let mut fields = vec![plan.fingerprint.clone()];
     fields.extend(numbers);
     fields.extend(plan.values(point).into_iter().map(written));
+    fields.push(check(&fields));
     fields
+}
+
+fn check(identity: &[String]) -> String {
+    fingerprint(identity.join(",").as_bytes())
 }
 
 /// Sets a key; the table it is in must be there.
