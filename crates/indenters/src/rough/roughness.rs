@@ -7,6 +7,8 @@
 //!
 //! The height parameters are those of ISO 25178-2; m₂ and m₄ are the moments of profiles of an isotropic surface (Nayak 1971).
 
+use numerics::{in_range, positive};
+
 use crate::rough::PeriodicSurface;
 use crate::table::at_least;
 use crate::{HeightMap, IndenterError};
@@ -41,11 +43,12 @@ impl Roughness {
     ///
     /// # Errors
     /// [`IndenterError::TooFew`] below three rows and columns; [`IndenterError::InvalidParameter`] for heights that are all
-    /// the same.
+    /// the same, and for heights and spacings below 1e-30 m or above 1e30 m.
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
         at_least(3, "rows of heights", map.shape()[0])?;
         at_least(3, "columns of heights", map.shape()[1])?;
         let surface = PeriodicSurface::through(map, 0.0)?;
+        check_lengths(map)?;
         let [along_x, along_y, laplacian] = if repeats {
             squares_of_waves(&surface)
         } else {
@@ -62,7 +65,7 @@ impl Roughness {
         };
         let rms = moment(2).sqrt();
         let deviations = heights.iter().map(|height| (mean - height).abs());
-        let slope = along_x + along_y;
+        let slope = positive("mean square of the slopes", along_x + along_y)?;
         Ok(Self {
             mean_deviation: deviations.sum::<f64>() / n,
             rms_height: rms * highest,
@@ -80,6 +83,21 @@ impl Roughness {
     pub fn rms_gradient(&self) -> f64 {
         self.rms_slopes[0].hypot(self.rms_slopes[1])
     }
+}
+
+/// Refuses lengths with fourth powers, or ratios of these, that an f64 does not hold.
+pub(super) fn check_lengths(map: &HeightMap) -> Result<(), IndenterError> {
+    let [x, y] = map.spacing();
+    let highest = map.heights().iter().copied().fold(0.0, f64::max);
+    for (name, length) in [
+        ("largest height above the lowest", highest),
+        ("spacing along x", x),
+        ("spacing along y", y),
+    ] {
+        let allowed = "between 1e-30 and 1e30 m (check the units)";
+        in_range(name, length, (1e-30..=1e30).contains(&length), allowed)?;
+    }
+    Ok(())
 }
 
 /// Mean squares of ∂z/∂x, ∂z/∂y and ∇²z.

@@ -8,6 +8,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::roughness::check_lengths;
 use crate::rough::{PeriodicSurface, Wave};
 use crate::{HeightMap, IndenterError};
 
@@ -41,13 +42,14 @@ impl PowerSpectrum {
     /// window along both axes with the mean square 1, because the steps at its edges have waves of all lengths.
     ///
     /// # Errors
-    /// [`IndenterError::InvalidParameter`] for heights that are all the same.
+    /// [`IndenterError::InvalidParameter`] as of [`Roughness::of`](super::Roughness::of).
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
         let waves = if repeats {
             PeriodicSurface::through(map, 0.0)?
         } else {
             PeriodicSurface::through(&windowed(map)?, 0.0)?
         };
+        check_lengths(map)?;
         Ok(Self {
             radial: rings(&waves, map.shape()),
             profiles: [0, 1].map(|axis| profiles(&waves, axis, map.shape()[axis])),

@@ -113,3 +113,34 @@ fn the_window_hides_the_edges() {
     // The window along y has waves of its own, of which the mean is two thirds.
     assert_close!(both * TAU / 3e-3 => 2e-12, within 1e-2; "variance");
 }
+
+/// Squares of such lengths are infinite or 0, and their ratios no numbers.
+#[test]
+fn lengths_whose_powers_are_no_numbers_are_refused() {
+    let map = |scale: f64, spacing: f64| {
+        let heights = (0..16).map(|index| scale * f64::from(index * index % 7));
+        HeightMap::new([4, 4], [1.0, spacing], heights.collect()).expect("a map")
+    };
+    for (scale, spacing, named) in [
+        (1e200, 1.0, "largest height"),
+        (1e-200, 1.0, "largest height"),
+        (1.0, 1e-160, "spacing along y"),
+    ] {
+        let map = map(scale, spacing);
+        let spectrum = PowerSpectrum::of(&map, false).map(drop);
+        for refused in [Roughness::of(&map, false).map(drop), spectrum] {
+            let said = refused.expect_err("too far from 1").to_string();
+            assert!(said.contains(named) && said.contains("units"), "{said}");
+        }
+    }
+    let spread =
+        [1e-29, 1e29].map(|scale| Roughness::of(&map(scale, 1.0), false).map(|of| of.nayak));
+    let [small, large] = spread.map(|nayak| nayak.expect("numbers"));
+    assert_close!(small => large, within 1e-12; "Nayak's parameter has no unit");
+    // Waves of two elements are not told, and nothing is left.
+    let board = (0..16)
+        .map(|index| f64::from((index / 4 + index) % 2))
+        .collect();
+    let board = HeightMap::new([4, 4], [1.0; 2], board).expect("a map");
+    Roughness::of(&board, true).expect_err("no slopes");
+}
