@@ -1,14 +1,15 @@
 //! Work away from the interpreter, which stays free for other threads, shows progress, and can be interrupted.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::thread;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use std::{mem, process, thread};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Ctrl-C and the progress are looked after so often.
 const LOOK: Duration = Duration::from_millis(50);
@@ -35,14 +36,12 @@ pub(crate) fn all<T: Send + 'static>(
             result
         }
     };
-    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = threads.map(pool).transpose().map_err(failed)?;
+    let pool = match threads {
+        Some(threads) => Arc::new(pool_of(threads)?),
+        None => pool_of_process(py)?,
+    };
     let compute = move || {
-        let every = || (0..count).into_par_iter().map(counted).collect();
-        let results = match pool {
-            Some(pool) => pool.install(every),
-            None => every(),
-        };
+        let results = pool.install(|| (0..count).into_par_iter().map(counted).collect());
         // Nobody waits for it after an interruption.
         drop(sender.send(results));
     };
@@ -70,6 +69,31 @@ pub(crate) fn all<T: Send + 'static>(
             Err(RecvTimeoutError::Disconnected) => return Err(failed("the work has panicked")),
         }
     }
+}
+
+/// A process and its threads.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// The threads of this process: a fork has none of those of its parent, and makes its own.
+///
+/// The interpreter, which is held here and while a process forks, keeps the two apart.
+fn pool_of_process(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
+    let mut known = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((process, pool)) = &*known
+        && *process == process::id()
+    {
+        return Ok(pool.clone());
+    }
+    let pool = Arc::new(pool_of(0)?);
+    // To end threads that are not there would wait for them.
+    mem::forget(known.replace((process::id(), pool.clone())));
+    Ok(pool)
+}
+
+/// So many threads, or with 0 as many as there are cores.
+fn pool_of(threads: usize) -> PyResult<ThreadPool> {
+    let builder = ThreadPoolBuilder::new().num_threads(threads);
+    builder.build().map_err(failed)
 }
 
 /// Shows the progress where it has changed, and handles signals.

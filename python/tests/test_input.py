@@ -26,6 +26,8 @@ WRONG: list[tuple[str, dict[str, Any]]] = [
     ("velocity", {"velocity": 0.0}),
     ("velocity", {"velocity": [1.0, -1.0]}),
     ("velocity", {"velocity": np.ones(2), "normal_force": np.ones(3)}),
+    ("velocity", {"velocity": np.ma.masked_greater([1.0, 2.0], 1.5)}),
+    ("velocity", {"velocity": [1.0, np.ma.masked]}),
     ("normal_force", {"normal_force": -2.0}),
     ("normal_force", {"normal_force": None}),
     ("indentation_depth", {"indentation_depth": 1e-5}),
@@ -59,6 +61,8 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
         ("heights", np.full((3, 3), np.nan), 1.0),
         ("heights", np.ones((3, 3), dtype=object), 1.0),
         ("heights", np.ones((0, 3)), 1.0),
+        ("1 of 9 are missing", np.ma.masked_less(np.arange(9.0).reshape(3, 3), 1.0), 1.0),
+        ("2 of 4 are missing", [np.ma.masked_less([1.0, 2.0], 1.5)] * 2, 1.0),
         ("spacing", np.ones((3, 3)), 0.0),
         ("spacing", np.ones((3, 3)), (1.0, 2.0, 3.0)),
     ],
@@ -66,6 +70,17 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
 def test_a_wrong_height_map_is_named(name: str, heights: Any, spacing: Any) -> None:
     with pytest.raises(ValueError, match=name):
         vf.HeightMap(heights, spacing)
+
+
+def test_masked_points_of_a_curve_are_refused_by_name() -> None:
+    time = np.linspace(0.0, 1.0, 20)
+    hidden = np.ma.masked_greater(time, 0.9)
+    for name in ("time", "depth", "force"):
+        curve = {"time": time, "depth": time, "force": time, name: hidden}
+        with pytest.raises(ValueError, match=f"{name} must not have masked entries"):
+            vf.fit_indentation(**curve, body=BALL)
+    with pytest.raises(ValueError, match="loss must not have masked entries"):
+        vf.fit_material(time, time, hidden)
 
 
 def test_heights_come_in_any_layout() -> None:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import math
+import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -107,3 +110,55 @@ def test_a_fit_finds_the_material_in_any_order() -> None:
 def test_the_scaling_factor_of_the_cone_is_known() -> None:
     value, error = vf.scaling_factor(1.0)
     assert abs(value - 0.5674) < 1e-3 and 0.0 < error < 1e-3
+
+
+CURVE = (np.linspace(0.0, 1.0, 40), np.linspace(-1e-6, 1e-6, 40))
+
+
+def curve_fit() -> vf.IndentationFit:
+    time, depth = CURVE
+    force = vf.indent(vf.Cone(0.5), vf.Elastic(1e3), time=time, indentation_depth=depth).normal_force
+    scatter = 1e-12 * np.random.default_rng(1).standard_normal(time.size)
+    return vf.fit_indentation(time, depth, force + scatter, body=vf.Cone(0.5), profile=False)
+
+
+def test_what_is_equal_compares_equal_and_travels_as_it_is() -> None:
+    """Bodies, materials and results by their values, with arrays and NaN in them, and after a journey to another process."""
+    scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 1.0}}
+
+    def made(scale: float) -> list[object]:
+        heights = scale * np.add.outer(np.arange(4.0), np.arange(3.0) ** 2)
+        speeds = scale * np.array([0.1, 1.0])
+        return [
+            vf.Sphere(scale),
+            vf.Superposition([(scale, 2.0)]),
+            vf.SelfAffine((1.0, scale), 0.5, 1.0, 1.0, 0.5, 0),
+            vf.HeightMap(heights, 1.0),
+            vf.HeightMap(heights, 1.0).roughness,
+            vf.Prony(1e6, [(scale, 1.0)]),
+            vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=speeds, sliding_distance=1.0),
+            vf.press(vf.Cone(0.1), vf.Elastic(1e4), normal_force=scale),
+            vf.sweep(scene, {"load.velocity": speeds}),
+            vf.indent(vf.Cone(0.5), vf.Elastic(1e3), time=CURVE[0], indentation_depth=scale * CURVE[1]),
+        ]
+
+    for one, same, other in zip(made(1.0), made(1.0), made(2.0), strict=True):
+        for equal in (same, pickle.loads(pickle.dumps(one)), copy.deepcopy(one), copy.copy(one)):
+            assert (one == equal) is True and (one != equal) is False, one
+        assert (one == other) is False and (one == "else") is False, one
+    assert pickle.loads(pickle.dumps(fit := curve_fit())) == fit == curve_fit()
+
+
+def test_parameters_make_bodies_and_materials_equal_however_they_are_given() -> None:
+    branches = [(1e7, 1e-3), (3e6, 0.1)]
+    assert len({vf.Prony(1e6, given) for given in (branches, tuple(branches), np.array(branches))}) == 1
+    assert vf.MaterialFile(Path("a.toml")) == vf.MaterialFile("a.toml")
+    assert vf.Sphere(1.0) != vf.FlatPunch(1.0) and vf.Elastic(1.0) != vf.Elastic(1.0, poisson_ratio=0.3)
+    assert hash(vf.HeightMap(np.eye(3), 1.0)) == hash(vf.HeightMap(np.eye(3), (1.0, 1.0)))
+
+
+def test_what_was_not_reached_travels() -> None:
+    with pytest.raises(vf.NotReached) as raised:
+        vf.slide(vf.Sphere(5e-3), vf.Prony(100.0, [(1e3, 1.0)]), normal_force=2000.0, velocity=1.0, model="line")
+    there = pickle.loads(pickle.dumps(raised.value))
+    assert str(there) == str(raised.value) and there.answer == raised.value.answer

@@ -30,6 +30,34 @@ vf.slide(vf.Sphere(5e-3), vf.StandardSolid(1e6, 1e7, 1e4), normal_force=2.0, vel
 """
 
 
+FORKING = """
+import os, signal, warnings
+import numpy as np
+import viscofriction as vf
+warnings.simplefilter("ignore")
+
+def answers():
+    solid = vf.StandardSolid(1e6, 1e7, 1e4)
+    return [
+        vf.slide(vf.Sphere(5e-3), solid, normal_force=2.0, velocity=[0.1, 1.0], relative_error=0.05),
+        vf.slide(vf.Sphere(5e-3), solid, normal_force=2.0, velocity=1.0, relative_error=0.05, threads=2),
+        vf.indent(vf.Sphere(5e-6), solid, time=[0.0, 1.0], indentation_depth=[0.0, 1e-7], thickness=1e-5, relative_error=0.1),
+    ]
+
+before = answers()
+child = os.fork()
+if child == 0:
+    signal.alarm(30)
+    os._exit(0 if answers() == before else 3)
+assert os.waitpid(child, 0)[1] == 0, "the child has no answers, or others"
+assert answers() == before
+"""
+
+
+def test_a_fork_computes_with_threads_of_its_own(tmp_path: Path) -> None:
+    subprocess.run([sys.executable, "-c", FORKING], check=True, cwd=tmp_path, timeout=60)
+
+
 def test_an_interruption_ends_the_work_at_once(tmp_path: Path) -> None:
     # In a folder without the sources of the package, which would hide the installed one.
     command = [sys.executable, "-c", LONG]

@@ -1,15 +1,27 @@
-"""Arrays as they come, checked."""
+"""Arrays as they come, checked, and values that hold some, compared."""
 
 from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
-def numbers(name: str, values: ArrayLike, dimensions: int | None = None) -> NDArray[np.float64]:
-    """The values as float64, without a copy where they are; a ValueError names what is wrong."""
+def numbers(
+    name: str, values: ArrayLike, dimensions: int | None = None, *, holes: bool = False
+) -> NDArray[np.float64]:
+    """The values as float64, without a copy where they are; a ValueError names what is wrong.
+
+    Masked entries are wrong too, or NaN where ``holes`` have a meaning.
+    """
+    masked = is_masked(values)
+    if masked and not holes:
+        raise ValueError(f"{name} must not have masked entries; leave them out, as compressed() does")
     try:
-        array = np.asarray(values)
+        array = np.ma.array(values) if masked else np.asarray(values)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
     if array.dtype.kind not in "fiu":
@@ -18,10 +30,19 @@ def numbers(name: str, values: ArrayLike, dimensions: int | None = None) -> NDAr
         raise ValueError(f"{name} must have {dimensions} dimension(s), but has the shape {array.shape}")
     if array.size == 0:
         raise ValueError(f"{name} must not be empty, but has the shape {array.shape}")
+    if masked:
+        array = np.ma.filled(array.astype(np.float64), np.nan)
     array = np.require(array, np.float64, ["ALIGNED"])
-    if not np.isfinite(array).all():
+    if not (np.isfinite(array) | (holes & np.isnan(array))).all():
         raise ValueError(f"{name} must be finite, but holds NaN or infinity")
     return array
+
+
+def is_masked(values: Any) -> bool:
+    """Whether an entry is masked, in an array or in a list of them."""
+    if isinstance(values, np.ma.MaskedArray):
+        return bool(np.ma.is_masked(values))
+    return isinstance(values, list | tuple) and any(map(is_masked, values))
 
 
 def together(named: dict[str, ArrayLike]) -> tuple[dict[str, NDArray[np.float64]], tuple[int, ...]]:
@@ -42,3 +63,30 @@ def columns(**named: ArrayLike) -> list[NDArray[np.float64]]:
         sizes = ", ".join(f"{name}: {array.size}" for name, array in arrays.items())
         raise ValueError(f"as many values of each are needed, but there are {sizes}")
     return list(arrays.values())
+
+
+def as_value(given: Any) -> Any:
+    """Lists and arrays as tuples and paths as texts, so that equal parameters compare equal and have a hash."""
+    if isinstance(given, np.ndarray):
+        given = given.tolist()
+    if isinstance(given, os.PathLike):
+        return os.fspath(given)
+    return tuple(map(as_value, given)) if isinstance(given, list | tuple) else given
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values are equal, arrays element by element, and NaN as itself."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return type(one) is type(other) and np.array_equal(one, other, equal_nan=True)
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple) and isinstance(other, list | tuple):
+        return len(one) == len(other) and all(map(same, one, other))
+    return bool(one == other or (one != one and other != other))
+
+
+class Compared:
+    """Equal to another of its class where all that it holds is; it holds arrays, and has no hash."""
+
+    def __eq__(self, other: object) -> bool:
+        return same(vars(self), vars(other)) if type(self) is type(other) else NotImplemented

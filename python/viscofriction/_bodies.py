@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import numbers
+from ._arrays import Compared, as_value, numbers
 
 __all__ = [
     "Body",
@@ -39,7 +39,7 @@ Edges = Literal["wall", "periodic", "mirrored"]
 
 
 @dataclass(frozen=True, eq=False)
-class Roughness:
+class Roughness(Compared):
     """What a rough surface is like; heights count from their mean towards the elastomer."""
 
     #: Root mean square Sq, and mean Sa, of the heights [m]; their skewness Ssk and kurtosis Sku.
@@ -67,6 +67,10 @@ class Body:
     """A rigid body. Numbers are checked when it is pressed or slides."""
 
     _kind: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            object.__setattr__(self, field.name, as_value(getattr(self, field.name)))
 
     def _table(self) -> dict[str, Any]:
         """The table ``[indenter.…]`` of a scene."""
@@ -223,7 +227,7 @@ class HeightMapFile(Body):
         return {self._kind: keys | {"file": os.path.abspath(self.file)}}
 
 
-class HeightMap(Body):
+class HeightMap(Compared, Body):
     """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
 
     With ``edges="wall"`` it ends at the edge of the grid. With ``"periodic"`` it repeats itself, as the sum of waves through its
@@ -244,7 +248,10 @@ class HeightMap(Body):
     ) -> None:
         if edges not in ("wall", "periodic", "mirrored"):
             raise ValueError(f'edges must be "wall", "periodic" or "mirrored", but is {edges!r}')
-        given = numbers("heights", heights, dimensions=2)
+        given = numbers("heights", heights, dimensions=2, holes=True)
+        missing = int(np.isnan(given).sum())
+        if missing > 0:
+            raise ValueError(f"heights: {missing} of {given.size} are missing; interpolate them first")
         self.heights: NDArray[np.float64] = (
             np.pad(given, [(0, count) for count in given.shape], mode="symmetric") if edges == "mirrored" else given
         )
@@ -266,12 +273,12 @@ class HeightMap(Body):
     ) -> HeightMap:
         """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
         scaled = topography.to_unit("m") if topography.unit is not None else topography
-        measured = scaled.heights()
-        if np.ma.is_masked(measured):
-            raise ValueError("heights: points are missing; interpolate them first, topography.interpolate_undefined_data()")
-        heights = np.asarray(measured)
+        heights = scaled.heights()
         dx, dy = map(float, scaled.pixel_size)
         return cls(heights.max() - heights, (dx, dy), edges=edges, shortest_wavelength=shortest_wavelength)
+
+    def __hash__(self) -> int:
+        return hash((self.heights.shape, self.spacing, self.edges, self.shortest_wavelength))
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape

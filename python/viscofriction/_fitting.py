@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import columns
+from ._arrays import Compared, columns
 from ._materials import Prony
 
 Numbers = NDArray[np.float64]
@@ -32,8 +32,8 @@ class Fit:
     log10_factors: tuple[tuple[float, float], ...] = ()
 
 
-@dataclass(frozen=True)
-class Moduli:
+@dataclass(frozen=True, eq=False)
+class Moduli(Compared):
     """What an instrument has measured: moduli in shear [Pa] as flat arrays; those that were not measured are None."""
 
     #: Angular frequency [rad/s], with storage and loss modulus.

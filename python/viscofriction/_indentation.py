@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import columns
+from ._arrays import Compared, columns
 from ._bodies import Body
 from ._materials import Material, Prony
 from ._results import rounded
@@ -22,8 +22,8 @@ Numbers = NDArray[np.float64]
 __all__ = ["Finding", "IndentationFit", "Indentation", "fit_indentation", "indent"]
 
 
-@dataclass(frozen=True, repr=False)
-class Indentation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Indentation(Compared):
     """A history, point by point, and the largest error of each quantity, 0 of what was given; all in SI."""
 
     #: Time [s], force [N], and depth of the lowest point [m].
@@ -71,8 +71,8 @@ class Finding:
     interval: tuple[float | None, float | None]
 
 
-@dataclass(frozen=True, repr=False)
-class IndentationFit:
+@dataclass(frozen=True, eq=False, repr=False)
+class IndentationFit(Compared):
     """The material behind a curve."""
 
     #: By name: moduli and times, ``contact_point``, ``baseline`` and ``tilt``.

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import numbers
+from ._arrays import as_value, numbers
 
 __all__ = [
     "Elastic",
@@ -32,6 +32,10 @@ class Material:
     """A material. Moduli [Pa], viscosities [Pa s] and times [s] are checked when they are used."""
 
     _kind: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            object.__setattr__(self, field.name, as_value(getattr(self, field.name)))
 
     def _table(self) -> dict[str, Any]:
         """The table ``[material.…]`` of a scene."""

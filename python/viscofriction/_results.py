@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arrays import Compared
+
 __all__ = ["Answer", "NotReached"]
 
 Values = np.float64 | NDArray[np.float64]
@@ -39,8 +41,11 @@ class NotReached(RuntimeError):
         super().__init__(message)
         self.answer = answer
 
+    def __reduce__(self) -> tuple[type[NotReached], tuple[str, Answer]]:
+        return type(self), (str(self), self.answer)
 
-class Answer:
+
+class Answer(Compared):
     """Answers to one scene, or to an array of loads; all numbers in SI.
 
     Quantities have the shape that the loads have together, and are None where the method does not know them: a line has no

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import numbers
+from ._arrays import Compared, numbers
 from ._solving import Progress, Scene, read, shown
 
 __all__ = ["Sweep", "sweep"]
@@ -22,7 +22,7 @@ __all__ = ["Sweep", "sweep"]
 BATCH = 64
 
 
-class Sweep:
+class Sweep(Compared):
     """The rows of a sweep, in the order of the points; the last key varies fastest."""
 
     def __init__(self, header: list[str], rows: list[list[str]], keys: list[str]) -> None:
