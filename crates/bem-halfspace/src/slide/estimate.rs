@@ -21,6 +21,8 @@ const LENGTHS: f64 = 24.0;
 const DRIFT: f64 = 0.05;
 /// Distances v λ of the slowest element until a solid counts as stationary.
 const MEMORIES: f64 = 12.0;
+/// Of a contact: over a shorter distance elements are not made as short as a step.
+const SHORT: f64 = 2.0 / 3.0;
 /// Contact lengths after which a march to the stationary state is not begun.
 const LONGEST: f64 = 500.0;
 /// Change of the friction by which a solid counts as stationary, relative to the error asked for.
@@ -66,12 +68,17 @@ pub fn slide_memory(
         load,
         Accuracy::Elements(elements).into(),
     )?;
-    let options = problem.options(problem.plan.length() / elements as f64);
+    let options = problem.options(elements);
     let (spacing, footprint) = (options.spacing, options.footprint);
     let n_fields = problem.creep.elements().len() + usize::from(problem.creep.fluidity() > 0.0);
-    let steps = problem.distance() / spacing[0];
+    let Path { distance, step, .. } = problem.path;
+    let steps = distance / step * elements as f64;
     // A material without memory needs no more elements than the footprint has.
-    let behind = if n_fields > 0 { steps } else { 0.0 };
+    let behind = if n_fields > 0 {
+        distance / spacing[0]
+    } else {
+        0.0
+    };
     let across = (footprint.y[1] - footprint.y[0]) / spacing[1];
     let followed = if surface.mirrors()[1] { 0.5 } else { 1.0 };
     let n_elements = followed * (footprint.n_elements(spacing) + behind * across);
@@ -88,7 +95,40 @@ struct Problem<'a, M: ?Sized> {
     load: &'a SlidingLoad,
     creep: CreepSpectrum,
     plan: GridPlan,
+    path: Path,
     request: Request<'a>,
+}
+
+/// The distance that is slid, and on what elements and steps, so that it is a whole number of both on all grids.
+#[derive(Clone, Copy)]
+struct Path {
+    /// \[m], the longest for a stationary state.
+    distance: f64,
+    /// Length of an element times the elements along the contact, \[m].
+    length: f64,
+    /// The same of a step: over less than a contact steps are shorter than elements, and become shorter with them.
+    step: f64,
+}
+
+impl Path {
+    fn new(plan: &GridPlan, load: &SlidingLoad, memory: f64) -> Self {
+        let length = plan.length();
+        let Some(distance) = load.sliding_distance() else {
+            let lengths = LENGTHS + (MEMORIES * memory / length).ceil();
+            return Self {
+                distance: lengths * length,
+                length,
+                step: length,
+            };
+        };
+        let step = distance / (distance / length).round().max(1.0);
+        let length = if step < SHORT * length { length } else { step };
+        Self {
+            distance,
+            length,
+            step,
+        }
+    }
 }
 
 impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
@@ -98,9 +138,12 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         load: &'a SlidingLoad,
         request: Request<'a>,
     ) -> Result<Self, BemError> {
+        let plan = GridPlan::sliding(surface, elastomer, load)?;
+        let creep = elastomer.material().creep();
         Ok(Self {
-            plan: GridPlan::sliding(surface, elastomer, load)?,
-            creep: elastomer.material().creep(),
+            path: Path::new(&plan, load, memory_of(&creep, load)),
+            plan,
+            creep,
             surface,
             elastomer,
             load,
@@ -141,7 +184,8 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
     }
 
     /// At a depth the body reaches the boundary of its footprint.
-    fn options(&self, spacing: f64) -> GridOptions {
+    fn options(&self, elements: usize) -> GridOptions {
+        let spacing = self.path.length / elements as f64;
         let footprint = match self.load.control() {
             Control::NormalForce(_) => self.plan.footprint,
             Control::IndentationDepth(_) => self.plan.footprint.widened(spacing),
@@ -154,12 +198,20 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         elements: usize,
         tell: &dyn Fn(f64),
     ) -> Result<OnGrid<Transient, GridOptions>, BemError> {
-        let options = self.options(self.plan.length() / elements as f64);
-        let (transient, friction, truncation) =
-            match (self.load.control(), self.load.sliding_distance()) {
-                (Control::NormalForce(_), None) => self.to_stationary(&options, tell)?,
-                _ => self.over_distance(self.load, &options, tell)?,
-            };
+        let options = self.options(elements);
+        let (control, distance) = (self.load.control(), self.load.sliding_distance());
+        let march = |load| {
+            let step = self.path.step / elements as f64;
+            March::in_steps(self.surface, self.elastomer, load, &options, step)
+        };
+        let (transient, friction, truncation) = match (control, distance) {
+            (Control::NormalForce(_), None) => {
+                self.check_memory()?;
+                let load = self.load.after(self.path.distance)?;
+                self.to_stationary(march(&load)?, &load, tell)?
+            }
+            _ => over_distance(march(self.load)?, self.load, tell)?,
+        };
         let last = transient.last();
         let quantities = [
             friction,
@@ -184,24 +236,30 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         })
     }
 
-    fn over_distance(
-        &self,
-        load: &SlidingLoad,
-        options: &GridOptions,
-        tell: &dyn Fn(f64),
-    ) -> Result<End, BemError> {
-        let transient = slide_over(self.surface, self.elastomer, load, options, tell)?;
-        let friction = transient.last().friction_coefficient;
-        Ok((transient, friction, None))
+    /// Refuses a material that remembers the first touch for too long.
+    fn check_memory(&self) -> Result<(), BemError> {
+        let contact_length = self.plan.length();
+        if self.path.distance <= LONGEST * contact_length {
+            return Ok(());
+        }
+        Err(BemError::MemoryTooLong {
+            memory: memory_of(&self.creep, self.load),
+            contact_length,
+            limit: LONGEST,
+        })
     }
 
-    fn to_stationary(&self, options: &GridOptions, tell: &dyn Fn(f64)) -> Result<End, BemError> {
-        let memory = self.memory();
+    fn to_stationary(
+        &self,
+        march: March<'_>,
+        load: &SlidingLoad,
+        tell: &dyn Fn(f64),
+    ) -> Result<End, BemError> {
+        let memory = memory_of(&self.creep, load);
         if memory > 0.0 {
-            return self.until_forgotten(memory, options, tell);
+            return self.until_forgotten(memory, march, load, tell);
         }
-        let load = self.load.after(self.distance())?;
-        let end = self.over_distance(&load, options, tell)?;
+        let end = over_distance(march, load, tell)?;
         if self.creep.is_elastic() {
             return Ok(end);
         }
@@ -214,44 +272,38 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
     fn until_forgotten(
         &self,
         memory: f64,
-        options: &GridOptions,
+        march: March<'_>,
+        load: &SlidingLoad,
         tell: &dyn Fn(f64),
     ) -> Result<End, BemError> {
-        let length = self.plan.length();
-        let distance = self.distance();
-        if distance > LONGEST * length {
-            return Err(BemError::MemoryTooLong {
-                memory,
-                contact_length: length,
-                limit: LONGEST,
-            });
-        }
         let stationary = StationaryOptions {
             tolerance: match self.request.accuracy {
                 Accuracy::RelativeError(error) => SETTLED * error,
                 Accuracy::Elements(_) => SETTLED * DRIFT,
             },
-            over_distance: 2.0 * length + memory,
+            over_distance: 2.0 * self.plan.length() + memory,
         };
-        let load = self.load.after(distance)?;
-        let march = March::sliding(self.surface, self.elastomer, &load, options)?;
-        let end = settle(march, &load, options, &stationary, tell)?;
+        let end = settle(march, load, &stationary, tell)?;
         let friction = end.friction_coefficient;
         Ok((end.transient, friction, Some(end.rest * friction.abs())))
     }
+}
 
-    /// Distance of the march, at most, \[m].
-    fn distance(&self) -> f64 {
-        let to_stationary = LENGTHS * self.plan.length() + MEMORIES * self.memory();
-        self.load.sliding_distance().unwrap_or(to_stationary)
-    }
+fn over_distance(
+    march: March<'_>,
+    load: &SlidingLoad,
+    tell: &dyn Fn(f64),
+) -> Result<End, BemError> {
+    let transient = slide_over(march, load, tell)?;
+    let friction = transient.last().friction_coefficient;
+    Ok((transient, friction, None))
+}
 
-    /// Distance in which the slowest element forgets, \[m].
-    fn memory(&self) -> f64 {
-        let elements = self.creep.elements().iter();
-        let times = elements.map(|element| element.retardation_time);
-        self.load.velocity() * times.fold(0.0, f64::max)
-    }
+/// Distance in which the slowest element forgets, \[m].
+fn memory_of(creep: &CreepSpectrum, load: &SlidingLoad) -> f64 {
+    let elements = creep.elements().iter();
+    let times = elements.map(|element| element.retardation_time);
+    load.velocity() * times.fold(0.0, f64::max)
 }
 
 /// How much a residual of the size of the tolerance changes the friction.

@@ -42,18 +42,19 @@ pub fn slide_on_grid(
     load: &SlidingLoad,
     options: &GridOptions,
 ) -> Result<Transient, BemError> {
-    slide_over(&surface, elastomer, load, options, &|_| ())
+    slide_over(
+        March::sliding(&surface, elastomer, load, options)?,
+        load,
+        &|_| (),
+    )
 }
 
 /// Tells which part of the march is done.
 fn slide_over(
-    surface: &dyn Surface,
-    elastomer: &(impl Elastomer + ?Sized),
+    mut march: March<'_>,
     load: &SlidingLoad,
-    options: &GridOptions,
     tell: &dyn Fn(f64),
 ) -> Result<Transient, BemError> {
-    let mut march = March::sliding(surface, elastomer, load, options)?;
     let mut rows = Vec::new();
     while let Some(row) = march.step()? {
         // At a depth there may be no contact for a while, under a force there always is.

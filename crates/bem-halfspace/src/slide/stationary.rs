@@ -148,14 +148,13 @@ pub fn slide_to_stationary(
     stationary: &StationaryOptions,
 ) -> Result<StationarySlide, BemError> {
     let march = March::sliding(&surface, elastomer, load, options)?;
-    settle(march, load, options, stationary, &|_| ())
+    settle(march, load, stationary, &|_| ())
 }
 
 /// Tells which part of the longest distance allowed is done.
 pub(super) fn settle(
     mut march: March,
     load: &SlidingLoad,
-    options: &GridOptions,
     stationary: &StationaryOptions,
     tell: &dyn Fn(f64),
 ) -> Result<StationarySlide, BemError> {
@@ -168,7 +167,7 @@ pub(super) fn settle(
     while let Some(row) = march.step()? {
         rows.extend(SlideRow::of(&row));
         tell(march.part_done());
-        let noise = NOISE * options.contact.tolerance * march.steepness();
+        let noise = NOISE * march.tolerance() * march.steepness();
         limits.push(&rows, flows);
         change = limits.change(stationary.over_distance, noise);
         if change <= stationary.tolerance {

@@ -84,7 +84,8 @@ impl Transient {
         check_contact_elements(length.min(width))?;
         if let Some(force) = load.normal_force() {
             let contact_length = length as f64 * pressure.grid.spacing()[0];
-            let time = contact_length / load.velocity();
+            let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
+            let time = contact_length.min(distance) / load.velocity();
             let depth_scale = march.depth_scale(force, contact_length, time)?;
             let rise = march.largest_rise();
             if rise > depth_scale {

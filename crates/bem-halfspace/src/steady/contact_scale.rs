@@ -31,19 +31,23 @@ const DOUBLINGS: usize = 900;
 /// Directions in which the height of a surface is averaged.
 const DIRECTIONS: u8 = 8;
 
-/// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away.
+/// D of a body that is `height(a)` high at the distance a from its lowest point, at most `largest` away, when it has slid a
+/// distance: a contact that is longer has lasted no longer than that.
 pub(super) fn depth_scale(
     creep: &SlidingCreep,
     normal_force: f64,
     height: impl Fn(f64) -> f64,
-    largest: f64,
+    [largest, distance]: [f64; 2],
 ) -> Result<f64, BemError> {
     if creep.only_flows() {
         let depth = 0.25 * normal_force * creep.flow_per_length();
-        return Ok(positive("F_N / (4 η v)", depth)?);
+        if distance >= largest || height(distance) >= depth {
+            return Ok(positive("F_N / (4 η v)", depth)?);
+        }
     }
     let depth = |length: f64| -> Result<f64, BemError> {
-        Ok(0.25 * normal_force * (creep.compliance_of_contact(length)? / length))
+        let compliance = creep.compliance(length.min(distance))? * creep.base().softness(length);
+        Ok(0.25 * normal_force * (compliance / length))
     };
     let length = length_of_contact(height, depth, largest)?;
     Ok(positive("2 (1 - ν) F_N J(a/v) / (4 a)", depth(length)?)?)
@@ -119,7 +123,8 @@ pub(crate) fn depth_scale_of_surface(
         None => mean_height(surface, distance),
     };
     let largest = body.map_or(f64::INFINITY, |body| body.max_radius());
-    depth_scale(&creep, force, height, largest)
+    let distance = load.sliding_distance().unwrap_or(f64::INFINITY);
+    depth_scale(&creep, force, height, [largest, distance])
 }
 
 /// Mean height at a distance from the lowest point, \[m].

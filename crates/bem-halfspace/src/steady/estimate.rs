@@ -33,11 +33,21 @@ pub fn steady_memory(
     load: &SlidingLoad,
     elements: usize,
 ) -> Result<f64, BemError> {
-    let plan = GridPlan::sliding(&surface, elastomer, load)?;
+    let plan = plan(&surface, elastomer, load)?;
     let options = grid(&plan, elements);
     // A mirror halves the unknowns, and saves less of the kernel.
     let followed = if surface.mirrors()[1] { 0.5 } else { 0.7 };
     Ok(BYTES_PER_ELEMENT * followed * options.footprint.n_elements(options.spacing))
+}
+
+/// The grids of the stationary state, at whichever distance it is seen.
+fn plan(
+    surface: &dyn Surface,
+    elastomer: &(impl Elastomer + ?Sized),
+    load: &SlidingLoad,
+) -> Result<GridPlan, BemError> {
+    let load = SlidingLoad::with(load.control(), load.velocity())?;
+    GridPlan::sliding(surface, elastomer, &load)
 }
 
 fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
@@ -49,7 +59,9 @@ fn grid(plan: &GridPlan, elements: usize) -> SteadyOptions {
 /// relative error of the friction coefficient, and of the normal force where that is not given; or with a number of
 /// elements along the contact, about, and whatever error that has.
 ///
-/// A sliding distance of the load changes nothing but the depth of a material that flows.
+/// The state of a load with a sliding distance is stationary too, but for the depth of a material that flows, which is that
+/// after the distance, up to terms of the order of (contact length)/(distance); [`slide`](crate::slide::slide()) follows the
+/// motion from first touch.
 ///
 /// # Errors
 /// [`BemError::NotReached`] with what was reached on the finest grid allowed;
@@ -95,7 +107,7 @@ fn refined(
     options: &RefinementOptions,
     watch: &dyn Watch,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = GridPlan::sliding(surface, elastomer, load)?;
+    let plan = plan(surface, elastomer, load)?;
     let problem = Problem {
         surface,
         loading: Loading::new(surface, elastomer, load, &plan.footprint)?,
@@ -113,7 +125,7 @@ fn with_elements(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<SteadyEstimate, BemError> {
-    let plan = GridPlan::sliding(surface, elastomer, load)?;
+    let plan = plan(surface, elastomer, load)?;
     let has_peak = peak_has_limit(surface, elastomer);
     let order = bars::order_of_friction(plan.apex_exponent, ORDER);
     let resolution = resolution(request, load.control(), order, has_peak);

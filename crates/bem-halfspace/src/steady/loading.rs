@@ -53,7 +53,7 @@ impl Loading {
             Control::NormalForce(force) => {
                 let largest = footprint.sides()?.concat().into_iter().fold(0.0, f64::max);
                 let height = |distance| mean_height(surface, distance);
-                let depth = depth_scale(&creep, force, height, largest)?;
+                let depth = depth_scale(&creep, force, height, [largest, f64::INFINITY])?;
                 (depth, load.sliding_distance())
             }
             Control::IndentationDepth(depth) => {

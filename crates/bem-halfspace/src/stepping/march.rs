@@ -1,13 +1,13 @@
 //! Sliding, one step after the other.
 
-use indenters::{Control, SlidingLoad, Surface};
+use indenters::{SlidingLoad, Surface};
 use numerics::positive;
 
 use super::{March, MeanSlopes, Motion, MotionRow, Route};
-use crate::grid::elements_along;
-use crate::{BemError, Elastomer, Grid, GridOptions};
+use crate::grid::whole;
+use crate::{BemError, Elastomer, GridOptions};
 
-/// Steps at a depth after which a march is not begun.
+/// Steps after which a march is not begun.
 const MOST_STEPS: f64 = 1e5;
 const MARCH_ENDS: &str = "a march over a half space ends after a distance";
 
@@ -28,8 +28,13 @@ impl<'a> March<'a> {
         options: &GridOptions,
     ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
-        let route = Route::through(motions.iter().copied(), spacing, None)?;
-        Self::on(route, surface, elastomer, options)
+        let mut before = 0.0;
+        let timed = motions.iter().map(|&motion| {
+            let time_step = motion.time - before;
+            before = motion.time;
+            (motion, time_step)
+        });
+        Self::on(Route::through(timed, spacing)?, surface, elastomer, options)
     }
 
     /// Part of the steps that are done.
@@ -37,8 +42,8 @@ impl<'a> March<'a> {
         self.steps_done as f64 / self.route.legs.len() as f64
     }
 
-    /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load: under a force in
-    /// whole elements; at a depth the last step, of a half to one and a half elements, ends at the distance.
+    /// The march of [`slide_on_grid`](crate::slide::slide_on_grid), over the sliding distance of the load, in steps of one
+    /// element; the last, of a half to one and a half, ends at the distance.
     ///
     /// # Errors
     /// [`BemError::SlidingDistanceMissing`]; [`BemError::TooManySteps`]; otherwise like [`new`](Self::new).
@@ -48,30 +53,40 @@ impl<'a> March<'a> {
         load: &SlidingLoad,
         options: &GridOptions,
     ) -> Result<Self, BemError> {
+        Self::in_steps(surface, elastomer, load, options, options.spacing[0])
+    }
+
+    /// The same in steps of another length \[m].
+    pub(crate) fn in_steps(
+        surface: &'a dyn Surface,
+        elastomer: &(impl Elastomer + ?Sized),
+        load: &SlidingLoad,
+        options: &GridOptions,
+        length: f64,
+    ) -> Result<Self, BemError> {
         let spacing = positive("spacing along x", options.spacing[0])?;
         let distance = load.sliding_distance();
         let distance = distance.ok_or(BemError::SlidingDistanceMissing { why: MARCH_ENDS })?;
-        let motion = |position: f64| Motion {
-            time: position / load.velocity(),
-            position,
-            control: load.control(),
-        };
-        let route = match load.control() {
-            Control::NormalForce(_) => {
-                let n_steps = elements_along(distance, spacing)?;
-                let even = [false, surface.mirrors()[1]];
-                let [rows, columns] = options.layout(even)?.followed();
-                // Refused before so many steps are made.
-                Grid::new([rows + n_steps, columns], options.spacing)?;
-                let ends = (1..=n_steps).map(|step| step as f64 * spacing);
-                let time_step = Some(spacing / load.velocity());
-                Route::through(ends.map(motion), spacing, time_step)?
-            }
-            Control::IndentationDepth(_) => {
-                Route::through(ends_at(distance, spacing)?.map(motion), spacing, None)?
-            }
-        };
-        Self::on(route, surface, elastomer, options)
+        let (n_steps, last) = steps_of(distance, length)?;
+        let motions = (1..=n_steps).map(|step| {
+            let [position, length] = if step == n_steps {
+                [distance, last]
+            } else {
+                [step as f64 * length, length]
+            };
+            let motion = Motion {
+                time: position / load.velocity(),
+                position,
+                control: load.control(),
+            };
+            (motion, length / load.velocity())
+        });
+        Self::on(
+            Route::through(motions, spacing)?,
+            surface,
+            elastomer,
+            options,
+        )
     }
 
     /// Makes the next step; none after the last.
@@ -95,21 +110,30 @@ impl<'a> March<'a> {
         self.means.largest * self.options.spacing[0]
     }
 
+    /// Relative tolerance of the contact of a step.
+    pub(crate) const fn tolerance(&self) -> f64 {
+        self.options.contact.tolerance
+    }
+
     /// Friction coefficient if all slopes were uphill, which says what rounding is.
     pub(crate) fn steepness(&self) -> f64 {
         self.means.steepness
     }
 }
 
-/// Ends of steps of one element; the last, of a half to one and a half, ends at the distance.
-fn ends_at(distance: f64, spacing: f64) -> Result<impl Iterator<Item = f64>, BemError> {
-    if distance > MOST_STEPS * spacing {
+/// Number of steps of a length over a distance, and the length of the last, of a half to one and a half of the others.
+fn steps_of(distance: f64, length: f64) -> Result<(usize, f64), BemError> {
+    let steps = distance / length;
+    if steps > MOST_STEPS {
         return Err(BemError::TooManySteps {
-            steps: distance / spacing,
+            steps,
             limit: MOST_STEPS,
         });
     }
-    let ends = (1_u32..).map(move |step| f64::from(step) * spacing);
-    let before = ends.take_while(move |position| *position < distance - 0.5 * spacing);
-    Ok(before.chain([distance]))
+    let before = (steps - 0.5).ceil().max(1.0) - 1.0;
+    let rest = steps - before;
+    // A whole step must not become another one by rounding, or results would depend on the unit of length.
+    let is_whole = (rest - 1.0).abs() <= 4.0 * f64::EPSILON * steps;
+    let last = if is_whole { length } else { rest * length };
+    Ok((whole(before)? + 1, last))
 }

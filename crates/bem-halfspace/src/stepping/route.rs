@@ -32,17 +32,15 @@ pub(crate) struct Route {
 }
 
 impl Route {
-    /// The path through the ends of motions, from a centre of an element at time and position zero; steps that are equally
-    /// long have the same `time_step`, to the last bit. Refuses what [`March::new`](crate::slide::March::new) does.
+    /// The path through the ends of motions, each with its duration \[s], from a centre of an element at time and position
+    /// zero. Refuses what [`March::new`](crate::slide::March::new) does.
     pub(crate) fn through(
-        motions: impl Iterator<Item = Motion>,
+        motions: impl Iterator<Item = (Motion, f64)>,
         spacing: f64,
-        time_step: Option<f64>,
     ) -> Result<Self, BemError> {
         let (mut legs, mut cells) = (Vec::new(), Vec::new());
-        let (mut time_before, mut cell_before, mut offset_before) = (0.0, 0.0, 0.0);
-        for end in motions {
-            let time_step = time_step.unwrap_or(end.time - time_before);
+        let (mut cell_before, mut offset_before) = (0.0, 0.0);
+        for (end, time_step) in motions {
             let time_step = positive("time step", time_step)?;
             let [cell, offset] = place(end.position, spacing)?;
             check_control(end.control)?;
@@ -54,7 +52,7 @@ impl Route {
                 advance: (cell - cell_before) + (offset - offset_before),
             });
             cells.push(cell);
-            (time_before, cell_before, offset_before) = (end.time, cell, offset);
+            (cell_before, offset_before) = (cell, offset);
         }
         positive("number of steps", legs.len() as f64)?;
         let lowest = cells.iter().copied().fold(f64::INFINITY, f64::min);

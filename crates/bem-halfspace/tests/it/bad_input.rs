@@ -99,7 +99,7 @@ fn a_contact_that_does_not_fit_is_refused() {
     let body = paraboloid(0.3);
     for spacing in [1e-7, 1e-200, f64::MIN_POSITIVE] {
         let fine = slid(1.0, |options| options.spacing = [spacing; 2]);
-        assert_refused(spacing, fine, "GridTooLarge");
+        assert_refused(spacing, fine, "TooManySteps");
         let fine = steady_with(&body, |options| options.spacing = [spacing; 2]);
         assert_refused(spacing, fine, "GridTooLarge");
     }

@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 
 use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
 use bem_halfspace::{BemError, indent, press, slide};
-use friction_analytic::{half_space_power_friction, impulse_to_depth};
+use friction_analytic::{
+    half_space_power_friction, impulse_to_depth, power_indentation_after_impulse,
+};
 use indenters::{
     Control, FlatCone, FlatPunch, PowerProfile, PressingLoad, Sphere, Surface, TruncatedParaboloid,
     contact_radius,
@@ -142,6 +144,41 @@ fn marches_and_stationary_solutions_agree_within_their_bars() {
             assert_eq!(depth.is_some(), name == "solid", "{name}: a depth");
         }
     }
+}
+
+/// However it lies between the elements of the grids. Before the contact has moved on, a dashpot is as if it were pressed.
+#[test]
+fn a_march_over_a_distance_ends_there() {
+    let solid = prony([0.5, 0.0], &[(3.0, 0.1)]);
+    let dashpot = viscous(1.0);
+    let loads = [under_force(0.5, 1.0), at_depth(0.1, 1.0)];
+    for (load, distance) in loads.into_iter().zip([0.03, 0.37]).chain([(loads[0], 1.3)]) {
+        let load = after(load, distance);
+        for material in [&solid as &dyn Material, &dashpot] {
+            let slid = |elements| {
+                let accuracy = Accuracy::Elements(elements);
+                let march = slide(&paraboloid(0.5), material, &load, accuracy);
+                march.expect("a march")
+            };
+            let (coarse, fine) = (slid(16), slid(40));
+            for march in [&coarse, &fine] {
+                let last = march.finest.last();
+                assert_close(load, last.sliding_distance, distance, 1e-15);
+                assert_close(load, last.time, distance, 1e-15);
+            }
+            let [one, other] = [&coarse, &fine].map(|march| march.friction_coefficient);
+            assert_bars_agree(load, one, other);
+            assert!(one.error < 0.2 * one.value, "{load:?}: {one:?}");
+        }
+    }
+    let distance = 1e-4;
+    let load = after(under_force(0.5, 1.0), distance);
+    let march = slide(&paraboloid(0.5), &dashpot, &load, Accuracy::Elements(16));
+    let depth = march.expect("a march").indentation_depth.expect("a depth");
+    let impulse = 0.5 * distance;
+    let pressed = power_indentation_after_impulse(&paraboloid(0.5), &dashpot, impulse);
+    let expected = pressed.expect("a depth").indentation_depth;
+    assert_close("short", depth.value, expected, 0.02);
 }
 
 /// Compares every quantity and the ends of the contact of two states within their bars.

@@ -5,8 +5,8 @@ use friction_analytic::FrictionError;
 use indenters::IndenterError;
 use mdr_core::MdrError;
 
-const FEWER: &str =
-    "; give solve.elements, fewer where they are given, or a shorter solve.sliding_distance";
+const FEWER: &str = "; give solve.elements, fewer where they are given, or a shorter solve.sliding_distance, or none for the \
+     stationary state";
 const OTHER_DISTANCE: &str = "; give fewer solve.elements, or a longer solve.sliding_distance";
 const FINER: &str = "; give more solve.elements, or a smaller solve.relative_error";
 const LARGER_ERROR: &str = "; give a larger solve.relative_error, or another solve.method";

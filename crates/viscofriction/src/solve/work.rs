@@ -197,14 +197,16 @@ fn boundary_elements<'a>(
         }
         Pressing(_) | History(_) => return Err(NOTHING_SLIDES),
     };
-    if !has_force(problem) && load.sliding_distance().is_none() {
+    let has_distance = load.sliding_distance().is_some();
+    require(!(is_stationary && has_distance), STATIONARY)?;
+    if !has_force(problem) && !has_distance {
         require(
             is_stationary,
             "at a depth it marches over a distance; give solve.sliding_distance",
         )?;
         require(
             !sinks(problem),
-            "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance",
+            "a half space that flows sinks for ever, so that a depth belongs to a distance; give solve.sliding_distance, over which bem-transient marches",
         )?;
     }
     let slid = if is_stationary {
