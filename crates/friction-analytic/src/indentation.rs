@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use indenters::{Axisymmetric, Cylinder, PowerProfile, contact_radius};
-use numerics::{Estimate, bracketed_root, in_range, not_negative};
+use numerics::{Estimate, bracketed_root, golden_section, in_range, not_negative, positive};
 use rheology::Viscous;
 
 use crate::FrictionError;
@@ -169,6 +169,39 @@ pub fn indentation_pressure(
     let smooth = accepted("pressure", integral)?.value;
     let punch = (depth - body.line_height(contact)) / leg(contact);
     Ok(4.0 / PI * (smooth + punch))
+}
+
+/// Largest pressure under a power profile with p > 1 that touches up to a `contact_radius` a, in the unit of
+/// [`indentation_pressure`]: `(4/π) p h̃(a)/a` times the largest of
+///
+/// ```text
+/// f(ρ) = ∫_ρ^1 x^(p−1)/√(x² − ρ²) dx = l ∫₀^1 (1 − l² (1 − s²))^(p/2 − 1) ds,   l² = 1 − ρ²
+/// ```
+///
+/// which is f(0) = 1/(p − 1) for p ≤ 2. Above it lies off the axis: `ρ f' = (p − 1) f − 1/l` makes `f'' = −1/l³` wherever
+/// f' = 0, so that f has one maximum.
+///
+/// # Errors
+/// [`FrictionError::InvalidParameter`] for p ≤ 1, whose pressure is infinite at the tip, and a radius that is no positive
+/// number; [`FrictionError::OutOfRange`] when the result overflows or underflows.
+pub fn power_peak_pressure(
+    profile: &PowerProfile,
+    contact_radius: f64,
+) -> Result<f64, FrictionError> {
+    let p = profile.exponent();
+    in_range("exponent", p, p > 1.0, "above 1")?;
+    let radius = positive("contact_radius", contact_radius)?;
+    let off_axis = |l: f64| {
+        let power = |s: f64| (0.5 * p - 1.0) * (-l * l * (1.0 - s) * (1.0 + s)).ln_1p();
+        l * over_pieces(|s| power(s).exp(), &[0.0, 1.0]).value
+    };
+    let mut largest = (p - 1.0).recip();
+    if p > 2.0 {
+        let place = golden_section(|l| -off_axis(l), [0.0, 1.0]);
+        largest = largest.max(off_axis(place));
+    }
+    let slope = profile.line_height(radius) / radius;
+    representable("peak pressure", 4.0 / PI * (p * largest) * slope)
 }
 
 /// ∫₀^a x h̃' dx = ∫₀^a (h̃(a) − h̃(x)) dx, [m²], from the profile alone.

@@ -71,7 +71,7 @@ pub use elastic_limit::{
 pub use error::{DivergenceCause, FrictionError};
 pub use indentation::{
     Indentation, cylinder_half_width_after_impulse, impulse_to_depth, indentation_after_impulse,
-    indentation_pressure, power_indentation_after_impulse,
+    indentation_pressure, power_indentation_after_impulse, power_peak_pressure,
 };
 pub use line::line_sliding;
 pub use numerics::InvalidParameter;

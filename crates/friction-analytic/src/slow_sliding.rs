@@ -13,10 +13,11 @@
 //! spectrum of h = κ r.
 
 use std::f64::consts::{FRAC_1_PI, PI};
+use std::mem;
 
 use indenters::Axisymmetric;
 use numerics::{Estimate, in_range, positive};
-use rheology::Material;
+use rheology::{Material, RelaxationBranch};
 
 use crate::FrictionError;
 use crate::elastic_limit::{ElasticContact, ElasticLimitFriction, low_speed_friction};
@@ -41,10 +42,15 @@ pub struct SlowSliding {
 
 /// Terms of the third order relative to the first, over their scale Λ₃ v²/(m₁ a²) and over the square of the second order;
 /// and the next term of an apex between cone and paraboloid, over (Λ v/(m₁ a))^(2p − 1). Boundary elements find up to 0.19,
-/// 1.1 and 0.45 for 1 ≤ p ≤ 10.
+/// 1.1 and 0.45 for 1 ≤ p ≤ 10. Behind the tip of a cone a part of the contact opens, by which the first grows with the
+/// logarithm of a/x_s, by up to 0.3 of itself for each factor of e.
 const THIRD: f64 = 0.3;
 const SQUARE: f64 = 1.5;
 const APEX: f64 = 0.6;
+const OPENED: f64 = 0.5;
+/// Steepest line a h̃'(a)/h̃(a) for which that was tried, and longest memory Λ v/m₁ over a.
+const STEEPEST: f64 = 10.0;
+const LONGEST: f64 = 1.0;
 /// The next terms of area and ends over Λ v² and Λ v²/a, and of the depth over Λ v² h̃'(a)/(a d). Boundary elements find
 /// up to 1.3, 1 and 0.13.
 const AREA: f64 = 2.5;
@@ -54,8 +60,9 @@ const DEPTH: f64 = 0.25;
 /// A body that slides slowly over a solid half space, from the elastic contact of the same radius.
 ///
 /// # Errors
-/// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, a body with kinks, and an elastic solid;
-/// and the errors of [`low_speed_friction`].
+/// [`FrictionError::InvalidParameter`] for an apex sharper than that of a cone, a body with kinks, a line that is steeper at
+/// the edge than r^10, an elastic solid, and a speed at which the solid remembers more than a radius; and the errors of
+/// [`low_speed_friction`].
 pub fn slow_sliding(
     body: &(impl Axisymmetric + ?Sized),
     solid: &(impl Material + ?Sized),
@@ -74,11 +81,16 @@ pub fn slow_sliding(
         branches,
     } = Moments::of(solid, contact.velocity)?;
     // Over F_N = 2 E* ∫ x h̃' dx.
-    let per_square = FRAC_1_PI / (3.0 * known_moment(body, radius)?);
+    let small = second / (shift * radius);
+    in_range("memory over radius", small, small <= LONGEST, "at most 1")?;
     let slope = body.line_slope(radius);
+    let steepness = slope * radius / body.line_height(radius);
+    let allowed = "at most 10";
+    in_range("steepness", steepness, steepness <= STEEPEST, allowed)?;
+    let moment = known_moment(body, radius)?;
+    let per_square = FRAC_1_PI / (3.0 * moment);
     let of_rear = per_square * second * slope * slope;
     let mu = first.half_space;
-    let small = second / (shift * radius);
     let [tip, apex] = match exponent {
         cone if cone <= 1.0 => [body.line_slope(0.0), 0.0],
         sharp if sharp < 2.0 => [0.0, APEX * small.powf(2.0 * exponent - 1.0)],
@@ -86,8 +98,13 @@ pub fn slow_sliding(
     };
     let of_tip = 4.0 * per_square * branches * tip * tip;
     let square = (of_rear / mu).powi(2);
-    let error = QUADRATURE + THIRD * third / (shift * radius * radius) + SQUARE * square + apex;
-    let steepness = slope * radius / body.line_height(radius);
+    // (1/a) ∫₀^a h̃'² dx, which is h̃'(0)² of a cone.
+    let mean_square = 2.0 * mu * moment / (shift * radius);
+    let opened = body.line_slope(small * radius).powi(2) / mean_square;
+    let logarithm = 1.0 - OPENED * opened.min(1.0) * small.ln();
+    let third = THIRD * logarithm * third / (shift * radius * radius);
+    let inside = inside(body, solid, contact, tip) / (shift * radius * mean_square);
+    let error = QUADRATURE + third + SQUARE * square + apex + inside;
     Ok(SlowSliding {
         friction_coefficient: Estimate::new(mu - of_rear - of_tip, error * mu),
         normal_force: first.normal_force,
@@ -100,6 +117,43 @@ pub fn slow_sliding(
 
 /// Relative error of the integrals of the first term, at most.
 const QUADRATURE: f64 = 1e-10;
+
+/// What branches lose, over E* = 1, where the slope changes around the apex within the distance l = v τ, beside a `tip`:
+///
+/// ```text
+/// Σ (G_i/G_∞) (l/2π) ∮ cos²θ B(l |cos θ|) dθ      B(l) = ½ ∬ (h̃'(x) − h̃'(y))² e^(−|x − y|/l)/(2l) dx dy
+/// ```
+///
+/// B grows with l, which bounds the mean over θ; it is 2 h̃'(0)² l at the tip of a cone and l² ∫ h̃''² dx where the line is
+/// smooth. A round tip that is smaller than l is thus a tip of its own. The outer part, a/4 < |x|, is in the other terms.
+fn inside(
+    body: &(impl Axisymmetric + ?Sized),
+    solid: &(impl Material + ?Sized),
+    contact: ElasticContact,
+    tip: f64,
+) -> f64 {
+    let rest = |x: f64| body.line_slope(x) - tip;
+    let of_branch = |branch: &RelaxationBranch, modulus: f64| {
+        let length = contact.velocity * branch.relaxation_time;
+        let outermost = 0.25 * contact.contact_radius;
+        let mut x = length.clamp(QUADRATURE * outermost, outermost);
+        let mut slope = rest(x);
+        let mut sum = x * slope.powi(2);
+        while x < outermost {
+            let width = x.min(outermost - x);
+            x += width;
+            let before = mem::replace(&mut slope, rest(x));
+            sum += (slope - before).powi(2) * (length / width) * length;
+        }
+        // With the product of both, where there is a tip.
+        let both = 2.0 * sum + 4.0 * (length * sum).sqrt() * tip.abs();
+        0.5 * (branch.modulus / modulus) * length * both
+    };
+    let relaxation = solid.relaxation();
+    let modulus = relaxation.equilibrium_modulus();
+    let branches = relaxation.branches().iter();
+    branches.map(|branch| of_branch(branch, modulus)).sum()
+}
 
 /// What the surface remembers, as lengths and their powers.
 struct Moments {

@@ -3,7 +3,7 @@ use friction_analytic::{
     DivergenceCause, ElasticContact, FrictionError, high_speed_friction, low_speed_friction,
     slow_sliding,
 };
-use indenters::{Axisymmetric, FlatCone, RoundTippedCone, stretch};
+use indenters::{Axisymmetric, FlatCone, Hyperboloid, RoundTippedCone, stretch};
 use rheology::{Compressible, Prony};
 
 use crate::support::power;
@@ -123,7 +123,19 @@ fn slow_sliding_has_friction_contact_and_errors_of_second_order() {
             assert_close!(*found => *expected, within 1e-12; "p = {}", row[0]);
         }
     }
+    // A tip that is round on less than what a branch remembers.
+    let [cone, round] = [
+        &power(0.4, 1.0) as &dyn Axisymmetric,
+        &Hyperboloid::new(1e-6, 0.4).unwrap(),
+    ]
+    .map(|body| slide(body).unwrap().friction_coefficient);
+    let difference = (cone.value - round.value).abs();
+    let holds = (cone.error..3.0 * difference).contains(&round.error) && difference < round.error;
+    assert!(holds, "a cone has {cone:?}, round at its tip {round:?}");
     refused("apex exponent", slide(&power(0.4, 0.9)));
+    refused("steepness", slide(&power(0.4, 11.0)));
+    let fast = slow_sliding(&power(0.4, 2.0), &solid, contact(0.7, 20.0));
+    refused("memory over radius", fast);
     let kinked = RoundTippedCone::new(0.1, 0.3).unwrap();
     refused("number of kinks", slide(&kinked));
 }

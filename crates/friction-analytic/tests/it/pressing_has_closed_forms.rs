@@ -4,9 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use casebook::{NOT_POSITIVE, assert_close, model, prony, refused, refuses};
 use friction_analytic::{
-    DepthRamp, ThinLayer, impulse_to_depth, indentation_pressure, ramp_force, winkler_line_force,
+    DepthRamp, ThinLayer, impulse_to_depth, indentation_pressure, power_peak_pressure, ramp_force,
+    winkler_line_force,
 };
-use indenters::{Axisymmetric, FlatPunch, Sphere};
+use indenters::{Axisymmetric, FlatPunch, Sphere, stretch};
 use numerics::integrate;
 use rheology::{Compressible, Material};
 
@@ -79,6 +80,31 @@ fn pressures_are_those_of_hertz_and_sneddon() {
         let punch = indentation_pressure(&FlatPunch::new(1.0).unwrap(), 0.3, r).unwrap();
         assert_close!(punch => 1.2 / PI / root, within 1e-10; "{r}");
     }
+}
+
+/// f(ρ) of [`power_peak_pressure`] is √2/3 at ρ = 1/√2 for p = 4, and Dawson's function √(2/p) 0.541… for p → ∞.
+#[test]
+fn the_largest_pressure_of_a_steep_power_is_off_the_axis() {
+    let peak = |p: f64| power_peak_pressure(&power(stretch(p).unwrap().recip(), p), 1.0).unwrap();
+    for (p, f) in [(1.5, 2.0), (2.0, 1.0), (4.0, 2.0_f64.sqrt() / 3.0)] {
+        assert_close!(peak(p) => 4.0 / PI * p * f, within 1e-12; "{p}");
+    }
+    let steep = 4.0 / PI * 2e12_f64.sqrt() * 0.541_044_224_635_181_7;
+    assert_close!(peak(1e12) => steep, within 1e-9);
+    for p in [1.1, 2.001, 2.5, 3.0, 9.0, 60.0] {
+        let body = power(stretch(p).unwrap().recip(), p);
+        let pressure = |i: u32| indentation_pressure(&body, 1.0, 1e-3 * f64::from(i)).unwrap();
+        let sampled = (0..1000).map(pressure).fold(0.0, f64::max);
+        let excess = peak(p) / sampled - 1.0;
+        assert!(
+            (-1e-12..1e-3).contains(&excess),
+            "p = {p}: {excess:e} above samples"
+        );
+    }
+    refused("exponent", power_peak_pressure(&power(0.4, 1.0), 1.0));
+    refuses("contact_radius", NOT_POSITIVE, |radius| {
+        power_peak_pressure(&power(0.4, 3.0), radius)
+    });
 }
 
 #[test]

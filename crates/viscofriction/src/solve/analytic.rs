@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use friction_analytic::{
     ElasticContact, FrictionError, SlidingContact, StationarySliding, ViscoelasticSliding,
     axisymmetric_sliding, cylinder_half_width_after_impulse, half_space_power_friction,
-    impulse_to_depth, indentation_after_impulse, power_sliding, slow_sliding,
+    impulse_to_depth, indentation_after_impulse, power_peak_pressure, power_sliding, slow_sliding,
     superposition_sliding, transient_sliding,
 };
-use indenters::{Axisymmetric as _, Control, Cylinder, PowerProfile, SlidingLoad, contact_radius};
+use indenters::{Control, Cylinder, PowerProfile, SlidingLoad, contact_radius};
 use numerics::{Estimate, bracketed_root};
 use rheology::{Compressible, Elastic, Material, Viscous};
 
@@ -137,7 +137,7 @@ pub(crate) fn slow_half_space(
         // It is that under the force of the elastic contact, and falls with the force less than in proportion.
         friction = friction.widened(slow.elastic_error * friction.value.abs());
     }
-    friction.is_within(asked).then(|| Answer {
+    (friction.value > 0.0 && friction.is_within(asked)).then(|| Answer {
         friction_coefficient: Some(friction),
         normal_force: widened(elastic.normal_force),
         indentation_depth: elastic.indentation_depth.map(widened),
@@ -236,8 +236,8 @@ pub(crate) fn pressed(
         }
     };
     let peak_pressure = match (body, simple(material)?) {
-        (Revolution::Power(profile), Some(Simple::Elastic)) => {
-            peak_of_power(profile, material, radius)
+        (Revolution::Power(profile), Some(Simple::Elastic)) if profile.exponent() > 1.0 => {
+            Some(stiffness(material, duration)? * power_peak_pressure(profile, radius)?)
         }
         _ => None,
     };
@@ -247,7 +247,7 @@ pub(crate) fn pressed(
         indentation_depth: Some(depth),
         contact_area: Some(within(PI * radius * radius, 2.0 * QUADRATURE)),
         contact_box: Some(ContactBox::around(across, across, QUADRATURE * radius)),
-        peak_pressure: peak_pressure.map(|pressure| within(pressure, QUADRATURE)),
+        peak_pressure: peak_pressure.map(|pressure| within(pressure, 2.0 * QUADRATURE)),
         ..Answer::new(Method::Analytic, Model::HalfSpace, force)
     })
 }
@@ -266,14 +266,6 @@ pub(crate) fn stiffness(material: &dyn Material, duration: f64) -> Result<f64> {
         return Err(SolveError::Relaxed { duration, modulus });
     }
     Ok(stiffness)
-}
-
-/// p(0) = 4 G/(2 (1 − ν) π) ∫₀^a h̃'/x dx, infinite for p ≤ 1.
-fn peak_of_power(profile: &PowerProfile, material: &dyn Material, radius: f64) -> Option<f64> {
-    let p = profile.exponent();
-    let modulus = material.relaxation().equilibrium_modulus() / material.half_space_factor();
-    let height = profile.line_height(radius);
-    (p > 1.0).then(|| 4.0 / PI * modulus * (p / (p - 1.0)) * (height / radius))
 }
 
 /// A cylinder that is infinite along y, under a constant force in plane strain: all forces and areas are per length.
