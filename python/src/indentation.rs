@@ -77,7 +77,7 @@ impl Curve<'_> {
 #[pyfunction]
 pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bound<'py, PyDict>> {
     let indenter = Indenter::deserialize(table(&curve.body, "")?).map_err(wrong)?;
-    let Body::Revolution(body) = body(&indenter, "".as_ref(), read).map_err(wrong)? else {
+    let Body::Revolution(body) = body(&indenter, "".as_ref(), read).map_err(wrong)?.body else {
         return Err(wrong("body must be a body of revolution"));
     };
     let (measured, options) = (curve.measured()?, curve.options()?);

@@ -22,7 +22,7 @@ mod native {
     #[pymodule_export]
     use super::moduli::{master_curve, read_moduli};
     #[pymodule_export]
-    use super::roughness::surface_numbers;
+    use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]
     use super::solving::{solve_loads, sweep_plan, sweep_points};
 }

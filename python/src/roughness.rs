@@ -1,22 +1,30 @@
-//! What a rough surface is like.
+//! What a surface from an array is like.
 
 use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
+use viscofriction::indenters::topography::Topography;
+use viscofriction::scene::{Edges, HeightMapTable, SceneError};
+use viscofriction::solve::warnings_of_heights;
 
-use crate::solving::height_map;
-use crate::tables::wrong;
+use crate::tables::{table, wrong};
 
 /// The parameters and spectra of a surface by their names.
 #[pyfunction]
 pub(crate) fn surface_numbers<'py>(
     py: Python<'py>,
     heights: PyReadonlyArray2<'py, f64>,
-    spacing: [f64; 2],
-    repeats: bool,
+    keys: &Bound<'py, PyDict>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let map = height_map(&heights, spacing)?;
+    let (table, surface) = prepared(&heights, keys)?;
+    let map = surface.body().map_err(wrong)?;
+    let warnings = warnings_of_heights(&table, &surface, &map);
+    let map = match table.edges {
+        Edges::Mirrored => map.mirrored(),
+        _ => map,
+    };
+    let repeats = table.edges != Edges::Wall;
     let found = Roughness::of(&map, repeats).map_err(wrong)?;
     let spectrum = PowerSpectrum::of(&map, repeats).map_err(wrong)?;
     let numbers = PyDict::new(py);
@@ -43,5 +51,42 @@ pub(crate) fn surface_numbers<'py>(
         PyArray2::from_vec2(py, &points)
     });
     numbers.set_item("profile_spectra", (x?, y?))?;
+    numbers.set_item("warnings", warnings)?;
     Ok(numbers)
+}
+
+/// Refuses heights that no surface can be made of, and keys that do not fit to them.
+#[pyfunction]
+pub(crate) fn check_height_map(
+    heights: PyReadonlyArray2<'_, f64>,
+    keys: &Bound<'_, PyDict>,
+) -> PyResult<()> {
+    prepared(&heights, keys).map(drop)
+}
+
+fn prepared(
+    heights: &PyReadonlyArray2<'_, f64>,
+    keys: &Bound<'_, PyDict>,
+) -> PyResult<(HeightMapTable, Topography)> {
+    // The keys are arguments here.
+    let named = |error: SceneError| wrong(error.to_string().replace("indenter.height-map.", ""));
+    let table = HeightMapTable::try_from(table(keys, "")?).map_err(named)?;
+    let surface = topography(heights, &table).and_then(|surface| {
+        let surface = table.prepared(surface);
+        surface.map_err(named)
+    })?;
+    Ok((table, surface))
+}
+
+/// The heights of an array, with the spacing of its table.
+pub(crate) fn topography(
+    heights: &PyReadonlyArray2<'_, f64>,
+    table: &HeightMapTable,
+) -> PyResult<Topography> {
+    let spacing = table.spacing.ok_or_else(|| wrong("spacing is missing"))?;
+    let heights = heights.as_array();
+    let shape = [heights.nrows(), heights.ncols()];
+    // Row by row, whatever the strides.
+    let heights = heights.iter().copied().collect();
+    Ok(Topography::of_rows(shape, spacing, heights))
 }

@@ -6,14 +6,13 @@ use std::path::{Path, PathBuf};
 use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use viscofriction::indenters::HeightMap;
-use viscofriction::indenters::rough::PeriodicSurface;
-use viscofriction::scene::{Layer, LoadPoint, Method, Source};
-use viscofriction::solve::with_fields;
+use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
+use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields};
 use viscofriction::sweep::{Plan, Vary, header, identity};
 use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
 
 use crate::background;
+use crate::roughness::topography;
 use crate::tables::{table, wrong};
 
 /// Sets a number of the load that may differ from scene to scene.
@@ -23,7 +22,8 @@ type Column = fn(&mut Scene, f64);
 struct Scenes {
     scene: Scene,
     folder: PathBuf,
-    surface: Option<Surface>,
+    /// Of a body of many numbers, which is read once.
+    surface: Option<BodyOfScene>,
     columns: Vec<(Column, Vec<f64>)>,
 }
 
@@ -33,11 +33,7 @@ impl Scenes {
         for (column, values) in &self.columns {
             column(&mut scene, values[index]);
         }
-        let body = self.surface.as_ref().map(|surface| match surface {
-            Surface::Wall(map) => Body::HeightMap(map.clone()),
-            Surface::Periodic(waves) => Body::Periodic(waves.clone()),
-        });
-        let problem = match body {
+        let problem = match self.surface.as_ref().and_then(copy) {
             Some(body) => Problem::with_body(&scene, body, &self.folder, read),
             None => Problem::new(&scene, &self.folder, read),
         };
@@ -45,6 +41,16 @@ impl Scenes {
         choose(&problem).map_err(wrong)?;
         Ok(problem)
     }
+}
+
+fn copy(of: &BodyOfScene) -> Option<BodyOfScene> {
+    let body = match &of.body {
+        Body::HeightMap(map) => Body::HeightMap(map.clone()),
+        Body::Periodic(waves) => Body::Periodic(waves.clone()),
+        _ => return None,
+    };
+    let warnings = of.warnings.clone();
+    Some(BodyOfScene { body, warnings })
 }
 
 pub(crate) fn read(file: &Path) -> Result<Vec<u8>, WrongInput> {
@@ -72,8 +78,8 @@ pub(crate) struct Loads<'py> {
     scene: Bound<'py, PyDict>,
     /// Where the files are that the scene names.
     folder: PathBuf,
-    /// Of the body, where the scene holds any other in its place, and their spacing; of a periodic one the shortest wave.
-    heights: Option<(PyReadonlyArray2<'py, f64>, [f64; 2], Option<f64>)>,
+    /// Of the body, in the place of the file that the scene names.
+    heights: Option<PyReadonlyArray2<'py, f64>>,
     /// Arrays of one length by their names.
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
     /// A history in the place of that of the scene: the control, times, and its values.
@@ -88,9 +94,6 @@ pub(crate) struct Loads<'py> {
 
 impl Loads<'_> {
     fn scenes(&self) -> PyResult<Scenes> {
-        let heights = self.heights.as_ref();
-        let surface =
-            heights.map(|(heights, spacing, shortest)| surface(heights, *spacing, *shortest));
         let columns = self.columns.iter().map(|(name, values)| {
             let values = values.as_array().to_vec();
             Ok((column(name)?, values))
@@ -105,10 +108,19 @@ impl Loads<'_> {
             };
             scene.load.history = Some(times.iter().zip(values).map(point).collect());
         }
+        let surface = match (&self.heights, &scene.indenter) {
+            (Some(heights), Indenter::HeightMap(table)) => {
+                Some(body_of_heights(table, topography(heights, table)?))
+            }
+            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_)) => {
+                Some(body(&scene.indenter, &self.folder, read))
+            }
+            _ => None,
+        };
         Ok(Scenes {
             scene,
             folder: self.folder.clone(),
-            surface: surface.transpose()?,
+            surface: surface.transpose().map_err(wrong)?,
             columns: columns.collect::<PyResult<_>>()?,
         })
     }
@@ -160,37 +172,6 @@ pub(crate) fn solve_loads<'py>(
     // The curve of a history that came as arrays is asked for as arrays.
     let has_text = count == 1 && loads.history.is_none();
     to_python(py, answers.into_iter().flatten().collect(), has_text)
-}
-
-/// A body of heights.
-enum Surface {
-    Wall(HeightMap),
-    Periodic(PeriodicSurface),
-}
-
-fn surface(
-    heights: &PyReadonlyArray2<'_, f64>,
-    spacing: [f64; 2],
-    shortest: Option<f64>,
-) -> PyResult<Surface> {
-    let map = height_map(heights, spacing)?;
-    Ok(match shortest {
-        Some(shortest) => {
-            Surface::Periodic(PeriodicSurface::through(&map, shortest).map_err(wrong)?)
-        }
-        None => Surface::Wall(map),
-    })
-}
-
-pub(crate) fn height_map(
-    heights: &PyReadonlyArray2<'_, f64>,
-    spacing: [f64; 2],
-) -> PyResult<HeightMap> {
-    let heights = heights.as_array();
-    let shape = [heights.nrows(), heights.ncols()];
-    // Row by row, whatever the strides.
-    let heights = heights.iter().copied().collect();
-    HeightMap::new(shape, spacing, heights).map_err(wrong)
 }
 
 fn to_python(

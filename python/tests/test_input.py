@@ -61,8 +61,8 @@ def test_wrong_input_is_named(name: str, change: dict[str, Any]) -> None:
         ("heights", np.full((3, 3), np.nan), 1.0),
         ("heights", np.ones((3, 3), dtype=object), 1.0),
         ("heights", np.ones((0, 3)), 1.0),
-        ("1 of 9 are missing", np.ma.masked_less(np.arange(9.0).reshape(3, 3), 1.0), 1.0),
-        ("2 of 4 are missing", [np.ma.masked_less([1.0, 2.0], 1.5)] * 2, 1.0),
+        ("1 of 9 heights are missing", np.ma.masked_less(np.arange(9.0).reshape(3, 3), 1.0), 1.0),
+        ("2 of 4 heights are missing", [np.ma.masked_less([1.0, 2.0], 1.5)] * 2, 1.0),
         ("spacing", np.ones((3, 3)), 0.0),
         ("spacing", np.ones((3, 3)), (1.0, 2.0, 3.0)),
     ],
@@ -86,7 +86,7 @@ def test_masked_points_of_a_curve_are_refused_by_name() -> None:
 def test_heights_come_in_any_layout() -> None:
     def depth(heights: Any) -> Any:
         pressed = vf.press(
-            vf.HeightMap(heights, 1e-4), vf.Elastic(1e6), normal_force=0.1, relative_error=1e-2
+            vf.HeightMap(heights, 1e-4, heights_are="gap"), vf.Elastic(1e6), normal_force=0.1, relative_error=1e-2
         )
         return pressed.indentation_depth
 

@@ -1,4 +1,4 @@
-"""Measured surfaces: the same one in each format, with its units, its orientation and its holes."""
+"""Surfaces from heights: the same one in each format, with its units, its orientation and its holes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import viscofriction as vf
 
 # All numbers are exact in float32: a bump without symmetry on 25 × 21 points, highest off the middle.
 STEP, SPACING = 2.0**-24, (2.0**-13, 2.0**-14)
-X, Y = np.meshgrid(np.arange(25.0), np.arange(21.0), indexing="ij")
+X, Y = np.meshgrid(np.arange(25.0), np.arange(21.0))
 DX, DY = X - 11.0, Y - 8.0
 COUNTS = np.round(4000.0 - 6.0 * DX**2 * (1.0 + 0.02 * DX) - 9.0 * DY**2 * (1.0 + 0.02 * DY) - 4.0 * DX * DY).astype(int)
 HEIGHTS = STEP * COUNTS
@@ -28,7 +28,7 @@ X3P = """<?xml version="1.0"?><p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/I
 
 def gsf(heights: Any) -> bytes:
     head = f"Gwyddion Simple Field 1.0\nXRes = 25\nYRes = 21\nXReal = {25 * SPACING[0]!r}\nYReal = {21 * SPACING[1]!r}\nZUnits = m\n"
-    return head.encode() + b"\0" * (4 - len(head) % 4) + heights.T[::-1].astype("<f4").tobytes()
+    return head.encode() + b"\0" * (4 - len(head) % 4) + heights.astype("<f4").tobytes()
 
 
 def sur(counts: Any, bits: int = 32) -> bytes:
@@ -41,7 +41,7 @@ def sur(counts: Any, bits: int = 32) -> bytes:
     for at in (180, 196, 212):
         head[at : at + 16] = b"m".ljust(16)
     struct.pack_into("<2H", head, 334, 3, 2)
-    return bytes(head) + b"12345" + counts.T.astype(f"<i{bits // 8}").tobytes()
+    return bytes(head) + b"12345" + counts.astype(f"<i{bits // 8}").tobytes()
 
 
 def x3p(values: Any, kind: str, valid: Any = None) -> bytes:
@@ -49,23 +49,35 @@ def x3p(values: Any, kind: str, valid: Any = None) -> bytes:
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("main.xml", X3P.format(dx=SPACING[0], dy=SPACING[1], step=STEP, kind=kind, valid=link))
-        archive.writestr("bindata/data.bin", values.T.tobytes())
+        archive.writestr("bindata/data.bin", values.tobytes())
         if valid is not None:
-            archive.writestr("bindata/valid.bin", np.packbits(valid.T.ravel(), bitorder="little").tobytes())
+            archive.writestr("bindata/valid.bin", np.packbits(valid.ravel(), bitorder="little").tobytes())
     return file.getvalue()
 
 
 def xyz(heights: Any) -> bytes:
-    points = [(i * SPACING[0], j * SPACING[1], heights[i, j]) for i in range(25) for j in range(21)]
+    points = [(j * SPACING[0], i * SPACING[1], heights[i, j]) for i in range(21) for j in range(25)]
     return "\n".join(f"{x!r};{y!r};{float(z)!r}" for x, y, z in reversed(points) if np.isfinite(z)).encode()
 
 
 def asc(heights: Any) -> bytes:
     head = f"ncols 25\nnrows 21\nxllcorner 0\nyllcorner 0\ndx {SPACING[0]!r}\ndy {SPACING[1]!r}\nNODATA_value -1\n"
-    rows = np.where(np.isnan(heights), -1, heights).T[::-1].tolist()
+    rows = np.where(np.isnan(heights), -1, heights).tolist()
     return (head + "\n".join(" ".join(map(repr, row)) for row in rows)).encode()
 
 
+def text(heights: Any, separator: str, mark: str = ".") -> bytes:
+    rows = (separator.join(repr(float(z)).replace(".", mark) for z in row) for row in heights)
+    return "\n".join(rows).replace("nan", "").encode()
+
+
+def npy(heights: Any) -> bytes:
+    file = io.BytesIO()
+    np.save(file, heights)
+    return file.getvalue()
+
+
+#: Files that say how far apart their points are, and others.
 FILES = {
     "asc": asc(HEIGHTS),
     "gsf": gsf(HEIGHTS),
@@ -75,6 +87,15 @@ FILES = {
     "X3P": x3p(COUNTS.astype("<i2"), "I"),
     "xyz": xyz(HEIGHTS),
 }
+SPACED = {
+    "csv": text(HEIGHTS, ","),
+    "semicolons and decimal commas": text(HEIGHTS, ";", ","),
+    "tabs": text(HEIGHTS, "\t"),
+    "blanks and decimal commas": text(HEIGHTS, " ", ","),
+    "npy": npy(HEIGHTS),
+    "in Fortran order.npy": npy(np.asfortranarray(HEIGHTS)),
+    "single.npy": npy(HEIGHTS.astype("<f4")),
+}
 
 
 def pressed(body: vf.Body) -> dict[str, Any]:
@@ -83,24 +104,44 @@ def pressed(body: vf.Body) -> dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def expected() -> dict[str, Any]:
-    return pressed(vf.HeightMap(HEIGHTS.max() - HEIGHTS, SPACING))
+    return pressed(vf.HeightMap(HEIGHTS, SPACING))
 
 
-@pytest.mark.parametrize("extension", FILES)
+@pytest.mark.parametrize("extension", [*FILES, *SPACED])
 def test_every_format_is_the_same_surface(extension: str, expected: dict[str, Any], tmp_path: Path) -> None:
     file = tmp_path / f"surface.{extension}"
-    file.write_bytes(FILES[extension])
-    found = pressed(vf.HeightMapFile(file))
+    file.write_bytes((FILES | SPACED)[extension])
+    found = pressed(vf.HeightMapFile(file, spacing=SPACING if extension in SPACED else None))
     # Positions and heights in decimals are rounded; sides of the contact tell left from right and front from rear.
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-12)
     assert found["contact_box"] == pytest.approx(expected["contact_box"], rel=1e-9)
     assert len(set(map(abs, expected["contact_box"].values()))) == 4
 
 
-@pytest.mark.parametrize("extension", ["asc", "gsf", "sur", "x3p", "xyz"])
-def test_holes_are_refused_or_filled_with_the_mean_of_their_neighbours(extension: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "body",
+    [
+        vf.HeightMap(HEIGHTS.astype(np.float32), SPACING),
+        vf.HeightMap(np.asfortranarray(HEIGHTS), SPACING),
+        vf.HeightMap(3e-4 - HEIGHTS, SPACING, heights_are="gap"),
+        vf.HeightMap(1e6 * HEIGHTS, SPACING, unit="um"),
+        # An array that was written with x down its columns.
+        vf.HeightMap(np.rot90(HEIGHTS, -1), SPACING[::-1], direction=90),
+        vf.HeightMap(HEIGHTS[::-1, ::-1], SPACING, direction=180),
+        vf.HeightMap(np.rot90(HEIGHTS), SPACING[::-1], direction=270),
+    ],
+    ids=["float32", "Fortran", "gap", "um", "90", "180", "270"],
+)
+def test_what_an_array_holds_can_be_said(body: vf.Body, expected: dict[str, Any]) -> None:
+    found = pressed(body)
+    assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
+    assert found["contact_box"] == pytest.approx(expected["contact_box"], rel=1e-9)
+
+
+@pytest.mark.parametrize("extension", ["asc", "gsf", "sur", "x3p", "xyz", "csv", "npy", None])
+def test_holes_are_refused_or_filled_with_the_mean_of_their_neighbours(extension: str | None, tmp_path: Path) -> None:
     known = np.ones(HEIGHTS.shape, bool)
-    known[11, 7:9] = known[0, 0] = False
+    known[7:9, 11] = known[0, 0] = False
     holes = np.where(known, HEIGHTS, np.nan)
     contents = {
         "asc": asc(holes),
@@ -108,17 +149,25 @@ def test_holes_are_refused_or_filled_with_the_mean_of_their_neighbours(extension
         "sur": sur(np.where(known, COUNTS, -1)),
         "x3p": x3p(COUNTS.astype("<i2"), "I", known),
         "xyz": xyz(holes),
+        "csv": text(holes, ";", ","),
+        "npy": npy(holes),
     }
-    file = tmp_path / f"surface.{extension}"
-    file.write_bytes(contents[extension])
+
+    def body(**options: Any) -> vf.Body:
+        if extension is None:
+            return vf.HeightMap(np.ma.array(HEIGHTS, mask=~known), SPACING, **options)
+        file = tmp_path / f"surface.{extension}"
+        file.write_bytes(contents[extension])
+        return vf.HeightMapFile(file, spacing=SPACING if extension in ("csv", "npy") else None, **options)
+
     with pytest.raises(ValueError, match="3 of 525 heights are missing"):
-        pressed(vf.HeightMapFile(file))
+        pressed(body())
+    filled = pressed(body(fill_missing=True))
     h = HEIGHTS
-    holes[11, 7] = (h[10, 7] + h[12, 7] + h[11, 6]) / 3
-    holes[11, 8] = (h[10, 8] + h[12, 8] + h[11, 9]) / 3
+    holes[7, 11] = (h[7, 10] + h[7, 12] + h[6, 11]) / 3
+    holes[8, 11] = (h[8, 10] + h[8, 12] + h[9, 11]) / 3
     holes[0, 0] = (h[1, 0] + h[0, 1]) / 2
-    filled = pressed(vf.HeightMapFile(file, fill_missing=True))
-    by_hand = pressed(vf.HeightMap(holes.max() - holes, SPACING))
+    by_hand = pressed(vf.HeightMap(holes, SPACING))
     assert filled["normal_force"] == pytest.approx(by_hand["normal_force"], rel=1e-12)
 
 
@@ -128,8 +177,9 @@ def test_a_tilt_is_taken_out_when_asked(tmp_path: Path) -> None:
     file.write_bytes(x3p(tilted, "D"))
     plane = np.column_stack([np.ones(525), X.ravel(), Y.ravel()])
     level = HEIGHTS - (plane @ np.linalg.lstsq(plane, HEIGHTS.ravel())[0]).reshape(HEIGHTS.shape)
-    found = pressed(vf.HeightMapFile(file, level=True))
-    assert found["normal_force"] == pytest.approx(pressed(vf.HeightMap(level.max() - level, SPACING))["normal_force"], rel=1e-9)
+    for body in (vf.HeightMapFile(file, level=True), vf.HeightMap(tilted, SPACING, level=True)):
+        expected = pressed(vf.HeightMap(level, SPACING))["normal_force"]
+        assert pressed(body)["normal_force"] == pytest.approx(expected, rel=1e-9)
 
 
 WRONG = [
@@ -174,16 +224,16 @@ class Topography:
 
 
 def test_a_topography_is_pressed_with_its_tops(expected: dict[str, Any]) -> None:
-    found = pressed(vf.HeightMap.from_topography(Topography(1e6 * HEIGHTS)))
+    found = pressed(vf.HeightMap.from_topography(Topography(1e6 * HEIGHTS.T)))
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
     with pytest.raises(ValueError, match="missing"):
-        vf.HeightMap.from_topography(Topography(np.ma.masked_greater(HEIGHTS, 2e-4)))
+        vf.HeightMap.from_topography(Topography(np.ma.masked_greater(HEIGHTS.T, 2e-4)))
 
 
 def test_a_topography_of_the_real_package_is_the_same(expected: dict[str, Any]) -> None:
     package = pytest.importorskip("SurfaceTopography")
-    sizes = tuple(1e6 * step * count for step, count in zip(SPACING, HEIGHTS.shape, strict=True))
-    found = pressed(vf.HeightMap.from_topography(package.Topography(1e6 * HEIGHTS, sizes, unit="µm")))
+    sizes = tuple(1e6 * step * count for step, count in zip(SPACING, HEIGHTS.T.shape, strict=True))
+    found = pressed(vf.HeightMap.from_topography(package.Topography(1e6 * HEIGHTS.T, sizes, unit="µm")))
     assert found["normal_force"] == pytest.approx(expected["normal_force"], rel=1e-9)
 
 
@@ -191,17 +241,17 @@ def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
     """Two waves on two grids are one surface, which under a large pressure has the closed form of full contact."""
     solid = vf.StandardSolid(0.25, 2.25, 2.25)
 
-    def answer(rows: int, columns: int, pressure: float) -> vf.Answer:
-        x, y = np.meshgrid(np.arange(rows) / rows, np.arange(columns) / columns, indexing="ij")
+    def answer(n_x: int, n_y: int, pressure: float) -> vf.Answer:
+        x, y = np.meshgrid(np.arange(n_x) / n_x, np.arange(n_y) / n_y)
         heights = 0.02 * np.cos(2 * np.pi * (x + 2 * y)) + 0.01 * np.cos(2 * np.pi * (3 * x - y) + 1.0)
-        road = vf.HeightMap(heights, (2.0 / rows, 1.0 / columns), edges="periodic")
+        road = vf.HeightMap(heights, (2.0 / n_x, 1.0 / n_y), edges="periodic")
         return vf.slide(road, solid, mean_pressure=pressure, velocity=0.1, relative_error=0.02)
 
     one, other = answer(16, 8, 0.02), answer(20, 15, 0.02)
     assert one.mu == pytest.approx(other.mu, rel=1e-9) and one.area_fraction < 0.1
     full = answer(16, 8, 100.0)
     assert full.area_fraction == 1.0 and full.mu == pytest.approx(full.persson["friction_coefficient"], rel=1e-10)
-    with pytest.raises(ValueError, match="only of a periodic surface"):
+    with pytest.raises(ValueError, match="shortest_wavelength: only of edges"):
         vf.HeightMap(np.eye(4), 1.0, shortest_wavelength=1.0)
     with pytest.raises(ValueError, match="short enough for a wave"):
         vf.slide(vf.HeightMap(np.eye(4), 1.0, edges="periodic", shortest_wavelength=9.0), solid, mean_pressure=1.0, velocity=1.0)
@@ -211,18 +261,37 @@ def test_a_periodic_map_is_the_sum_of_its_waves() -> None:
 
 def test_a_mirrored_map_has_no_steps() -> None:
     """A ramp that is mirrored is a triangle wave; repeated as it is, it jumps, and the jump has steep waves."""
-    ramp = np.repeat(np.linspace(0.0, 1e-3, 32)[:, np.newaxis], 4, axis=1)
+    ramp = np.tile(np.linspace(0.0, 1e-3, 32), (4, 1))
     mirrored, jumping = (vf.HeightMap(ramp, 1e-3, edges=edges) for edges in ("mirrored", "periodic"))
-    assert mirrored.heights.shape == (64, 8) and mirrored.heights[32:].tolist() == mirrored.heights[31::-1].tolist()
     assert mirrored.roughness.rms_gradient == pytest.approx(1 / 31, rel=0.1)
     assert jumping.roughness.rms_gradient > 3 * mirrored.roughness.rms_gradient
-    with pytest.raises(ValueError, match="edges must be"):
+    with pytest.raises(ValueError, match="edges: unknown variant `open`"):
         vf.HeightMap(ramp, 1e-3, edges="open")  # type: ignore[arg-type]
+
+
+def test_strange_heights_are_warned_of() -> None:
+    """Micrometres that are read as metres, and a tilt that makes a step where the map is repeated."""
+    x = 2 * np.pi * np.arange(32) / 32
+    waves = np.cos(x) + np.cos(2 * x)[:, np.newaxis]
+    tilted = waves + 0.5 * x
+
+    def said(heights: Any, **options: Any) -> list[str]:
+        road = vf.HeightMap(heights, 1e-4, **{"edges": "periodic"} | options)
+        answer = vf.press(road, vf.Elastic(1e6), mean_pressure=1e9, relative_error=0.1)
+        assert set(road.roughness.warnings) <= set(answer.warnings)
+        return [text for text in answer.warnings if "linear theory" not in text]
+
+    assert not said(waves, unit="um") and not said(tilted, unit="um", edges="mirrored")
+    [unit] = said(waves)
+    assert "span 4.000e0 m over 3.100e-3 m" in unit and 'unit = "mm"' in unit
+    [step] = said(tilted, unit="um")
+    assert "of the mean square slope along x" in step and "3.0" in step
+    assert not said(tilted, unit="um", level=True)
 
 
 def test_roughness_of_a_wave_is_known() -> None:
     x = 2 * np.pi * np.arange(32) / 32
-    wave = vf.HeightMap(1e-3 * np.cos(2 * x)[:, np.newaxis] * np.ones(8), (1e-2 / 32, 1e-2 / 8), edges="periodic")
+    wave = vf.HeightMap(1e-3 * np.cos(2 * x) * np.ones((8, 1)), (1e-2 / 32, 1e-2 / 8), edges="periodic")
     found = wave.roughness
     q = 2 * np.pi * 2 / 1e-2
     assert found.rms_height == pytest.approx(1e-3 / np.sqrt(2), rel=1e-12)

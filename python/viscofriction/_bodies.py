@@ -36,6 +36,10 @@ __all__ = [
 
 #: What is beyond the edge of a height map: nothing, the same map, or its mirror images.
 Edges = Literal["wall", "periodic", "mirrored"]
+#: Whether heights point out of the body, or are gaps.
+HeightsAre = Literal["surface", "gap"]
+#: A unit of heights.
+Unit = Literal["m", "mm", "um", "nm"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +65,8 @@ class Roughness(Compared):
     spectrum: NDArray[np.float64]
     #: Along x and y the wave number [1/m] and the mean spectrum [m³] of all profiles.
     profile_spectra: tuple[NDArray[np.float64], NDArray[np.float64]]
+    #: What is strange about the heights, such as another unit than theirs.
+    warnings: list[str]
 
 
 class Body:
@@ -207,12 +213,11 @@ class Superposition(Body):
 
 @dataclass(frozen=True)
 class HeightMapFile(Body):
-    """A measured surface from a file, whose highest points touch first; it has its own units and spacing.
+    """A surface from a file, as a scene reads it; see ``HeightMap`` for what the keys mean.
 
-    The extension says the format: asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p
-    (ISO 25178-72), xyz (points of a grid in metres). Heights that were not measured are refused, or become with ``fill_missing`` the mean of their known
-    neighbours from the edges of holes inwards; ``level`` takes the plane of least squares out. ``edges`` and
-    ``shortest_wavelength`` [m] as of a ``HeightMap``.
+    The extension says the format: asc (Esri's ASCII grid), gsf (Gwyddion Simple Field), sur (Digital Surf), x3p (ISO 25178-72)
+    and xyz (points of a grid) have their own spacing; npy (NumPy) and any other, a text of numbers, take ``spacing``. Files of
+    gsf, sur and x3p state the unit of their heights and keep it.
     """
 
     file: str | os.PathLike[str]
@@ -220,6 +225,10 @@ class HeightMapFile(Body):
     level: bool = False
     edges: Edges = "wall"
     shortest_wavelength: float | None = None
+    spacing: tuple[float, float] | None = None
+    unit: Unit | None = None
+    heights_are: HeightsAre = "surface"
+    direction: float = 0
     _kind = "height-map"
 
     def _table(self) -> dict[str, Any]:
@@ -228,12 +237,20 @@ class HeightMapFile(Body):
 
 
 class HeightMap(Compared, Body):
-    """A surface from heights [m] on a grid, ``heights[i, j]`` at x = i dx and y = j dy, bilinear between them.
+    """A surface from heights on a grid, ``heights[i, j]`` at x = j dx and y = i dy, bilinear between them.
 
-    With ``edges="wall"`` it ends at the edge of the grid. With ``"periodic"`` it repeats itself, as the sum of waves through its
-    heights that are not shorter than ``shortest_wavelength`` [m], and takes a mean pressure; with ``"mirrored"`` its mirror images
-    about its last row and column too, so that heights do not jump where a measured patch does not fit to itself. ``spacing`` is
-    (dx, dy) [m], or one number for both. Any layout, and float32, will do.
+    Heights [m] point out of the rigid body, so that the largest touch first; a row runs along x, the direction in which the
+    body moves over the elastomer. ``heights_are="gap"`` says that they point into the body and the smallest touch first, and
+    ``direction`` (0, 90, 180 or 270 degrees from x towards y) that it moves another way; results have x along the motion.
+    ``unit`` is that of the heights ("m", "mm", "um", "nm"), and ``spacing`` (dx, dy) [m], or one number for both.
+
+    NaN and masked entries are heights that are missing: they are refused, or become with ``fill_missing`` the mean of their
+    known neighbours from the edges of holes inwards. ``level`` takes the plane of least squares out.
+
+    With ``edges="wall"`` the body ends at the edge of the grid. With ``"periodic"`` it repeats itself, as the sum of waves
+    through its heights that are not shorter than ``shortest_wavelength`` [m], and takes a mean pressure; with ``"mirrored"`` its
+    mirror images about its last row and column too, so that heights do not jump where a measured patch does not fit to itself.
+    Any layout, and float32, will do.
     """
 
     _kind = "height-map"
@@ -243,60 +260,56 @@ class HeightMap(Compared, Body):
         heights: ArrayLike,
         spacing: float | tuple[float, float],
         *,
+        unit: Unit = "m",
+        heights_are: HeightsAre = "surface",
+        direction: float = 0,
+        fill_missing: bool = False,
+        level: bool = False,
         edges: Edges = "wall",
         shortest_wavelength: float | None = None,
     ) -> None:
-        if edges not in ("wall", "periodic", "mirrored"):
-            raise ValueError(f'edges must be "wall", "periodic" or "mirrored", but is {edges!r}')
-        given = numbers("heights", heights, dimensions=2, holes=True)
-        missing = int(np.isnan(given).sum())
-        if missing > 0:
-            raise ValueError(f"heights: {missing} of {given.size} are missing; interpolate them first")
-        self.heights: NDArray[np.float64] = (
-            np.pad(given, [(0, count) for count in given.shape], mode="symmetric") if edges == "mirrored" else given
-        )
-        self.edges: Edges = edges
+        self.heights: NDArray[np.float64] = numbers("heights", heights, dimensions=2, holes=True)
         pair = spacing if isinstance(spacing, Sequence) else (spacing, spacing)
         steps = numbers("spacing", pair, dimensions=1)
         if steps.shape != (2,) or not (steps > 0).all():
             raise ValueError(f"spacing must be one or two numbers greater than 0, but is {spacing}")
         self.spacing: tuple[float, float] = (float(steps[0]), float(steps[1]))
-        periodic = edges != "wall"
-        if shortest_wavelength is not None and not periodic:
-            raise ValueError("shortest_wavelength: only of a periodic surface waves are left out")
-        #: Of a periodic surface the length [m] of the shortest waves; None of one that ends.
-        self.shortest_wavelength: float | None = (shortest_wavelength or 0.0) if periodic else None
+        self.unit: Unit = unit
+        self.heights_are: HeightsAre = heights_are
+        self.direction = direction
+        self.fill_missing = fill_missing
+        self.level = level
+        self.edges: Edges = edges
+        #: Of a periodic surface the length [m] of the shortest waves; None for all that the grid knows.
+        self.shortest_wavelength = shortest_wavelength
+        _native.check_height_map(self.heights, self._table()[self._kind])
 
     @classmethod
-    def from_topography(
-        cls, topography: Any, *, edges: Edges = "wall", shortest_wavelength: float | None = None
-    ) -> HeightMap:
-        """The surface of a topography of the package SurfaceTopography, in metres; it is pressed with its tops."""
+    def from_topography(cls, topography: Any, **options: Any) -> HeightMap:
+        """The surface of a topography of the package SurfaceTopography, in metres; options as of a ``HeightMap``."""
         scaled = topography.to_unit("m") if topography.unit is not None else topography
-        heights = scaled.heights()
         dx, dy = map(float, scaled.pixel_size)
-        return cls(heights.max() - heights, (dx, dy), edges=edges, shortest_wavelength=shortest_wavelength)
+        # Its first index is along x.
+        return cls(scaled.heights().T, (dx, dy), **options)
 
     def __hash__(self) -> int:
         return hash((self.heights.shape, self.spacing, self.edges, self.shortest_wavelength))
 
     def __repr__(self) -> str:
         rows, columns = self.heights.shape
-        return f"HeightMap({rows} × {columns} heights, spacing={self.spacing}, edges={self.edges!r})"
+        return f"HeightMap({columns} × {rows} heights, spacing={self.spacing}, edges={self.edges!r})"
 
     @property
     def roughness(self) -> Roughness:
-        """What the surface is like: parameters of ISO 25178-2, and power spectra.
+        """What the surface is like: parameters of ISO 25178-2, and power spectra; x is along the motion.
 
         They are exact for the heights: of a surface that repeats itself those of its waves; of one that ends, slopes and
-        curvatures are differences of neighbouring heights, and spectra those under a Hann window. A tilt is not taken out.
+        curvatures are differences of neighbouring heights, and spectra those under a Hann window.
         """
-        found = _native.surface_numbers(self.heights, self.spacing, self.edges != "wall")
-        return Roughness(**found)
+        return Roughness(**_native.surface_numbers(self.heights, self._table()[self._kind]))
 
     def _table(self) -> dict[str, Any]:
-        # Its place in the scene, which the heights then take.
-        if self.shortest_wavelength is None:
-            return Paraboloid(1.0)._table()
-        dx, dy = (count * step for count, step in zip(self.heights.shape, self.spacing, strict=True))
-        return SelfAffine((dx, dy), 0.5, 1.0, min(dx, dy), min(dx, dy), 0)._table()
+        names = "spacing unit heights_are direction fill_missing level edges shortest_wavelength"
+        keys = {name: getattr(self, name) for name in names.split()}
+        # The heights take the place of the file.
+        return {self._kind: keys | {"file": "heights"}}

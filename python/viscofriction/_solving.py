@@ -159,7 +159,7 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     heights = None
     body = table.get("indenter")
     if isinstance(body, HeightMap):
-        heights = (body.heights, body.spacing, body.shortest_wavelength)
+        heights = body.heights
     for key, kind in (("indenter", Body), ("material", Material)):
         value = table.get(key)
         if isinstance(value, kind):

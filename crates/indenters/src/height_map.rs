@@ -10,6 +10,9 @@ use numerics::{finite, positive, whole_part};
 
 /// A surface through heights on a grid, bilinear between them; it ends at the edge of the grid.
 ///
+/// Heights count as those of all bodies here, from the lowest point away from the elastomer; those of instruments and arrays,
+/// out of the body, are a [`Topography`](crate::topography::Topography).
+///
 /// Its lowest height is the origin, of several the one nearest to the middle. Every grid line is an edge: details of
 /// the size of a cell are those of the grid, not of the surface that was measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,8 +37,8 @@ impl HeightMap {
         spacing: [f64; 2],
         mut heights: Vec<f64>,
     ) -> Result<Self, IndenterError> {
-        at_least(2, "rows of heights", shape[0])?;
-        at_least(2, "columns of heights", shape[1])?;
+        at_least(2, "heights along x", shape[0])?;
+        at_least(2, "heights along y", shape[1])?;
         check_heights("grid", shape[0].saturating_mul(shape[1]), &heights)?;
         positive("spacing along x", spacing[0])?;
         positive("spacing along y", spacing[1])?;

@@ -58,7 +58,6 @@ mod stretch;
 mod superposition;
 mod surface;
 mod table;
-#[cfg(feature = "topography")]
 pub mod topography;
 
 pub use analytic_line::AnalyticLine;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use viscofriction::WrongInput;
-use viscofriction::scene::{Source, height_map, profile};
+use viscofriction::scene::{Source, profile, topography};
 use viscofriction::solve::problem_of;
 
 use crate::input::read_input;
@@ -39,8 +39,9 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         }
         InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {
-            let map = height_map(file, contents, [1.0; 2]);
-            map.map(drop).map_err(WrongInput)
+            let surface = topography(file, contents, [1.0; 2]).map_err(WrongInput)?;
+            let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
+            surface.body().map(drop).map_err(wrong)
         }
         InputKind::Moduli => check_table(file, contents),
         InputKind::SweepRows => RowTable::new(file, contents).map(drop),

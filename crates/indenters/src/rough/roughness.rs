@@ -45,8 +45,8 @@ impl Roughness {
     /// [`IndenterError::TooFew`] below three rows and columns; [`IndenterError::InvalidParameter`] for heights that are all
     /// the same, and for heights and spacings below 1e-30 m or above 1e30 m.
     pub fn of(map: &HeightMap, repeats: bool) -> Result<Self, IndenterError> {
-        at_least(3, "rows of heights", map.shape()[0])?;
-        at_least(3, "columns of heights", map.shape()[1])?;
+        at_least(3, "heights along x", map.shape()[0])?;
+        at_least(3, "heights along y", map.shape()[1])?;
         let surface = PeriodicSurface::through(map, 0.0)?;
         check_lengths(map)?;
         let [along_x, along_y, laplacian] = if repeats {

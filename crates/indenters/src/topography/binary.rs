@@ -1,8 +1,9 @@
 //! Heights in binary behind a short header.
 
-use super::{Topography, metres, text_of};
+use super::text::text_of;
+use super::{Topography, metres};
 
-/// Gwyddion Simple Field: a text, one to four zeros, and f32 from the upper row down
+/// Gwyddion Simple Field: a text, one to four zeros, and f32 row by row
 /// (<https://gwyddion.net/documentation/user-guide-en/gsf.html>).
 pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
     let end = contents.iter().position(|byte| *byte == 0).unwrap_or(0);
@@ -25,22 +26,27 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
         let count = given.parse::<usize>().ok().filter(|count| *count > 0);
         count.ok_or_else(|| format!("{key} = {given}"))
     };
-    let shape = [count("XRes")?, count("YRes")?];
+    let [columns, rows] = [count("XRes")?, count("YRes")?];
     let unit = metres(found("XYUnits", "m"))?;
-    let height = metres(found("ZUnits", "m"))?;
+    let height = metres(found("ZUnits", ""))?;
     let spacing = [
-        unit * number("XReal")? / shape[0] as f64,
-        unit * number("YReal")? / shape[1] as f64,
+        unit * number("XReal")? / columns as f64,
+        unit * number("YReal")? / rows as f64,
     ];
     // The zeros end at a multiple of four bytes.
     let values = contents.get(4 * (end / 4 + 1)..).unwrap_or_default();
     let values = values.as_chunks().0;
-    if shape[0].checked_mul(shape[1]) != Some(values.len()) {
-        return Err(format!("{} heights for {shape:?}", values.len()));
+    if columns.checked_mul(rows) != Some(values.len()) {
+        let count = values.len();
+        return Err(format!("{count} heights for {columns} × {rows} points"));
     }
-    Ok(Topography::of_rows(shape, spacing, true, |index| {
-        height * f64::from(f32::from_le_bytes(values[index]))
-    }))
+    let values = values
+        .iter()
+        .map(|value| height * f64::from(f32::from_le_bytes(*value)));
+    Ok(Topography {
+        states_unit: !found("ZUnits", "").is_empty(),
+        ..Topography::of_rows([rows, columns], spacing, values.collect())
+    })
 }
 
 /// Digital Surf: 512 bytes, two comments, and integers. The places in the header are those that SurfaceTopography (Pastewka
@@ -60,20 +66,23 @@ pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
         32 => 4,
         bits => return Err(format!("{bits} bits for a point")),
     };
-    let shape = [count(108), count(112)];
+    let [columns, rows] = [count(108), count(112)];
     let begin = 512 + short(334) + short(336);
-    let points = shape[0].checked_mul(shape[1]);
+    let points = columns.checked_mul(rows);
     let needed = points.and_then(|points| points.checked_mul(bytes));
     let given = contents.len().saturating_sub(begin);
     if short(18) != 2 || needed.is_none_or(|needed| needed == 0 || needed > given) {
-        return Err(format!("kind {}, {given} bytes for {shape:?}", short(18)));
+        let kind = short(18);
+        return Err(format!(
+            "kind {kind}, {given} bytes for {columns} × {rows} points"
+        ));
     }
     let spacing = [real(120) * unit(180)?, real(124) * unit(196)?];
-    // Inverted, and perhaps mirrored, which changes neither friction nor area.
+    // Inverted heights.
     let sign = if short(290) == 0 { 1.0 } else { -1.0 };
     let step = sign * real(128) * unit(212)?;
     let missing = (short(86) == 1).then(|| i32::from_le_bytes(four(100)).wrapping_sub(2));
-    Ok(Topography::of_rows(shape, spacing, false, |index| {
+    let height = |index: usize| {
         let at = begin + bytes * index;
         let value = match bytes {
             2 => i32::from(i16::from_le_bytes(two(at))),
@@ -84,5 +93,11 @@ pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
         } else {
             step * f64::from(value)
         }
-    }))
+    };
+    let heights = (0..columns * rows).map(height).collect();
+    let unit_of_heights = text_of(&contents[212..228]);
+    Ok(Topography {
+        states_unit: !unit_of_heights.trim_matches(['\0', ' ']).is_empty(),
+        ..Topography::of_rows([rows, columns], spacing, heights)
+    })
 }

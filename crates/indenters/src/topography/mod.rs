@@ -1,11 +1,17 @@
-//! Measured surfaces, from the contents of files.
+//! Surfaces from the heights that files and arrays hold.
 //!
-//! Heights point out of the body. Along x they follow one another as in the rows of the file, along y from the first row up,
-//! or from the last where the first is the upper one of a picture. Heights that were not measured are NaN until they are filled.
+//! One convention holds for all of them: heights point out of the body, so that summits touch first; a row runs along x, the
+//! direction of motion; and y grows from row to row, in the order of the file. Heights that were not measured are NaN until
+//! they are filled.
 
+#[cfg(feature = "topography")]
 mod asc;
+#[cfg(feature = "topography")]
 mod binary;
+mod text;
+#[cfg(feature = "topography")]
 mod x3p;
+#[cfg(feature = "topography")]
 mod xyz;
 
 use thiserror::Error;
@@ -23,6 +29,14 @@ pub enum TopographyError {
         /// What there is instead, and where.
         found: String,
     },
+    /// A line of heights is none.
+    #[error("line {line}: {problem}")]
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// What is needed, and what is there.
+        problem: String,
+    },
     /// Points were not measured.
     #[error(
         "{missing} of {points} heights are missing: fill them, or cut out a part without holes"
@@ -38,15 +52,17 @@ pub enum TopographyError {
     Surface(#[from] IndenterError),
 }
 
-/// A measured surface.
+/// A surface by its heights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
-    /// Points along x and y.
+    /// Rows, one for each y, and columns, one for each x.
     pub shape: [usize; 2],
-    /// Distance of neighbouring points along x and y, \[m].
+    /// Distances of neighbouring points along x and y, \[m].
     pub spacing: [f64; 2],
-    /// Heights, y fastest, \[m]; NaN where they are missing.
+    /// Heights out of the body row by row, \[m]; NaN where they are missing.
     pub heights: Vec<f64>,
+    /// Whether the file says in which unit its heights are.
+    pub states_unit: bool,
 }
 
 impl Topography {
@@ -55,6 +71,7 @@ impl Topography {
     ///
     /// # Errors
     /// [`TopographyError::Format`] where the contents are not of that format.
+    #[cfg(feature = "topography")]
     pub fn read(extension: &str, contents: &[u8]) -> Result<Self, TopographyError> {
         let extension = extension.to_ascii_lowercase();
         let found = match &extension[..] {
@@ -76,20 +93,53 @@ impl Topography {
         found.map_err(|found| TopographyError::Format { format, found })
     }
 
-    /// From the values of all points, x fastest.
-    fn of_rows(
-        [columns, rows]: [usize; 2],
-        spacing: [f64; 2],
-        first_is_upper: bool,
-        value: impl Fn(usize) -> f64,
-    ) -> Self {
-        let row = |y: usize| if first_is_upper { rows - 1 - y } else { y };
-        let points = (0..columns).flat_map(|x| (0..rows).map(move |y| [x, y]));
+    /// The surface in a text of one line of heights for each y, without names; a cell that is empty or says that it is no
+    /// number (`nan`, `NA`, `--`) is a missing height.
+    ///
+    /// Commas, semicolons, tabs or blanks separate. A comma is a decimal mark where semicolons or tabs separate, and between
+    /// blanks where there are no decimal points.
+    ///
+    /// # Errors
+    /// [`TopographyError::Line`] for a line that is shorter or longer than the others or holds anything else.
+    pub fn of_text(contents: &[u8], spacing: [f64; 2]) -> Result<Self, TopographyError> {
+        text::rows(contents, spacing)
+    }
+
+    /// From heights row by row, of a file that does not state their unit.
+    pub const fn of_rows(shape: [usize; 2], spacing: [f64; 2], heights: Vec<f64>) -> Self {
         Self {
-            shape: [columns, rows],
+            shape,
             spacing,
-            heights: points.map(|[x, y]| value(row(y) * columns + x)).collect(),
+            heights,
+            states_unit: false,
         }
+    }
+
+    /// With every height times a factor: −1 where the heights given point into the body.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.heights.iter_mut().for_each(|height| *height *= factor);
+        self
+    }
+
+    /// Seen along another direction of motion, so many quarters of a turn from x towards y: that direction becomes x.
+    #[must_use]
+    pub fn turned(mut self, quarters: usize) -> Self {
+        for _ in 0..quarters % 4 {
+            let [rows, columns] = self.shape;
+            // The first row is the last column: y is the new x, and −x the new y.
+            let from = |index: usize| index % rows * columns + (columns - 1 - index / rows);
+            let places = 0..self.heights.len();
+            self.heights = places.map(|index| self.heights[from(index)]).collect();
+            self.shape.reverse();
+            self.spacing.reverse();
+        }
+        self
+    }
+
+    /// How many heights are missing.
+    pub fn missing(&self) -> usize {
+        self.heights.iter().filter(|height| height.is_nan()).count()
     }
 
     /// With every missing height the mean of its known neighbours, of four, from the edges of holes inwards.
@@ -138,8 +188,9 @@ impl Topography {
 
     /// Place of a point along x and y, in points from the middle.
     fn place(&self, index: usize) -> [f64; 2] {
-        let place = [index / self.shape[1], index % self.shape[1]];
-        [0, 1].map(|axis| place[axis] as f64 - 0.5 * (self.shape[axis] as f64 - 1.0))
+        let [rows, columns] = self.shape;
+        [(index % columns, columns), (index / columns, rows)]
+            .map(|(place, count)| place as f64 - 0.5 * (count as f64 - 1.0))
     }
 
     /// Without its plane of least squares, of heights none of which is missing.
@@ -161,17 +212,20 @@ impl Topography {
     /// [`TopographyError::Missing`] where heights are missing; those of [`HeightMap::new`].
     pub fn body(&self) -> Result<HeightMap, TopographyError> {
         let points = self.heights.len();
-        let missing = self.heights.iter().filter(|height| height.is_nan()).count();
+        let missing = self.missing();
         if missing > 0 {
             return Err(TopographyError::Missing { missing, points });
         }
-        let highest = self.heights.iter().copied().fold(f64::MIN, f64::max);
-        let heights = self.heights.iter().map(|height| highest - height).collect();
-        Ok(HeightMap::new(self.shape, self.spacing, heights)?)
+        let [rows, columns] = self.shape;
+        // The map has its heights into the body, and y fastest.
+        let height = |index: usize| -self.heights[index % rows * columns + index / rows];
+        let heights = (0..points).map(height).collect();
+        Ok(HeightMap::new([columns, rows], self.spacing, heights)?)
     }
 }
 
 /// Metres in a unit of length as files write it.
+#[cfg(feature = "topography")]
 fn metres(unit: &str) -> Result<f64, String> {
     let unit = unit.trim_matches(|end: char| end.is_whitespace() || end == '\0');
     Ok(match unit {
@@ -182,11 +236,4 @@ fn metres(unit: &str) -> Result<f64, String> {
         "nm" => 1e-9,
         other => return Err(format!("the unit '{other}'")),
     })
-}
-
-/// The text of a file in UTF-8, or in Latin-1.
-fn text_of(contents: &[u8]) -> String {
-    let contents = contents.strip_prefix(b"\xef\xbb\xbf").unwrap_or(contents);
-    let latin = || contents.iter().copied().map(char::from).collect();
-    std::str::from_utf8(contents).map_or_else(|_| latin(), str::to_owned)
 }

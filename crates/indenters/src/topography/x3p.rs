@@ -28,7 +28,8 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
     }
     let size = |axis: &str| main.number::<usize>(&format!("Record3/MatrixDimension/Size{axis}"));
     let increment = |axis: &str| main.number::<f64>(&format!("Record1/Axes/C{axis}/Increment"));
-    let (shape, spacing) = ([size("X")?, size("Y")?], [increment("X")?, increment("Y")?]);
+    let [columns, rows] = [size("X")?, size("Y")?];
+    let spacing = [increment("X")?, increment("Y")?];
     let kind = main.text("Record1/Axes/CZ/DataType");
     let is_integer = ["I", "L"].contains(&kind);
     let valid = main.text("Record3/DataLink/ValidPointsLink");
@@ -38,13 +39,15 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         data: part(main.text("Record3/DataLink/PointDataLink"))?,
         valid: (!valid.is_empty()).then(|| part(valid)).transpose()?,
     };
-    let points = shape[0].checked_mul(shape[1]);
-    if !points.is_some_and(|points| points > 0 && heights.are(points)) {
-        let bytes = heights.data.len();
-        return Err(format!("{bytes} bytes of type '{kind}' for {shape:?}"));
-    }
-    let height = |index| heights.at(index);
-    Ok(Topography::of_rows(shape, spacing, false, height))
+    let points = columns.checked_mul(rows);
+    let points = points.filter(|points| *points > 0 && heights.are(*points));
+    let bytes = heights.data.len();
+    let wrong = || format!("{bytes} bytes of type '{kind}' for {columns} × {rows} points");
+    let heights = (0..points.ok_or_else(wrong)?).map(|index| heights.at(index));
+    Ok(Topography {
+        states_unit: true,
+        ..Topography::of_rows([rows, columns], spacing, heights.collect())
+    })
 }
 
 /// The description.

@@ -1,22 +1,27 @@
 //! Rows of x, y and z in metres, in any order; points of the grid that are left out are missing.
 
-use super::{Topography, text_of};
+use super::Topography;
+use super::text::{Notation, lines, text_of};
 use numerics::whole_part;
 
 /// Part of a spacing by which a point may miss its place in the grid.
 const MISS: f64 = 0.01;
 
 pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
-    let mut points = Vec::new();
-    for (index, line) in text_of(contents).lines().enumerate() {
-        let cells = line.split(|c: char| c.is_whitespace() || c == ';' || c == ',');
-        let cells = cells.filter(|cell| !cell.is_empty()).map(str::parse);
-        if !line.starts_with('#') && !line.trim().is_empty() {
-            let row: Result<Vec<f64>, _> = cells.collect();
-            let row: Option<[f64; 3]> = row.ok().and_then(|row| row.try_into().ok());
-            points.push(row.ok_or_else(|| format!("line {}: '{line:.40}'", index + 1))?);
-        }
-    }
+    let text = text_of(contents);
+    let notation = Notation::of(&text);
+    let point = |(number, line): (usize, &str)| {
+        let point = match notation.cells(line)[..] {
+            [x, y, z] => notation
+                .number(x)
+                .zip(notation.number(y))
+                .zip(notation.height(z)),
+            _ => None,
+        };
+        let point = point.map(|((x, y), z)| [x, y, z]);
+        point.ok_or_else(|| format!("line {number}: '{line:.40}'"))
+    };
+    let points: Vec<[f64; 3]> = lines(&text).map(point).collect::<Result<_, _>>()?;
     let axis = |which: usize| axis(points.iter().map(|point| point[which]).collect());
     let [(x, dx, nx), (y, dy, ny)] = [axis(0)?, axis(1)?];
     if nx * ny > 100 * points.len() {
@@ -30,15 +35,10 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
                 "a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}"
             ));
         }
-        let [row, column] = steps.map(|step| whole_part(step.round()));
-        heights[row * ny + column] = height;
+        let [column, row] = steps.map(|step| whole_part(step.round()));
+        heights[row * nx + column] = height;
     }
-    let (shape, spacing) = ([nx, ny], [dx, dy]);
-    Ok(Topography {
-        shape,
-        spacing,
-        heights,
-    })
+    Ok(Topography::of_rows([ny, nx], [dx, dy], heights))
 }
 
 /// First of equally spaced coordinates, their distance and number.

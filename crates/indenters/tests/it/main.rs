@@ -12,3 +12,4 @@ mod roughness;
 mod stretch_matches_the_paper;
 mod support;
 mod surfaces_know_their_extent;
+mod topographies;

@@ -19,7 +19,7 @@ use viscofriction::solve::{
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{OutputFolder, markdown, print_line, say};
 use crate::progress;
-pub(crate) use pictures::around;
+pub(crate) use pictures::{around, arrow};
 
 /// Arguments of the command.
 #[derive(Debug, Args)]

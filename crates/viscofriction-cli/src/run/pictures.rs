@@ -31,7 +31,7 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
         (pressure > 0.0).then(|| shown(pressure))
     });
     let [x, y] = [range(0), range(1)];
-    let motion = answer.friction_coefficient.map(|_| arrow(x, y));
+    let motion = answer.friction_coefficient.map(|_| arrow(x, y, true));
     let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
     Ok(Figure::single(Chart {
         series: motion.into_iter().collect(),
@@ -39,17 +39,19 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
     }))
 }
 
-/// Along the motion, in the lower left corner.
-fn arrow(x: [f64; 2], y: [f64; 2]) -> Series {
-    let unit = 0.03 * (x[1] - x[0]).min(y[1] - y[0]);
-    let (end, y) = (x[0] + 9.0 * unit, y[0] + 2.0 * unit);
+/// Along the motion, in the lower left corner; `is_true` where a unit of length is equally long on both axes.
+pub(crate) fn arrow(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
+    let spans = [x, y].map(|[from, to]| 0.03 * (to - from));
+    let shorter = spans[0].min(spans[1]);
+    let [along, across] = if is_true { [shorter; 2] } else { spans };
+    let (end, y) = (x[0] + 9.0 * along, y[0] + 2.0 * across);
     let head = [
         [end, y],
-        [end - unit, y + 0.6 * unit],
+        [end - along, y + 0.6 * across],
         [end, y],
-        [end - unit, y - 0.6 * unit],
+        [end - along, y - 0.6 * across],
     ];
-    let points = std::iter::once([x[0] + unit, y]).chain(head).collect();
+    let points = std::iter::once([x[0] + along, y]).chain(head).collect();
     Series::line(points, Line::thick(Dash::Solid), Colour::Black)
 }
 

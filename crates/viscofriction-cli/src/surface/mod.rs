@@ -10,7 +10,8 @@ use clap::Args;
 use viscofriction::WrongInput;
 use viscofriction::indenters::rough::{PowerSpectrum, Roughness};
 use viscofriction::indenters::topography::Topography;
-use viscofriction::scene::{height_map, measured};
+use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError, measured};
+use viscofriction::solve::warnings_of_heights;
 
 use crate::input::{protect, read_input};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
@@ -27,6 +28,15 @@ pub(crate) struct Surface {
     /// Distances of neighbouring heights along x and y in m, of CSV and npy.
     #[arg(long, num_args = 2, value_names = ["DX", "DY"])]
     spacing: Option<Vec<f64>>,
+    /// Unit of the heights, in files that do not state it [default: m].
+    #[arg(long, value_name = "U")]
+    unit: Option<LengthUnit>,
+    /// Whether the largest heights touch first, or as gaps the smallest.
+    #[arg(long, value_name = "WHAT", default_value = "surface")]
+    heights_are: HeightsAre,
+    /// Direction in which the body moves, from x towards y in degrees: 0, 90, 180 or 270.
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0)]
+    direction: f64,
     /// The map repeats itself: slopes, curvatures and spectra are those of its waves.
     #[arg(long)]
     periodic: bool,
@@ -52,10 +62,13 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
     protect(&options.file);
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
-    let (surface, notes) = options.tidied()?;
+    let (surface, mut notes) = options.tidied()?;
     let wrong = |error| options.wrong(error);
     let map = surface.body().map_err(|error| options.wrong(error))?;
     let roughness = Roughness::of(&map, options.periodic).map_err(wrong)?;
+    for warning in warnings_of_heights(&options.table(), &surface, &map) {
+        notes += &format!("warning: {warning}\n");
+    }
     let rows = rows(&roughness);
     print_text(&format!("{notes}\n{}\n", table(&rows)))?;
     let Some(out) = &out else {
@@ -78,20 +91,27 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
 impl Surface {
     /// The surface without holes and tilt, around its mean height, and what was done to it.
     fn tidied(&self) -> Result<(Topography, String), WrongInput> {
-        let mut surface = self.read()?;
+        let table = self.table();
+        let contents = read_input(&self.file)?;
+        if measured(&self.file).is_none() && table.spacing.is_none() {
+            return Err(self.wrong("its heights need --spacing DX DY in m"));
+        }
+        let wrong = |error| self.wrong_option(&error);
+        let surface = table.read(&self.file, &contents);
+        let surface = surface.map_err(wrong)?;
+        let (points, missing) = (surface.heights.len(), surface.missing());
+        let mut surface = table.prepared(surface).map_err(wrong)?;
         let [rows, columns] = surface.shape;
         let [dx, dy] = surface.spacing;
-        let points = rows * columns;
-        let missing = surface.heights.iter().filter(|height| height.is_nan());
-        let missing = missing.count();
-        let mut notes = format!("{rows} × {columns} heights, {dx:.6e} × {dy:.6e} m apart\n");
+        let first = match self.heights_are {
+            HeightsAre::Surface => "highest points touch first",
+            HeightsAre::Gap => "smallest gaps touch first",
+        };
+        let mut notes = format!(
+            "{columns} × {rows} heights along x and y, {dx:.6e} × {dy:.6e} m apart\n\
+             the body moves along x, and its {first}\n"
+        );
         if missing > 0 {
-            if !self.fill_missing {
-                let problem = format!("{missing} of {points} heights are missing");
-                let advice = "--fill-missing takes them from their neighbours";
-                return Err(self.wrong(format!("{problem}; {advice}")));
-            }
-            surface = surface.filled();
             notes += &format!("missing, filled from their neighbours: {missing} of {points}\n");
         }
         if !self.keep_tilt {
@@ -107,24 +127,37 @@ impl Surface {
         Ok((surface, notes))
     }
 
-    fn read(&self) -> Result<Topography, WrongInput> {
-        let contents = read_input(&self.file)?;
-        match (measured(&self.file), self.spacing.as_deref()) {
-            (Some(extension), None) => {
-                Topography::read(extension, &contents).map_err(|error| self.wrong(error))
+    /// The table of a scene with these options.
+    fn table(&self) -> HeightMapTable {
+        let edges = if self.periodic {
+            Edges::Periodic
+        } else {
+            Edges::Wall
+        };
+        let spacing = self.spacing.as_deref();
+        HeightMapTable {
+            file: self.file.clone(),
+            spacing: spacing.map(|spacing| [spacing[0], spacing[1]]),
+            unit: self.unit,
+            heights_are: self.heights_are,
+            direction: self.direction,
+            fill_missing: self.fill_missing,
+            level: false,
+            edges,
+            shortest_wavelength: None,
+        }
+    }
+
+    /// An error of the table of a scene, whose keys are options here.
+    fn wrong_option(&self, error: &SceneError) -> WrongInput {
+        let text = error.to_string();
+        let text = text.trim_start_matches("indenter.height-map.");
+        match (text.strip_prefix("file: "), text.find([' ', ':', '['])) {
+            (None, Some(end)) => {
+                let option = text[..end].replace('_', "-");
+                self.wrong(format!("--{option}{}", &text[end..]))
             }
-            (Some(_), Some(_)) => {
-                Err(self.wrong("the file states its spacing; leave out --spacing"))
-            }
-            (None, Some(&[dx, dy])) if dx > 0.0 && dy > 0.0 => {
-                let map = height_map(&self.file, &contents, [dx, dy]).map_err(WrongInput)?;
-                Ok(Topography {
-                    shape: map.shape(),
-                    spacing: map.spacing(),
-                    heights: map.heights().iter().map(|height| -height).collect(),
-                })
-            }
-            _ => Err(self.wrong("its heights need --spacing DX DY in m, both above 0")),
+            (in_file, _) => WrongInput(in_file.unwrap_or(text).to_owned()),
         }
     }
 
@@ -184,8 +217,9 @@ fn table(rows: &[Row]) -> comfy_table::Table {
 /// The surface as rows of x, y and z in metres.
 fn xyz(surface: &Topography) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
+    let columns = surface.shape[1];
     for (index, height) in surface.heights.iter().enumerate() {
-        let place = [index / surface.shape[1], index % surface.shape[1]];
+        let place = [index % columns, index / columns];
         let [x, y] = [0, 1].map(|axis| place[axis] as f64 * surface.spacing[axis]);
         writeln!(text, "{x:e} {y:e} {height:e}")?;
     }

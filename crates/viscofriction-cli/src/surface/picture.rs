@@ -5,6 +5,10 @@ use viscofriction::indenters::rough::PowerSpectrum;
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use crate::material::decades;
+use crate::run::arrow;
+
+/// Side of a map over the other above which it is not drawn in true proportions.
+const LONGEST: f64 = 2.0;
 
 pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     let isotropic = spectrum.radial.iter();
@@ -17,22 +21,64 @@ pub(super) fn figure(map: &HeightMap, spectrum: &PowerSpectrum) -> Figure {
     ];
     let charts = [
         heights(map),
+        section(map),
         chart("mean of C over directions [m⁴]", vec![radial]),
         chart("C of profiles [m³]", profiles.into()),
     ];
-    Figure::new(charts, 3)
+    Figure::new(charts, 2)
 }
 
-/// Heights above the lowest point of the surface.
+/// Heights out of the body above the deepest point, and how it moves.
 fn heights(map: &HeightMap) -> Chart {
-    let ([rows, columns], [dx, dy]) = (map.shape(), map.spacing());
+    let ([along_x, along_y], [dx, dy]) = (map.shape(), map.spacing());
     let highest = map.heights().iter().copied().fold(0.0, f64::max);
     let colours = Axis::linear("height [m]", [0.0, highest]);
-    let field = Field::new([rows, columns], colours, |x, y| {
-        Some(highest - map.heights()[x * columns + y])
+    let field = Field::new([along_x, along_y], colours, |x, y| {
+        Some(highest - map.heights()[x * along_y + y])
     });
-    let axis = |label, count: usize, step: f64| Axis::linear(label, [0.0, count as f64 * step]);
-    Chart::map(axis("x [m]", rows, dx), axis("y [m]", columns, dy), field)
+    let [x, y] = [[0.0, along_x as f64 * dx], [0.0, along_y as f64 * dy]];
+    // In true proportions a long map is too narrow for its labels.
+    let sides = [x[1], y[1]];
+    let is_long = sides[0].max(sides[1]) > LONGEST * sides[0].min(sides[1]);
+    let field = if is_long { field.stretched() } else { field };
+    Chart {
+        title: Some("yellow touches first".into()),
+        series: vec![motion(x, y, !is_long)],
+        ..Chart::map(Axis::linear("x [m]", x), Axis::linear("y [m]", y), field)
+    }
+}
+
+fn motion(x: [f64; 2], y: [f64; 2], is_true: bool) -> Series {
+    Series {
+        colour: Colour::Red,
+        ..arrow(x, y, is_true)
+    }
+}
+
+/// The body on the elastomer at first touch, cut along the motion through the point that touches.
+fn section(map: &HeightMap) -> Chart {
+    let ([along_x, along_y], [dx, _]) = (map.shape(), map.spacing());
+    let touching = map.heights().iter().position(|height| *height == 0.0);
+    let row = touching.unwrap_or(0) % along_y;
+    let point = |x: usize| [x as f64 * dx, map.heights()[x * along_y + row]];
+    let points: Vec<[f64; 2]> = (0..along_x).map(point).collect();
+    let highest = map.heights().iter().copied().fold(0.0, f64::max);
+    let (x, y) = ([0.0, along_x as f64 * dx], [-0.2 * highest, 1.3 * highest]);
+    let flat = x.map(|x| [x, 0.0]).into();
+    let dashed = Line::thick(Dash::Dashed);
+    let series = vec![
+        Series::line(points, Line::thick(Dash::Solid), Colour::Blue).labelled("rigid body, above"),
+        Series::line(flat, dashed, Colour::Green).labelled("elastomer, below"),
+        motion(x, y, false).labelled("motion of the body"),
+    ];
+    Chart {
+        title: Some("cut along x through the point that touches first".into()),
+        ..Chart::new(
+            Axis::linear("x [m]", x),
+            Axis::linear("height above the elastomer [m]", y),
+            series,
+        )
+    }
 }
 
 fn curve(points: Vec<[f64; 2]>, colour: Colour) -> Series {

@@ -49,14 +49,14 @@ fn answers_are_those_of_closed_forms_and_of_other_methods() {
 
 /// Heights of a paraboloid on a grid of 0.4 mm, up to 11 mm from the tip, which lies off the middle.
 fn map() -> String {
-    let row = |row: i32| {
+    let line = |row: i32| {
         let height = |column: i32| {
-            let [x, y] = [row - 30, column - 28].map(|index| 4e-4 * f64::from(index));
-            format!("{:?}", 0.3 + 50.0 * (x * x + y * y))
+            let [x, y] = [column - 30, row - 28].map(|index| 4e-4 * f64::from(index));
+            format!("{:?}", 0.3 - 50.0 * (x * x + y * y))
         };
-        (0..57).map(height).collect::<Vec<_>>().join(",")
+        (0..59).map(height).collect::<Vec<_>>().join(",")
     };
-    (0..59).map(row).collect::<Vec<_>>().join("\n")
+    (0..57).map(line).collect::<Vec<_>>().join("\n")
 }
 
 #[test]

@@ -86,21 +86,19 @@ fn the_way_from_rest_ends_in_the_stationary_state() {
 fn a_periodic_map_is_the_same_surface_on_any_grid() {
     let folder = Folder::new("rough-map");
     let wave = |x: f64, y: f64, phase: f64| 0.02 * (TAU * (x + y) + phase).cos();
-    let answers = [[16, 8], [20, 15]].map(|[rows, columns]| {
+    let answers = [[16, 8], [20, 15]].map(|[along_x, along_y]| {
         let part = |index: usize, of: usize| index as f64 / of as f64;
-        let height = |i: usize, j: usize| {
-            let (x, y) = (part(i, rows), part(j, columns));
-            wave(x, 2.0 * y, 0.3) + 0.5 * wave(3.0 * x, -y, 1.0)
+        let line = |row: usize| {
+            let height = |column: usize| {
+                let (x, y) = (part(column, along_x), part(row, along_y));
+                let height = wave(x, 2.0 * y, 0.3) + 0.5 * wave(3.0 * x, -y, 1.0);
+                height.to_string()
+            };
+            (0..along_x).map(height).collect::<Vec<_>>().join(",")
         };
-        let line = |i| {
-            (0..columns)
-                .map(|j| height(i, j).to_string())
-                .collect::<Vec<_>>()
-                .join(",")
-        };
-        let lines: Vec<String> = (0..rows).map(line).collect();
+        let lines: Vec<String> = (0..along_y).map(line).collect();
         folder.write("map.csv", lines.join("\n"));
-        let spacing = [2.0 * part(1, rows), part(1, columns)];
+        let spacing = [2.0 * part(1, along_x), part(1, along_y)];
         let (before, after) = SURFACE.split_once("\n").expect("lines");
         assert!(before.starts_with("indenter.self-affine"), "{before}");
         let map = format!("file = \"map.csv\", spacing = {spacing:?}, edges = \"periodic\"");

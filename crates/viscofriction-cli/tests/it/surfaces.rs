@@ -44,13 +44,13 @@ fn a_tidied_copy_has_the_same_numbers() {
     );
 }
 
-/// A map that repeats itself is the sum of its waves, and CSV says where heights are; they point into the body there.
+/// A map that repeats itself is the sum of its waves.
 #[test]
 fn a_periodic_map_is_described_by_its_waves() {
     let folder = Folder::new("surface-periodic");
     let height = |index: i32| (TAU * f64::from(index) / 16.0).cos().to_string();
-    let lines = (0..16).map(|row| vec![height(row); 8].join(","));
-    folder.write("wave.csv", lines.collect::<Vec<_>>().join("\n"));
+    let line = (0..16).map(height).collect::<Vec<_>>().join(",");
+    folder.write("wave.csv", vec![line; 8].join("\n"));
     folder.done("surface wave.csv --spacing 0.25 0.5 --periodic --keep-tilt --out told");
     let numbers = folder.column("told/roughness.csv", 2);
     let q = TAU / 4.0;

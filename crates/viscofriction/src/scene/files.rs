@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
-use indenters::{HeightMap, IndenterError, PiecewiseLinearProfile};
+use csv::{ErrorKind, StringRecord};
+use indenters::topography::{Topography, TopographyError};
+use indenters::{IndenterError, PiecewiseLinearProfile};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -126,62 +127,31 @@ pub fn measured(file: &Path) -> Option<&str> {
     is_known.then_some(extension)
 }
 
-/// A surface from the contents of a file, of NumPy if its name ends with `.npy`, of CSV otherwise.
+/// The surface in the contents of a file, an array of NumPy if its name ends with `.npy` and a text otherwise.
 ///
 /// # Errors
 /// File, place and what is wrong there.
-pub fn height_map(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
+pub fn topography(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<Topography, String> {
     let extension = file.extension();
     if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("npy")) {
         of_numpy(contents, spacing).map_err(|problem| format!("{}: {problem}", file.display()))
     } else {
-        of_csv(contents, spacing).map_err(|(line, problem)| at(file, line, &problem))
+        Topography::of_text(contents, spacing).map_err(|error| match error {
+            TopographyError::Line { line, problem } => at(file, line, &problem),
+            other => format!("{}: {other}", file.display()),
+        })
     }
 }
 
-/// An array of heights, the first index along x.
-fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, String> {
+/// An array of heights of the shape (n_y, n_x), in which NaN stands for a missing one.
+fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<Topography, String> {
     let NpyTable { shape, values } = from_npy(contents)?;
-    if let Some(index) = values.iter().position(|height| !height.is_finite()) {
+    if let Some(index) = values.iter().position(|height| height.is_infinite()) {
         let [row, column] = [index / shape[1], index % shape[1]];
+        let value = values[index];
         return Err(format!(
-            "[{row}, {column}]: a finite height in m is needed, and not {}",
-            values[index]
+            "[{row}, {column}]: a finite height is needed, and not {value}"
         ));
     }
-    HeightMap::new(shape, spacing, values).map_err(|error| error.to_string())
-}
-
-/// One line of heights per x, one column per y, without names; or a line and what is wrong there.
-fn of_csv(contents: &[u8], spacing: [f64; 2]) -> Result<HeightMap, (usize, String)> {
-    let mut builder = ReaderBuilder::new();
-    let mut reader = builder
-        .has_headers(false)
-        .trim(Trim::All)
-        .from_reader(contents);
-    let mut heights = Vec::new();
-    let [mut rows, mut columns, mut last] = [0, 0, 1];
-    for record in reader.records() {
-        let record = record.map_err(|error| {
-            let line = line_of_record(contents, error.position());
-            (line, problem(&error, &StringRecord::new()))
-        })?;
-        last = line_of_record(contents, record.position());
-        for (column, cell) in record.iter().enumerate() {
-            heights.push(height(column, cell).map_err(|problem| (last, problem))?);
-        }
-        columns = record.len();
-        rows += 1;
-    }
-    HeightMap::new([rows, columns], spacing, heights).map_err(|error| (last, error.to_string()))
-}
-
-fn height(column: usize, cell: &str) -> Result<f64, String> {
-    let number = cell.parse::<f64>().ok().filter(|height| height.is_finite());
-    number.ok_or_else(|| {
-        let shown = cell.chars().filter(|letter| !letter.is_control());
-        let shown: String = shown.take(40).collect();
-        let column = column + 1;
-        format!("column {column}: a finite height in m is needed, and not '{shown}'")
-    })
+    Ok(Topography::of_rows(shape, spacing, values))
 }

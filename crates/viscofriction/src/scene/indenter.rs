@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 
+use super::height_map::HeightMapTable;
+
 /// The rigid body; its lowest point is the origin, lengths in metres.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -82,25 +84,7 @@ pub enum Indenter {
         file: PathBuf,
     },
     /// A surface from a grid of heights: bilinear between them, or periodic, the sum of waves through them.
-    HeightMap {
-        /// File beside the scene file: a CSV without names, one line of heights \[m] per x, from rear to front, and one column
-        /// per y; or, with the extension npy, an array of NumPy, float64 or float32, with the first index along x. With the
-        /// extensions asc, gsf, sur, x3p and xyz a measured surface, whose highest points touch first.
-        file: PathBuf,
-        /// Distances of neighbouring heights along x and y, > 0, \[m]; not of a measured surface, which has its own.
-        spacing: Option<[f64; 2]>,
-        /// Fill heights that were not measured with the mean of their known neighbours, from the edges of holes inwards.
-        #[serde(default)]
-        fill_missing: bool,
-        /// Take the plane of least squares out of a measured surface.
-        #[serde(default)]
-        level: bool,
-        /// What is beyond the grid.
-        #[serde(default)]
-        edges: Edges,
-        /// Waves shorter than this are left out of a periodic surface, \[m]; without it none that the grid knows.
-        shortest_wavelength: Option<f64>,
-    },
+    HeightMap(HeightMapTable),
     /// A random self-affine surface that repeats itself along x and y for ever; it takes load.mean_pressure.
     SelfAffine(SelfAffineSurface),
 }

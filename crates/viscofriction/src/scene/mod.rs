@@ -4,6 +4,7 @@
 
 mod error;
 mod files;
+mod height_map;
 mod history;
 mod indenter;
 mod load;
@@ -18,7 +19,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use error::SceneError;
-pub use files::{height_map, measured, profile};
+pub use files::{measured, profile, topography};
+pub use height_map::{HeightMapTable, HeightsAre, LengthUnit};
 pub use indenter::{Edges, Indenter, SelfAffineSurface, Term};
 pub use indenters::Control;
 pub use load::{Load, LoadPoint};

@@ -4,17 +4,14 @@ use std::ops::Deref;
 use std::path::Path;
 
 use indenters::rough::{PeriodicSurface, SelfAffine};
-#[cfg(feature = "topography")]
-use indenters::topography::Topography;
 use indenters::{
     Axisymmetric, Cylinder, FlatCone, FlatPunch, HeightMap, Hyperboloid, IndenterError,
     PowerProfile, PowerTerm, RoundTippedCone, Sphere, Superposition, Surface, TruncatedParaboloid,
 };
 use numerics::{in_range, positive};
 
-use crate::scene::{
-    Edges, Indenter, SceneError, SelfAffineSurface, Term, height_map, measured, profile,
-};
+use super::heights::body_of_heights;
+use crate::scene::{Indenter, SceneError, SelfAffineSurface, Term, profile};
 use crate::text::{ReadFile, WrongInput};
 
 /// The rigid body, by what the methods tell apart.
@@ -47,6 +44,15 @@ impl Body {
             _ => None,
         }
     }
+}
+
+/// The rigid body of a scene, as its files describe it.
+#[derive(Debug)]
+pub struct BodyOfScene {
+    /// The body.
+    pub body: Body,
+    /// Sentences about what is strange in the files, which are part of the warnings of every answer.
+    pub warnings: Vec<String>,
 }
 
 /// A body of revolution.
@@ -97,7 +103,7 @@ impl Revolution {
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, SceneError> {
+pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<BodyOfScene, SceneError> {
     let power = |profile| Body::Revolution(Revolution::Power(profile));
     let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
     let body = match indenter {
@@ -120,23 +126,19 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<Body, 
         Indenter::Superposition { terms } => Ok(Body::Revolution(Revolution::Sum(sum(terms)?))),
         Indenter::Table { file } => Ok(table_profile(&folder.join(file), read)?),
         &Indenter::Cylinder { radius } => Cylinder::new(radius).map(Body::Cylinder),
-        Indenter::HeightMap {
-            file,
-            spacing,
-            fill_missing,
-            level,
-            edges,
-            shortest_wavelength,
-        } => {
-            let file = folder.join(file);
-            let map = map(&file, *spacing, [*fill_missing, *level], read)?;
-            return with_edges(map, *edges, *shortest_wavelength).map_err(|(key, problem)| {
-                SceneError::at(format!("indenter.height-map.{key}"), problem)
-            });
+        Indenter::HeightMap(table) => {
+            let file = folder.join(&table.file);
+            let wrong = |WrongInput(problem)| SceneError::at("indenter.height-map.file", problem);
+            let surface = table.read(&file, &read(&file).map_err(wrong)?)?;
+            return body_of_heights(table, surface);
         }
         Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
     };
-    body.map_err(|error| refused(&indenter.key(), error))
+    let body = body.map_err(|error| refused(&indenter.key(), error))?;
+    Ok(BodyOfScene {
+        body,
+        warnings: Vec::new(),
+    })
 }
 
 fn self_affine(surface: &SelfAffineSurface) -> SelfAffine {
@@ -177,79 +179,6 @@ fn table_profile(file: &Path, read: ReadFile) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
     let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
     profile(file, &contents).map(other).map_err(wrong)
-}
-
-/// A grid of heights, which says how far apart they are, or the scene does.
-fn map(
-    file: &Path,
-    spacing: Option<[f64; 2]>,
-    change: [bool; 2],
-    read: ReadFile,
-) -> Result<HeightMap, SceneError> {
-    let wrong = |problem: String| SceneError::at("indenter.height-map.file", problem);
-    let spaced = |problem: &str| SceneError::at("indenter.height-map.spacing", problem);
-    let contents = || read(file).map_err(|WrongInput(problem)| wrong(problem));
-    let in_file = |problem: String| wrong(format!("{}: {problem}", file.display()));
-    let map = match (measured(file), spacing) {
-        (Some(_), Some(_)) => return Err(spaced("a measured surface has its own; leave this out")),
-        (None, None) => return Err(spaced("missing field `spacing`")),
-        (Some(extension), None) => {
-            measured_body(extension, &contents()?, change).map_err(in_file)?
-        }
-        (None, Some(_)) if change != [false; 2] => {
-            let problem = "fill_missing and level are for measured surfaces; leave them out";
-            return Err(wrong(problem.to_owned()));
-        }
-        (None, Some(spacing)) => {
-            positive("indenter.height-map.spacing[0]", spacing[0])?;
-            positive("indenter.height-map.spacing[1]", spacing[1])?;
-            height_map(file, &contents()?, spacing).map_err(wrong)?
-        }
-    };
-    Ok(map)
-}
-
-/// A map that ends at its edges or repeats itself; or a key and what is wrong with it.
-fn with_edges(
-    map: HeightMap,
-    edges: Edges,
-    shortest_wavelength: Option<f64>,
-) -> Result<Body, (&'static str, String)> {
-    match (edges, shortest_wavelength) {
-        (Edges::Periodic, shortest) => PeriodicSurface::through(&map, shortest.unwrap_or(0.0))
-            .map(Body::Periodic)
-            .map_err(|error| ("edges", error.to_string())),
-        (Edges::Mirrored, shortest) => with_edges(map.mirrored(), Edges::Periodic, shortest),
-        (Edges::Wall, Some(_)) => {
-            let problem = "only of edges = \"periodic\" or \"mirrored\" waves are left out";
-            Err(("shortest_wavelength", problem.to_owned()))
-        }
-        (Edges::Wall, None) if map.extent().into_iter().flatten().any(|end| end == 0.0) => {
-            let problem = "the lowest height lies on the edge of the map, where the contact would end with it; \
-                           edges = \"periodic\" repeats the map, and \"mirrored\" its mirror images too";
-            Err(("file", problem.to_owned()))
-        }
-        (Edges::Wall, None) => Ok(Body::HeightMap(map)),
-    }
-}
-
-/// The body of a measured surface, whose missing heights are filled, and then whose tilt is taken out, where it is asked.
-#[cfg(feature = "topography")]
-fn measured_body(
-    extension: &str,
-    contents: &[u8],
-    [fill, level]: [bool; 2],
-) -> Result<HeightMap, String> {
-    let surface = Topography::read(extension, contents).map_err(|error| error.to_string())?;
-    let surface = if fill { surface.filled() } else { surface };
-    let surface = if level { surface.levelled() } else { surface };
-    surface.body().map_err(|error| error.to_string())
-}
-
-#[cfg(not(feature = "topography"))]
-fn measured_body(extension: &str, _: &[u8], _: [bool; 2]) -> Result<HeightMap, String> {
-    let problem = "a reader of this format needs the feature topography of the crate viscofriction";
-    Err(format!("{extension}: {problem}"))
 }
 
 /// The number that the library refuses, with its key.

@@ -7,7 +7,7 @@ use indenters::{Control, HistoryPoint, IndenterError, PressingLoad, SlidingLoad}
 use numerics::positive;
 use rheology::{Material, RheologyError};
 
-use super::body::{Body, body};
+use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
 use super::half_space::{Simple, half_space, simple};
@@ -26,6 +26,7 @@ use crate::text::{ReadFile, WrongInput};
 #[derive(Debug)]
 pub struct Problem {
     body: Body,
+    warnings: Vec<String>,
     material: Box<dyn Material>,
     thickness: f64,
     expansion: Option<Expansion>,
@@ -77,7 +78,7 @@ impl Problem {
     /// As for [`Self::new`].
     pub fn with_body(
         scene: &Scene,
-        body: Body,
+        BodyOfScene { body, warnings }: BodyOfScene,
         folder: &Path,
         read: ReadFile,
     ) -> Result<Self, SceneError> {
@@ -96,6 +97,7 @@ impl Problem {
         let of_method = scene.solve.method.and_then(Method::model);
         let problem = Self {
             body,
+            warnings,
             simple: simple(&*elastomer.material).map_err(not_reduced)?,
             material: elastomer.material,
             thickness,
@@ -129,6 +131,11 @@ impl Problem {
     /// The rigid body.
     pub const fn body(&self) -> &Body {
         &self.body
+    }
+
+    /// Sentences about the files of the body, which every answer carries.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The elastomer.

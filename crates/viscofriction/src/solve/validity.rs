@@ -17,7 +17,7 @@ const DEEPEST: f64 = 1.0 / 3.0;
 /// Sentences about the validity of an answer, none where linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
     let body = problem.body();
-    let mut warnings = Vec::new();
+    let mut warnings = problem.warnings().to_vec();
     if let Some(slope) = mean_slope(body, answer).filter(|slope| *slope > STEEPEST) {
         warnings.push(format!(
             "the mean slope of the surface in contact is {slope:.2}, and linear theory needs a small one: above {STEEPEST} \

@@ -1,0 +1,132 @@
+//! The rigid body of a grid of heights, and whether the grid is likely to be meant as it is.
+
+use indenters::HeightMap;
+use indenters::rough::PeriodicSurface;
+use indenters::topography::Topography;
+use numerics::whole_part;
+
+use super::body::{Body, BodyOfScene};
+use crate::scene::{Edges, HeightMapTable, SceneError};
+
+/// Root mean square slope above which heights are likely to be in another unit.
+const STEEPEST: f64 = 1.0;
+/// Part of the mean square slope above which the step at the edge of a map is most of it.
+const MOST: f64 = 0.5;
+
+/// The rigid body of heights that were read, as a scene or an array describes them.
+///
+/// # Errors
+/// [`SceneError`] for the first key that does not fit to the heights.
+pub fn body_of_heights(
+    table: &HeightMapTable,
+    surface: Topography,
+) -> Result<BodyOfScene, SceneError> {
+    let key = |key: &str| format!("indenter.height-map.{key}");
+    let in_file = |problem: String| {
+        let file = table.file.display();
+        SceneError::at(key("file"), format!("{file}: {problem}"))
+    };
+    let surface = table.prepared(surface)?;
+    let map = surface.body().map_err(|error| in_file(error.to_string()))?;
+    let warnings = warnings(table, &surface, &map);
+    let periodic = |map: &HeightMap| {
+        let shortest = table.shortest_wavelength.unwrap_or(0.0);
+        let waves = PeriodicSurface::through(map, shortest);
+        waves.map_err(|error| SceneError::at(key("edges"), error.to_string()))
+    };
+    let body = match table.edges {
+        Edges::Periodic => Body::Periodic(periodic(&map)?),
+        Edges::Mirrored => Body::Periodic(periodic(&map.mirrored())?),
+        Edges::Wall if map.extent().into_iter().flatten().any(|end| end == 0.0) => {
+            let problem = "the point that touches first lies on the edge of the map, where the contact would end with it; \
+                           edges = \"periodic\" repeats the map, and \"mirrored\" its mirror images too";
+            return Err(SceneError::at(key("file"), problem));
+        }
+        Edges::Wall => Body::HeightMap(map),
+    };
+    Ok(BodyOfScene { body, warnings })
+}
+
+/// What is strange about the heights, in sentences with the numbers.
+pub fn warnings(table: &HeightMapTable, surface: &Topography, map: &HeightMap) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if surface.states_unit && table.unit.is_some() {
+        warnings.push("the file states the unit of its heights: unit has no effect".to_owned());
+    }
+    let steps = [0, 1].map(|axis| Steps::of(map, axis, 1));
+    let slope = steps[0].rms_slope().hypot(steps[1].rms_slope());
+    let [x, y] = map.extent().map(|[from, to]| to - from);
+    let highest = map.heights().iter().copied().fold(0.0, f64::max);
+    // A body that ends may be steep far from its contact.
+    if slope > STEEPEST && (table.edges != Edges::Wall || highest > x.max(y)) {
+        let advice = if surface.states_unit {
+            "is the unit in the file right?"
+        } else {
+            "are they in that unit? unit = \"mm\", \"um\" or \"nm\" says another one"
+        };
+        warnings.push(format!(
+            "the heights span {highest:.3e} m over {x:.3e} m × {y:.3e} m, with a root mean square slope of {slope:.3}: {advice}"
+        ));
+    }
+    if table.edges == Edges::Periodic {
+        for (axis, name) in ["x", "y"].into_iter().enumerate() {
+            let half = 0.5 * table.shortest_wavelength.unwrap_or(0.0) / map.spacing()[axis];
+            let most = (map.shape()[axis] / 2) as f64;
+            let steps = Steps::of(map, axis, whole_part(half.round().max(1.0).min(most)));
+            warnings.extend(steps.warning(name));
+        }
+    }
+    warnings
+}
+
+/// Differences of heights some points apart along an axis.
+struct Steps {
+    /// Sum of the squares inside the map, and their number.
+    inside: [f64; 2],
+    /// Likewise from the end of a map that is repeated to its beginning.
+    across: [f64; 2],
+    /// Distance of the heights, \[m].
+    length: f64,
+}
+
+impl Steps {
+    fn of(map: &HeightMap, axis: usize, lag: usize) -> Self {
+        let (shape, heights) = (map.shape(), map.heights());
+        let stride = [shape[1], 1][axis];
+        let mut sums = [[0.0; 2]; 2];
+        for (index, height) in heights.iter().enumerate() {
+            let ahead = index / stride % shape[axis] + lag;
+            let is_across = ahead >= shape[axis];
+            let back = if is_across { shape[axis] * stride } else { 0 };
+            let sum = &mut sums[usize::from(is_across)];
+            sum[0] += (heights[index + lag * stride - back] - height).powi(2);
+            sum[1] += 1.0;
+        }
+        let [inside, across] = sums;
+        Self {
+            inside,
+            across,
+            length: lag as f64 * map.spacing()[axis],
+        }
+    }
+
+    fn rms_slope(&self) -> f64 {
+        let [sum, count] = self.inside;
+        (sum / count).sqrt() / self.length
+    }
+
+    /// A sentence where the step across the edge is most of the mean square slope.
+    fn warning(&self, axis: &str) -> Option<String> {
+        let [inside, across] = [self.inside, self.across].map(|[sum, count]| (sum / count).sqrt());
+        let all = self.inside[0] + self.across[0];
+        let part = (self.across[0] - inside * inside * self.across[1]) / all;
+        (part > MOST).then(|| {
+            format!(
+                "{:.0} % of the mean square slope along {axis} belong to the step at the edge of the map, where it is \
+                 repeated: {across:.3e} m (root mean square) over {:.3e} m, and {inside:.3e} m elsewhere; level = true takes \
+                 a tilt out, and edges = \"mirrored\" has no step",
+                100.0 * part, self.length
+            )
+        })
+    }
+}
