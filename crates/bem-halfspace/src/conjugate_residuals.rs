@@ -10,13 +10,15 @@ use crate::reductions::{add, sum};
 
 /// Part of the sum of squares of the residual below which what a step takes off counts as nothing; up to 0.05 it hardly matters.
 const NOTHING: f64 = 0.01;
+/// Part of what a direction adds to the residual below which what is left of it beside earlier ones is their rounding.
+const ROUNDING: f64 = 1e-7;
 
 /// Moves `solution` by directions until `find` returns none for the `residual`, at most `most` times.
 ///
 /// `find` is given the residual and the list from which it takes a direction: the residual too, or, where the step before took
 /// nothing off and the residual would lead to it again, what that step added (Young & Jea 1980). It returns the direction and
 /// what this adds to the residual; of the latter, so many `earlier` ones are made orthogonal in the product of the `weights`. They are kept as numbers of the type S: by its rounding, relative to the first residual,
-/// the solution misses the residual that is known. A direction that adds nothing to the residual is the last.
+/// the solution misses the residual that is known. A direction that adds nothing new to the residual is the last.
 pub(crate) fn minimise<S: Copy + Into<f64> + Send + Sync + 'static>(
     [solution, residual]: [&mut [f64]; 2],
     weights: &[f64],
@@ -32,13 +34,14 @@ pub(crate) fn minimise<S: Copy + Into<f64> + Send + Sync + 'static>(
         let Some([mut direction, mut image]) = find(residual, from) else {
             return;
         };
+        let whole = product(weights, &image, &image).sqrt();
         for (size, [before, its_image]) in &kept {
             let component = product(weights, &image, its_image);
             add_all(&mut direction, -component * size, before);
             add_all(&mut image, -component, its_image);
         }
         let length = product(weights, &image, &image).sqrt();
-        if length == 0.0 || length.is_nan() {
+        if length <= ROUNDING * whole || length.is_nan() {
             return;
         }
         let step = -product(weights, &image, residual) / length.powi(2);

@@ -4,8 +4,8 @@
 //! The equations are solved to a fifth of the residual that the change of the contact has left, and to a part of the
 //! heights, which is smaller after each contact in vain; penetrations are told from what is left of the residual, on
 //! average. Should the number of violations not fall below its minimum in ten contacts, only the larger ones change sides,
-//! and after thirty only the last one, after an accurate solution: the operator has a positive symmetric part, so that this
-//! ends (Murty 1974).
+//! and after thirty only the last one of all, after an accurate solution: the operator has a positive symmetric part, so that
+//! this ends (Murty 1974).
 
 use crate::periodic::equations::Equations;
 use crate::periodic::kernel::Sliding;
@@ -177,25 +177,31 @@ impl<'a> Search<'a> {
         // Without much tension the gaps far away are hardly changed by what is taken from it.
         let is_small = tension <= SMALL_TENSION * self.total();
         let hidden = if is_small { HIDDEN } else { 1.0 };
-        let allowed = (NOISE * noise).max(tolerance * self.scale);
-        let mut changed = self.exchange(allowed, least, true);
+        let mut changed = if least.is_some() {
+            let allowed = (NOISE * noise).max(tolerance * self.scale);
+            self.exchange(allowed, least, Some(true))
+        } else {
+            self.renew_gaps();
+            self.exchange(tolerance * self.scale, least, None)
+        };
         self.release();
         self.renew_gaps();
         let penetrates = |(gap, inside): (&f64, &bool)| !inside && *gap < -tolerance * self.scale;
         let is_open = !self.gap.iter().zip(&self.contact).any(penetrates);
         let is_solved = is_slight && is_open && self.residual <= tolerance;
-        if changed == 0 || least.is_some() {
+        if least.is_some() {
             let allowed = (hidden * self.residual).max(tolerance) * self.scale;
-            changed += self.exchange(allowed, least, false);
+            changed += self.exchange(allowed, least, Some(false));
         }
         (changed, is_solved)
     }
 
-    /// Exchanges elements that are listed by the equations, or others, and counts those that should be.
-    fn exchange(&mut self, allowed: f64, least: Least, is_near: bool) -> usize {
+    /// Exchanges elements that are listed by the equations, or others, or any, and counts those that should be.
+    fn exchange(&mut self, allowed: f64, least: Least, are_near: Option<bool>) -> usize {
         let own = self.equations.own_displacement;
         let violation = |element: usize| {
-            if self.equations.near.contains(element) != is_near {
+            let is_near = self.equations.near.contains(element);
+            if are_near.is_some_and(|are_near| are_near != is_near) {
                 return None;
             }
             let [pressure, gap] = [self.pressure[element], self.gap[element]];

@@ -234,6 +234,39 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
     }
 }
 
+/// Moduli whose ratio is 10² to 10⁶, grids of odd numbers of long elements, contacts from some elements to almost all.
+#[cfg(feature = "rough")]
+#[test]
+fn every_contact_on_a_small_grid_is_found() {
+    for case in 0..150_u32 {
+        // Evenly spread over all parameters.
+        let part = |root: f64| (f64::from(case + 1) * root.sqrt()).fract();
+        let shape = [21, 27 + 2 * (case as usize % 5)];
+        let surface = indenters::rough::SelfAffine {
+            period: [1.0, 0.5 + part(2.0)],
+            hurst_exponent: 0.1 + 0.8 * part(3.0),
+            rms_slope: 0.1,
+            longest_wavelength: 2.0,
+            shortest_wavelength: 0.13,
+            roll_off_wavelength: 2.0,
+            seed: u64::from(case),
+        };
+        let surface = surface.surface().expect("a surface");
+        let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
+        let grid = Grid::new(shape, spacing).expect("a grid");
+        let heights = surface.heights(shape).expect("heights");
+        let ratio = 10.0_f64.powf(2.0 + 4.0 * part(5.0));
+        let material = prony([1.0, 0.0], &[(ratio - 1.0, 1.0)]);
+        let velocity = 10.0_f64.powf(2.0 - 5.0 * part(7.0)) / ratio.sqrt();
+        let frequency = 2.0 * PI * velocity;
+        let modulus = material.relaxation().complex_modulus(frequency);
+        let modulus = modulus.expect("a modulus").storage;
+        let load = [modulus * 10.0_f64.powf(-0.5 - 3.0 * part(11.0)), velocity];
+        let solved = slide(&grid, &heights, &material, load);
+        assert!(solved.is_ok(), "{case}: {ratio}, {load:?}: {solved:?}");
+    }
+}
+
 /// The bars of friction and area hold the numbers of the casebook, whose own uncertainty is smaller; so do those of the mean
 /// pressure between the ends of the bar of the depth.
 #[cfg(feature = "rough")]
