@@ -126,9 +126,8 @@ impl Equations {
     /// `mean`; it is returned.
     pub(super) fn iterate(&mut self, part: f64, mean: f64, largest: f64) -> f64 {
         let target = mean.min(part * self.residual(&self.gap).root_mean_square);
-        let is_small = |residual: Residual| {
-            residual.root_mean_square <= target || residual.largest <= largest
-        };
+        let is_small =
+            |residual: Residual| residual.root_mean_square <= target || residual.largest <= largest;
         let are_few = self.n_contact <= FEW;
         let elimination = ELIMINATION * self.n_contact.powi(3) / self.spread.len() as f64;
         self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
@@ -157,8 +156,9 @@ impl Equations {
     fn eliminate(&mut self) {
         let runs = (0..self.near.bands.n_bands()).flat_map(|band| self.near.runs(band));
         let listed = runs.flat_map(Run::elements).enumerate();
-        let (places, elements): (Vec<usize>, Vec<usize>) =
-            listed.filter(|(place, _)| self.inside[*place] > 0.0).unzip();
+        let (places, elements): (Vec<usize>, Vec<usize>) = listed
+            .filter(|(place, _)| self.inside[*place] > 0.0)
+            .unzip();
         self.spread.fill(0.0);
         self.spread[0] = 1.0;
         self.kernel.displace(&self.spread, &mut self.image);

@@ -3,18 +3,16 @@
 use std::cell::RefCell;
 
 use indenters::rough::PeriodicSurface;
-use numerics::{
-    Estimate, between_zero_and_one, in_range, not_negative, positive, try_bracketed_root,
-};
+use numerics::{Estimate, between_zero_and_one, not_negative, positive};
 
-use crate::grid::elements_along;
+use crate::periodic::depth::{at_depth, check_depth};
 use crate::periodic::kernel::Sliding;
+use crate::periodic::march::{Way, slide_along};
 use crate::periodic::search::Problem;
 use crate::periodic::{
-    PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, check_surface,
-    slide_periodic_on_grid, solve_from,
+    PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, check_surface, solve_from,
 };
-use crate::{BemError, ContactOptions, Elastomer, Grid};
+use crate::{BemError, ContactOptions, Elastomer, Grid, PressureField};
 
 /// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
 const FIRST: usize = 4;
@@ -31,17 +29,19 @@ const OTHERS: Fall = Fall {
     safety: 2.0,
     left: 0.5,
 };
-/// Tolerance of the contact, as a part of the relative error asked for and at most; ten residuals are added to the bars.
-const TOLERANCE: f64 = 1e-3;
-const LARGEST_TOLERANCE: f64 = 1e-5;
+/// Fewest elements in contact on the coarsest of the three grids of which the bars are made: with fewer, their number may jump
+/// to the same one, and the friction with it.
+const FEWEST_IN_CONTACT: usize = 30;
+/// Fewest steps of a march on the first grid.
+const FEWEST_STEPS: f64 = 4.0;
+/// Tolerance of the contact on the first grid, which is halved on each of the next, whatever error is asked for; ten residuals are
+/// added to the bars.
+const TOLERANCE: f64 = 1e-5;
 const RESIDUALS: f64 = 10.0;
 /// Rounding of what is known in closed form.
 const ROUNDING: f64 = 1e-12;
 /// Tolerance of a depth that is given, as a part of the root mean square of the heights, over that of the contact.
 const DEPTH_TOLERANCE: f64 = 3.0;
-/// Steps of the logarithm of the pressure until the depth lies between two of them, and the longest of them.
-const MOST_STEPS_OF_PRESSURE: usize = 200;
-const LONGEST_STEP: f64 = 4.0;
 /// Elements times steps of a march that are not exceeded: about half an hour of one thread.
 const MOST_STEPS: f64 = 2e9;
 
@@ -51,7 +51,7 @@ const MOST_STEPS: f64 = 2e9;
 #[must_use]
 pub struct PeriodicEstimate<S> {
     /// Friction coefficient; of a stationary state from slopes or from the dissipated power, whichever the last refinement
-    /// changed less.
+    /// changed less. Each bar reaches to that of the other.
     pub friction_coefficient: Estimate,
     /// That of a stationary state from the dissipated power alone; none on the way there.
     pub friction_from_dissipation: Option<Estimate>,
@@ -68,7 +68,8 @@ pub struct PeriodicEstimate<S> {
 /// Solves the stationary sliding of a sum of waves to a relative error of the friction, and of the area where nothing rubs.
 ///
 /// # Errors
-/// [`BemError::NotReached`] with what was reached where grids of at most `max_elements` are too coarse;
+/// [`BemError::NotReached`] with the best that was reached where grids of at most `max_elements` are too coarse, or the contact is
+/// so small that they have too few elements in it;
 /// [`BemError::GridTooLarge`] where not even three grids have so few; and those of
 /// [`steady_periodic_on_grid`](crate::steady_periodic_on_grid).
 pub fn steady_periodic(
@@ -138,10 +139,9 @@ fn solve(
     sliding: &Sliding,
     goal: &Goal,
 ) -> Result<PeriodicEstimate<PeriodicSliding>, BemError> {
-    let tolerance = goal.tolerance();
     let guess = RefCell::new(Vec::new());
     let mut pressure_before = None;
-    refine(surface, goal, |grid, heights| {
+    refine(surface, goal, |grid, heights, tolerance| {
         let under = |mean_pressure| {
             let problem = Problem {
                 sliding,
@@ -173,6 +173,7 @@ fn solve(
             friction: state.friction_coefficient,
             from_dissipation: Some(state.friction_from_dissipation),
             area_fraction: state.area_fraction,
+            in_contact: in_contact(&state.pressure),
             mean_pressure,
             mean_depth: state.mean_depth,
             residual: state.residual.max(missed),
@@ -181,78 +182,14 @@ fn solve(
     })
 }
 
-/// The root mean square of the heights, if their mean plane can have the depth.
-fn check_depth(depth: f64, heights: &[f64], sliding: &Sliding) -> Result<f64, BemError> {
-    let n = heights.len() as f64;
-    let mean = heights.iter().sum::<f64>() / n;
-    let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
-    let deepest = if sliding.is_on_layer() {
-        f64::INFINITY
-    } else {
-        0.0
-    };
-    let touches = lowest - mean < depth && depth < deepest;
-    let allowed = "above minus the height of the mean plane over the lowest point, and on a half space below 0";
-    in_range("mean_depth", depth, touches, allowed)?;
-    let squares = heights.iter().map(|height| (height - mean).powi(2));
-    Ok((squares.sum::<f64>() / n).sqrt())
-}
-
-/// The mean pressure under which the mean plane has a depth, the contact, and by which part of the roughness the depth is
-/// missed. The pressure grows about like the exponential function of the depth over the roughness (Persson 2007).
-fn at_depth(
-    [depth, roughness, tolerance]: [f64; 3],
-    start: f64,
-    under: impl Fn(f64) -> Result<PeriodicSliding, BemError>,
-) -> Result<(f64, PeriodicSliding, f64), BemError> {
-    let at = |logarithm: f64| -> Result<(f64, PeriodicSliding, f64), BemError> {
-        let state = under(logarithm.exp())?;
-        let missing = (state.mean_depth - depth) / roughness;
-        Ok((logarithm, state, missing))
-    };
-    let mut first = at(start.ln())?;
-    for _ in 0..MOST_STEPS_OF_PRESSURE {
-        if first.2.abs() <= tolerance {
-            break;
-        }
-        let step = (2.0 * first.2).clamp(-LONGEST_STEP, LONGEST_STEP);
-        let second = at(first.0 - step)?;
-        if first.2 * second.2 < 0.0 {
-            let ends = [(first.0, first.2), (second.0, second.2)];
-            let last = RefCell::new(second);
-            let missing = |logarithm: f64| -> Result<f64, BemError> {
-                let is_known = |end: &&(f64, f64)| end.0.total_cmp(&logarithm).is_eq();
-                if let Some((_, missing)) = ends.iter().find(is_known) {
-                    return Ok(*missing);
-                }
-                let found = at(logarithm)?;
-                let missing = found.2;
-                *last.borrow_mut() = found;
-                Ok(if missing.abs() <= tolerance {
-                    0.0
-                } else {
-                    missing
-                })
-            };
-            try_bracketed_root(missing, ends.map(|end| end.0))?;
-            first = last.into_inner();
-            break;
-        }
-        first = second;
-    }
-    let (logarithm, state, missing) = first;
-    Ok((logarithm.exp(), state, missing.abs()))
-}
-
-/// Slides a sum of waves from rest over a distance \[m], rounded up to elements of the first grid, to a relative error of the
-/// friction at its end.
+/// Slides a sum of waves from rest over a distance \[m], to a relative error of the friction at its end.
 ///
 /// The error is of the first order in the edge of an element, and the work grows with its third power: less than some per
 /// cent take long.
 ///
 /// # Errors
-/// Those of [`slide_periodic_on_grid`] and, as of [`steady_periodic`], [`BemError::NotReached`] and
-/// [`BemError::GridTooLarge`]: also where a march would take longer than about half an hour.
+/// Those of [`slide_periodic_on_grid`](crate::slide_periodic_on_grid) and, as of [`steady_periodic`], [`BemError::NotReached`] and
+/// [`BemError::GridTooLarge`]: also where a march that is fine enough would take longer than about half an hour.
 pub fn slide_periodic(
     surface: &PeriodicSurface,
     elastomer: &(impl Elastomer + ?Sized),
@@ -260,32 +197,44 @@ pub fn slide_periodic(
     relative_error: f64,
     max_elements: usize,
 ) -> Result<PeriodicEstimate<PeriodicTransient>, BemError> {
+    let distance = positive("sliding distance", sliding_distance)?;
     let period = surface.period()[0];
     let edge = period / first_shape(surface)[0] as f64;
-    let distance = elements_along(sliding_distance, edge)? as f64 * edge;
+    let way = Way {
+        distance,
+        // The steps are halved with the elements, so that the bars see their errors too.
+        steps_per_element: (FEWEST_STEPS * edge / distance).ceil(),
+    };
     let held = Held::Pressure(load.mean_pressure);
     let goal = Goal {
         friction: OTHERS,
-        periods: Some(distance / period),
+        steps_per_row: Some(distance / period * way.steps_per_element),
         ..Goal::stationary(held, relative_error, max_elements)
     };
-    let options = ContactOptions {
-        tolerance: goal.tolerance(),
-        ..ContactOptions::default()
-    };
-    refine(surface, &goal, |grid, heights| {
-        let state = slide_periodic_on_grid(grid, heights, elastomer, (load, distance), &options)?;
+    refine(surface, &goal, |grid, heights, tolerance| {
+        let options = ContactOptions {
+            tolerance,
+            ..ContactOptions::default()
+        };
+        let state = slide_along(grid, heights, elastomer, (load, way), &options)?;
         let last = state.rows[state.rows.len() - 1];
         let found = Found {
             friction: last.friction_coefficient,
             from_dissipation: None,
             area_fraction: last.area_fraction,
+            in_contact: in_contact(&state.pressure),
             mean_pressure: load.mean_pressure,
             mean_depth: last.mean_depth,
-            residual: options.tolerance,
+            residual: tolerance,
         };
         Ok((found, state))
     })
+}
+
+/// Number of elements in contact.
+fn in_contact(field: &PressureField) -> usize {
+    let pressures = field.pressure.iter();
+    pressures.filter(|pressure| **pressure > 0.0).count()
 }
 
 /// How an error falls from grid to grid.
@@ -301,8 +250,8 @@ struct Goal {
     friction: Fall,
     max_elements: f64,
     held: Held,
-    /// Length of a march in periods.
-    periods: Option<f64>,
+    /// Steps of a march for each row of the grid.
+    steps_per_row: Option<f64>,
 }
 
 /// What is known from one grid.
@@ -310,6 +259,8 @@ struct Found {
     friction: f64,
     from_dissipation: Option<f64>,
     area_fraction: f64,
+    /// Number of elements.
+    in_contact: usize,
     mean_pressure: f64,
     mean_depth: f64,
     /// Of the contact.
@@ -323,34 +274,61 @@ fn first_shape(surface: &PeriodicSurface) -> [usize; 2] {
     })
 }
 
-/// Solves on one grid after the other, each with twice the elements along both axes.
+/// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact. The grids do not
+/// depend on the error asked for, so that a smaller one is answered by what follows on the answer to a larger one.
 fn refine<S>(
     surface: &PeriodicSurface,
     goal: &Goal,
-    mut solve: impl FnMut(&Grid, &[f64]) -> Result<(Found, S), BemError>,
+    mut solve: impl FnMut(&Grid, &[f64], f64) -> Result<(Found, S), BemError>,
 ) -> Result<PeriodicEstimate<S>, BemError> {
     between_zero_and_one("relative_error", goal.relative_error)?;
     let mut shape = first_shape(surface);
-    let mut grids = Vec::new();
-    goal.check(&grids, shape, 1.0)?;
+    let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
+    let mut best = None;
     loop {
+        goal.check(best, shape)?;
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
         check_surface(&grid, &heights)?;
-        let (found, state) = solve(&grid, &heights)?;
+        let (found, state) = solve(&grid, &heights, tolerance)?;
         grids.push(found);
-        let mut finer = 2.0;
         if let Some(bars) = goal.bars(&grids, state) {
-            let asked = bars.asked().1;
-            if asked.is_within(goal.relative_error) {
+            let reached = bars.reached(&grids);
+            if reached.is_enough(goal.relative_error) {
                 return Ok(bars);
             }
-            // No error falls faster than with the second order.
-            let excess = asked.error / (goal.relative_error * asked.value.abs());
-            finer = excess.sqrt().log2().ceil().max(1.0).exp2();
+            best = Some(best.map_or(reached, |best: Reached| best.or(reached)));
         }
-        goal.check(&grids, shape, finer)?;
         shape = shape.map(|n| 2 * n);
+        tolerance *= 0.5;
+    }
+}
+
+/// What the relative error is of, and whether enough elements are in contact to believe it.
+#[derive(Clone, Copy)]
+struct Reached {
+    quantity: &'static str,
+    estimate: Estimate,
+    is_resolved: bool,
+}
+
+impl Reached {
+    fn relative_error(&self) -> f64 {
+        self.estimate.error / self.estimate.value.abs()
+    }
+
+    fn is_enough(&self, relative_error: f64) -> bool {
+        self.is_resolved && self.estimate.is_within(relative_error)
+    }
+
+    /// The finer one, unless the other is better known.
+    fn or(self, finer: Self) -> Self {
+        let is_better = self.relative_error() <= finer.relative_error();
+        if self.is_resolved && is_better {
+            self
+        } else {
+            finer
+        }
     }
 }
 
@@ -361,37 +339,34 @@ impl Goal {
             friction: FRICTION,
             max_elements: max_elements as f64,
             held,
-            periods: None,
+            steps_per_row: None,
         }
     }
 
-    fn tolerance(&self) -> f64 {
-        (TOLERANCE * self.relative_error).min(LARGEST_TOLERANCE)
-    }
-
-    /// Refuses a grid that is so many times finer than this one and too large; it says what was reached.
-    fn check(&self, grids: &[Found], shape: [usize; 2], finer: f64) -> Result<(), BemError> {
-        let [rows, columns] = shape.map(|n| n as f64 * finer);
-        let steps = self.periods.map_or(1.0, |periods| periods * rows);
-        let limit = self.max_elements.min(MOST_STEPS / steps);
-        if rows * columns <= limit {
-            return Ok(());
-        }
-        Err(match self.bars(grids, ()) {
-            Some(bars) => {
-                let (quantity, known) = bars.asked();
-                BemError::NotReached {
-                    quantity,
-                    value: known.value,
-                    error: known.error,
-                    relative_error: self.relative_error,
-                }
+    /// Refuses a grid that is too large, with the best that was reached, and a march that cannot be fine enough.
+    fn check(&self, best: Option<Reached>, shape: [usize; 2]) -> Result<(), BemError> {
+        let [rows, columns] = shape.map(|n| n as f64);
+        let refuse = |finer: f64| {
+            let elements = finer.powi(2) * rows * columns;
+            let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
+            let limit = self.max_elements.min(MOST_STEPS / steps);
+            (elements > limit).then_some(BemError::GridTooLarge { elements, limit })
+        };
+        let refused = match (refuse(1.0), best) {
+            (Some(_), Some(best)) => Some(BemError::NotReached {
+                quantity: best.quantity,
+                value: best.estimate.value,
+                error: best.estimate.error,
+                relative_error: self.relative_error,
+            }),
+            // Half an hour is not spent on a march in vain: no error falls faster than with the second order.
+            (None, Some(best)) if self.steps_per_row.is_some() => {
+                let excess = best.relative_error() / self.relative_error;
+                refuse(0.5 * excess.sqrt().log2().ceil().max(1.0).exp2())
             }
-            None => BemError::GridTooLarge {
-                elements: rows * columns,
-                limit,
-            },
-        })
+            (refused, _) => refused,
+        };
+        refused.map_or(Ok(()), Err)
     }
 
     /// From three grids or more.
@@ -405,12 +380,23 @@ impl Goal {
             let solved = RESIDUALS * fine.residual + ROUNDING;
             Estimate::new(value, safety * change + solved * value.abs())
         };
-        let slopes = of(&|found| found.friction, self.friction);
+        let mut slopes = of(&|found| found.friction, self.friction);
         let dissipated = |found: &Found| found.from_dissipation.unwrap_or(f64::NAN);
-        let dissipation = fine
+        let mut dissipation = fine
             .from_dissipation
             .map(|_| of(&dissipated, self.friction));
-        let better = dissipation.filter(|dissipation| dissipation.error <= slopes.error);
+        if let Some(dissipation) = &mut dissipation
+            && dissipation.value > 0.0
+        {
+            // Both are the same friction; without loss there is none.
+            let apart = (slopes.value - dissipation.value).abs();
+            let missing = (apart - slopes.error - dissipation.error).max(0.0);
+            slopes = slopes.widened(missing);
+            *dissipation = dissipation.widened(missing);
+        }
+        let is_better =
+            |dissipation: &Estimate| dissipation.error <= slopes.error || slopes.value < 0.0;
+        let better = dissipation.filter(is_better);
         Some(PeriodicEstimate {
             friction_coefficient: better.unwrap_or(slopes),
             friction_from_dissipation: dissipation,
@@ -429,6 +415,16 @@ impl Goal {
 }
 
 impl<S> PeriodicEstimate<S> {
+    fn reached(&self, grids: &[Found]) -> Reached {
+        let (quantity, estimate) = self.asked();
+        let coarse = &grids[grids.len().saturating_sub(3)];
+        Reached {
+            quantity,
+            estimate,
+            is_resolved: coarse.in_contact >= FEWEST_IN_CONTACT,
+        }
+    }
+
     /// What the relative error is of.
     fn asked(&self) -> (&'static str, Estimate) {
         let first = if self.friction_coefficient.value == 0.0 {
@@ -442,5 +438,37 @@ impl<S> PeriodicEstimate<S> {
         } else {
             first
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Found, Goal, Held};
+
+    /// Frictions that both changed little and yet differ: on a finer grid they are 0.0592.
+    #[test]
+    fn the_bars_of_both_frictions_reach_each_other() {
+        let found = |(friction, dissipated)| Found {
+            friction,
+            from_dissipation: Some(dissipated),
+            area_fraction: 0.05,
+            in_contact: 100,
+            mean_pressure: 1.0,
+            mean_depth: 0.0,
+            residual: 1e-7,
+        };
+        let frictions = [
+            (0.059_064, 0.059_039),
+            (0.058_969, 0.059_598),
+            (0.058_847, 0.059_891),
+        ];
+        let goal = Goal::stationary(Held::Pressure(1.0), 0.01, 1000);
+        let bars = goal.bars(&frictions.map(found), ()).expect("three grids");
+        let slopes = bars.friction_coefficient;
+        let dissipated = bars.friction_from_dissipation.expect("both frictions");
+        let apart = (slopes.value - dissipated.value).abs();
+        let reach = (slopes.error + dissipated.error) * (1.0 + 1e-12);
+        assert!(apart <= reach, "{slopes:?}, {dissipated:?}");
+        assert!((slopes.value - 0.0592).abs() <= slopes.error, "{slopes:?}");
     }
 }

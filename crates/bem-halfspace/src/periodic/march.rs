@@ -1,7 +1,7 @@
 //! Sliding of a periodic surface from rest, one step after the other.
 //!
-//! The elements go with the surface, and the material passes them by one element in a step, over which the pressure of a
-//! point of the material is held:
+//! The elements go with the surface, and the material passes them by one element in a step, or by a part of one, over which the
+//! pressure of a point of the material is held:
 //!
 //! ```text
 //! u = 2 (1 − ν) α w + history,        w = K p / (4π)        at the end of the step
@@ -9,7 +9,8 @@
 //!
 //! A wave that passes with the frequency ω = q_x v meets the compliance J_Δ of inputs that are held instead of J. So the
 //! contact is that of a surface of which every wave is multiplied by J_Δ/J, about half a step behind where much flows: in
-//! full contact the pressure of the stationary state is then exact.
+//! full contact the pressure of the stationary state is then exact. The first step is as short as it must be for the last to end
+//! at the distance; between whole elements the waves of the surface are shifted.
 
 use std::f64::consts::PI;
 
@@ -19,9 +20,10 @@ use rustfft::num_complex::Complex;
 
 use crate::grid::elements_along;
 use crate::layer::Base;
-use crate::periodic::kernel::{Kernel, Sliding};
+use crate::periodic::kernel::Sliding;
 use crate::periodic::waves::Waves;
 use crate::periodic::{PeriodicLoad, area_fraction, check_surface};
+use crate::plane_transform::ZERO;
 use crate::reductions::{add, dot};
 use crate::{
     BemError, ContactOptions, ContactProblem, ContactState, Control, Convolution,
@@ -49,13 +51,14 @@ pub struct PeriodicRow {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[must_use]
 pub struct PeriodicTransient {
-    /// One entry for each element of the way; never empty.
+    /// One entry for each step; the last is at the end of the distance.
     pub rows: Vec<PeriodicRow>,
     /// Pressure at the end; the first height is at the origin.
     pub pressure: PressureField,
 }
 
-/// Presses a periodic surface into a material at rest and slides it from there over a distance \[m], in steps of one element.
+/// Presses a periodic surface into a material at rest and slides it from there over a distance \[m], in steps of one element, of
+/// which the first is shorter where the distance has no whole number of them.
 ///
 /// `heights` as in [`steady_periodic_on_grid`](crate::steady_periodic_on_grid), whose state it comes to after some contact
 /// lengths, once the slowest relaxation that matters is over.
@@ -70,17 +73,50 @@ pub fn slide_periodic_on_grid(
     (load, sliding_distance): (&PeriodicLoad, f64),
     options: &ContactOptions,
 ) -> Result<PeriodicTransient, BemError> {
+    let way = Way {
+        distance: sliding_distance,
+        steps_per_element: 1.0,
+    };
+    slide_along(grid, heights, elastomer, (load, way), options)
+}
+
+/// A sliding distance \[m], and how many steps are taken for each element of it, a whole number.
+#[derive(Clone, Copy)]
+pub(super) struct Way {
+    pub(super) distance: f64,
+    pub(super) steps_per_element: f64,
+}
+
+pub(super) fn slide_along(
+    grid: &Grid,
+    heights: &[f64],
+    elastomer: &(impl Elastomer + ?Sized),
+    (load, way): (&PeriodicLoad, Way),
+    options: &ContactOptions,
+) -> Result<PeriodicTransient, BemError> {
     check_surface(grid, heights)?;
     let velocity = positive("velocity", load.velocity())?;
-    let dx = grid.spacing()[0];
-    let n_steps = elements_along(positive("sliding distance", sliding_distance)?, dx)?;
+    let distance = positive("sliding distance", way.distance)?;
+    let (in_element, edge) = (way.steps_per_element, grid.spacing()[0]);
+    let whole_step = edge / in_element;
+    let n_steps = elements_along(distance, whole_step)?;
     let mut march = March::new(grid, heights, elastomer, velocity)?;
-    let rows = (1..=n_steps).map(|step| {
+    let rows = (0..n_steps).rev().map(|left| {
+        let (to_go, is_first) = (left as f64, left + 1 == n_steps);
+        let slid = distance - to_go * whole_step;
+        let behind = to_go % in_element;
+        if is_first {
+            march.prepare(slid, behind * whole_step)?;
+        } else if left + 2 == n_steps || in_element > 1.0 {
+            march.prepare(whole_step, behind * whole_step)?;
+        }
+        if behind + 1.0 >= in_element {
+            march.pass_element();
+        }
         let state = march.step(load.mean_pressure(), options)?;
-        let sliding_distance = step as f64 * dx;
         Ok(PeriodicRow {
-            sliding_distance,
-            time: sliding_distance / velocity,
+            sliding_distance: slid,
+            time: slid / velocity,
             ..state
         })
     });
@@ -94,7 +130,11 @@ pub fn slide_periodic_on_grid(
     })
 }
 
-struct March {
+struct March<'a> {
+    given: &'a [f64],
+    sliding: Sliding,
+    velocity: f64,
+    waves: Waves,
     /// Of the surface whose waves are multiplied by J_Δ/J, \[m].
     heights: Vec<f64>,
     mean_height: f64,
@@ -114,10 +154,10 @@ struct March {
     input: Vec<f64>,
 }
 
-impl March {
+impl<'a> March<'a> {
     fn new(
         grid: &Grid,
-        heights: &[f64],
+        heights: &'a [f64],
         elastomer: &(impl Elastomer + ?Sized),
         velocity: f64,
     ) -> Result<Self, BemError> {
@@ -125,12 +165,13 @@ impl March {
         let sliding = Sliding::new(elastomer, velocity)?;
         let step = ExponentialStep::creep(&sliding.creep, grid.spacing()[0] / velocity)?;
         let convolution = Convolution::periodic_on(elastomer, grid);
-        let mut slopes = vec![0.0; n];
-        Kernel::new(&sliding, grid)?.slopes(heights, &mut slopes);
         Ok(Self {
-            heights: held(grid, heights, &sliding, &step)?,
+            given: heights,
+            velocity,
+            waves: Waves::new(grid, &Base::default()),
+            heights: vec![0.0; n],
             mean_height: heights.iter().sum::<f64>() / n as f64,
-            slopes,
+            slopes: vec![0.0; n],
             state: ContactState::new(&convolution),
             workspace: convolution.workspace(),
             convolution,
@@ -138,20 +179,52 @@ impl March {
             memory: vec![0.0; n * step.n_fields()],
             separation: vec![0.0; n],
             input: vec![0.0; n],
+            sliding,
             step,
         })
     }
 
-    /// Passes one element of the material and solves the contact there; distance and time are not filled in.
+    /// Takes steps of a length \[m] after which the material is a part of an element \[m] behind the points of the surface that
+    /// it passes.
+    fn prepare(&mut self, length: f64, behind: f64) -> Result<(), BemError> {
+        self.step = ExponentialStep::creep(&self.sliding.creep, length / self.velocity)?;
+        let along_x = &self.waves.along_x;
+        let (step, factor, rows) = (&self.step, self.sliding.factor, along_x.len());
+        let compliances = self.sliding.compliances(along_x)?.into_iter();
+        let symbol = |(row, compliance): (usize, Complex<f64>)| {
+            let q_x = along_x[row];
+            let held = step.turning_response(q_x * length);
+            let held = Complex::new(held.storage, held.loss) * factor / compliance;
+            // The shortest wave stands for both directions, so that its symbols are real; its slope vanishes at the elements.
+            if 2 * row == rows {
+                [held.norm().into(), ZERO]
+            } else {
+                let turn = Complex::from_polar(1.0, q_x * behind);
+                [held * turn, Complex::i() * q_x * turn]
+            }
+        };
+        let symbols: Vec<_> = compliances.enumerate().map(symbol).collect();
+        let waves = &mut self.waves;
+        waves.apply(self.given, &mut self.heights, |row, _| symbols[row][0]);
+        waves.apply(self.given, &mut self.slopes, |row, _| symbols[row][1]);
+        Ok(())
+    }
+
+    /// Passes one element of the material.
+    fn pass_element(&mut self) {
+        let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
+        for field in self.memory.chunks_exact_mut(n) {
+            field.rotate_left(columns);
+        }
+    }
+
+    /// Solves the contact at the end of a step; distance and time are not filled in.
     fn step(
         &mut self,
         mean_pressure: f64,
         options: &ContactOptions,
     ) -> Result<PeriodicRow, BemError> {
         let (n, columns) = (self.heights.len(), self.convolution.grid().shape()[1]);
-        for field in self.memory.chunks_exact_mut(n) {
-            field.rotate_left(columns);
-        }
         self.step.history(&self.memory, &mut self.separation);
         add(&mut self.separation, 1.0, &self.heights);
         let area = n as f64 * self.convolution.grid().element_area();
@@ -181,30 +254,4 @@ impl March {
         self.input.iter_mut().for_each(|value| *value *= per_load);
         self.step.advance(&self.input, &mut self.memory);
     }
-}
-
-/// The heights with each wave times J_Δ/J.
-fn held(
-    grid: &Grid,
-    heights: &[f64],
-    sliding: &Sliding,
-    step: &ExponentialStep,
-) -> Result<Vec<f64>, BemError> {
-    let mut waves = Waves::new(grid, &Base::default());
-    let compliances = sliding.compliances(&waves.along_x)?;
-    let (dx, rows) = (grid.spacing()[0], compliances.len());
-    let symbol = |(row, compliance): (usize, Complex<f64>)| {
-        let held = step.turning_response(waves.along_x[row] * dx);
-        let held = Complex::new(held.storage, held.loss) * sliding.factor / compliance;
-        // The shortest wave stands for both directions, so that its symbol is real.
-        if 2 * row == rows {
-            held.norm().into()
-        } else {
-            held
-        }
-    };
-    let symbols: Vec<_> = compliances.into_iter().enumerate().map(symbol).collect();
-    let mut result = vec![0.0; heights.len()];
-    waves.apply(heights, &mut result, |row, _| symbols[row]);
-    Ok(result)
 }

@@ -17,6 +17,8 @@
 //! The search of the active set is in `search.rs`, the
 //! equations of a given contact in `equations.rs`.
 
+#[cfg(feature = "rough")]
+mod depth;
 mod equations;
 #[cfg(feature = "rough")]
 mod estimate;

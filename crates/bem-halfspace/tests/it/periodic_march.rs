@@ -96,6 +96,47 @@ fn a_march_ends_in_the_stationary_state() {
     }
 }
 
+/// A march ends at the distance that is asked for, whatever the elements, and its bar holds what finer steps say, also where the
+/// distance is a part of an element.
+#[cfg(feature = "rough")]
+#[test]
+fn a_march_ends_at_its_distance() {
+    use bem_halfspace::slide_periodic;
+    use indenters::rough::{PeriodicSurface, Wave};
+
+    use crate::support::assert_bars_agree;
+    let wave = |numbers, phase| Wave {
+        numbers,
+        amplitude: 0.01,
+        phase,
+    };
+    let waves = vec![wave([1, 0], 0.3), wave([2, 1], 2.0), wave([0, 2], 1.0)];
+    let surface = PeriodicSurface::new([1.0; 2], waves).expect("a surface");
+    let material = prony([1.0, 0.0], &[(9.0, 1.0)]);
+    let load = PeriodicLoad::new(0.1, 0.3).expect("a load");
+    for distance in [0.02, 0.05, 0.13] {
+        let slid = |relative_error| {
+            let slid = slide_periodic(
+                &surface,
+                &material,
+                (&load, distance),
+                relative_error,
+                1 << 16,
+            );
+            let slid = slid.unwrap_or_else(|error| panic!("{distance}: {error}"));
+            let rows = &slid.finest.rows;
+            assert_close(
+                "distance",
+                rows[rows.len() - 1].sliding_distance,
+                distance,
+                1e-15,
+            );
+            slid.friction_coefficient
+        };
+        assert_bars_agree(distance, slid(0.5), slid(0.1));
+    }
+}
+
 #[test]
 fn what_does_not_march_is_refused() {
     let wave = [[1.0, 0.0, 0.1, 0.0]];

