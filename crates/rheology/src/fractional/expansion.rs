@@ -1,8 +1,9 @@
 //! A continuous relaxation spectrum as a Prony series, with its error.
 //!
 //! ```text
-//! G*(ω) = ∫ H(ln s) iω/(s + iω) d ln s    ≈    h Σ_j H(j h) iω/(s_j + iω),    s_j = e^(j h) = 1/τ_j
+//! G*(ω) = ∫ H(ln s) iω/(s + iω) d ln s    ≈    h Σ_j H(j h) iω/(s_j + iω),    s_j = s_0 e^(j h) = 1/τ_j
 //! ```
+//! with s_0 in the middle of the band, so that the series does not depend on the unit of time.
 //! The integrand is analytic in a strip around the real axis of ln s: the trapezoidal rule errs by about
 //! 2 e^(−2π d/h), with half the width d ≤ π/2 of the strip, where s = −iω (Trefethen & Weideman 2014, SIAM Rev. 56, 385,
 //! DOI 10.1137/130932132). Slower branches than the band can distinguish act as a spring, faster ones as a dashpot.
@@ -78,13 +79,17 @@ impl Continuous<'_> {
         // What acts as a spring errs by (s/ω)^(1 + a), what acts as a dashpot by (ω/s)^(2 − a).
         let slowest = low * target.powf(1.0 / (1.0 + self.exponent));
         let fastest = high * target.powf(-1.0 / (2.0 - self.exponent));
-        let [first, last] = [(slowest.ln() / step).floor(), (fastest.ln() / step).ceil()];
+        let middle = 0.5 * (low.ln() + high.ln());
+        let [first, last] = [slowest, fastest].map(|rate| (rate.ln() - middle) / step);
+        let [first, last] = [first.floor(), last.ceil()];
+        let log_rate = |index: f64| middle + index * step;
         // The k-th moment of the node's relaxation time: its modulus and its viscosity.
         let moment = |k: f64, index: f64| {
-            let log_rate = index * step;
+            let log_rate = log_rate(index);
             step * ((self.log_density)(log_rate) - k * log_rate).exp()
         };
-        let branch = |index: f64| RelaxationBranch::new(moment(0.0, index), (-index * step).exp());
+        let branch =
+            |index: f64| RelaxationBranch::new(moment(0.0, index), (-log_rate(index)).exp());
         let indices = successors(Some(first), |index| Some(index + 1.0));
         let inner = indices.take_while(|&index| index <= last).map(branch);
         let mut branches: Vec<RelaxationBranch> = inner.collect();

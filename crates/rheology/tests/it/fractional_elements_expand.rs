@@ -86,3 +86,28 @@ fn fractional_standard_solid_creeps_like_its_closed_form() {
         assert_close!(creep.creep_compliance(time).unwrap() => exact, within 1e-9; "J({time})");
     }
 }
+
+/// Of another unit of time only the rounding differs.
+#[test]
+fn the_series_does_not_depend_on_the_unit_of_time() {
+    for unit in [2.0_f64.powi(-7), 3.0, 1e12] {
+        let springpot = |unit: f64| {
+            let element = Springpot::new(1e6 * unit.powf(0.4), 0.4).unwrap();
+            let expansion = element.expand([1e-2 / unit, 1e4 / unit], 1e-6);
+            expansion.unwrap().spectrum
+        };
+        let (seconds, others) = (springpot(1.0), springpot(unit));
+        let [one, other] = [&seconds, &others].map(|spectrum| spectrum.branches());
+        assert_eq!(one.len(), other.len(), "branches, unit {unit:e}");
+        for (one, other) in one.iter().zip(other) {
+            let pairs = [
+                (one.modulus, other.modulus),
+                (one.relaxation_time, other.relaxation_time / unit),
+            ];
+            for (expected, found) in pairs {
+                let deviation = (found / expected - 1.0).abs();
+                assert!(deviation < 1e-12, "{found} of {expected}, unit {unit:e}");
+            }
+        }
+    }
+}
