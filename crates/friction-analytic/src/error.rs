@@ -1,7 +1,7 @@
 //! Why friction, depth or a contact cannot be given.
 
 use indenters::IndenterError;
-use numerics::InvalidParameter;
+use numerics::{InWords, InvalidParameter};
 use thiserror::Error;
 
 /// Why the friction integral has no finite value.
@@ -75,7 +75,7 @@ pub enum FrictionError {
         radius: f64,
     },
     /// A numerical integral or root did not reach the accuracy needed.
-    #[error("{quantity} is {value} with an estimated error of {error}, which is too large")]
+    #[error("{quantity} is {} with an estimated error of {}, which is too large", InWords(*value), InWords(*error))]
     NotConverged {
         /// What was computed.
         quantity: &'static str,
@@ -85,7 +85,7 @@ pub enum FrictionError {
         error: f64,
     },
     /// A result is too large or too small for a floating-point number.
-    #[error("{quantity} leaves the range of floating-point numbers: {value}")]
+    #[error("{quantity} leaves the range of floating-point numbers: it is {}", InWords(*value))]
     OutOfRange {
         /// What was computed.
         quantity: &'static str,

@@ -1,7 +1,7 @@
 //! Why a problem is refused, or has no solution.
 
 use indenters::IndenterError;
-use numerics::{InvalidParameter, NotReached};
+use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -42,8 +42,9 @@ pub enum MdrError {
     },
     /// The contact would reach the edge of the body, or the front end of the line, before it carries the force (Remark 4).
     #[error(
-        "the contact would reach the edge at position {position} (of a sphere: its equator) under {carried_force} N, which \
-         is less than the normal force {normal_force} N: lower the force, or check the unit of the modulus or viscosity"
+        "the contact would reach the edge at position {position} (of a sphere: its equator) under a force, in N, of {}, \
+         which is not the normal force {normal_force} N: lower the force, or check the unit of the modulus or viscosity",
+        InWords(*carried_force)
     )]
     ForceBeyondEdge {
         /// Where the line ends, \[m].
@@ -95,7 +96,9 @@ pub enum MdrError {
     /// The friction coefficient of a stationary state, or the force or depth of a static one, is known less well than asked
     /// for.
     #[error(
-        "the value is {value} with an estimated error of {error:e}, and the relative error asked for is {relative_error:e}"
+        "the value is {} with an estimated error of {:e}, and the relative error asked for is {relative_error:e}",
+        InWords(*value),
+        InWords(*error)
     )]
     NotConverged {
         /// Value reached.
@@ -162,7 +165,7 @@ pub enum MdrError {
         rows: Vec<SlideRow>,
     },
     /// A quantity left the range of floating-point numbers.
-    #[error("{quantity} became {value} at time {time}")]
+    #[error("{quantity} became {} at time {time}", InWords(*value))]
     NonFinite {
         /// Name of the quantity.
         quantity: &'static str,

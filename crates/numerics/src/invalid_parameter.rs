@@ -1,10 +1,12 @@
 //! Checks of numbers against the ranges that their parameters may take.
 
+use std::fmt::{self, Display, Formatter, LowerExp};
+
 use thiserror::Error;
 
 /// A parameter that is not a number, or outside the range it may take.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("{parameter} must be {allowed}, but is {value}")]
+#[error("{parameter} must be {allowed}, but is {}", InWords(*value))]
 pub struct InvalidParameter {
     /// Name of the parameter.
     pub parameter: &'static str,
@@ -12,6 +14,40 @@ pub struct InvalidParameter {
     pub value: f64,
     /// The values it may take.
     pub allowed: &'static str,
+}
+
+/// A number as it stands in messages, where what is none is said in words.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InWords(pub f64);
+
+impl InWords {
+    /// Words for a value that is infinite or not a number.
+    const fn words(self) -> Option<&'static str> {
+        match self.0 {
+            f64::INFINITY => Some("larger than any number"),
+            f64::NEG_INFINITY => Some("below every number"),
+            number if number.is_nan() => Some("not a number"),
+            _ => None,
+        }
+    }
+}
+
+impl Display for InWords {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self.words() {
+            Some(words) => formatter.write_str(words),
+            None => Display::fmt(&self.0, formatter),
+        }
+    }
+}
+
+impl LowerExp for InWords {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        match self.words() {
+            Some(words) => formatter.write_str(words),
+            None => LowerExp::fmt(&self.0, formatter),
+        }
+    }
 }
 
 /// The value of a parameter when it is one of those `allowed`, which `holds` says.
@@ -93,9 +129,10 @@ mod tests {
             for value in [refused, &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY]].concat() {
                 let error = check("length", value).expect_err("out of range");
                 let error = error.to_string();
+                assert!(!error.contains("inf") && !error.contains("NaN"), "{error}");
                 let said = error.starts_with("length must be ");
                 assert!(
-                    said && error.ends_with(&format!(", but is {value}")),
+                    said && error.ends_with(&format!(", but is {}", InWords(value))),
                     "{error}"
                 );
             }

@@ -40,7 +40,7 @@ mod whole_part;
 pub use error_parts::ErrorParts;
 pub use estimate::{Estimate, ValueWithError};
 pub use invalid_parameter::{
-    InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
+    InWords, InvalidParameter, between_zero_and_one, finite, in_range, not_negative, positive,
 };
 pub use legendre::{LobattoRule, legendre_values, lobatto_rule};
 pub use progress::{Progress, Unwatched, Watch};

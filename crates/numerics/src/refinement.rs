@@ -8,8 +8,8 @@
 
 use thiserror::Error;
 
-use crate::ErrorParts;
 use crate::progress::{Progress, Unwatched, Watch};
+use crate::{ErrorParts, InWords};
 
 /// How well a result is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,8 +116,10 @@ pub struct Refined<T> {
 /// A quantity is not known well enough on the finest resolution allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is {value} with an \
-     error of {error:.1e}"
+    "the relative error {asked:e} was not reached with {elements} elements along the contact: the value is {} with an \
+     error of {:.1e}",
+    InWords(*value),
+    InWords(*error)
 )]
 pub struct NotReached {
     /// Which of the quantities.

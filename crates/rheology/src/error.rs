@@ -1,6 +1,6 @@
 //! What can be wrong with a material.
 
-use numerics::InvalidParameter;
+use numerics::{InWords, InvalidParameter};
 use thiserror::Error;
 
 /// Why a material, or an argument of one of its functions, is refused.
@@ -12,7 +12,7 @@ pub enum RheologyError {
     /// A parameter of one member of a list is not a number, or outside the range it may take.
     #[error(
         "{} of {list}[{index}] must be {}, but is {}",
-        refused.parameter, refused.allowed, refused.value
+        refused.parameter, refused.allowed, InWords(refused.value)
     )]
     InvalidElement {
         /// Name of the list.

@@ -2,7 +2,7 @@
 
 use crate::RheologyError;
 use crate::error::in_list;
-use numerics::{not_negative, positive};
+use numerics::{in_range, not_negative, positive};
 
 /// Times closer than this, relatively, are one.
 ///
@@ -20,6 +20,7 @@ pub(super) fn normal_form(
     for (index, decay) in decays.iter().enumerate() {
         not_negative(amplitude, decay.0)
             .and_then(|_| positive(time, decay.1))
+            .and_then(|_| in_range(time, decay.1, decay.1.is_normal(), "at least 3e-308"))
             .map_err(in_list(list, index))?;
     }
     decays.retain(|&(amplitude, _)| amplitude > 0.0);

@@ -48,7 +48,8 @@ struct Place {
     offset: f64,
 }
 
-/// The positive and the negative terms of S at one point, and their derivatives, all without sign.
+/// The positive and the negative terms of S at one point, and their derivatives by the logarithm of the distance from the
+/// pole `near`, all without sign.
 struct Balance {
     up: f64,
     down: f64,
@@ -98,7 +99,7 @@ impl Secular<'_> {
             let Balance { up, down, slopes } = self.balance(place(distance));
             // Positive while the root is farther from the pole.
             let excess = side * (up / down).ln();
-            let step = excess / (distance * (slopes[0] / up + slopes[1] / down));
+            let step = excess / (slopes[0] / up + slopes[1] / down);
             if step.abs() <= TOLERANCE {
                 break;
             }
@@ -110,6 +111,10 @@ impl Secular<'_> {
             let newton = distance * step.exp();
             let trusted = newton > low && newton < high && step.abs() <= 0.5 * last_step;
             let next = if trusted { newton } else { middle(low, high) };
+            if next <= low || next >= high {
+                // No number lies between the ends, which are too small to have all their digits.
+                break;
+            }
             last_step = (next / distance).ln().abs();
             distance = next;
         }
@@ -125,7 +130,8 @@ impl Secular<'_> {
         for (index, pole) in self.poles.iter().enumerate() {
             let difference = self.above_pole(place, index);
             let term = (pole.weight / difference).abs();
-            let slope = term / difference.abs();
+            // As a ratio of lengths, because the square of a difference may underflow.
+            let slope = term * (place.offset / difference).abs();
             if difference > 0.0 {
                 balance.up += term;
                 balance.slopes[0] += slope;

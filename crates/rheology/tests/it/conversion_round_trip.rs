@@ -108,3 +108,20 @@ fn degenerate_spectra_convert() {
     assert_close!(element.retardation_time => 10.0 / 17.0, within 1e-15);
     assert_close!(element.compliance => 75.0 / 289.0, within 1e-15);
 }
+
+/// Their squares underflow, so that the search for a retardation time once went on without end.
+#[test]
+fn branches_that_relax_at_once_are_converted() {
+    for time in [1e-150, 1e-200, 1e-300] {
+        for dashpot in [0.0, 100.0] {
+            let relaxation = spectrum(1e6, dashpot, &[1e6, 1e6], &[time, 0.01]);
+            let creep = relaxation.to_creep().unwrap();
+            for frequency in frequencies() {
+                let modulus = relaxation.complex_modulus(frequency).unwrap();
+                let compliance = creep.complex_compliance(frequency).unwrap();
+                let product = modulus.storage * compliance.storage + modulus.loss * compliance.loss;
+                assert_close!(product => 1.0, within 1e-12; "{time:e}, {dashpot}, {frequency:e}");
+            }
+        }
+    }
+}

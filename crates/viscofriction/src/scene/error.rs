@@ -1,13 +1,13 @@
 //! What can be wrong with a scene, with the key it is wrong at.
 
-use numerics::InvalidParameter;
+use numerics::{InWords, InvalidParameter};
 use thiserror::Error;
 
 /// Why a scene is refused; the key is a path such as `material.prony.branches[2].modulus`.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SceneError {
     /// A number is outside the range it may take.
-    #[error("{key} must be {allowed}, but is {value}")]
+    #[error("{key} must be {allowed}, but is {}", InWords(*value))]
     Value {
         /// Where.
         key: String,

@@ -1,12 +1,15 @@
 //! What a method answers: quantities in SI, each with its error.
 
 use bem_halfspace::slide::PressureField;
-use numerics::{ErrorParts, Estimate};
+use numerics::{ErrorParts, Estimate, ValueWithError};
 use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
+use super::body::Body;
 use super::curve::Curve;
 use super::error::{Result, SolveError};
+use super::half_space::Simple;
 use super::omission::Omission;
+use super::problem::{Motion, Problem};
 use crate::scene::{Method, Model};
 
 /// One result in SI; what a method does not know is left out.
@@ -221,13 +224,52 @@ impl Answer {
         empty.numbers().into_iter().map(|(name, _)| name).collect()
     }
 
+    /// Refuses numbers that no contact has: one so close to 0 that it has lost its digits, and with them its bar, and a
+    /// friction below 0, by which a material would give back more energy than it takes. Friction that came out below 0
+    /// within its bar is 0 with that bar, which holds all that is left of it.
+    ///
+    /// On the way to the stationary state a surface that is not its own mirror image may be pulled along.
+    pub(crate) fn physical(mut self, problem: &Problem) -> Result<Self> {
+        if matches!(problem.motion(), Motion::History(_)) {
+            return Ok(self);
+        }
+        let may_be_pulled = matches!(problem.body(), Body::HeightMap(_) | Body::Periodic(_));
+        if let Some(friction) = &mut self.friction_coefficient
+            && friction.value < 0.0
+            && !(may_be_pulled && self.method == Method::BemTransient)
+        {
+            let ValueWithError { value, error } = **friction;
+            if error < -value {
+                return Err(SolveError::NegativeFriction { value, error });
+            }
+            *friction = Estimate::new(0.0, error);
+        }
+        let is_elastic = problem.simple() == Some(&Simple::Elastic);
+        let is_lost = |name: &str, known: Estimate| {
+            let is_exact = is_elastic && (name.contains("friction") || name == "tangential_force");
+            let is_zero = known.value == 0.0 && (is_exact || known.error >= f64::MIN_POSITIVE);
+            known.value.abs() < f64::MIN_POSITIVE && !is_zero
+        };
+        let quantities = self.quantities().into_iter();
+        let known = quantities.filter_map(|(name, known)| Some((name, known?)));
+        let width = self.contact_box.as_ref().map(|one| one.x[1] - one.x[0]);
+        let width = width.map(|width| ("contact_box", Estimate::exact(width)));
+        let mut known = known.chain(width);
+        if let Some((name, known)) = known.find(|(name, known)| is_lost(name, *known)) {
+            let (quantity, value) = (name.to_owned(), known.value);
+            return Err(SolveError::OutOfRange { quantity, value });
+        }
+        drop(known);
+        Ok(self)
+    }
+
     /// Refuses a quantity that overflows although what it follows from does not, such as an area from a length.
     pub(crate) fn finite(self) -> Result<Self> {
         let numbers = self.numbers().into_iter();
         let mut known = numbers.filter_map(|(name, value)| Some((name, value?)));
         match known.find(|(_, value)| !value.is_finite()) {
             None => Ok(self),
-            Some((quantity, value)) => Err(SolveError::Overflow { quantity, value }),
+            Some((quantity, value)) => Err(SolveError::OutOfRange { quantity, value }),
         }
     }
 }
@@ -290,5 +332,69 @@ impl Serialize for Answer {
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("left_out", &self.left_out)?;
         map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::solve::solve;
+
+    fn problem(body: &str, material: &str, rest: &str) -> Problem {
+        let text = format!("[indenter.{body}\n[material.{material}\n[load]\n{rest}");
+        let scene: Scene = text.parse().expect("a scene");
+        Problem::try_from(&scene).expect("a problem")
+    }
+
+    /// The area is the square of a radius that is a number, and the tangential force the product of two.
+    #[test]
+    fn what_underflows_is_no_answer() {
+        let pressed = "normal_force = 1e-300\nvelocity = 0.0\n[solve]\nduration = 1.0";
+        let slid = "normal_force = 1e-30\nvelocity = 1e-9\n[solve]\nmodel = \"line\"";
+        for (slope, material, rest, lost) in [
+            (
+                "1",
+                "elastic]\nshear_modulus = 1e20",
+                pressed,
+                "contact_area",
+            ),
+            (
+                "1e-300",
+                "viscous]\nviscosity = 1e6",
+                slid,
+                "tangential_force",
+            ),
+        ] {
+            let asked = problem(&format!("cone]\nslope = {slope}"), material, rest);
+            let refused = solve(&asked);
+            let holds = matches!(&refused, Err(SolveError::OutOfRange { quantity, .. }) if quantity == lost);
+            assert!(holds, "{lost}: {refused:?}");
+        }
+    }
+
+    #[test]
+    fn friction_below_zero_is_refused_or_zero_within_its_bar() {
+        let sliding = "normal_force = 1.0\nvelocity = 0.01\n";
+        let asked = problem("cone]\nslope = 0.1", "viscous]\nviscosity = 1e4", sliding);
+        let of = |value| {
+            let friction = Estimate::new(value, 0.01);
+            let force = Estimate::exact(1.0);
+            let answer = Answer {
+                friction_coefficient: Some(friction),
+                ..Answer::new(Method::BemSteady, Model::HalfSpace, force)
+            };
+            answer
+                .physical(&asked)
+                .map(|answer| answer.friction_coefficient)
+        };
+        assert_eq!(
+            of(-0.009),
+            Ok(Some(Estimate::new(0.0, 0.01))),
+            "within its bar"
+        );
+        let [value, error] = [-0.011, 0.01];
+        let refused = SolveError::NegativeFriction { value, error };
+        assert_eq!(of(value), Err(refused), "by more than its bar");
     }
 }

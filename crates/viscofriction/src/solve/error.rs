@@ -4,6 +4,7 @@ use bem_halfspace::BemError;
 use friction_analytic::FrictionError;
 use indenters::IndenterError;
 use mdr_core::MdrError;
+use numerics::InWords;
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -46,12 +47,26 @@ pub enum SolveError {
     #[error(transparent)]
     TooCoarse(#[from] numerics::NotReached),
     /// A quantity that no number can hold.
-    #[error("{quantity} is {value} in units of SI: no number is as large")]
-    Overflow {
+    #[error(
+        "{quantity} is {} in units of SI; check the units of indenter, material and load, from which it follows",
+        InWords(*value)
+    )]
+    OutOfRange {
         /// Its name.
         quantity: String,
-        /// Infinite, or not a number.
+        /// Infinite, not a number, or so close to 0 that digits are missing.
         value: f64,
+    },
+    /// A friction by which the material would give back more energy than it takes.
+    #[error(
+        "the friction coefficient came out as {value} ± {error:e}, and a material that slides gives no energy back; give \
+         more solve.elements, or a smaller solve.relative_error"
+    )]
+    NegativeFriction {
+        /// Its value.
+        value: f64,
+        /// Its error.
+        error: f64,
     },
     /// A method that does not answer the problem was asked by its name.
     #[error("{} does not answer this scene: {why}", method.name())]

@@ -124,6 +124,9 @@ fn needed(problem: &Problem, method: Method, elements: usize) -> Option<f64> {
 }
 
 fn written(bytes: f64) -> String {
+    if bytes >= 2.0_f64.powi(60) {
+        return "more than an exbibyte".to_owned();
+    }
     let mut units = [(30, "GiB"), (20, "MiB"), (10, "KiB")].into_iter();
     let unit = units.find(|(power, _)| bytes >= 2.0_f64.powi(*power));
     let (power, unit) = unit.unwrap_or((0, "B"));

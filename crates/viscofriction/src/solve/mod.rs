@@ -88,5 +88,5 @@ fn watched(
         warnings: warnings(problem, &answer),
         ..answer
     };
-    answer.finite()
+    answer.finite()?.physical(problem)
 }
