@@ -6,7 +6,9 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rheology::RheologyError;
-use rheology::fit::{Control, Ending, IdentifyOptions, MeasuredCurve, RelaxationPoint, identify};
+use rheology::fit::{
+    Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, identify,
+};
 use viscofriction::friction_analytic;
 use viscofriction::scene::MaterialTable;
 use viscofriction::solve::{Expansion, HalfSpace, half_space};
@@ -138,6 +140,9 @@ fn fitted<'py>(
     dictionary.set_item("equilibrium_modulus", modulus)?;
     dictionary.set_item("branches", branches)?;
     dictionary.set_item("rms_relative_error", found.rms_relative_error)?;
+    let pair = |error: Option<RelativeError>| error.map(|one| (one.rms, one.max));
+    dictionary.set_item("storage_error", pair(found.storage_error))?;
+    dictionary.set_item("loss_error", pair(found.loss_error))?;
     dictionary.set_item("max_relative_error", found.max_relative_error)?;
     Ok(dictionary)
 }

@@ -28,6 +28,10 @@ class Fit:
     rms_relative_error: float
     #: The largest of these errors.
     max_relative_error: float
+    #: Root mean square and largest error of G' by itself, relative to its own size; None of a relaxation modulus.
+    storage_error: tuple[float, float] | None = None
+    #: The same of G''.
+    loss_error: tuple[float, float] | None = None
     #: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of frequency.
     log10_factors: tuple[tuple[float, float], ...] = ()
 
@@ -149,4 +153,5 @@ def scaling_factor(exponent: float) -> tuple[float, float]:
 def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
     branches = [(modulus, time) for modulus, time in found["branches"]]
     material = Prony(found["equilibrium_modulus"], branches, poisson_ratio=poisson_ratio)
-    return Fit(material, found["rms_relative_error"], found["max_relative_error"])
+    errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
+    return Fit(material, *errors)

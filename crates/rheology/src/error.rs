@@ -73,6 +73,27 @@ pub enum RheologyError {
         /// The same of the exchanged ones.
         swapped: f64,
     },
+    /// Moduli that change as those of no relaxing material do.
+    #[cfg(feature = "fit")]
+    #[error("these are the moduli of no relaxing material: {what}")]
+    WrongTrend {
+        /// What they do.
+        what: &'static str,
+    },
+    /// Moduli from which every Prony series is far away.
+    #[cfg(feature = "fit")]
+    #[error(
+        "these are the moduli of no relaxing material: the best series is off by {:.0} % in the storage (or relaxation) modulus \
+         and {:.0} % in the loss modulus",
+        100.0 * storage,
+        100.0 * loss
+    )]
+    NoMaterial {
+        /// Root mean square error of G', or of G(t), relative to its own size.
+        storage: f64,
+        /// The same of G''.
+        loss: f64,
+    },
     /// The moduli of a Prony series did not settle.
     #[cfg(feature = "fit")]
     #[error("the moduli did not settle in {changes} changes of their signs")]

@@ -1,6 +1,6 @@
 //! What was measured, over frequency or over time.
 
-use super::system::{Quantity, Row};
+use super::system::{LEAST_PART, Quantity, Row};
 use crate::RheologyError;
 use crate::error::in_list;
 use numerics::{InvalidParameter, in_range, not_negative, positive};
@@ -15,6 +15,15 @@ pub struct ModulusPoint {
     pub storage: f64,
     /// Loss modulus G'', \[Pa].
     pub loss: f64,
+}
+
+impl ModulusPoint {
+    /// What errors of storage and loss modulus are relative to, \[Pa]: to their own sizes, or to a thousandth of |G*| where that
+    /// is larger.
+    pub fn sizes(&self) -> [f64; 2] {
+        let least = LEAST_PART * self.storage.hypot(self.loss);
+        [self.storage, self.loss].map(|modulus| modulus.max(least))
+    }
 }
 
 /// Relaxation modulus at one time after a step of strain.

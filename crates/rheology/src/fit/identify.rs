@@ -1,6 +1,6 @@
 //! The Prony series behind a measured curve.
 
-mod swapped;
+mod plausible;
 
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use numerics::{InvalidParameter, in_range, not_negative, positive};
@@ -8,7 +8,7 @@ use numerics::{InvalidParameter, in_range, not_negative, positive};
 use super::curve::MeasuredCurve;
 use super::nnls::nnls;
 use super::refine::{Series, refine};
-use super::system::Row;
+use super::system::{Quantity, Row};
 use crate::{RelaxationBranch, RelaxationSpectrum, RheologyError};
 
 /// What happens after a long time.
@@ -59,6 +59,16 @@ impl Default for IdentifyOptions {
     }
 }
 
+/// Errors of a modulus at all points, relative to its own size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct RelativeError {
+    /// Root of the mean square.
+    pub rms: f64,
+    /// The largest.
+    pub max: f64,
+}
+
 /// A Prony series, and how well it fits.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -69,6 +79,10 @@ pub struct Identification {
     pub rms_relative_error: f64,
     /// The largest of these relative errors.
     pub max_relative_error: f64,
+    /// Errors of G' by itself, relative to [`ModulusPoint::sizes`](super::ModulusPoint::sizes); none of G(t).
+    pub storage_error: Option<RelativeError>,
+    /// The same of G''.
+    pub loss_error: Option<RelativeError>,
 }
 
 /// How far beyond the measured window, as a factor, a time may move.
@@ -80,18 +94,15 @@ const MAX_BRANCHES: usize = 200;
 ///
 /// # Errors
 /// [`RheologyError::InvalidParameter`] when an option is out of range; [`RheologyError::FitNotConverged`];
-/// [`RheologyError::NoStiffness`] when no branch can lower the error; [`RheologyError::SwappedModuli`].
+/// [`RheologyError::NoStiffness`] when no branch can lower the error; [`RheologyError::SwappedModuli`],
+/// [`RheologyError::WrongTrend`] and [`RheologyError::NoMaterial`] when the moduli are those of no relaxing material.
 pub fn identify(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
     let found = series_of(curve, options);
-    let is_settled = match &found {
-        Ok(found) => found.rms_relative_error <= swapped::BAD,
-        Err(error) => matches!(error, RheologyError::InvalidParameter(_)),
-    };
-    if !is_settled {
-        swapped::check(curve, options.ending)?;
+    if !matches!(found, Err(RheologyError::InvalidParameter(_))) {
+        plausible::check(curve, options.ending, found.as_ref().ok())?;
     }
     found
 }
@@ -200,7 +211,22 @@ impl Problem<'_> {
             spectrum,
             rms_relative_error: (errors.iter().sum::<f64>() / errors.len() as f64).sqrt(),
             max_relative_error: errors.into_iter().fold(0.0, f64::max).sqrt(),
+            storage_error: self.error_of(series, Quantity::Storage),
+            loss_error: self.error_of(series, Quantity::Loss),
         })
+    }
+
+    /// Of a modulus by itself.
+    fn error_of(&self, series: &Series, quantity: Quantity) -> Option<RelativeError> {
+        let rows = self.rows.iter().filter(|row| row.quantity == quantity);
+        let errors = rows.map(|row| (series.value(row) - row.value).abs() / row.size());
+        let errors: Vec<f64> = errors.collect();
+        let squares: f64 = errors.iter().map(|error| error * error).sum();
+        let of_all = |n: usize| RelativeError {
+            rms: (squares / n as f64).sqrt(),
+            max: errors.iter().copied().fold(0.0, f64::max),
+        };
+        Some(errors.len()).filter(|n| *n > 0).map(of_all)
     }
 
     /// Squared relative error of every point; the two rows of a frequency are one point.

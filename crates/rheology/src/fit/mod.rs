@@ -8,5 +8,5 @@ mod refine;
 mod system;
 
 pub use curve::{MeasuredCurve, ModulusPoint, RelaxationPoint};
-pub use identify::{Control, Ending, Identification, IdentifyOptions, identify};
+pub use identify::{Control, Ending, Identification, IdentifyOptions, RelativeError, identify};
 pub use master_curve::{Isotherm, MasterCurve, automatic_master_curve, shifted_master_curve};

@@ -28,7 +28,15 @@ pub(super) struct Row {
     pub(super) weight: f64,
 }
 
+/// Errors of a modulus that is a smaller part of |G*| are relative to this part: no instrument tells it from zero.
+pub(super) const LEAST_PART: f64 = 1e-3;
+
 impl Row {
+    /// What errors of this modulus by itself are relative to.
+    pub(super) fn size(&self) -> f64 {
+        self.value.max(LEAST_PART / self.weight)
+    }
+
     /// What a spring of unit modulus contributes.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {

@@ -206,7 +206,7 @@ fn identification_does_not_depend_on_units() {
 
 /// As they are, no positive branches come closer than a fifth to them; one branch does not come closer to a broad spectrum.
 #[test]
-fn swapped_moduli_are_refused_and_bad_fits_are_not() {
+fn swapped_moduli_and_noise_are_refused_and_bad_fits_are_not() {
     let given = spectrum(1e5, 0.0, &[5e6, 2e7, 3e5], &[1e-5, 1e-2, 1e2]);
     let swap = |_, [omega, storage, loss]: [f64; 3]| [omega, loss, storage];
     let one = solid(Control::Branches(1));
@@ -228,7 +228,8 @@ fn swapped_moduli_are_refused_and_bad_fits_are_not() {
         [omega, storage * 9_f64.powf(f64::sin(9.0 * k)), loss]
     };
     let noisy = identify(&measured(&given, -4..8, noise), &one);
-    assert!(noisy.is_ok(), "{noisy:?}");
+    let seen = matches!(noisy, Err(RheologyError::NoMaterial { storage, .. }) if storage > 0.2);
+    assert!(seen, "{noisy:?}");
 }
 
 #[test]

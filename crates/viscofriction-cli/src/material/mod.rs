@@ -10,7 +10,7 @@ use anyhow::Result;
 use clap::Args;
 use rheology::fit::{
     Control, Ending, Identification, IdentifyOptions, MasterCurve, MeasuredCurve, ModulusPoint,
-    RelaxationPoint, identify,
+    RelativeError, RelaxationPoint, identify,
 };
 use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
@@ -172,10 +172,20 @@ impl Fitted<'_> {
     fn summary(&self) -> String {
         let found = &self.found;
         let n_branches = found.spectrum.branches().len();
-        let [rms, most] = [found.rms_relative_error, found.max_relative_error].map(|e| 100.0 * e);
-        format!(
-            "{n_branches} branches; relative error of the modulus: {rms:.3} % rms, {most:.3} % at most"
-        )
+        let of_all = RelativeError {
+            rms: found.rms_relative_error,
+            max: found.max_relative_error,
+        };
+        let error = |RelativeError { rms, max }| {
+            format!("{:.3} % rms, {:.3} % at most", 100.0 * rms, 100.0 * max)
+        };
+        let errors = match (found.storage_error, found.loss_error) {
+            (Some(storage), Some(loss)) => {
+                format!("G': {}; of G'': {}", error(storage), error(loss))
+            }
+            _ => format!("G(t): {}", error(of_all)),
+        };
+        format!("{n_branches} branches; relative error of {errors}")
     }
 }
 

@@ -34,8 +34,13 @@ fn compare(fitted: &Fitted<'_>) -> Result<Comparison> {
             loss,
         } = *point;
         let fit = spectrum.complex_modulus(omega)?;
-        let error = (fit.storage - storage).hypot(fit.loss - loss) / storage.hypot(loss);
-        Ok(vec![omega, storage, loss, fit.storage, fit.loss, error])
+        let [of_storage, of_loss] = point.sizes();
+        let errors = [
+            (fit.storage - storage).abs() / of_storage,
+            (fit.loss - loss).abs() / of_loss,
+        ];
+        let moduli = [omega, storage, loss, fit.storage, fit.loss];
+        Ok([&moduli[..], &errors[..]].concat())
     };
     let relaxation = |&RelaxationPoint { time, modulus }: &RelaxationPoint| {
         let fit = spectrum.relaxation_modulus(time)?;

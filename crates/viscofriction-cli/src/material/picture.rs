@@ -2,9 +2,9 @@
 
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Figure, Line, Marker, Series, Shape};
 
-/// Columns of fit.csv: what was measured, the same of the series, and the relative error |G_fit/G − 1|.
-pub(super) const OSCILLATION: &str =
-    "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa relative_error";
+/// Columns of fit.csv: what was measured, the same of the series, and the relative error of each.
+pub(super) const OSCILLATION: &str = "angular_frequency_rad_per_s storage_pa loss_pa storage_fit_pa loss_fit_pa \
+    storage_relative_error loss_relative_error";
 pub(super) const RELAXATION: &str = "time_s modulus_pa modulus_fit_pa relative_error";
 
 /// Measured against fitted, as rows of a table.
@@ -33,11 +33,13 @@ pub(super) fn figure(comparison: &Comparison) -> Figure {
         let line = Line::thick(Dash::Solid);
         Series::line(points(1 + n + index), line, colour).labelled(format!("{name} of the series"))
     });
-    let marker = Marker::filled(Shape::Diamond);
-    let errors = Series::markers(points(1 + 2 * n), marker, Colour::Black);
+    let errors = coloured().map(|(index, (name, colour))| {
+        let marker = Marker::filled(Shape::Diamond);
+        Series::markers(points(1 + 2 * n + index), marker, colour).labelled(*name)
+    });
     let charts = [
         decades(x, "modulus [Pa]", measured.chain(fitted).collect()),
-        decades(x, "relative error of the modulus", vec![errors]),
+        decades(x, "relative error", errors.collect()),
     ];
     Figure::new(charts, 2)
 }

@@ -96,6 +96,69 @@ fn swapped_columns_are_refused_and_nothing_is_written() {
     assert_eq!(folder.names(""), ["swapped.csv"], "a material from them");
 }
 
+/// Each is G' and G'' over ω.
+const NO_MATERIALS: [(&str, fn(f64) -> [f64; 2]); 4] = [
+    ("storage modulus falls", |omega| {
+        [1e6 * omega.powf(-0.1), 1e5]
+    }),
+    ("the same at all points", |_| [1e6, 1e5]),
+    ("best series is off", |omega| {
+        [1e6 * (3.0 * omega.ln()).sin().exp2().powi(2), 1e6]
+    }),
+    ("best series is off", |omega| [1e6 + omega, 5e5]),
+];
+
+#[test]
+fn tables_of_no_material_are_refused_and_nothing_is_written() {
+    let folder = Folder::new("no_material");
+    for (reason, moduli) in NO_MATERIALS {
+        let rows = (-12..=12).map(|k| {
+            let omega = 10_f64.powf(0.25 * f64::from(k));
+            let [storage, loss] = moduli(omega);
+            format!("{omega},{storage},{loss}\n")
+        });
+        let rows: String = rows.collect();
+        folder.write("table.csv", format!("ω, G′, G″\nrad/s, Pa, Pa\n{rows}"));
+        folder.ends("fit-material table.csv --out out", 1, reason);
+    }
+    let rows: String = (1..9).map(|k| format!("{k},{k}e6\n")).collect();
+    folder.write("table.csv", format!("t, G(t)\ns, Pa\n{rows}"));
+    folder.ends(
+        "fit-material table.csv --out out",
+        1,
+        "relaxation modulus rises",
+    );
+    assert_eq!(folder.names(""), ["table.csv"], "a material from them");
+}
+
+/// A loss modulus of a hundredth of the storage modulus counts as much, and its error is said by itself.
+#[test]
+fn errors_of_storage_and_loss_modulus_are_told_apart() {
+    let folder = Folder::new("apart");
+    let rows = (-8..=8).map(|k| {
+        let omega = 10_f64.powf(0.25 * f64::from(k));
+        let x = omega * omega / (1.0 + omega * omega);
+        let scatter = if k % 2 == 0 { 1.2 } else { 0.8 };
+        format!(
+            "{omega},{},{}\n",
+            1e8 + 2e6 * x,
+            scatter * 2e6 * omega / (1.0 + omega * omega)
+        )
+    });
+    let rows: String = rows.collect();
+    folder.write("table.csv", format!("ω, G′, G″\nrad/s, Pa, Pa\n{rows}"));
+    folder.done("fit-material table.csv --out out --branches 1");
+    let errors = [5, 6].map(|column| {
+        let errors = folder.column("out/fit.csv", column);
+        (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt()
+    });
+    assert!(errors[0] < 2e-3 && errors[1] > 0.15, "{errors:?}");
+    let said = format!("{:.3} % rms", 100.0 * errors[1]);
+    let material = folder.text("out/material.toml");
+    let is_said = material.contains("of G'': ") && material.contains(&said);
+    assert!(is_said, "{said} in {material}");
+}
+
 #[test]
 fn a_scene_names_the_file_of_a_fit() {
     let folder = Folder::new("named");
