@@ -53,13 +53,18 @@ impl Case {
         }
     }
 
+    /// With white noise of the force alone.
+    fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
+        self.noisy_curve(points, level, &NOISES[0], seed)
+    }
+
     /// The exact force of an approach for a second to 1.5 µm, a dwell, and the way back, and Gaussian noise of a part of its
     /// peak.
-    fn curve(&self, points: usize, level: f64, seed: u64) -> IndentationCurve {
+    fn noisy_curve(&self, points: usize, level: f64, kind: &Noise, seed: u64) -> IndentationCurve {
         let time = (0..points).map(|i| 3.0 * i as f64 / (points - 1) as f64);
         let time: Vec<f64> = time.collect();
         let depth = time.iter().map(|t| 1.5e-6 * t.min(1.0).min(3.0 - t));
-        let depth: Vec<f64> = depth.collect();
+        let mut depth: Vec<f64> = depth.collect();
         let history = time.iter().zip(&depth).map(|(&time, depth)| HistoryPoint {
             time,
             control: Control::IndentationDepth(depth - CONTACT_POINT),
@@ -72,8 +77,15 @@ impl Case {
         let mut force: Vec<f64> = force.collect();
         let noise = level * peak(&force);
         let mut normal = Normal(seed);
-        let forces = force.iter_mut();
-        forces.for_each(|force| *force += noise * normal.draw());
+        let mut last = normal.draw();
+        for force in &mut force {
+            *force += noise * last;
+            let news = (1.0 - kind.correlation * kind.correlation).sqrt();
+            last = kind.correlation * last + news * normal.draw();
+        }
+        change(&mut depth, |depth| {
+            depth + 1.5e-6 * kind.depth * normal.draw()
+        });
         IndentationCurve { time, depth, force }
     }
 
@@ -129,44 +141,89 @@ impl Normal {
 /// Noise in parts of the peak force.
 const LEVELS: [f64; 3] = [0.003, 0.01, 0.03];
 
-/// `VISCOFRICTION_CURVES` is the number of curves, 300 unless it is set; docs/fit-indentation.md has the table of more.
+/// Of the force, from point to point, and of the depth, in parts of its range.
+struct Noise {
+    name: &'static str,
+    correlation: f64,
+    depth: f64,
+}
+
+const NOISES: [Noise; 4] = [
+    Noise::new("white", 0.0, 0.0),
+    Noise::new("correlation 0.9", 0.9, 0.0),
+    Noise::new("correlation 0.99", 0.99, 0.0),
+    Noise::new("white, depth 0.3 %", 0.0, 0.003),
+];
+
+impl Noise {
+    const fn new(name: &'static str, correlation: f64, depth: f64) -> Self {
+        Self {
+            name,
+            correlation,
+            depth,
+        }
+    }
+}
+
+fn holds((finding, truth): (&Finding, &f64)) -> bool {
+    let [lower, upper] = finding.interval;
+    lower.is_none_or(|end| end <= *truth) && upper.is_none_or(|end| end >= *truth)
+}
+
+/// `VISCOFRICTION_CURVES` is the number of curves, 240 unless it is set; docs/fit-indentation.md has the table of more.
 #[test]
-fn intervals_hold_the_truth_in_95_of_100_noisy_curves() {
+fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged() {
     let given = std::env::var("VISCOFRICTION_CURVES");
-    let n_curves = given.map_or(300, |n| n.parse().expect("a number"));
+    let n_curves = given.map_or(240, |n| n.parse().expect("a number"));
     let cases = cases();
-    let each = n_curves / cases.len();
+    let each = n_curves / cases.len() / NOISES.len();
     let mut table = String::new();
     let mut parts = Vec::new();
-    for case in &cases {
-        let holds = |(finding, truth): (&Finding, &f64)| {
-            let [lower, upper] = finding.interval;
-            lower.is_none_or(|end| end <= *truth) && upper.is_none_or(|end| end >= *truth)
-        };
-        let hits = (0..each).into_par_iter().map(|seed| {
+    for (noise, case) in NOISES
+        .iter()
+        .flat_map(|noise| cases.iter().map(move |case| (noise, case)))
+    {
+        let fits = (0..each).into_par_iter().map(|seed| {
             let level = LEVELS[seed % LEVELS.len()];
-            let curve = case.curve(400, level, 1 + 1_000_003 * seed as u64);
-            let fit = case.fit(&curve).expect("a fit");
-            fit.findings.iter().zip(&case.truth).map(holds).collect()
+            let curve = case.noisy_curve(400, level, noise, 1 + 1_000_003 * seed as u64);
+            let fit = case.fit(&curve).ok()?;
+            let hits: Vec<bool> = fit.findings.iter().zip(&case.truth).map(holds).collect();
+            Some((hits, !fit.flags.is_empty()))
         });
-        let hits: Vec<Vec<bool>> = hits.collect();
-        write!(table, "{}:", case.name).expect("text");
+        let fits: Vec<Option<(Vec<bool>, bool)>> = fits.collect();
+        let fitted: Vec<_> = fits.iter().flatten().collect();
+        let flagged = each - fitted.iter().filter(|(_, flagged)| !flagged).count();
+        // The points before the contact do not always show noise that lasts.
+        let allowed = if noise.correlation > 0.0 { 0.15 } else { 0.02 };
+        let is_few = flagged as f64 <= 1.0 + allowed * each as f64;
+        assert!(
+            is_few,
+            "{flagged} of {each} flagged: {}, {}",
+            noise.name, case.name
+        );
+        write!(table, "{}, {}:", noise.name, case.name).expect("text");
         for parameter in 0..case.truth.len() {
-            let inside = hits.iter().filter(|hit| hit[parameter]).count();
-            parts.push(inside as f64 / each as f64);
-            write!(table, " {:.2} %", 100.0 * parts[parts.len() - 1]).expect("text");
+            let inside = fitted.iter().filter(|(hits, _)| hits[parameter]).count();
+            parts.push(inside as f64 / fitted.len() as f64);
+            write!(table, " {:.1} %", 100.0 * parts[parts.len() - 1]).expect("text");
         }
-        table.push('\n');
+        writeln!(
+            table,
+            "; flagged {:.1} %",
+            100.0 * flagged as f64 / each as f64
+        )
+        .expect("text");
     }
     Folder::new("intervals").write("table.txt", &table);
     let mean = parts.iter().sum::<f64>() / parts.len() as f64;
     // As if the parameters of a curve were one trial; each of them may be off by four standard deviations.
-    let spread = |n: usize| (0.95 * 0.05 / n as f64).sqrt();
-    let allowed = 0.01 + 2.0 * spread(n_curves);
+    let spread = |part: f64, n: usize| (part * (1.0 - part) / n as f64).sqrt();
+    let allowed = 0.01 + 2.0 * spread(0.95, n_curves);
     assert!((mean - 0.95).abs() < allowed, "{mean}\n{table}");
+    // A curve is only four times as long as noise of the correlation 0.99 lasts.
     let off = parts.into_iter().map(|part| (part - 0.95).abs());
     let worst = off.fold(0.0, f64::max);
-    assert!(worst < 0.01 + 4.0 * spread(each), "{worst}\n{table}");
+    assert!(worst < 0.06 + 4.0 * spread(0.95, each), "{worst}\n{table}");
 }
 
 #[test]
@@ -244,6 +301,98 @@ fn damaged_curves_are_refused_with_a_reason_and_sound_ones_never() {
         let is_drift = flags.iter().any(|flag| matches!(flag, Flag::Drift(_)));
         assert!(is_drift, "{}, drift: {flags:?}", case.name);
     }
+}
+
+/// Curves that are not what they are taken for, though each of them can be fitted.
+const DISTORTIONS: [(&str, Damage); 6] = [
+    ("a lag of 25 ms", |c, _| {
+        let force = c.force.clone();
+        (5..600).for_each(|i| c.force[i] = force[i - 5]);
+    }),
+    ("the piezo taken for the depth", |c, peak| {
+        let bent = c.depth.iter_mut().zip(&c.force);
+        bent.for_each(|(depth, force)| *depth += 3e-7 * force / peak);
+    }),
+    ("a thin sample", |c, _| {
+        // Dimitriadis et al. (2002), for a sphere of 5 µm on a bonded layer of 4 µm.
+        let thicker = c.force.iter_mut().zip(&c.depth);
+        thicker.for_each(|(force, depth)| {
+            let x = (5e-6 * (depth - CONTACT_POINT).max(0.0)).sqrt() / 4e-6;
+            *force *= 1.0 + 1.133 * x + 1.283 * x * x + 0.769 * x.powi(3) + 0.0975 * x.powi(4);
+        });
+    }),
+    ("a drift of 5 %", |c, peak| {
+        let drift = c.force.iter_mut().zip(&c.time);
+        drift.for_each(|(force, time)| *force += 0.05 * peak * time / 3.0);
+    }),
+    ("a body that sticks by 4 %", |c, peak| {
+        (400..540).for_each(|i| c.force[i] -= 0.04 * peak * (i - 400) as f64 / 140.0);
+    }),
+    ("a body that sticks to the end", |c, peak| {
+        (400..600).for_each(|i| c.force[i] -= 0.25 * peak * (i - 400) as f64 / 200.0);
+    }),
+];
+
+#[test]
+fn curves_that_fit_a_wrong_model_well_are_flagged_or_refused() {
+    let flagged = |case: &Case, curve: &IndentationCurve, what: &str| match case.fit(curve) {
+        Ok(fit) => assert_ne!(fit.flags, [], "{what}: {:?}", fit.findings),
+        Err(reason) => assert!(reason.contains("sticks"), "{what}: {reason}"),
+    };
+    for case in [sphere(&[1e3, 2e3, 0.3]), sphere(&[1.5e3, 0.2])] {
+        for (what, distort) in DISTORTIONS {
+            let mut curve = case.curve(600, 0.0, 7);
+            let peak = peak(&curve.force);
+            distort(&mut curve, peak);
+            let mut normal = Normal(3);
+            change(&mut curve.force, |force| {
+                force + 0.003 * peak * normal.draw()
+            });
+            flagged(&case, &curve, what);
+        }
+        let cone = Case {
+            body: Box::new(PowerProfile::cone(0.7).expect("a cone")),
+            ..sphere(&case.truth[..case.truth.len() - 3])
+        };
+        flagged(
+            &case,
+            &cone.curve(600, 0.003, 3),
+            "a cone taken for a sphere",
+        );
+    }
+}
+
+#[test]
+fn standard_errors_are_what_intervals_say() {
+    let case = sphere(&[1e3, 2e3, 0.3]);
+    let options = FitOptions {
+        branches: Some(2),
+        rheology: Rheology::Prony,
+        profile: true,
+        ..FitOptions::default()
+    };
+    let curve = case.curve(200, 0.03, 5);
+    let fit = fit_indentation(&*case.body, &curve, &options).expect("a fit");
+    for finding in fit.findings {
+        if let (Some(estimate), [Some(lower), Some(upper)]) = (finding.estimate, finding.interval) {
+            assert_close(&finding.name, estimate.error, (upper - lower) / 3.92, 1e-3);
+        }
+    }
+}
+
+/// The means of neighbours say what the points say; where the body turns around, points stay as they are.
+#[test]
+fn a_curve_of_1e5_points_is_fitted_by_means_of_neighbours() {
+    let case = sphere(&[1e3, 2e3, 0.3]);
+    let curve = case.curve(100_000, 0.01, 2);
+    let fit = case.fit(&curve).expect("a fit");
+    assert_found(&fit.findings, &case.truth);
+    let relative = fit.findings[0].estimate.expect("it is determined").error / 1e3;
+    assert!(relative < 1.5e-3, "{relative}: not that of all points");
+    assert!(fit.points.len() < 10_000, "{} points", fit.points.len());
+    let deepest = fit.points.iter().map(|point| point[1]).fold(0.0, f64::max);
+    assert_close("the end of the approach", deepest, 1.5e-6, 1e-5);
+    assert_eq!(fit.flags, [], "flags");
 }
 
 #[test]

@@ -96,8 +96,10 @@ fn swapped_columns_are_refused_and_nothing_is_written() {
     assert_eq!(folder.names(""), ["swapped.csv"], "a material from them");
 }
 
-/// Each is G' and G'' over ω.
-const NO_MATERIALS: [(&str, fn(f64) -> [f64; 2]); 4] = [
+/// G' and G'' over ω.
+type Moduli = fn(f64) -> [f64; 2];
+
+const NO_MATERIALS: [(&str, Moduli); 4] = [
     ("storage modulus falls", |omega| {
         [1e6 * omega.powf(-0.1), 1e5]
     }),

@@ -28,7 +28,9 @@ pub enum Flag {
     #[error("the body jumps into contact: the force falls {0:.1e} N below the baseline")]
     JumpToContact(f64),
     /// On the way back the body sticks.
-    #[error("on the way back the body sticks, up to {0:.1e} N: leave out the retraction")]
+    #[error(
+        "on the way back the body sticks or the force drifts, by {0:.1e} N: leave out the retraction"
+    )]
     Sticks(f64),
     /// Before the first point the body touched already.
     #[error("fewer than 10 points are before the contact, which is therefore hardly known")]
@@ -36,9 +38,18 @@ pub enum Flag {
     /// After the contact the force is not what it was before.
     #[error("the force drifts: without contact it is {0:.1e} N off")]
     Drift(f64),
-    /// The residuals are larger than the noise.
-    #[error("the residuals are {0:.1} times the noise: is it another material or body?")]
-    Misfit(f64),
+    /// The residuals are not noise like that before the contact.
+    #[error(
+        "the residuals of {residual:.1e} N are not the noise before the contact: one independent point stands for \
+         {correlated:.1}; is it another material or body, a lag between force and depth, a thin sample, or a depth that contains \
+         the bending of the cantilever?"
+    )]
+    Misfit {
+        /// Standard deviation about the fit, \[N].
+        residual: f64,
+        /// How many points one independent point stands for.
+        correlated: f64,
+    },
     /// The body presses again, perhaps on a surface that has not recovered.
     #[error("the body presses again, where the force of the fit need not be exact")]
     PressedAgain,

@@ -1,17 +1,20 @@
 //! How far the parameters of a fit are known.
 //!
 //! ```text
-//! covariance = κ s² (JᵀJ)⁻¹,   κ = τ n/(n − p) mean ψ²/(mean ψ')²     (Huber & Ronchetti 2009, Sect. 7.6)
-//! profile:  least Σρ with one parameter held − least Σρ = 3.84 τ n/(n − p) mean ψ²/mean ψ'
+//! covariance = κ (JᵀJ)⁻¹ Jᵀ V J (JᵀJ)⁻¹,   κ = n/(n − p) mean ψ²/(mean ψ')²     (Huber & Ronchetti 2009, Sect. 7.6)
+//! profile:  least Σρ with one parameter held − least Σρ = 3.84 v n/(n − p) mean ψ²/mean ψ'
 //! ```
-//! with the loss ρ, ψ = ρ'/2, and τ points for every independent one, by the correlation of neighbouring ψ.
+//! with the loss ρ, ψ = ρ'/2, the covariance V of the points, which is the mean over all noises that are likely, in units of the
+//! variance of a point, and v, by how much the variance of the parameter is larger than if they were independent. The error of
+//! a smoothed depth is added to both.
 
 use numerics::Estimate;
 use numerics::least_squares::{inverse, minimise};
 
-use super::Finding;
-use super::model::{Forces, Kind};
+use super::model::{Forces, Kind, Model};
+use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
 use super::search::{Found, HUBER};
+use super::{Finding, IndentationCurve};
 use crate::mdr_core::MdrError;
 
 /// 95 % of a normal distribution are within so many standard deviations.
@@ -21,13 +24,17 @@ const WIDE: f64 = 0.4;
 /// Steps of the search for an end of a profile, and how close its distance has to be.
 const STEPS: usize = 20;
 const CLOSE: f64 = 0.01;
+/// Part of the range of depths by which a knot is moved to see what it does.
+const SHIFT: f64 = 1e-4;
 
 pub(super) struct Statistics {
     n: usize,
     covariance: Vec<f64>,
-    /// Rise of the sum at the ends of an interval.
-    rise: f64,
+    /// Rise of the sum at the ends of the interval of each parameter.
+    rises: Vec<f64>,
     pub(super) correlated_points: f64,
+    /// Root of the mean squared error of the force that comes from a smoothed depth, \[N].
+    pub(super) path_error: f64,
     pub(super) forces: Forces,
 }
 
@@ -35,27 +42,33 @@ impl Statistics {
     pub(super) fn of(found: &Found) -> Result<Self, MdrError> {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
-        let residuals = forces.residuals.iter();
-        let psi = residuals.map(|one| (one / found.scale).clamp(-HUBER, HUBER));
-        let psi: Vec<f64> = psi.collect();
+        let loss = &found.loss;
+        let residuals = loss.weighed(&forces.residuals).into_iter();
+        let psi: Vec<f64> = residuals.map(|one| one.clamp(-HUBER, HUBER)).collect();
         let n_points = psi.len() as f64;
         let square = psi.iter().map(|psi| psi * psi).sum::<f64>() / (n_points - n as f64);
         let curvature = psi.iter().filter(|psi| psi.abs() < HUBER).count() as f64 / n_points;
-        let correlated_points = correlated_points(&psi);
-        let dot = |at: usize| {
-            let pairs = forces.rows[at / n].iter().zip(&forces.rows[at % n]);
-            // A little more on the diagonal keeps what is not determined finite, and very wide.
-            let ridge = if at / n == at % n { 1.0 + 1e-12 } else { 1.0 };
-            ridge * pairs.map(|(a, b)| a * b).sum::<f64>()
+        let rows: Vec<Vec<f64>> = forces.rows.iter().map(|row| loss.weighed(row)).collect();
+        let mut matrix = normal_matrix(&rows);
+        (0..n).for_each(|k| matrix[k * (n + 1)] *= RIDGE);
+        let inverse = inverse(&matrix, n).unwrap_or_else(|| vec![f64::INFINITY; n * n]);
+        let factor = square / (curvature * curvature);
+        let lasting = product(&inverse, &product(&middle(found, &rows), &inverse, n), n);
+        let (path_error, of_path) = of_path(found, &forces, &rows, &inverse)?;
+        let pairs = lasting.iter().zip(of_path);
+        let covariance: Vec<f64> = pairs.map(|(entry, path)| factor * entry + path).collect();
+        let rise = |k: usize| {
+            let diagonal = k * (n + 1);
+            let ratio = covariance[diagonal] / inverse[diagonal];
+            let ratio = if ratio.is_finite() { ratio } else { factor };
+            NORMAL * NORMAL * curvature * ratio
         };
-        let matrix: Vec<f64> = (0..n * n).map(dot).collect();
-        let factor = correlated_points * square * (found.scale / curvature).powi(2);
-        let covariance = inverse(&matrix, n).unwrap_or_else(|| vec![f64::INFINITY; n * n]);
         Ok(Self {
             n,
-            covariance: covariance.iter().map(|entry| factor * entry).collect(),
-            rise: NORMAL * NORMAL * correlated_points * square / curvature,
-            correlated_points,
+            rises: (0..n).map(rise).collect(),
+            covariance,
+            correlated_points: correlated_points(&psi),
+            path_error,
             forces,
         })
     }
@@ -91,14 +104,20 @@ impl Statistics {
         });
         let shown = |value: f64| if is_logarithm { value.exp() } else { value };
         let slope = if is_logarithm { value.exp() } else { 1.0 };
-        let (value, error) = (shown(value), slope * deviation);
-        let is_determined = ends.iter().all(Option::is_some) && error.is_finite();
+        let bounds = ends.map(|end| end.map(shown));
+        // Where the interval is not that of the covariance, the error is what it says.
+        let error = match bounds {
+            [Some(lower), Some(upper)] if profile || wide => (upper - lower) / (2.0 * NORMAL),
+            _ => slope * deviation,
+        };
+        let value = shown(value);
+        let is_determined = bounds.iter().all(Option::is_some) && error.is_finite();
         let (name, unit) = name(found.model.kind, parameter);
         Finding {
             name,
             unit,
             estimate: is_determined.then_some(Estimate::new(value, error)),
-            interval: ends.map(|end| end.map(shown)),
+            interval: bounds,
         }
     }
 
@@ -106,6 +125,7 @@ impl Statistics {
     fn profile_end(&self, found: &Found, parameter: usize, side: f64) -> Option<f64> {
         let best = &found.parameters;
         let least = found.linearised(best)?.sum;
+        let most = self.rises[parameter];
         let rise = |place: f64| {
             let mut ranges = found.ranges.clone();
             ranges[parameter].bounds = [place; 2];
@@ -113,10 +133,10 @@ impl Statistics {
             let mut start = best.clone();
             start[parameter] = place;
             let sum = |parameters: &[f64]| found.linearised(parameters);
-            let held = minimise(sum, start, &ranges, 3e-3 * self.rise / least);
+            let held = minimise(sum, start, &ranges, 3e-3 * most / least);
             let held = held.map(|held| held.linearised.sum);
             // Nearly linear in the distance from the best one; where there is no force, the end is before.
-            held.map_or(f64::INFINITY, |sum| (sum - least).max(0.0) / self.rise)
+            held.map_or(f64::INFINITY, |sum| (sum - least).max(0.0) / most)
                 .sqrt()
         };
         let range = found.ranges[parameter];
@@ -148,21 +168,107 @@ impl Statistics {
     }
 }
 
-/// 1 + 2 Σ of the correlations at the lags up to five times that sum (Sokal 1997, Sect. 3), at least 1.
-fn correlated_points(values: &[f64]) -> f64 {
-    let product = |lag: usize| {
-        let pairs = values.iter().zip(&values[lag..]);
-        pairs.map(|(one, other)| one * other).sum::<f64>()
+/// JᵀVJ, where V is 1 for white noise.
+fn middle(found: &Found, rows: &[Vec<f64>]) -> Vec<f64> {
+    let n = rows.len();
+    let Linear { time, counts, .. } = found.linear;
+    let white = Noise::WHITE.likelihood(&found.linear).variance();
+    let rooted = |values: &[f64], power: f64| -> Vec<f64> {
+        let pairs = values.iter().zip(counts);
+        pairs
+            .map(|(value, count)| value * count.powf(power))
+            .collect()
     };
-    let square = product(0);
-    let mut sum = 1.0_f64;
-    for lag in 1..values.len() {
-        sum += 2.0 * product(lag) / square;
-        if lag as f64 >= 5.0 * sum {
-            break;
+    let mut middle = vec![0.0; n * n];
+    for &(noise, weight) in &found.noises {
+        let variance = noise.likelihood(&found.linear).variance();
+        let factor = weight * variance / white;
+        let columns = rows.iter().map(|row| rooted(row, 0.5));
+        let columns: Vec<Vec<f64>> = columns.collect();
+        for (k, column) in columns.iter().enumerate() {
+            let spread = noise.covariance(time, counts, column);
+            for (j, other) in columns.iter().enumerate() {
+                let product: f64 = other.iter().zip(&spread).map(|(a, b)| a * b).sum();
+                middle[j * n + k] += factor * product;
+            }
         }
     }
-    if sum.is_finite() { sum.max(1.0) } else { 1.0 }
+    middle
+}
+
+/// Of two square matrices.
+fn product(one: &[f64], other: &[f64], n: usize) -> Vec<f64> {
+    let entry = |at: usize| {
+        (0..n)
+            .map(|k| one[at / n * n + k] * other[k * n + at % n])
+            .sum()
+    };
+    (0..n * n).map(entry).collect()
+}
+
+/// A matrix, row by row, times a vector.
+fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    let rows = matrix.chunks(vector.len());
+    rows.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
+        .collect()
+}
+
+/// The error of the force that comes from that of a smoothed depth, and the covariance of what the fit makes of it.
+fn of_path(
+    found: &Found,
+    forces: &Forces,
+    rows: &[Vec<f64>],
+    inverse: &[f64],
+) -> Result<(f64, Vec<f64>), MdrError> {
+    let n = rows.len();
+    let curve = found.model.curve;
+    let Some(path) = &found.measured.path else {
+        return Ok((0.0, vec![0.0; n * n]));
+    };
+    let [low, high] = super::depth::ends(&curve.depth);
+    let shift = SHIFT * (high - low);
+    let mut effects = vec![Vec::new(); n];
+    let mut slopes = vec![Vec::new(); curve.time.len()];
+    for knot in 0..path.len() {
+        let places = curve.depth.iter().zip(&curve.time);
+        let moved = places.map(|(depth, time)| depth + shift * path.hat(knot, *time));
+        let curve = IndentationCurve {
+            depth: moved.collect(),
+            ..curve.clone()
+        };
+        let model = Model {
+            curve: &curve,
+            ..found.model.clone()
+        };
+        let other = model.forces(&found.parameters)?.residuals;
+        let pairs = other.iter().zip(&forces.residuals);
+        let forces: Vec<f64> = pairs.map(|(other, own)| (own - other) / shift).collect();
+        let effect = times(
+            inverse,
+            &times(&rows.concat(), &found.loss.weighed(&forces)),
+        );
+        slopes
+            .iter_mut()
+            .zip(forces)
+            .for_each(|(all, one)| all.push(one));
+        effects
+            .iter_mut()
+            .zip(effect)
+            .for_each(|(all, one)| all.push(one));
+    }
+    let dot = |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+    let spread: Vec<Vec<f64>> = effects
+        .iter()
+        .map(|one| path.covariance(one.clone()))
+        .collect();
+    let entries = (0..n * n)
+        .map(|at| dot(&effects[at / n], &spread[at % n]))
+        .collect();
+    let squares = slopes
+        .iter()
+        .map(|one| dot(one, &path.covariance(one.clone())));
+    let square = squares.sum::<f64>() / curve.time.len() as f64;
+    Ok((square.sqrt(), entries))
 }
 
 /// Name and unit of a parameter.

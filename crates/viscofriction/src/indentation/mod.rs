@@ -10,7 +10,10 @@ mod checks;
 mod depth;
 mod flag;
 mod intervals;
+mod judgement;
+mod means;
 mod model;
+mod noise;
 mod read;
 mod search;
 mod start;
@@ -130,7 +133,8 @@ pub struct IndentationFit {
     pub residual: f64,
     /// How many points one independent point stands for, at least 1.
     pub correlated_points: f64,
-    /// The points that were fitted: time, depth (smoothed where it is noisy), force and force of the fit.
+    /// The points that were fitted, of many thousands means of neighbours: time, depth (smoothed where it is noisy), force and
+    /// force of the fit.
     pub points: Vec<[f64; 4]>,
     /// What is doubtful about it.
     pub flags: Vec<Flag>,
@@ -172,12 +176,15 @@ pub fn fit_indentation(
         let holds = (1..=search::MAX_BRANCHES).contains(&branches);
         numerics::in_range("branches", branches as f64, holds, "from 1 to 6")?;
     }
-    let curve =
+    let measured =
         checks::usable(curve, options.before_retraction).map_err(IndentationError::Damaged)?;
-    let begin = start::start(body, &curve, options)?;
-    checks::before(&curve, &begin).map_err(IndentationError::Damaged)?;
-    let found = search::search(body, &curve, options, &begin)?;
+    let curve = &measured.curve;
+    let begin = start::start(body, curve, options)?;
+    checks::before(&measured, &begin).map_err(IndentationError::Damaged)?;
+    let found = search::search(body, &measured, options, &begin)?;
     let statistics = intervals::Statistics::of(&found)?;
+    let judgement = judgement::Judgement::new(&found, &begin, &statistics);
+    let flags = judgement.flags().map_err(IndentationError::Damaged)?;
     let spectrum = found.model.spectrum(&found.parameters);
     let material = spectrum.and_then(Prony::new).map_err(MdrError::from)?;
     let residuals = statistics.forces.residuals.iter().enumerate();
@@ -189,10 +196,10 @@ pub fn fit_indentation(
         findings: statistics.findings(&found, options.profile),
         correlation: statistics.correlation(),
         material,
-        noise: checks::noise(&statistics),
-        residual: found.scale,
+        noise: judgement.noise,
+        residual: found.loss.scale,
         correlated_points: statistics.correlated_points,
         points: points.collect(),
-        flags: checks::after(&found, &begin, &statistics),
+        flags,
     })
 }

@@ -4,7 +4,9 @@ use indenters::Axisymmetric;
 use numerics::least_squares::{Linearised, Range, minimise};
 
 use super::depth::median;
+use super::means::Measured;
 use super::model::{Kind, Model};
+use super::noise::{Linear, Noise, normal_matrix};
 use super::start::Start;
 use super::{FitOptions, IndentationCurve, IndentationError, Rheology};
 
@@ -19,22 +21,32 @@ const LONGEST: f64 = 30.0;
 /// A minimum.
 pub(super) struct Found<'a> {
     pub(super) model: Model<'a>,
+    pub(super) measured: &'a Measured,
     pub(super) parameters: Vec<f64>,
-    /// Noise by the residuals, \[N].
-    pub(super) scale: f64,
+    pub(super) loss: Loss<'a>,
+    /// The model about them.
+    pub(super) linear: Linear<'a>,
+    /// Kinds of noise with their probabilities, the most likely one first.
+    pub(super) noises: Vec<(Noise, f64)>,
     pub(super) ranges: Vec<Range>,
-    /// Sum of squares.
-    squares: f64,
 }
 
 pub(super) fn search<'a>(
     body: &'a dyn Axisymmetric,
-    curve: &'a IndentationCurve,
+    measured: &'a Measured,
     options: &FitOptions,
     begin: &Start,
 ) -> Result<Found<'a>, IndentationError> {
+    let curve = &measured.curve;
     let few = curve.decimated(FEW);
-    let of_kind = |kind| fit(Model::new(body, curve, kind, options), &few, begin);
+    let of_kind = |kind| {
+        fit(
+            Model::new(body, curve, kind, options),
+            measured,
+            &few,
+            begin,
+        )
+    };
     let found = match (options.rheology, options.branches) {
         (Rheology::PowerLaw, _) => of_kind(Kind::PowerLaw),
         (Rheology::StandardSolid, _) => of_kind(Kind::Branches(1)),
@@ -62,56 +74,97 @@ pub(super) fn search<'a>(
 }
 
 /// The best of several starts on few points, and from there with all points: with squares, and then with Huber's loss.
-fn fit<'a>(model: Model<'a>, few: &IndentationCurve, begin: &Start) -> Option<Found<'a>> {
+fn fit<'a>(
+    model: Model<'a>,
+    measured: &'a Measured,
+    few: &IndentationCurve,
+    begin: &Start,
+) -> Option<Found<'a>> {
     let ranges = ranges(&model, begin);
     let coarse = Model {
         curve: few,
         ..model.clone()
     };
     let peak = begin.peak.abs();
-    let descend = |model: &Model, start, threshold: f64, scale: f64, sufficient: f64| {
-        let sum = |parameters: &[f64]| linearise(model, parameters, threshold, scale);
+    let ones = vec![1.0; few.time.len()];
+    let mut loss = Loss {
+        counts: &measured.counts,
+        threshold: f64::INFINITY,
+        scale: peak,
+    };
+    let coarsely = Loss {
+        counts: &ones,
+        ..loss
+    };
+    let descend = |model: &Model, loss: &Loss, start, sufficient: f64| {
+        let sum = |parameters: &[f64]| loss.linearised(model, parameters);
         minimise(sum, start, &ranges, sufficient)
     };
     let starts = starts(&model, begin).into_iter();
-    let coarsely = starts.filter_map(|start| descend(&coarse, start, f64::INFINITY, peak, 1e-3));
-    let best = coarsely.min_by(|one, other| one.linearised.sum.total_cmp(&other.linearised.sum))?;
-    let mut found = descend(&model, best.parameters, f64::INFINITY, peak, 1e-4)?;
-    let squares = found.linearised.sum;
+    let found = starts.filter_map(|start| descend(&coarse, &coarsely, start, 1e-3));
+    let best = found.min_by(|one, other| one.linearised.sum.total_cmp(&other.linearised.sum))?;
+    let found = descend(&model, &loss, best.parameters, 1e-4)?;
     let mut parameters = in_order(model.kind, found.parameters);
-    let mut scale = peak;
+    loss.threshold = HUBER;
     for sufficient in [1e-3, 1e-6] {
-        scale = spread(&model, &parameters)?.max(1e-12 * peak);
-        found = descend(&model, parameters, HUBER, scale, sufficient)?;
-        parameters = found.parameters;
+        loss.scale = loss.spread(&model, &parameters)?.max(1e-12 * peak);
+        parameters = descend(&model, &loss, parameters, sufficient)?.parameters;
     }
+    let linear = linear(&model, measured, &parameters, loss.scale)?;
     Some(Found {
+        noises: Noise::likely(&linear),
+        linear,
         model,
+        measured,
         parameters,
-        scale,
+        loss,
         ranges,
-        squares,
+    })
+}
+
+/// The model about its parameters, with residuals that are not wild.
+fn linear<'a>(
+    model: &Model<'a>,
+    measured: &'a Measured,
+    parameters: &[f64],
+    residual: f64,
+) -> Option<Linear<'a>> {
+    let forces = model.forces(parameters).ok()?;
+    let scaled = |row: Vec<f64>| {
+        let norm = row.iter().map(|slope| slope * slope).sum::<f64>().sqrt();
+        let norm = if norm > 0.0 { norm } else { 1.0 };
+        row.iter().map(|slope| slope / norm).collect()
+    };
+    let residuals = forces.residuals.iter().zip(&measured.counts);
+    let tame = residuals.map(|(one, count)| {
+        let most = WILD * residual / count.sqrt();
+        one.clamp(-most, most)
+    });
+    let mut columns: Vec<Vec<f64>> = forces.rows.into_iter().map(scaled).collect();
+    columns.push(tame.collect());
+    Some(Linear {
+        time: &measured.curve.time,
+        counts: &measured.counts,
+        columns,
     })
 }
 
 impl Found<'_> {
     /// Schwarz's information criterion (1978, DOI 10.1214/aos/1176344136), the less the better.
     fn criterion(&self) -> f64 {
-        let n = self.model.curve.time.len() as f64;
-        n * (self.squares / n).ln() + self.model.n_parameters() as f64 * n.ln()
+        let residuals = Linear {
+            columns: self.linear.columns[self.parameters.len()..].to_vec(),
+            ..self.linear
+        };
+        let n = self.linear.time.len() as f64;
+        let deviance = self.noises[0].0.likelihood(&residuals).deviance();
+        deviance + self.model.n_parameters() as f64 * n.ln()
     }
 
     /// The sum of the loss, with its model.
     pub(super) fn linearised(&self, parameters: &[f64]) -> Option<Linearised> {
-        linearise(&self.model, parameters, HUBER, self.scale)
+        self.loss.linearised(&self.model, parameters)
     }
-}
-
-/// Standard deviation of the residuals by their median.
-fn spread(model: &Model, parameters: &[f64]) -> Option<f64> {
-    let residuals = model.forces(parameters).ok()?.residuals;
-    let sizes = residuals.into_iter().map(f64::abs);
-    Some(1.4826 * median(sizes.collect()))
 }
 
 fn ranges(model: &Model, begin: &Start) -> Vec<Range> {
@@ -175,35 +228,56 @@ fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
 
 /// Residuals beyond this, in units of the noise, count less than their squares (Huber 1964, DOI 10.1214/aoms/1177703732).
 pub(super) const HUBER: f64 = 1.345;
+/// Those beyond this say nothing about how long noise lasts.
+const WILD: f64 = 4.0;
 
 /// Squares of residuals in units of a scale; linear beyond a threshold.
-fn linearise(model: &Model, parameters: &[f64], threshold: f64, scale: f64) -> Option<Linearised> {
-    let forces = model.forces(parameters).ok()?;
-    let residuals = forces.residuals.iter();
-    let residuals: Vec<f64> = residuals.map(|residual| residual / scale).collect();
-    let loss = |residual: &f64| {
-        let inside = residual.abs().min(threshold);
-        inside * (2.0 * residual.abs() - inside)
-    };
-    let weight = |residual: &f64| (threshold / residual.abs()).min(1.0) / scale;
-    let weights: Vec<f64> = residuals.iter().map(weight).collect();
-    let n = forces.rows.len();
-    let mut matrix = vec![0.0; n * n];
-    let mut descent = vec![0.0; n];
-    for (j, row) in forces.rows.iter().enumerate() {
-        let weighted = row.iter().zip(&weights);
-        let weighted: Vec<f64> = weighted.map(|(slope, weight)| weight * slope).collect();
-        let dot = |other: &[f64]| weighted.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
-        descent[j] = dot(&residuals);
-        for (k, other) in forces.rows[..=j].iter().enumerate() {
-            matrix[j * n + k] = dot(other) / scale;
-            matrix[k * n + j] = matrix[j * n + k];
-        }
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Loss<'a> {
+    counts: &'a [f64],
+    threshold: f64,
+    /// Standard deviation of a measured point, \[N].
+    pub(super) scale: f64,
+}
+
+impl Loss<'_> {
+    /// Standard deviation of a measured point by the median of the residuals.
+    fn spread(&self, model: &Model, parameters: &[f64]) -> Option<f64> {
+        let residuals = model.forces(parameters).ok()?.residuals;
+        let pairs = residuals.iter().zip(self.counts);
+        let sizes = pairs.map(|(residual, count)| residual.abs() * count.sqrt());
+        Some(1.4826 * median(sizes.collect()))
     }
-    let sum = residuals.iter().map(loss).sum();
-    Some(Linearised {
-        sum,
-        matrix,
-        descent,
-    })
+
+    /// In units of the standard deviation of each point.
+    pub(super) fn weighed(&self, column: &[f64]) -> Vec<f64> {
+        let pairs = column.iter().zip(self.counts);
+        pairs
+            .map(|(value, count)| value * count.sqrt() / self.scale)
+            .collect()
+    }
+
+    fn linearised(&self, model: &Model, parameters: &[f64]) -> Option<Linearised> {
+        let forces = model.forces(parameters).ok()?;
+        let residuals = self.weighed(&forces.residuals);
+        let weight = |residual: &f64| (self.threshold / residual.abs()).min(1.0).sqrt();
+        let weights: Vec<f64> = residuals.iter().map(weight).collect();
+        let columns = forces.rows.iter().chain([&forces.residuals]);
+        let columns = columns.map(|column| {
+            let pairs = self.weighed(column).into_iter().zip(&weights);
+            pairs.map(|(value, weight)| value * weight).collect()
+        });
+        let products = normal_matrix(&columns.collect::<Vec<_>>());
+        let loss = |residual: &f64| {
+            let inside = residual.abs().min(self.threshold);
+            inside * (2.0 * residual.abs() - inside)
+        };
+        let n = forces.rows.len();
+        let entries = |row: usize| products[row * (n + 1)..][..n].to_vec();
+        Some(Linearised {
+            sum: residuals.iter().map(loss).sum(),
+            matrix: (0..n).flat_map(entries).collect(),
+            descent: entries(n),
+        })
+    }
 }

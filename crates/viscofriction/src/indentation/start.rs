@@ -2,8 +2,9 @@
 
 use indenters::Axisymmetric;
 
-use super::depth::ends;
+use super::depth::{ends, median};
 use super::model::{Kind, Model};
+use super::noise::correlated_points;
 use super::{FitOptions, Flag, IndentationCurve, IndentationError};
 use crate::mdr_core::MdrError;
 
@@ -28,6 +29,11 @@ pub(super) const FEWEST: usize = 30;
 const POINTS: usize = 100;
 const CANDIDATES: usize = 24;
 const REFINEMENTS: i32 = 6;
+/// Part of the force in which the contact is sought, and powers of the depth that it may have.
+const RISING: f64 = 0.3;
+const POWERS: [f64; 4] = [1.0, 1.5, 2.0, 3.0];
+/// Places are as good whose squares differ by less than so many variances of independent points.
+const UNCERTAIN: f64 = 5.0;
 /// Part of the depth range at which the approach ends.
 const APPROACH: f64 = 0.98;
 
@@ -72,6 +78,63 @@ pub(super) fn start(
         best = best_of(&mut places.into_iter()).unwrap_or(best);
     }
     Ok(best)
+}
+
+/// How many points are before the contact: up to the last place where the first third of the force may begin to rise as a power of
+/// the depth. The power is free, so that a wrong body or depth does not move the place.
+pub(super) fn free_points(curve: &IndentationCurve, turn: usize) -> usize {
+    let force = &curve.force[..=turn];
+    let first = median(force[..=turn / 20].to_vec());
+    let high = first + RISING * (ends(force)[1] - first);
+    let last = force
+        .iter()
+        .rposition(|force| *force < high)
+        .map_or(0, |last| last + 1);
+    let step = last.div_ceil(POINTS).max(1);
+    let few: Vec<usize> = (0..last).step_by(step).collect();
+    let measured: Vec<f64> = few.iter().map(|&i| force[i]).collect();
+    let residuals = |place: usize, power: f64| {
+        let touch = curve.depth[place];
+        let rises = few
+            .iter()
+            .map(|&i| (curve.depth[i] - touch).max(0.0).powf(power));
+        off_the_line(&rises.collect::<Vec<_>>(), &measured)
+    };
+    let best_of = |place: usize| {
+        let all = POWERS.map(|power| residuals(place, power));
+        let squares = all.map(|one| (one.iter().map(|off| off * off).sum::<f64>(), one));
+        let best = squares
+            .into_iter()
+            .min_by(|one, other| one.0.total_cmp(&other.0));
+        best.map(|(squares, residuals)| (place, squares, residuals))
+    };
+    let tried: Vec<(usize, f64, Vec<f64>)> =
+        few.iter().filter_map(|&place| best_of(place)).collect();
+    let Some((_, least, residuals)) = tried.iter().min_by(|one, other| one.1.total_cmp(&other.1))
+    else {
+        return 0;
+    };
+    let uncertain = UNCERTAIN * correlated_points(residuals) / few.len() as f64;
+    let is_good = |one: &&(usize, f64, Vec<f64>)| one.1 <= least * (1.0 + uncertain);
+    tried.iter().rfind(is_good).map_or(0, |(place, ..)| *place)
+}
+
+/// How far values are off the line of least squares over others.
+fn off_the_line(over: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = over.len() as f64;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / n;
+    let [middle, value] = [over, values].map(mean);
+    let products = over
+        .iter()
+        .zip(values)
+        .map(|(x, y)| (x - middle) * (y - value));
+    let product: f64 = products.sum();
+    let square: f64 = over.iter().map(|x| (x - middle).powi(2)).sum();
+    let slope = if square > 0.0 { product / square } else { 0.0 };
+    let pairs = over.iter().zip(values);
+    pairs
+        .map(|(x, y)| y - value - slope * (x - middle))
+        .collect()
 }
 
 /// Baseline and modulus by linear least squares.
