@@ -172,10 +172,8 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         };
         let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
         if self.creep.is_elastic() {
-            // There is none but what the elements make of it.
-            let friction = &mut estimate.friction_coefficient;
-            *friction = Estimate::new(friction.value, friction.value.abs());
-            estimate.error_parts = ErrorParts::of_elements(friction.error);
+            estimate.friction_coefficient = Estimate::exact(0.0);
+            estimate.error_parts = ErrorParts::NONE;
         }
         if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
             estimate.indentation_depth = None;

@@ -1,7 +1,8 @@
 //! The stationary state with an error bar of every quantity.
 
 use indenters::{Control, SlidingLoad, Surface};
-use numerics::{Accuracy, Goal, Request, Unwatched, Watch};
+use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch};
+use rheology::Material as _;
 
 use crate::bars::{self, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
@@ -115,7 +116,7 @@ fn refined(
         has_peak: peak_has_limit(surface, elastomer),
         watch,
     };
-    with_depth(load, refine(&problem, options)?)
+    with_meaning(load, elastomer, refine(&problem, options)?)
 }
 
 /// The state on a grid of a given number of elements, compared with grids of fewer.
@@ -135,7 +136,7 @@ fn with_elements(
         let state = steady_on_grid(surface, elastomer, load, &options)?;
         Ok(state.on_grid(&creep, options, load.sliding_distance()))
     })?;
-    with_depth(load, estimate)
+    with_meaning(load, elastomer, estimate)
 }
 
 /// On a given number of elements.
@@ -160,11 +161,17 @@ pub(super) fn resolution(
     }
 }
 
-/// The estimate with a depth only where that has a meaning.
-fn with_depth(
+/// The estimate with a depth only where that has a meaning, and without the friction of an elastic material, which is
+/// exactly 0 under any body: what the elements make of it is rounding.
+fn with_meaning(
     load: &SlidingLoad,
+    elastomer: &(impl Elastomer + ?Sized),
     mut estimate: SteadyEstimate,
 ) -> Result<SteadyEstimate, BemError> {
+    if elastomer.material().creep().is_elastic() {
+        estimate.friction_coefficient = Estimate::exact(0.0);
+        estimate.error_parts = ErrorParts::NONE;
+    }
     let depth = &estimate.finest.depth;
     if let (Control::NormalForce(_), true) = (load.control(), depth.depth_per_e_fold > 0.0) {
         match load.sliding_distance() {

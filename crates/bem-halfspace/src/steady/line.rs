@@ -10,7 +10,8 @@
 //! length along y. On a half space that flows there is no such limit: the surface sinks the faster the longer the line is.
 
 use indenters::{SlidingLoad, Surface};
-use numerics::{Accuracy, Estimate, Request};
+use numerics::{Accuracy, ErrorParts, Estimate, Request};
+use rheology::Material as _;
 
 use crate::bars::{self, ContactEstimate};
 use crate::plan::GridPlan;
@@ -127,9 +128,14 @@ pub fn steady_line<'w>(
         }
         Accuracy::Elements(_) => with_elements(&problem, strip.length, request)?,
     };
+    let (friction_coefficient, error_parts) = if elastomer.material().creep().is_elastic() {
+        (Estimate::exact(0.0), ErrorParts::NONE)
+    } else {
+        (known.friction_coefficient, known.error_parts)
+    };
     Ok(LineEstimate {
-        friction_coefficient: known.friction_coefficient,
-        error_parts: known.error_parts,
+        friction_coefficient,
+        error_parts,
         normal_force: Estimate::exact(force),
         indentation_depth: known.indentation_depth.filter(|_| creep.base().is_layer()),
         contact_area: known.contact_area,

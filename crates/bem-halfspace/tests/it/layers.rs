@@ -174,6 +174,7 @@ fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
     let layer = Layer::new(&spring, 0.1).unwrap();
     let (body, load) = (paraboloid(0.5), under_force(0.001, 0.1));
     let slid = steady(&body, &layer, &load, 1e-3).unwrap();
+    assert_eq!(slid.friction_coefficient, Estimate::exact(0.0), "friction");
     let pressed = press(&body, &layer, Control::NormalForce(0.001), 2e-4).unwrap();
     let [slid, pressed] = [slid.indentation_depth, pressed.indentation_depth].map(Option::unwrap);
     assert_bars_agree("body", slid, pressed);
@@ -181,6 +182,7 @@ fn what_slides_over_an_elastic_layer_is_pressed_into_it() {
     let cylinder = Cylinder::new(1.0).unwrap();
     let [rough, fine] = [1e-3, 1e-4].map(|error| {
         let found = steady_line(&cylinder, &layer, &load, error).unwrap();
+        assert_eq!(found.friction_coefficient, Estimate::exact(0.0), "friction");
         found.indentation_depth.unwrap()
     });
     assert_bar("cylinder", rough, fine.value, 1e-3);
