@@ -75,9 +75,11 @@ pub(crate) fn line_contact(
     Ok(answer)
 }
 
-/// Largest grid of a period, and memory that one of its elements takes at most, \[bytes].
+/// Largest grid of a period, and memory that one of its elements takes at most, and what contacts of few elements on stiff
+/// solids take besides, \[bytes].
 const LARGEST_GRID: u64 = 1 << 22;
 const BYTES_PER_ELEMENT: u64 = 200;
+const BYTES_BESIDE: u64 = 32 << 20;
 
 /// A periodic surface, and what it is asked for.
 pub(crate) struct Rough<'a> {
@@ -150,7 +152,8 @@ pub(crate) fn periodic_transient(
 }
 
 fn largest_grid(problem: &Problem) -> usize {
-    let fitting = problem.max_memory().map(|bytes| bytes / BYTES_PER_ELEMENT);
+    let fitting = |bytes: u64| bytes.saturating_sub(BYTES_BESIDE) / BYTES_PER_ELEMENT;
+    let fitting = problem.max_memory().map(fitting);
     let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));
     #[expect(clippy::cast_possible_truncation, reason = "at most the largest grid")]
     let most = most as usize;
