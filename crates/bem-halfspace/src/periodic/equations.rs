@@ -7,7 +7,7 @@
 //! Directions are those of generalised conjugate residuals (Eisenstat, Elman & Schultz 1983), so that pressure and gap are
 //! known after every step. The preconditioner is the inverse of K restricted to the contact, less what other patches make
 //! unnecessary. Contacts of few elements are solved by elimination, which no ratio of moduli slows down, once the steps have taken
-//! as long. Lists hold the elements in contact and their neighbours, of which the gap shows whether they penetrate.
+//! as long for one of them. Lists hold the elements in contact and their neighbours, of which the gap shows whether they penetrate.
 
 use std::sync::Arc;
 
@@ -52,6 +52,8 @@ pub(super) struct Equations {
     image: Vec<f64>,
     /// Displacement of an element under its own unit pressure, [m/Pa].
     pub(super) own_displacement: f64,
+    /// Whether minimal residuals took longer for some contact of few elements than elimination.
+    is_slow: bool,
     /// Products with the kernel on this grid.
     pub(super) products: usize,
 }
@@ -79,6 +81,7 @@ impl Equations {
             spread: field(),
             image: field(),
             own_displacement: 0.0,
+            is_slow: false,
             products: 0,
         };
         equations.spread[0] = 1.0;
@@ -130,8 +133,11 @@ impl Equations {
             |residual: Residual| residual.root_mean_square <= target || residual.largest <= largest;
         let are_few = self.n_contact <= FEW;
         let elimination = ELIMINATION * self.n_contact.powi(3) / self.spread.len() as f64;
-        self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
+        if !(are_few && self.is_slow) {
+            self.minimise(if are_few { elimination } else { f64::INFINITY }, is_small);
+        }
         if are_few && !is_small(self.residual(&self.gap)) {
+            self.is_slow = true;
             self.eliminate();
         }
         self.residual(&self.gap).root_mean_square
