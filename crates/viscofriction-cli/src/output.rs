@@ -134,8 +134,9 @@ pub(crate) fn name_of(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// What the name of an unfinished file begins with.
+/// What the name of an unfinished file begins with; 50 letters are 200 bytes at most, and no name may have more than 255.
 fn part_start(name: &str) -> String {
+    let name: String = name.chars().take(50).collect();
     format!(".{name}.viscofriction-")
 }
 
@@ -216,6 +217,8 @@ impl OutputFolder {
             lock(folder, path)?;
             remove_parts(path, &names);
         }
+        // Nothing is computed that cannot be written.
+        new_part(&part_start("probe"), path).map_err(|error| wrong(&error.to_string()))?;
         Ok(Self {
             path: path.to_owned(),
             overwrite,

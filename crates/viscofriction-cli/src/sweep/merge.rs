@@ -46,6 +46,13 @@ fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut header = Vec::new();
     for path in paths {
         let table = RowTable::new(path, &read_input(path)?)?;
+        if table.header.is_empty() {
+            return Err(wrong_row(
+                path,
+                1,
+                "no rows of a sweep, and no names of columns",
+            ));
+        }
         if header.is_empty() {
             header = table.header;
         } else if table.header != header {

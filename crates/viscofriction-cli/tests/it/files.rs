@@ -128,6 +128,29 @@ fn only_regular_files_and_scenes_with_an_end_are_read() {
 }
 
 #[test]
+fn where_nothing_can_be_written_nothing_is_computed() {
+    let folder = Folder::new("no-folder");
+    fs::create_dir(folder.path("file.csv")).expect("a folder");
+    let sweep = "sweep IN/hertz.toml --vary load.normal_force=1,2 --out";
+    folder.ends(
+        &format!("{sweep} file.csv"),
+        2,
+        "only a regular file is written",
+    );
+    folder.ends(
+        &format!("run IN/hertz.toml --out {}", "y".repeat(256)),
+        2,
+        "--out",
+    );
+    if cfg!(target_os = "linux") {
+        // Not even for an administrator.
+        folder.ends("run IN/hertz.toml --out /proc/self", 2, "--out /proc/self");
+    }
+    // The names of unfinished files are not longer than those of the files.
+    folder.done(format!("{sweep} {}.csv", "z".repeat(251)));
+}
+
+#[test]
 fn of_two_that_write_the_same_the_second_is_refused() {
     let sweep = "sweep scene.toml --vary load.velocity=1,2 --out out";
     // Takes longer than the test.
