@@ -12,9 +12,9 @@ use viscofriction::indentation::{
 };
 use viscofriction::scene::Indenter;
 use viscofriction::solve::body;
-use viscofriction::{Body, rheology};
+use viscofriction::{Body, Files, rheology};
 
-use crate::solving::read;
+use crate::reading::{read_file, read_table};
 use crate::tables::{table, wrong};
 
 /// What [`fit_curve`] is asked.
@@ -46,7 +46,7 @@ impl Curve<'_> {
             sensitivity: self.sensitivity,
         };
         let file = self.file.clone().unwrap_or_default();
-        let contents = read(&file).map_err(wrong)?;
+        let contents = read_table(&file).map_err(wrong)?;
         indentation_curve(&file, &contents, &options).map_err(wrong)
     }
 
@@ -76,8 +76,13 @@ impl Curve<'_> {
 /// What a curve says, as a dictionary.
 #[pyfunction]
 pub(crate) fn fit_curve<'py>(py: Python<'py>, curve: Curve<'py>) -> PyResult<Bound<'py, PyDict>> {
+    let files = Files {
+        folder: "".as_ref(),
+        read: read_file,
+        memory: None,
+    };
     let indenter = Indenter::deserialize(table(&curve.body, "")?).map_err(wrong)?;
-    let Body::Revolution(body) = body(&indenter, "".as_ref(), read).map_err(wrong)?.body else {
+    let Body::Revolution(body) = body(&indenter, &files).map_err(wrong)?.body else {
         return Err(wrong("body must be a body of revolution"));
     };
     let (measured, options) = (curve.measured()?, curve.options()?);

@@ -8,6 +8,7 @@ mod background;
 mod indentation;
 mod materials;
 mod moduli;
+mod reading;
 mod roughness;
 mod solving;
 mod tables;

@@ -9,12 +9,13 @@ use rheology::RheologyError;
 use rheology::fit::{
     Control, Ending, IdentifyOptions, MeasuredCurve, RelativeError, RelaxationPoint, identify,
 };
-use viscofriction::friction_analytic;
 use viscofriction::scene::MaterialTable;
 use viscofriction::solve::{Expansion, HalfSpace, half_space};
+use viscofriction::{Files, friction_analytic};
 
 use crate::moduli::points;
-use crate::solving::{mapped, read};
+use crate::reading::read_file;
+use crate::solving::mapped;
 use crate::tables::{table, wrong};
 
 /// One of the functions of a material, for each angular frequency or time.
@@ -26,10 +27,15 @@ pub(crate) fn material_curve<'py>(
     values: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let material = MaterialTable::try_from(table(scene, "")?).map_err(wrong)?;
+    let files = Files {
+        folder: &folder,
+        read: read_file,
+        memory: None,
+    };
     let HalfSpace {
         material,
         expansion,
-    } = half_space(&material, &folder, read).map_err(wrong)?;
+    } = half_space(&material, &files).map_err(wrong)?;
     let (relaxation, creep) = (material.relaxation(), material.creep());
     let modulus = |omega: f64| relaxation.complex_modulus(omega);
     let is_time = matches!(quantity, "relaxation_modulus" | "creep_compliance");

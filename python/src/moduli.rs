@@ -9,7 +9,7 @@ use viscofriction::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
 
-use crate::solving::read;
+use crate::reading::read_table;
 use crate::tables::wrong;
 
 type Column<'py> = Bound<'py, PyArray1<f64>>;
@@ -37,7 +37,7 @@ pub(crate) fn read_moduli<'py>(
         shear_per_tension: shear_per_tension(poisson_ratio).map_err(wrong)?,
         deformation,
     };
-    let contents = read(&file).map_err(wrong)?;
+    let contents = read_table(&file).map_err(wrong)?;
     let MeasuredModuli { measurements, .. } =
         measured_moduli(&file, &contents, &options).map_err(wrong)?;
     Ok(match measurements {

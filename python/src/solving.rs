@@ -1,7 +1,6 @@
 //! Scenes solved for arrays of loads, and the points of sweeps.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use numpy::{IntoPyArray as _, PyArray1, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -9,9 +8,10 @@ use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields};
 use viscofriction::sweep::{Plan, Vary, header, identity};
-use viscofriction::{Answer, Body, Problem, Scene, SolveError, WrongInput, choose, solve};
+use viscofriction::{Answer, Body, Files, Problem, Scene, SolveError, choose, solve};
 
 use crate::background;
+use crate::reading::read_file;
 use crate::roughness::topography;
 use crate::tables::{table, wrong};
 
@@ -34,8 +34,8 @@ impl Scenes {
             column(&mut scene, values[index]);
         }
         let problem = match self.surface.as_ref().and_then(copy) {
-            Some(body) => Problem::with_body(&scene, body, &self.folder, read),
-            None => Problem::new(&scene, &self.folder, read),
+            Some(body) => Problem::with_body(&scene, body, &self.folder, read_file),
+            None => Problem::new(&scene, &self.folder, read_file),
         };
         let problem = problem.map_err(wrong)?;
         choose(&problem).map_err(wrong)?;
@@ -51,10 +51,6 @@ fn copy(of: &BodyOfScene) -> Option<BodyOfScene> {
     };
     let warnings = of.warnings.clone();
     Some(BodyOfScene { body, warnings })
-}
-
-pub(crate) fn read(file: &Path) -> Result<Vec<u8>, WrongInput> {
-    fs::read(file).map_err(|error| WrongInput(format!("{}: {error}", file.display())))
 }
 
 fn column(name: &str) -> PyResult<Column> {
@@ -112,9 +108,10 @@ impl Loads<'_> {
             (Some(heights), Indenter::HeightMap(table)) => {
                 Some(body_of_heights(table, topography(heights, table)?))
             }
-            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_)) => {
-                Some(body(&scene.indenter, &self.folder, read))
-            }
+            (None, Indenter::HeightMap(_) | Indenter::SelfAffine(_)) => Some(
+                Files::of(&scene, &self.folder, read_file)
+                    .and_then(|files| body(&scene.indenter, &files)),
+            ),
             _ => None,
         };
         Ok(Scenes {
@@ -274,7 +271,7 @@ impl Sweep<'_> {
             key: key.clone(),
             values: values.as_array().to_vec(),
         });
-        Plan::new(source, &vary.collect::<Vec<_>>(), read).map_err(wrong)
+        Plan::new(source, &vary.collect::<Vec<_>>(), read_file).map_err(wrong)
     }
 }
 

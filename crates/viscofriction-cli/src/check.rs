@@ -39,7 +39,7 @@ pub fn check_input(kind: InputKind, file: &Path, contents: &[u8]) -> Result<(), 
         }
         InputKind::Profile => profile(file, contents).map(drop).map_err(WrongInput),
         InputKind::HeightMap => {
-            let surface = topography(file, contents, [1.0; 2]).map_err(WrongInput)?;
+            let surface = topography(file, contents, [1.0; 2], u64::MAX).map_err(WrongInput)?;
             let wrong = |error| WrongInput(format!("{}:1: {error}", file.display()));
             surface.body().map(drop).map_err(wrong)
         }

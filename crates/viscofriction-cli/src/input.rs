@@ -1,7 +1,7 @@
 //! What the commands read: files and the standard input, none of them without end.
 
 use std::collections::BTreeSet;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
@@ -11,6 +11,7 @@ use viscofriction::scene::Source;
 
 /// Larger files are no input of this program, \[bytes].
 const LARGEST_FILE: u64 = 1 << 30;
+
 /// A scene is written by a person, and names the files that are large.
 const LARGEST_SCENE: u64 = 1 << 24;
 
@@ -46,22 +47,51 @@ pub(crate) fn is_input(path: &Path) -> bool {
     identity(path).is_ok_and(|file| inputs.contains(&file))
 }
 
-/// Reads a whole file that the command line or a scene names.
-pub(crate) fn read_input(path: &Path) -> Result<Vec<u8>, WrongInput> {
+/// Reads a file that a scene names, of at most so many bytes.
+pub(crate) fn read_input(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
     protect(path);
-    read_file(path)
+    read_file(path, most)
 }
 
-/// Reads a whole file that the command may also write.
-pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, WrongInput> {
+/// Reads a table that the command line names.
+pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, WrongInput> {
+    protect(path);
+    read_rows(path)
+}
+
+/// Reads a table that the command may also write; its cells of two bytes at least fit with their texts into half of the free
+/// memory.
+pub(crate) fn read_rows(path: &Path) -> Result<Vec<u8>, WrongInput> {
+    read_file(path, half_of_free_memory().unwrap_or(u64::MAX) / 32)
+}
+
+/// Reads a regular file of at most so many bytes.
+fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
+    let most = most.min(LARGEST_FILE);
     let read = || {
-        if !path.metadata()?.is_file() {
+        let file = path.metadata()?;
+        if !file.is_file() {
             let needed = "a regular file is needed, and not a folder, a device or a pipe";
             return Err(io::Error::other(needed));
         }
-        read_at_most(LARGEST_FILE, File::open(path)?)
+        if file.len() > most {
+            return Err(io::Error::other(format!(
+                "the memory that is allowed is enough for a file of {most} bytes, and this one has more"
+            )));
+        }
+        read_at_most(most, File::open(path)?)
     };
     read().map_err(|error| WrongInput(format!("{}: {error}", path.display())))
+}
+
+/// Half of the memory that the machine has free, \[bytes]; none where the system does not say.
+pub(crate) fn half_of_free_memory() -> Option<u64> {
+    let table = fs::read_to_string("/proc/meminfo").ok()?;
+    let free = table
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes: u64 = free.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(512 * kilobytes)
 }
 
 /// The scene in a file, or on the standard input.
@@ -72,19 +102,9 @@ pub(crate) fn read_scene(path: &Path) -> Result<Source, WrongInput> {
         let contents = read_at_most(LARGEST_SCENE, io::stdin());
         contents.map_err(|error| WrongInput(format!("-: {error}")))?
     } else {
-        read_input(path)?
+        read_input(path, LARGEST_SCENE)?
     };
     Source::new(path, contents)
-}
-
-/// Half of the memory that the machine has free, \[bytes]; none where the system does not say.
-pub(crate) fn half_of_free_memory() -> Option<u64> {
-    let table = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let free = table
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kilobytes: u64 = free.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(512 * kilobytes)
 }
 
 fn read_at_most(most: u64, file: impl Read) -> io::Result<Vec<u8>> {

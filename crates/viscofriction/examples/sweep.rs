@@ -17,7 +17,7 @@ const SCENE: &str = "
 
 fn main() -> Result<(), WrongInput> {
     let source = Source::new(Path::new("cone"), SCENE.as_bytes().to_vec())?;
-    let no_files = |path: &Path| Err(WrongInput(format!("{} is not read", path.display())));
+    let no_files = |path: &Path, _| Err(WrongInput(format!("{} is not read", path.display())));
     let speeds = "load.velocity=1e-4:1e2:7:log".parse().map_err(WrongInput)?;
     let sweep = Plan::new(source, &[speeds], no_files)?;
     println!("{}", header(&sweep).join(","));

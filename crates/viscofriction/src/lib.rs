@@ -26,6 +26,7 @@
 //! ```
 #![cfg_attr(not(test), warn(unused_crate_dependencies))]
 
+mod files;
 #[cfg(feature = "fit")]
 pub mod indentation;
 #[cfg(feature = "fit")]
@@ -44,6 +45,7 @@ mod text;
 struct FromRust;
 
 pub use bem_halfspace::slide::PressureField;
+pub use files::{Files, ReadFile};
 pub use numerics::{ErrorParts, Estimate, Watch};
 pub use scene::Scene;
 pub use solve::{
@@ -51,5 +53,5 @@ pub use solve::{
     Revolution, SolveError, check_memory, choose, problem_of, solve, solve_by, solve_watched,
     with_fields,
 };
-pub use text::{ReadFile, WrongInput, line_of, line_of_record};
+pub use text::{WrongInput, line_of};
 pub use {bem_halfspace, friction_analytic, indenters, mdr_core, numerics, rheology};

@@ -1,5 +1,7 @@
 //! Arrays as NumPy keeps them: a header in the notation of Python, then the numbers.
 
+use indenters::topography::Topography;
+
 const MAGIC: &[u8] = b"\x93NUMPY";
 const VERSION: [u8; 2] = [1, 0];
 
@@ -31,7 +33,7 @@ const SINGLE: usize = size_of::<f32>();
 const DOUBLE: usize = size_of::<f64>();
 
 /// The table in a file that `numpy.save` wrote, little-endian floats in rows and columns, or why it is none.
-pub(crate) fn from_npy(bytes: &[u8]) -> Result<NpyTable, String> {
+pub(crate) fn from_npy(bytes: &[u8], memory: u64) -> Result<NpyTable, String> {
     let (header, numbers) = parts(bytes)?;
     let size = size_of_number(header)?;
     let by_column = is_by_column(header)?;
@@ -43,6 +45,8 @@ pub(crate) fn from_npy(bytes: &[u8]) -> Result<NpyTable, String> {
             numbers.len()
         ));
     }
+    let points = numbers.len() / size;
+    Topography::check_memory(points, memory).map_err(|error| error.to_string())?;
     let mut values: Vec<f64> = if size == SINGLE {
         let number = |bytes: &[u8; SINGLE]| f32::from_le_bytes(*bytes).into();
         numbers.as_chunks().0.iter().map(number).collect()

@@ -1,12 +1,14 @@
 //! Esri's ASCII grid: names and numbers, then the heights in rows.
 
-use super::Topography;
+use super::memory::Memory;
 use super::text::{Notation, lines, text_of};
+use super::{Topography, Unread};
 use numerics::whole_part;
 
 const DEFAULT_MISSING: f64 = -9999.0;
 
-pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+    memory.holds_text(contents)?;
     let text = text_of(contents);
     let notation = Notation::of(&text);
     let (mut known, mut heights) = (Vec::new(), Vec::new());
@@ -36,7 +38,7 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
         || columns * rows - heights.len() as f64 != 0.0
     {
         let count = heights.len();
-        return Err(format!("{count} heights for {columns} × {rows} points"));
+        return Err(format!("{count} heights for {columns} × {rows} points").into());
     }
     for height in &mut heights {
         if height.to_bits() == missing.to_bits() {

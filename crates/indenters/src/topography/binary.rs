@@ -1,16 +1,21 @@
 //! Heights in binary behind a short header.
 
+use super::memory::Memory;
 use super::text::text_of;
-use super::{Topography, metres};
+use super::{Topography, Unread, metres};
+
+/// The text of a Gwyddion Simple Field is written by a program and short, \[bytes].
+const LARGEST_HEAD: usize = 1 << 16;
 
 /// Gwyddion Simple Field: a text, one to four zeros, and f32 row by row
 /// (<https://gwyddion.net/documentation/user-guide-en/gsf.html>).
-pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
-    let end = contents.iter().position(|byte| *byte == 0).unwrap_or(0);
+pub(super) fn simple_field(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+    let head = &contents[..contents.len().min(LARGEST_HEAD)];
+    let end = head.iter().position(|byte| *byte == 0).unwrap_or(0);
     let head = text_of(&contents[..end]);
     let (first, head) = head.split_once('\n').unwrap_or_default();
     if first.trim() != "Gwyddion Simple Field 1.0" {
-        return Err("another beginning".to_owned());
+        return Err("another beginning".to_owned().into());
     }
     let found = |key: &str, otherwise: &'static str| {
         let mut pairs = head.lines().filter_map(|line| line.split_once('='));
@@ -19,12 +24,14 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
     };
     let number = |key: &str| {
         let given = found(key, "1.0");
-        given.parse::<f64>().map_err(|_| format!("{key} = {given}"))
+        given
+            .parse::<f64>()
+            .map_err(|_| format!("{key} = {given:.40}"))
     };
     let count = |key: &str| {
         let given = found(key, "none");
         let count = given.parse::<usize>().ok().filter(|count| *count > 0);
-        count.ok_or_else(|| format!("{key} = {given}"))
+        count.ok_or_else(|| format!("{key} = {given:.40}"))
     };
     let [columns, rows] = [count("XRes")?, count("YRes")?];
     let unit = metres(found("XYUnits", "m"))?;
@@ -38,8 +45,9 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
     let values = values.as_chunks().0;
     if columns.checked_mul(rows) != Some(values.len()) {
         let count = values.len();
-        return Err(format!("{count} heights for {columns} × {rows} points"));
+        return Err(format!("{count} heights for {columns} × {rows} points").into());
     }
+    memory.holds(Some(values.len()))?;
     let values = values
         .iter()
         .map(|value| height * f64::from(f32::from_le_bytes(*value)));
@@ -51,9 +59,9 @@ pub(super) fn simple_field(contents: &[u8]) -> Result<Topography, String> {
 
 /// Digital Surf: 512 bytes, two comments, and integers. The places in the header are those that SurfaceTopography (Pastewka
 /// and others, `IO/SUR.py`) reads; the offset of all heights has no effect.
-pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
+pub(super) fn digital_surf(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
     if contents.len() < 512 || !contents.starts_with(b"DIGITAL SURF") {
-        return Err("another beginning".to_owned());
+        return Err("another beginning".to_owned().into());
     }
     let two = |at: usize| [contents[at], contents[at + 1]];
     let four = |at: usize| std::array::from_fn(|byte| contents[at + byte]);
@@ -64,7 +72,7 @@ pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
     let bytes = match short(98) {
         16 => 2,
         32 => 4,
-        bits => return Err(format!("{bits} bits for a point")),
+        bits => return Err(format!("{bits} bits for a point").into()),
     };
     let [columns, rows] = [count(108), count(112)];
     let begin = 512 + short(334) + short(336);
@@ -73,10 +81,10 @@ pub(super) fn digital_surf(contents: &[u8]) -> Result<Topography, String> {
     let given = contents.len().saturating_sub(begin);
     if short(18) != 2 || needed.is_none_or(|needed| needed == 0 || needed > given) {
         let kind = short(18);
-        return Err(format!(
-            "kind {kind}, {given} bytes for {columns} × {rows} points"
-        ));
+        let points = format!("{columns} × {rows} points");
+        return Err(format!("kind {kind}, {given} bytes for {points}").into());
     }
+    memory.holds(points)?;
     let spacing = [real(120) * unit(180)?, real(124) * unit(196)?];
     // Inverted heights.
     let sign = if short(290) == 0 { 1.0 } else { -1.0 };

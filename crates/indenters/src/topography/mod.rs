@@ -8,12 +8,14 @@
 mod asc;
 #[cfg(feature = "topography")]
 mod binary;
+mod memory;
 mod text;
 #[cfg(feature = "topography")]
 mod x3p;
 #[cfg(feature = "topography")]
 mod xyz;
 
+use memory::Memory;
 use thiserror::Error;
 
 use crate::{HeightMap, IndenterError};
@@ -28,6 +30,16 @@ pub enum TopographyError {
         format: &'static str,
         /// What there is instead, and where.
         found: String,
+    },
+    /// The heights do not fit into the memory that is allowed.
+    #[error("{points} heights need {needed} bytes of memory to be read, and {allowed} are allowed")]
+    Memory {
+        /// How many there may be.
+        points: u64,
+        /// What they take, \[bytes].
+        needed: u64,
+        /// What reading may take, \[bytes].
+        allowed: u64,
     },
     /// A line of heights is none.
     #[error("line {line}: {problem}")]
@@ -67,20 +79,22 @@ pub struct Topography {
 
 impl Topography {
     /// The surface in the contents of a file with the extension asc (Esri's ASCII grid, in metres), gsf (Gwyddion Simple
-    /// Field), sur (Digital Surf), x3p (ISO 25178-72) or xyz (rows of x, y and z \[m]).
+    /// Field), sur (Digital Surf), x3p (ISO 25178-72) or xyz (rows of x, y and z \[m]); beside the contents it takes at most
+    /// so much `memory` \[bytes].
     ///
     /// # Errors
-    /// [`TopographyError::Format`] where the contents are not of that format.
+    /// [`TopographyError::Format`] where the contents are not of that format, [`TopographyError::Memory`] before more is taken.
     #[cfg(feature = "topography")]
-    pub fn read(extension: &str, contents: &[u8]) -> Result<Self, TopographyError> {
+    pub fn read(extension: &str, contents: &[u8], memory: u64) -> Result<Self, TopographyError> {
         let extension = extension.to_ascii_lowercase();
+        let memory = Memory(memory);
         let found = match &extension[..] {
-            "asc" => asc::read(contents),
-            "gsf" => binary::simple_field(contents),
-            "sur" => binary::digital_surf(contents),
-            "x3p" => x3p::read(contents),
-            "xyz" => xyz::read(contents),
-            other => Err(other.to_owned()),
+            "asc" => asc::read(contents, memory),
+            "gsf" => binary::simple_field(contents, memory),
+            "sur" => binary::digital_surf(contents, memory),
+            "x3p" => x3p::read(contents, memory),
+            "xyz" => xyz::read(contents, memory),
+            other => Err(other.to_owned().into()),
         };
         let format = match &extension[..] {
             "asc" => "an ASCII grid with ncols, nrows, cellsize and heights",
@@ -90,19 +104,36 @@ impl Topography {
             "xyz" => "x, y and z of points of a grid in each line",
             _ => "one of the extensions asc, gsf, sur, x3p, xyz",
         };
-        found.map_err(|found| TopographyError::Format { format, found })
+        found.map_err(|unread| match unread {
+            Unread::Other(found) => TopographyError::Format { format, found },
+            Unread::TooLarge(error) => error,
+        })
     }
 
     /// The surface in a text of one line of heights for each y, without names; a cell that is empty or says that it is no
     /// number (`nan`, `NA`, `--`) is a missing height.
     ///
     /// Commas, semicolons, tabs or blanks separate. A comma is a decimal mark where semicolons or tabs separate, and between
-    /// blanks where there are no decimal points.
+    /// blanks where there are no decimal points. Beside the contents it takes at most so much `memory` \[bytes].
     ///
     /// # Errors
-    /// [`TopographyError::Line`] for a line that is shorter or longer than the others or holds anything else.
-    pub fn of_text(contents: &[u8], spacing: [f64; 2]) -> Result<Self, TopographyError> {
+    /// [`TopographyError::Line`] for a line that is shorter or longer than the others or holds anything else,
+    /// [`TopographyError::Memory`] before more memory is taken.
+    pub fn of_text(
+        contents: &[u8],
+        spacing: [f64; 2],
+        memory: u64,
+    ) -> Result<Self, TopographyError> {
+        Memory(memory).holds_text(contents)?;
         text::rows(contents, spacing)
+    }
+
+    /// Whether so much `memory` \[bytes] is enough to read so many heights.
+    ///
+    /// # Errors
+    /// [`TopographyError::Memory`] where it is not.
+    pub fn check_memory(points: usize, memory: u64) -> Result<(), TopographyError> {
+        Memory(memory).holds(Some(points))
     }
 
     /// From heights row by row, of a file that does not state their unit.
@@ -224,6 +255,28 @@ impl Topography {
     }
 }
 
+/// Why a reader gives up.
+#[cfg(feature = "topography")]
+enum Unread {
+    /// The contents are not of the format: what there is instead.
+    Other(String),
+    TooLarge(TopographyError),
+}
+
+#[cfg(feature = "topography")]
+impl From<String> for Unread {
+    fn from(found: String) -> Self {
+        Self::Other(found)
+    }
+}
+
+#[cfg(feature = "topography")]
+impl From<TopographyError> for Unread {
+    fn from(error: TopographyError) -> Self {
+        Self::TooLarge(error)
+    }
+}
+
 /// Metres in a unit of length as files write it.
 #[cfg(feature = "topography")]
 fn metres(unit: &str) -> Result<f64, String> {
@@ -234,6 +287,6 @@ fn metres(unit: &str) -> Result<f64, String> {
         // The last one is µ in MS-DOS.
         "µm" | "μm" | "um" | "æm" => 1e-6,
         "nm" => 1e-9,
-        other => return Err(format!("the unit '{other}'")),
+        other => return Err(format!("the unit '{other:.40}'")),
     })
 }

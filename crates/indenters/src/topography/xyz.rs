@@ -1,13 +1,15 @@
 //! Rows of x, y and z in metres, in any order; points of the grid that are left out are missing.
 
-use super::Topography;
+use super::memory::Memory;
 use super::text::{Notation, lines, text_of};
+use super::{Topography, Unread};
 use numerics::whole_part;
 
 /// Part of a spacing by which a point may miss its place in the grid.
 const MISS: f64 = 0.01;
 
-pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
+pub(super) fn read(contents: &[u8], memory: Memory) -> Result<Topography, Unread> {
+    memory.holds_text(contents)?;
     let text = text_of(contents);
     let notation = Notation::of(&text);
     let point = |(number, line): (usize, &str)| {
@@ -24,16 +26,20 @@ pub(super) fn read(contents: &[u8]) -> Result<Topography, String> {
     let points: Vec<[f64; 3]> = lines(&text).map(point).collect::<Result<_, _>>()?;
     let axis = |which: usize| axis(points.iter().map(|point| point[which]).collect());
     let [(x, dx, nx), (y, dy, ny)] = [axis(0)?, axis(1)?];
-    if nx * ny > 100 * points.len() {
-        return Err(format!("{} points of a grid of {nx} × {ny}", points.len()));
+    let places = nx.checked_mul(ny);
+    if places.is_none_or(|places| places / 100 > points.len()) {
+        let count = points.len();
+        return Err(format!("{count} points of a grid of {nx} × {ny}").into());
     }
+    // Beside the points themselves.
+    memory.holds(places.and_then(|places| places.checked_add(points.len())))?;
     let mut heights = vec![f64::NAN; nx * ny];
     for [at_x, at_y, height] in points {
         let steps = [(at_x - x) / dx, (at_y - y) / dy];
         if steps.iter().any(|step| (step - step.round()).abs() > MISS) {
-            return Err(format!(
-                "a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}"
-            ));
+            return Err(
+                format!("a point at x = {at_x}, y = {at_y} beside a grid of {dx} × {dy}").into(),
+            );
         }
         let [column, row] = steps.map(|step| whole_part(step.round()));
         heights[row * nx + column] = height;

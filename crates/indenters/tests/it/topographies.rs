@@ -5,7 +5,7 @@ use indenters::topography::{Topography, TopographyError};
 const SPACING: [f64; 2] = [0.5, 2.0];
 
 fn read(text: &str) -> Result<Topography, TopographyError> {
-    Topography::of_text(text.as_bytes(), SPACING)
+    Topography::of_text(text.as_bytes(), SPACING, 1 << 20)
 }
 
 #[test]

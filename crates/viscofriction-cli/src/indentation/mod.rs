@@ -15,7 +15,7 @@ use viscofriction::indentation::{
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
 use viscofriction::numerics::in_range;
 
-use crate::input::{protect, read_input};
+use crate::input::{protect, read_table};
 use crate::material::prony;
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 use crate::progress;
@@ -153,7 +153,7 @@ impl FitIndentation {
             spring_constant: self.spring_constant,
             sensitivity: self.sensitivity,
         };
-        let curve = indentation_curve(file, &read_input(file)?, &read)?;
+        let curve = indentation_curve(file, &read_table(file)?, &read)?;
         let options = FitOptions {
             rheology: self.material,
             branches: self.branches,

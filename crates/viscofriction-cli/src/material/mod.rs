@@ -18,7 +18,7 @@ use viscofriction::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
 
-use crate::input::read_input;
+use crate::input::read_table;
 use crate::output::{OutputFolder, print_line, print_text};
 use crate::progress;
 pub(crate) use output_files::prony;
@@ -69,7 +69,7 @@ pub(crate) struct FitMaterial {
 
 /// Reads the table, fits it, and writes the material and its picture.
 pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
-    let contents = read_input(&options.data)?;
+    let contents = read_table(&options.data)?;
     let table = options.table()?;
     let moduli = measured_moduli(&options.data, &contents, &table)?;
     let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));

@@ -13,7 +13,7 @@ use viscofriction::indenters::topography::Topography;
 use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneError, measured};
 use viscofriction::solve::warnings_of_heights;
 
-use crate::input::{protect, read_input};
+use crate::input::{half_of_free_memory, protect, read_input};
 use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
 
 /// Arguments of the command.
@@ -92,12 +92,14 @@ impl Surface {
     /// The surface without holes and tilt, around its mean height, and what was done to it.
     fn tidied(&self) -> Result<(Topography, String), WrongInput> {
         let table = self.table();
-        let contents = read_input(&self.file)?;
+        let memory = half_of_free_memory().unwrap_or(u64::MAX);
+        let contents = read_input(&self.file, memory)?;
+        let rest = memory.saturating_sub(contents.len() as u64);
         if measured(&self.file).is_none() && table.spacing.is_none() {
             return Err(self.wrong("its heights need --spacing DX DY in m"));
         }
         let wrong = |error| self.wrong_option(&error);
-        let surface = table.read(&self.file, &contents);
+        let surface = table.read(&self.file, &contents, rest);
         let surface = surface.map_err(wrong)?;
         let (points, missing) = (surface.heights.len(), surface.missing());
         let mut surface = table.prepared(surface).map_err(wrong)?;

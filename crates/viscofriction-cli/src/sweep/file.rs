@@ -10,7 +10,7 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, header, identity};
 
 use super::wrong_row;
-use crate::input::read_file;
+use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, lock, name_of, remove_parts, to_csv};
 
 /// What happens to a file that is there.
@@ -44,7 +44,7 @@ impl SweepFile {
         lock(&file, &path)?;
         remove_parts(folder_of(&path), &[&name_of(&path)]);
         let contents = match existing {
-            Existing::GoOn => read_file(&path)?,
+            Existing::GoOn => read_rows(&path)?,
             Existing::Refuse | Existing::Replace => Vec::new(),
         };
         let table = RowTable::new(&path, &contents)?;

@@ -10,7 +10,7 @@ use viscofriction::sweep::Row;
 use super::file::RowTable;
 use super::picture::PictureFiles;
 use super::wrong_row;
-use crate::input::read_input;
+use crate::input::read_table;
 use crate::output::{OutputFile, print_text, say};
 
 /// Joins files of one sweep, in the order of the points, and says which points none of them has.
@@ -45,7 +45,7 @@ fn joined(paths: &[PathBuf]) -> Result<RowTable, WrongInput> {
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     let mut header = Vec::new();
     for path in paths {
-        let table = RowTable::new(path, &read_input(path)?)?;
+        let table = RowTable::new(path, &read_table(path)?)?;
         if table.header.is_empty() {
             return Err(wrong_row(
                 path,

@@ -8,7 +8,7 @@ use viscofriction::WrongInput;
 use viscofriction_plot::{Axis, Chart, Colour, Field, Figure, Marker, Series, Shape};
 
 use super::file::RowTable;
-use crate::input::read_file;
+use crate::input::read_rows;
 use crate::output::{OutputFile, folder_of, name_of, picture, remove_parts, say};
 use crate::run::around;
 
@@ -44,7 +44,7 @@ impl PictureFiles {
 
     /// The files of a sweep that is taken up again: its own picture is drawn anew, another one stays.
     pub(super) fn resumed(rows: &Path, fingerprint: &str) -> Result<Self, WrongInput> {
-        let drawn = read_file(&beside(rows, "svg")).unwrap_or_default();
+        let drawn = read_rows(&beside(rows, "svg")).unwrap_or_default();
         Self::new(rows, drawn.ends_with(signature(fingerprint).as_bytes()))
     }
 

@@ -6,7 +6,9 @@ use std::os::unix::fs::{PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::{Folder, argument, example, measured, said, scene, table};
+use viscofriction_cli::{InputKind, check_input};
+
+use crate::support::{Folder, argument, example, measured, npy, said, scene, table};
 
 /// A folder with rows of a sweep in it, and an empty one for the output.
 fn prepared(name: &str) -> Folder {
@@ -48,7 +50,7 @@ fn no_option_replaces_what_its_own_command_reads() {
         let map = "indenter.height-map = { file = \"map.csv\", spacing = [1, 1] }";
         let parts = format!("{map}; elastic; normal_force = 1, velocity = 0; duration = 1");
         folder.write("scene.toml", scene(&parts));
-        folder.write("map.csv", "3,2,3\n2,1,2\n3,2,4\n");
+        folder.write("map.csv", "1,2,1\n2,3,2\n1,2,0\n");
         folder.write("curve.csv", "t (s),d (m),F (N)\n0,0,0\n");
         let before = folder.text(&input);
         let [link, written] = [folder.path(&input), folder.path("out").join(&written)];
@@ -125,6 +127,66 @@ fn only_regular_files_and_scenes_with_an_end_are_read() {
     let said = said(folder.command("run -").stdin(endless));
     assert_eq!(said.status, Some(2), "a scene without end");
     assert!(said.stderr.contains("-: there are more than"), "{said:?}");
+}
+
+#[test]
+fn a_file_that_needs_more_memory_than_the_scene_allows_is_refused() {
+    let folder = Folder::new("no-memory");
+    let array = npy(
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (512, 512), }",
+        &[],
+    );
+    let heights = 512 * 512 * 8;
+    let grid = "ncols 512\nnrows 512\ncellsize 1e-6\n".to_owned() + &"0 1 ".repeat(512 * 256);
+    let field = "Gwyddion Simple Field 1.0\nXRes = 384\nYRes = 384\nXReal = 1\nYReal = 1\n\0\0\0\0";
+    let field = [field.as_bytes(), &[1; 384 * 384 * 4]].concat();
+    let long_line = [field[..60].to_vec(), vec![b'9'; 1 << 19]].concat();
+    let points = "0 0 0\n1e-6 0 0\n0 1e-2 0\n".to_owned() + &"0 1e-6 1\n".repeat(9000);
+    folder.write("map.npy", [array, vec![0; heights]].concat());
+    for (name, contents, needed) in [
+        ("map.asc", grid.as_bytes(), "262151 heights need"),
+        ("map.gsf", &field, "147456 heights need"),
+        ("map.gsf", &long_line, "another beginning"),
+        ("map.xyz", points.as_bytes(), "heights need"),
+    ] {
+        folder.write(name, contents);
+        let map = format!("indenter.height-map.file = {name:?}");
+        let parts = "elastic; normal_force = 1, velocity = 0; duration = 1, max_memory = \"1 MiB\"";
+        folder.write("scene.toml", scene(&format!("{map}; {parts}")));
+        let said = folder.ends("run scene.toml", 2, needed);
+        assert!(said.stderr.len() < 1000, "{name}: {}", said.stderr);
+    }
+    let map = "indenter.height-map = { file = \"map.npy\", spacing = [1, 1] }";
+    let rows = "0,0\n1,1e-6\n2,2e-6\n3,3e-6\n".repeat(2000);
+    folder.write("rows.csv", format!("time_s,indentation_depth_m\n{rows}"));
+    let solve = "max_memory = \"1 MiB\"";
+    for (parts, needed) in [
+        (
+            format!("{map}; elastic; normal_force = 1, velocity = 0; duration = 1, {solve}"),
+            "enough for a file of 1048576 bytes",
+        ),
+        (
+            format!("cone; elastic; history_file = \"rows.csv\"; {solve}"),
+            "8001 rows need",
+        ),
+    ] {
+        folder.write("scene.toml", scene(&parts));
+        folder.ends("run scene.toml", 2, needed);
+    }
+}
+
+#[test]
+fn a_long_table_is_read_at_once() {
+    let rows = (0..200_000).map(|row| format!("{row}e-6,{row}e-9\n"));
+    let table = format!("radius_m,height_m\n{}", rows.collect::<String>());
+    let begin = Instant::now();
+    let read = check_input(InputKind::Profile, "long.csv".as_ref(), table.as_bytes());
+    assert_eq!(read, Ok(()));
+    assert!(
+        begin.elapsed() < Duration::from_secs(2),
+        "{:?}",
+        begin.elapsed()
+    );
 }
 
 #[test]

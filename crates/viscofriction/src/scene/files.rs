@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 
 use super::load::LoadPoint;
 use crate::npy::{NpyTable, from_npy};
-use crate::text::line_of_record;
+use crate::text::RecordLines;
 
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -72,15 +72,19 @@ fn at(file: &Path, line: usize, problem: &str) -> String {
 /// The rows and the lines they begin at, or a line and what is wrong there.
 fn rows<R: DeserializeOwned>(contents: &[u8]) -> Result<Vec<(usize, R)>, (usize, String)> {
     let mut reader = csv::Reader::from_reader(contents);
-    let line = |error: &csv::Error| line_of_record(contents, error.position());
+    let mut lines = RecordLines::new(contents);
     let names = reader.headers().cloned();
-    let names = names.map_err(|error| (line(&error), problem(&error, &StringRecord::new())))?;
-    let wrong = |error: csv::Error| (line(&error), problem(&error, &names));
+    let names = names.map_err(|error| {
+        let line = lines.of(error.position());
+        (line, problem(&error, &StringRecord::new()))
+    })?;
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record = record.map_err(wrong)?;
-        let row = record.deserialize(Some(&names)).map_err(wrong)?;
-        rows.push((line_of_record(contents, record.position()), row));
+        let row = record.and_then(|record| {
+            let row = record.deserialize(Some(&names))?;
+            Ok((lines.of(record.position()), row))
+        });
+        rows.push(row.map_err(|error| (lines.of(error.position()), problem(&error, &names)))?);
     }
     Ok(rows)
 }
@@ -131,12 +135,18 @@ pub fn measured(file: &Path) -> Option<&str> {
 ///
 /// # Errors
 /// File, place and what is wrong there.
-pub fn topography(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<Topography, String> {
+pub fn topography(
+    file: &Path,
+    contents: &[u8],
+    spacing: [f64; 2],
+    memory: u64,
+) -> Result<Topography, String> {
     let extension = file.extension();
     if extension.is_some_and(|extension| extension.eq_ignore_ascii_case("npy")) {
-        of_numpy(contents, spacing).map_err(|problem| format!("{}: {problem}", file.display()))
+        of_numpy(contents, spacing, memory)
+            .map_err(|problem| format!("{}: {problem}", file.display()))
     } else {
-        Topography::of_text(contents, spacing).map_err(|error| match error {
+        Topography::of_text(contents, spacing, memory).map_err(|error| match error {
             TopographyError::Line { line, problem } => at(file, line, &problem),
             other => format!("{}: {other}", file.display()),
         })
@@ -144,8 +154,8 @@ pub fn topography(file: &Path, contents: &[u8], spacing: [f64; 2]) -> Result<Top
 }
 
 /// An array of heights of the shape (n_y, n_x), in which NaN stands for a missing one.
-fn of_numpy(contents: &[u8], spacing: [f64; 2]) -> Result<Topography, String> {
-    let NpyTable { shape, values } = from_npy(contents)?;
+fn of_numpy(contents: &[u8], spacing: [f64; 2], memory: u64) -> Result<Topography, String> {
+    let NpyTable { shape, values } = from_npy(contents, memory)?;
     if let Some(index) = values.iter().position(|height| height.is_infinite()) {
         let [row, column] = [index / shape[1], index % shape[1]];
         let value = values[index];

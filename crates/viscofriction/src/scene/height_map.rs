@@ -99,20 +99,25 @@ impl TryFrom<toml::Table> for HeightMapTable {
 }
 
 impl HeightMapTable {
-    /// The surface as the file holds it, of which these are the contents.
+    /// The surface as the file holds it, of which these are the contents; beside them it takes at most so much `memory` \[bytes].
     ///
     /// # Errors
     /// [`SceneError`] with the place in the file, or for a spacing that is missing or not needed.
-    pub fn read(&self, file: &Path, contents: &[u8]) -> Result<Topography, SceneError> {
+    pub fn read(
+        &self,
+        file: &Path,
+        contents: &[u8],
+        memory: u64,
+    ) -> Result<Topography, SceneError> {
         let spaced = |problem: &str| SceneError::at("indenter.height-map.spacing", problem);
         let found = match (measured(file), self.spacing) {
             (Some(_), Some(_)) => {
                 return Err(spaced("a measured surface has its own; leave this out"));
             }
             (None, None) => return Err(spaced("missing field `spacing`")),
-            (Some(extension), None) => measured_surface(extension, contents)
+            (Some(extension), None) => measured_surface(extension, contents, memory)
                 .map_err(|problem| format!("{}: {problem}", file.display())),
-            (None, Some(spacing)) => topography(file, contents, spacing),
+            (None, Some(spacing)) => topography(file, contents, spacing, memory),
         };
         found.map_err(|problem| SceneError::at("indenter.height-map.file", problem))
     }
@@ -160,12 +165,12 @@ impl HeightMapTable {
 }
 
 #[cfg(feature = "topography")]
-fn measured_surface(extension: &str, contents: &[u8]) -> Result<Topography, String> {
-    Topography::read(extension, contents).map_err(|error| error.to_string())
+fn measured_surface(extension: &str, contents: &[u8], memory: u64) -> Result<Topography, String> {
+    Topography::read(extension, contents, memory).map_err(|error| error.to_string())
 }
 
 #[cfg(not(feature = "topography"))]
-fn measured_surface(extension: &str, _: &[u8]) -> Result<Topography, String> {
+fn measured_surface(extension: &str, _: &[u8], _: u64) -> Result<Topography, String> {
     let problem = "a reader of this format needs the feature topography of the crate viscofriction";
     Err(format!("{extension}: {problem}"))
 }

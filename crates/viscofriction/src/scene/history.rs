@@ -1,29 +1,27 @@
 //! The history of a load, of a scene or of a file.
 
-use std::path::Path;
-
 use indenters::{Control, HistoryPoint};
 use numerics::in_range;
 
 use super::SceneError;
 use super::files::history;
 use super::load::{Load, LoadPoint};
-use crate::text::{ReadFile, WrongInput};
+use crate::files::Files;
+use crate::text::WrongInput;
 
 impl Load {
-    /// The points of the history; none where the load is constant. A file is in `folder` and read by `read`.
+    /// The points of the history; none where the load is constant.
     pub(crate) fn checked_history(
         &self,
-        folder: &Path,
-        read: ReadFile,
+        files: &Files<'_>,
     ) -> Result<Option<Vec<HistoryPoint>>, SceneError> {
         let (points, of_file) = match (&self.history, &self.history_file) {
             (None, None) => return Ok(None),
             (Some(points), None) => (points.clone(), false),
             (None, Some(file)) => {
-                let file = folder.join(file);
+                let table = files.table(file);
                 let points =
-                    read(&file).and_then(|table| history(&file, &table).map_err(WrongInput));
+                    table.and_then(|(file, table)| history(&file, &table).map_err(WrongInput));
                 let wrong = |WrongInput(problem)| SceneError::at("load.history_file", problem);
                 (points.map_err(wrong)?, true)
             }

@@ -11,8 +11,9 @@ use indenters::{
 use numerics::{in_range, positive};
 
 use super::heights::body_of_heights;
+use crate::files::Files;
 use crate::scene::{Indenter, SceneError, SelfAffineSurface, Term, profile};
-use crate::text::{ReadFile, WrongInput};
+use crate::text::WrongInput;
 
 /// The rigid body, by what the methods tell apart.
 #[derive(Debug)]
@@ -103,7 +104,7 @@ impl Revolution {
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<BodyOfScene, SceneError> {
+pub fn body(indenter: &Indenter, files: &Files<'_>) -> Result<BodyOfScene, SceneError> {
     let power = |profile| Body::Revolution(Revolution::Power(profile));
     let sphere = |sphere| Body::Revolution(Revolution::Sphere(sphere));
     let body = match indenter {
@@ -124,12 +125,14 @@ pub fn body(indenter: &Indenter, folder: &Path, read: ReadFile) -> Result<BodyOf
             TruncatedParaboloid::new(radius, curvature).map(other)
         }
         Indenter::Superposition { terms } => Ok(Body::Revolution(Revolution::Sum(sum(terms)?))),
-        Indenter::Table { file } => Ok(table_profile(&folder.join(file), read)?),
+        Indenter::Table { file } => Ok(table_profile(file, files)?),
         &Indenter::Cylinder { radius } => Cylinder::new(radius).map(Body::Cylinder),
         Indenter::HeightMap(table) => {
-            let file = folder.join(&table.file);
             let wrong = |WrongInput(problem)| SceneError::at("indenter.height-map.file", problem);
-            let surface = table.read(&file, &read(&file).map_err(wrong)?)?;
+            let memory = files.memory();
+            let contents = files.contents(&table.file, memory).map_err(wrong)?;
+            let rest = memory.saturating_sub(contents.len() as u64);
+            let surface = table.read(&files.folder.join(&table.file), &contents, rest)?;
             return body_of_heights(table, surface);
         }
         Indenter::SelfAffine(surface) => self_affine(surface).surface().map(Body::Periodic),
@@ -175,10 +178,11 @@ fn sum(terms: &[Term]) -> Result<Superposition, SceneError> {
         .map_err(|error| SceneError::at(table, error.to_string()))
 }
 
-fn table_profile(file: &Path, read: ReadFile) -> Result<Body, SceneError> {
+fn table_profile(file: &Path, files: &Files<'_>) -> Result<Body, SceneError> {
     let wrong = |problem: String| SceneError::at("indenter.table.file", problem);
-    let contents = read(file).map_err(|WrongInput(problem)| wrong(problem))?;
-    profile(file, &contents).map(other).map_err(wrong)
+    let table = files.table(file);
+    let (file, contents) = table.map_err(|WrongInput(problem)| wrong(problem))?;
+    profile(&file, &contents).map(other).map_err(wrong)
 }
 
 /// The number that the library refuses, with its key.

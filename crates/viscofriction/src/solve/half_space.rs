@@ -9,8 +9,9 @@ use rheology::{
 };
 
 use super::expansion::{Expansion, expanded};
+use crate::files::Files;
 use crate::scene::{Branch, MaterialTable, SceneError, Source};
-use crate::text::{ReadFile, WrongInput};
+use crate::text::WrongInput;
 
 /// The material of a scene.
 #[derive(Debug)]
@@ -21,16 +22,12 @@ pub struct HalfSpace {
     pub expansion: Option<Expansion>,
 }
 
-/// The half space of a table of the scene file; a file that it names is in `folder` and read by `read`.
+/// The half space of a table of the scene file.
 ///
 /// # Errors
 /// [`SceneError`] for the first number that is out of range.
-pub fn half_space(
-    table: &MaterialTable,
-    folder: &Path,
-    read: ReadFile,
-) -> Result<HalfSpace, SceneError> {
-    let mut found = in_shear(table, folder, read)?;
+pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
+    let mut found = in_shear(table, files)?;
     let ratio = table.poisson_ratio();
     let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
     let material = Compressible::new(&*found.material, ratio).map(boxed);
@@ -39,22 +36,27 @@ pub fn half_space(
 }
 
 /// The material that another file holds.
-fn of_file(file: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
+fn of_file(file: &Path, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
     let material = || {
-        let source = Source::new(file, read(file)?)?;
+        let (file, contents) = files.material(file)?;
+        let source = Source::new(&file, contents)?;
         let table = MaterialTable::try_from(source.table()?);
-        let material = table.and_then(|table| half_space(&table, Path::new(""), no_file));
+        let none = Files {
+            read: no_file,
+            ..*files
+        };
+        let material = table.and_then(|table| half_space(&table, &none));
         material.map_err(|error| source.locate(&error))
     };
     material().map_err(|WrongInput(problem)| SceneError::at("material.file.path", problem))
 }
 
-fn no_file(file: &Path) -> Result<Vec<u8>, WrongInput> {
+fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
     let problem = "the file of a material names no other";
     Err(WrongInput(format!("{}: {problem}", file.display())))
 }
 
-fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<HalfSpace, SceneError> {
+fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
     let material = match table {
         &MaterialTable::Viscous { viscosity, .. } => Viscous::new(viscosity).map(boxed),
         &MaterialTable::Elastic { shear_modulus, .. } => Elastic::new(shear_modulus).map(boxed),
@@ -93,7 +95,7 @@ fn in_shear(table: &MaterialTable, folder: &Path, read: ReadFile) -> Result<Half
         MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
             return fractional(table).map_err(|error| refused(&table.key(), error));
         }
-        MaterialTable::File { path, .. } => return of_file(&folder.join(path), read),
+        MaterialTable::File { path, .. } => return of_file(path, files),
     };
     let material = material.map_err(|error| refused(&table.key(), error))?;
     Ok(HalfSpace {

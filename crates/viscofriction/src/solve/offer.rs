@@ -3,8 +3,9 @@
 use super::error::{NotOffered, Refusal};
 use super::problem::Problem;
 use super::work::work;
+use crate::files::ReadFile;
 use crate::scene::{Method, Model, SceneError, Source, scene_file};
-use crate::text::{ReadFile, WrongInput};
+use crate::text::WrongInput;
 
 /// The methods from cheap to expensive.
 const BY_COST: [Method; 5] = [

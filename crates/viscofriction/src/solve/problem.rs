@@ -11,8 +11,9 @@ use super::body::{Body, BodyOfScene, body};
 use super::error::SolveError;
 use super::expansion::Expansion;
 use super::half_space::{Simple, half_space, simple};
+use crate::files::{Files, ReadFile};
 use crate::scene::{Accuracy, Method, Model, Scene, SceneError};
-use crate::text::{ReadFile, WrongInput};
+use crate::text::WrongInput;
 
 /// What is asked of the methods.
 ///
@@ -68,7 +69,8 @@ impl Problem {
     /// # Errors
     /// [`SceneError`] for the first number that is out of range.
     pub fn new(scene: &Scene, folder: &Path, read: ReadFile) -> Result<Self, SceneError> {
-        let body = body(&scene.indenter, folder, read)?;
+        let files = Files::of(scene, folder, read)?;
+        let body = body(&scene.indenter, &files)?;
         Self::with_body(scene, body, folder, read)
     }
 
@@ -82,13 +84,14 @@ impl Problem {
         folder: &Path,
         read: ReadFile,
     ) -> Result<Self, SceneError> {
-        let history = scene.load.checked_history(folder, read)?;
+        let files = Files::of(scene, folder, read)?;
+        let history = scene.load.checked_history(&files)?;
         let history = history.unwrap_or_default();
         let motion = match history.last() {
             Some(last) => followed(scene, last)?,
             None => motion(scene, &body)?,
         };
-        let elastomer = half_space(&scene.material, folder, read)?;
+        let elastomer = half_space(&scene.material, &files)?;
         let thickness = match scene.layer {
             Some(layer) => positive("layer.thickness", layer.thickness)?,
             None => f64::INFINITY,
@@ -108,7 +111,7 @@ impl Problem {
             method: scene.solve.method,
             model: scene.solve.model.or(of_method).unwrap_or(Model::HalfSpace),
             threads: scene.solve.checked_threads()?,
-            max_memory: scene.solve.checked_memory()?,
+            max_memory: files.memory,
         };
         problem.check_control()?;
         Ok(problem)
@@ -218,7 +221,7 @@ impl TryFrom<&Scene> for Problem {
     type Error = SceneError;
 
     fn try_from(scene: &Scene) -> Result<Self, SceneError> {
-        let no_files = |path: &Path| {
+        let no_files = |path: &Path, _| {
             let problem = "a scene in memory names no file; Problem::new reads one";
             Err(WrongInput(format!("{}: {problem}", path.display())))
         };

@@ -3,9 +3,10 @@
 use toml::{Table, Value};
 
 use super::vary::{MOST_POINTS, Vary};
+use crate::files::{Files, ReadFile};
 use crate::scene::{SceneError, Source, scene_file, split_index};
 use crate::solve::{self, Answer, Problem, check_memory, choose, not_offered, solve};
-use crate::text::{ReadFile, WrongInput};
+use crate::text::WrongInput;
 
 /// Keys of a scene whose values are names of files.
 const FILE_KEYS: [&str; 3] = ["file", "path", "history_file"];
@@ -48,17 +49,22 @@ impl Plan {
             solve.remove("threads");
             solve.remove("max_memory");
         }
-        let mut text = format!("{scene}\n{vary:?}").into_bytes();
+        let files = Files {
+            folder: source.folder(),
+            read,
+            memory: memory(&table),
+        };
+        let mut hash = hashed(EMPTY, format!("{scene}\n{vary:?}").as_bytes());
         for file in named_files(&table) {
             // A file that cannot be read is refused with the key that names it, by the first point.
-            text.extend(read(&source.folder().join(file)).unwrap_or_default());
+            let contents = files.contents(file.as_ref(), files.memory());
+            hash = hashed(hash, &contents.unwrap_or_default());
         }
-        let fingerprint = fingerprint(&text);
         Ok(Self {
+            fingerprint: format!("{hash:016x}"),
             source,
             table,
             vary: vary.to_vec(),
-            fingerprint,
             max_memory: None,
             read,
         })
@@ -208,7 +214,7 @@ pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
 }
 
 fn check(identity: &[String]) -> String {
-    fingerprint(identity.join(",").as_bytes())
+    format!("{:016x}", hashed(EMPTY, identity.join(",").as_bytes()))
 }
 
 /// Sets a key; the table it is in must be there.
@@ -254,10 +260,18 @@ fn named_files(table: &Table) -> Vec<&str> {
     files
 }
 
-/// FNV-1a, 64 bits, as 16 digits.
-fn fingerprint(text: &[u8]) -> String {
-    let hash = text.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+/// Memory that the scene allows, where it is one.
+fn memory(table: &Table) -> Option<u64> {
+    let scene = scene_file(table.clone()).ok()?;
+    scene.solve.checked_memory().ok()?
+}
+
+/// FNV-1a with 64 bits of nothing.
+const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// FNV-1a of more bytes behind those that were hashed before.
+fn hashed(before: u64, more: &[u8]) -> u64 {
+    more.iter().fold(before, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{hash:016x}")
+    })
 }

@@ -118,7 +118,7 @@ fn plan(scene: &str, (stiffness, speeds): (f64, &str), quick: bool) -> Result<Pl
     let speed = format!("load.velocity={speeds}:{count}:log");
     let vary = surface.chain([load, speed]).map(|vary| vary.parse());
     let vary: Vec<Vary> = vary.collect::<Result<_, _>>().map_err(WrongInput)?;
-    Ok(Plan::new(source, &vary, |_| Ok(Vec::new()))?)
+    Ok(Plan::new(source, &vary, |_, _| Ok(Vec::new()))?)
 }
 
 /// The header, and rows of sweeps behind the name of the solid.

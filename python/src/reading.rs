@@ -1,0 +1,27 @@
+//! Files, none of them without end.
+
+use std::fs;
+use std::io::Error;
+use std::path::Path;
+
+use viscofriction::WrongInput;
+
+/// A table is as long as an instrument makes it, \[bytes].
+const LARGEST_TABLE: u64 = 1 << 27;
+
+/// Reads a regular file of at most so many bytes.
+pub(crate) fn read_file(path: &Path, most: u64) -> Result<Vec<u8>, WrongInput> {
+    let read = || {
+        let file = path.metadata()?;
+        if !file.is_file() || file.len() > most {
+            let needed = format!("a regular file of at most {most} bytes is needed");
+            return Err(Error::other(needed));
+        }
+        fs::read(path)
+    };
+    read().map_err(|error| WrongInput(format!("{}: {error}", path.display())))
+}
+
+pub(crate) fn read_table(path: &Path) -> Result<Vec<u8>, WrongInput> {
+    read_file(path, LARGEST_TABLE)
+}

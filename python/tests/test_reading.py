@@ -1,0 +1,74 @@
+"""Files of surfaces take no more memory and time than the scene allows, whatever they say of themselves."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+MAIN = """<ISO5436_2><Record1><Axes><CX><AxisType>I</AxisType><Increment>1e-6</Increment></CX>
+<CY><AxisType>I</AxisType><Increment>1e-6</Increment></CY><CZ><DataType>D</DataType></CZ></Axes></Record1>
+<Record3><MatrixDimension><SizeX>{size}</SizeX><SizeY>{size}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
+<DataLink><PointDataLink>data.bin</PointDataLink></DataLink></Record3></ISO5436_2>"""
+
+READING = """
+import resource, sys
+import viscofriction as vf
+
+load = {"normal_force": 1.0, "velocity": 0.0}
+def solve(body):
+    scene = {"indenter": body, "material": vf.Elastic(1e6), "load": load}
+    return vf.solve(scene | {"solve": {"duration": 1.0, "max_memory": "64 MiB"}})
+
+solve(vf.Sphere(1.0))
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+try:
+    solve(vf.HeightMapFile(sys.argv[1]))
+except ValueError as error:
+    print(error)
+print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) >> 10, "MiB")
+"""
+
+
+def x3p(main: str, data: int, *, stated: int | None = None) -> bytes:
+    """An archive with so many bytes of zeros as its heights, or ``stated`` ones by its own directory."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("data.bin", bytes(data))
+        archive.writestr("main.xml", main)
+    contents = file.getvalue()
+    return contents if stated is None else contents.replace(data.to_bytes(4, "little"), stated.to_bytes(4, "little"))
+
+
+GSF = b"Gwyddion Simple Field 1.0\nXRes = 4\nYRes = 4\nXReal = "
+FILES = {
+    "more data than points": ("x3p", x3p(MAIN.format(size=10), 1 << 28), "more than 4896 bytes"),
+    "more data than is stated": ("x3p", x3p(MAIN.format(size=10), 1 << 28, stated=800), "data.bin"),
+    "more points than memory": ("x3p", x3p(MAIN.format(size=4096), 1 << 27), "16777216 heights need"),
+    "more points than data": ("x3p", x3p(MAIN.format(size=1000), 800), "800 bytes of type 'D'"),
+    "a long description": ("x3p", x3p(MAIN.format(size=10) + " " * (1 << 21), 800), "main.xml: more than 1048576 bytes"),
+    "many attributes": (
+        "x3p",
+        x3p("<a " + " ".join(f'a{n}=""' for n in range(60_000)) + "/>", 800),
+        "more than 4096 attributes",
+    ),
+    "a damaged head": ("gsf", GSF + b"9" * (1 << 24), "another beginning"),
+}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="peaks of memory are in KiB there")
+@pytest.mark.parametrize("name", FILES)
+def test_no_file_takes_more_memory_than_the_scene_allows(name: str, tmp_path: Path) -> None:
+    extension, contents, message = FILES[name]
+    file = tmp_path / f"surface.{extension}"
+    file.write_bytes(contents)
+    done = subprocess.run(
+        [sys.executable, "-c", READING, file], check=True, capture_output=True, text=True, timeout=20, cwd=tmp_path
+    )
+    said, peak = done.stdout.strip().rsplit("\n", 1)
+    assert message in said and len(said) < 400, done.stdout[:1000]
+    assert int(peak.split()[0]) <= 64, peak
