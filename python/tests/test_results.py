@@ -136,7 +136,7 @@ def test_what_is_equal_compares_equal_and_travels_as_it_is() -> None:
             vf.HeightMap(heights, 1.0),
             vf.HeightMap(heights, 1.0).roughness,
             vf.Prony(1e6, [(scale, 1.0)]),
-            vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=speeds, sliding_distance=1.0),
+            vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=speeds),
             vf.press(vf.Cone(0.1), vf.Elastic(1e4), normal_force=scale),
             vf.sweep(scene, {"load.velocity": speeds}),
             vf.indent(vf.Cone(0.5), vf.Elastic(1e3), time=CURVE[0], indentation_depth=scale * CURVE[1]),
