@@ -23,7 +23,13 @@ pub fn refuses<T: Debug, E: Display>(
 ) {
     for number in numbers {
         let message = refusal(parameter, attempt(*number));
-        let named = message.ends_with(&format!(", but is {number}"));
+        let said = match *number {
+            f64::INFINITY => "larger than any number".to_owned(),
+            f64::NEG_INFINITY => "below every number".to_owned(),
+            none if none.is_nan() => "not a number".to_owned(),
+            number => number.to_string(),
+        };
+        let named = message.ends_with(&format!(", but is {said}"));
         assert!(named, "{message}, for {number} as {parameter}");
     }
 }
