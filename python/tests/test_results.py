@@ -45,12 +45,13 @@ def test_families_and_grids_are_drawn() -> None:
 
 def test_pressure_is_drawn_where_it_is() -> None:
     answer = vf.slide(vf.Sphere(5e-3), SOLID, normal_force=2.0, velocity=0.1, relative_error=1e-2)
-    assert answer.pressure.shape == (answer.x.size, answer.y.size)
+    assert answer.pressure.shape == (answer.y.size, answer.x.size)
+    assert answer.x.size != answer.y.size
     element = (answer.x[1] - answer.x[0]) * (answer.y[1] - answer.y[0])
     assert math.isclose(answer.pressure.sum() * element, 2.0, rel_tol=1e-6)
     axes = answer.plot()
     assert axes.get_xlabel() == "x [m]"
-    assert (axes.collections[0].get_array() == answer.pressure.T).all()
+    assert (axes.collections[0].get_array() == answer.pressure).all()
 
 
 def test_fields_belong_to_single_scenes() -> None:

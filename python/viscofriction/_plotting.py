@@ -114,7 +114,7 @@ def single(answer: Any, ax: Any) -> Any:
     if "pressure" not in known and "history" in known:
         ax.plot(answer.history["indentation_depth"], answer.history["normal_force"], marker=".")
         return tidy(ax, LABELS["indentation_depth"], LABELS["normal_force"], (None, None))
-    image = ax.pcolormesh(answer.x, answer.y, answer.pressure.T, shading="nearest", cmap="magma")
+    image = ax.pcolormesh(answer.x, answer.y, answer.pressure, shading="nearest", cmap="magma")
     bar = ax.figure.colorbar(image, ax=ax, label="pressure [Pa]")
     bar.formatter.set_useMathText(True)
     ax.set_aspect("equal")

@@ -174,8 +174,8 @@ class Answer(Compared):
 
     @property
     def pressure(self) -> NDArray[np.float64]:
-        """Pressure [Pa] at ``x[i]``, ``y[j]`` of a single scene on the half space."""
-        return self._field("pressure")
+        """Pressure [Pa] at ``y[i]``, ``x[j]`` of a single scene on the half space: a row runs along x, as of a height map."""
+        return self._field("pressure").T
 
     @property
     def x(self) -> NDArray[np.float64]:
@@ -218,7 +218,7 @@ class Answer(Compared):
         return field
 
     def _axis(self, axis: int) -> NDArray[np.float64]:
-        count = self.pressure.shape[axis]
+        count = self._field("pressure").shape[axis]
         answer = self._single()
         return np.asarray(answer["origin"][axis] + answer["spacing"][axis] * np.arange(count))
 

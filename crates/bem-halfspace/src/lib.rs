@@ -67,7 +67,8 @@ pub use layer::{Elastomer, Layer, layer_factor};
 pub use numerics::InvalidParameter;
 #[cfg(feature = "rough")]
 pub use periodic::{
-    PeriodicEstimate, press_periodic, slide_periodic, steady_periodic, steady_periodic_at_depth,
+    PeriodicEstimate, elements_for_bars, press_periodic, slide_periodic, steady_periodic,
+    steady_periodic_at_depth,
 };
 pub use periodic::{
     PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,

@@ -268,10 +268,21 @@ struct Found {
 }
 
 fn first_shape(surface: &PeriodicSurface) -> [usize; 2] {
-    surface.largest_numbers().map(|number| match number {
+    surface.largest_numbers().map(first_elements)
+}
+
+fn first_elements(number: usize) -> usize {
+    match number {
         0 => 2,
         _ => (FIRST * number).next_power_of_two().max(FEWEST),
-    })
+    }
+}
+
+/// Elements of the last of the three grids without which there are no error bars, of a surface with so many waves at most in
+/// its periods along x and y.
+pub fn elements_for_bars(largest_numbers: [usize; 2]) -> f64 {
+    let edges = largest_numbers.map(|number| 4.0 * first_elements(number) as f64);
+    edges[0] * edges[1]
 }
 
 /// Solves on one grid after the other, each with twice the elements along both axes, to a tolerance of the contact. The grids do not

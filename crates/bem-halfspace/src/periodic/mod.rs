@@ -38,7 +38,8 @@ use crate::{BemError, Elastomer, Grid, PressureField};
 use equations::Equations;
 #[cfg(feature = "rough")]
 pub use estimate::{
-    PeriodicEstimate, press_periodic, slide_periodic, steady_periodic, steady_periodic_at_depth,
+    PeriodicEstimate, elements_for_bars, press_periodic, slide_periodic, steady_periodic,
+    steady_periodic_at_depth,
 };
 use kernel::Sliding;
 pub use march::{PeriodicRow, PeriodicTransient, slide_periodic_on_grid};

@@ -30,22 +30,22 @@ fn write_pressure(answer: &Answer, out: &OutputFolder) -> Result<()> {
     let Some(field) = &answer.fields.pressure else {
         return Ok(());
     };
-    let [rows, columns] = field.grid.shape();
     let [x, y] = [0, 1].map(|axis| {
         let [origin, spacing] = [field.origin[axis], field.grid.spacing()[axis]];
         let place = |index: usize| origin + index as f64 * spacing;
         let places = (0..field.grid.shape()[axis]).map(place);
         places.collect::<Vec<f64>>()
     });
-    let pressures = field.pressure.iter().enumerate();
-    let row =
-        |(index, pressure): (usize, &f64)| [x[index / columns], y[index % columns], *pressure];
-    let table = pressures.map(row);
-    let names = "x_m y_m pressure_pa";
-    out.write("pressure.csv", &to_csv(names, table)?)?;
-    out.write("pressure.npy", &to_npy(&field.pressure, &[rows, columns]))?;
-    out.write("pressure_x.npy", &to_npy(&x, &[rows]))?;
-    out.write("pressure_y.npy", &to_npy(&y, &[columns]))?;
+    // Row by row along x, as height maps are.
+    let places = (0..y.len()).flat_map(|row| (0..x.len()).map(move |column| [column, row]));
+    let pressure = |[column, row]: [usize; 2]| field.pressure[column * y.len() + row];
+    let pressures: Vec<f64> = places.clone().map(pressure).collect();
+    let rows = places.zip(&pressures);
+    let table = rows.map(|([column, row], pressure)| [x[column], y[row], *pressure]);
+    out.write("pressure.csv", &to_csv("x_m y_m pressure_pa", table)?)?;
+    out.write("pressure.npy", &to_npy(&pressures, &[y.len(), x.len()]))?;
+    out.write("pressure_x.npy", &to_npy(&x, &[x.len()]))?;
+    out.write("pressure_y.npy", &to_npy(&y, &[y.len()]))?;
     out.draw("pressure", &pictures::pressure(answer, field)?)
 }
 

@@ -62,14 +62,19 @@ fn section(map: &HeightMap) -> Chart {
     let row = touching.unwrap_or(0) % along_y;
     let point = |x: usize| [x as f64 * dx, map.heights()[x * along_y + row]];
     let points: Vec<[f64; 2]> = (0..along_x).map(point).collect();
-    let highest = map.heights().iter().copied().fold(0.0, f64::max);
-    let (x, y) = ([0.0, along_x as f64 * dx], [-0.2 * highest, 1.3 * highest]);
+    let highest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(0.0, f64::max);
+    // A ridge along x touches everywhere.
+    let highest = match highest(&mut points.iter().map(|[_, height]| *height)) {
+        0.0 => highest(&mut map.heights().iter().copied()),
+        highest => highest,
+    };
+    let (x, y) = ([0.0, along_x as f64 * dx], [-0.2 * highest, 1.4 * highest]);
     let flat = x.map(|x| [x, 0.0]).into();
     let dashed = Line::thick(Dash::Dashed);
     let series = vec![
         Series::line(points, Line::thick(Dash::Solid), Colour::Blue).labelled("rigid body, above"),
         Series::line(flat, dashed, Colour::Green).labelled("elastomer, below"),
-        motion(x, y, false).labelled("motion of the body"),
+        motion(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false).labelled("motion of the body"),
     ];
     Chart {
         title: Some("cut along x through the point that touches first".into()),

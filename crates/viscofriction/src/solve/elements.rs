@@ -151,7 +151,8 @@ pub(crate) fn periodic_transient(
     Ok(answer.under(estimate.finest.pressure))
 }
 
-fn largest_grid(problem: &Problem) -> usize {
+/// Elements of the largest grid of a period.
+pub(super) fn largest_grid(problem: &Problem) -> usize {
     let fitting = |bytes: u64| bytes.saturating_sub(BYTES_BESIDE) / BYTES_PER_ELEMENT;
     let fitting = problem.max_memory().map(fitting);
     let most = fitting.map_or(LARGEST_GRID, |fitting| fitting.min(LARGEST_GRID));

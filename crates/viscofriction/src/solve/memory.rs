@@ -3,10 +3,13 @@
 use std::sync::OnceLock;
 
 use bem_halfspace::indent::{follow_memory, indent_memory};
-use bem_halfspace::{slide::slide_memory, steady::steady_memory};
+use bem_halfspace::{elements_for_bars, slide::slide_memory, steady::steady_memory};
 use indenters::EquivalentLine;
-use numerics::Watch;
+use indenters::rough::PeriodicSurface;
+use numerics::{Watch, whole_part};
 
+use super::body::Body;
+use super::elements::largest_grid;
 use super::error::SolveError;
 use super::problem::Motion::{History, Pressing, Sliding};
 use super::problem::Problem;
@@ -16,7 +19,8 @@ use crate::scene::{Accuracy, SceneError};
 /// Elements along the contact with which a relative error is first sought.
 const FIRST: usize = 16;
 
-/// Refuses a method that needs more memory than [`Problem::max_memory`], if there is one.
+/// Refuses a method that needs more memory than [`Problem::max_memory`], if there is one, and a periodic surface with waves
+/// that are too short for all grids.
 ///
 /// # Errors
 /// [`SceneError`] with what is needed, what is allowed, and the key that is best changed.
@@ -25,11 +29,39 @@ pub fn check_memory(
     method: Method,
     accuracy: Accuracy,
 ) -> Result<(), SceneError> {
+    if let Body::Periodic(surface) = problem.body() {
+        return check_waves(problem, surface);
+    }
     let (elements, change) = match accuracy {
         Accuracy::Elements(elements) => (elements, ["solve.elements", "fewer elements"]),
         Accuracy::RelativeError(_) => (FIRST, OTHERWISE),
     };
     check(problem, method, elements, change)
+}
+
+/// Refuses waves for which even the grids without which there are no error bars are too large.
+fn check_waves(problem: &Problem, surface: &PeriodicSurface) -> Result<(), SceneError> {
+    let most = largest_grid(problem) as f64;
+    let elements = elements_for_bars(surface.largest_numbers());
+    if elements <= most {
+        return Ok(());
+    }
+    let largest = surface.largest_numbers();
+    let numbers = |shortest: f64| {
+        [0, 1].map(|axis| whole_part(surface.period()[axis] / shortest).min(largest[axis]))
+    };
+    // The elements along an axis double with such wavelengths; numbers of waves are below 2³¹.
+    let wavelengths = surface.period().into_iter();
+    let wavelengths =
+        wavelengths.flat_map(|period| (0..31).map(move |power| period / f64::from(1 << power)));
+    let fitting = wavelengths.filter(|shortest| elements_for_bars(numbers(*shortest)) <= most);
+    let shortest = fitting.fold(f64::INFINITY, f64::min);
+    let [x, y] = numbers(shortest).map(|number| 2 * number);
+    let problem = format!(
+        "the shortest waves need a grid of {elements:.3e} elements for an error bar, and the largest has {most:.3e}: leave \
+         out waves shorter than shortest_wavelength = {shortest:e} m; all waves fit of a map of {x} × {y} heights at most"
+    );
+    Err(SceneError::at("indenter", problem))
 }
 
 /// The key, and what to give, where the number of elements is not given.
