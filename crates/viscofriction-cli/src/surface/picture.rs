@@ -74,7 +74,8 @@ fn section(map: &HeightMap) -> Chart {
     let series = vec![
         Series::line(points, Line::thick(Dash::Solid), Colour::Blue).labelled("rigid body, above"),
         Series::line(flat, dashed, Colour::Green).labelled("elastomer, below"),
-        motion(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false).labelled("motion of the body"),
+        motion(x, [1.1 * highest, 1.1 * highest + y[1] - y[0]], false)
+            .labelled("motion of the body"),
     ];
     Chart {
         title: Some("cut along x through the point that touches first".into()),

@@ -61,6 +61,20 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 }
 
 #[test]
+fn names_in_six_languages_are_those_of_the_same_quantities() {
+    for [names] in table("names of moduli") {
+        let above = "Prüfling;SBR 1502\nGerät;Eplexor\nDatum;12.03.2024\n\n";
+        let text = format!("{above}{names}\n0,1;20;1,5;0,3\n1;20;2,25;0,45\n10;20;4;1,2\n");
+        let isotherms = isotherms(read(text.as_bytes(), Some(Deformation::Shear)));
+        let points = isotherms[0].1.as_flattened();
+        assert_eq!(points.len(), 9, "{names}: {isotherms:?}");
+        for (read, written) in points.iter().zip(POINTS.as_flattened()) {
+            assert_close(&names, *read, *written, 1e-12);
+        }
+    }
+}
+
+#[test]
 fn seven_layouts_of_instruments_have_the_same_points() {
     for [file, encoding, modulus, count] in table("exports") {
         let path = Path::new(EXPORTS).join(&file);

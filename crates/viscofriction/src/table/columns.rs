@@ -54,8 +54,19 @@ impl Vocabulary {
             .replace(['′', '’', '´', '`', '\u{92}'], "'")
             .replace(['″', '”', '"', '\u{94}'], "''")
             .replace([' ', '_', '-', '.'], "");
+        let beside = |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
+            let rest = name.strip_suffix(')').unwrap_or(&name).strip_suffix(symbol);
+            let rest = rest.or_else(|| name.strip_prefix(symbol))?;
+            let (found, _) = self.find(rest.trim_matches(['(', ')', ',']))?;
+            (found == quantity).then_some((quantity, deformation))
+        };
+        self.find(&name).or_else(|| SYMBOLS.iter().find_map(beside))
+    }
+
+    fn find(&self, name: &str) -> Option<(Quantity, Option<Deformation>)> {
+        let folded = folded(name);
         let is_same = |word: &str| {
-            word == name || (name.chars().count() > 1 && word.to_lowercase() == name.to_lowercase())
+            word == name || (name.chars().count() > 1 && word.to_lowercase() == folded)
         };
         let mut known = self.known.iter();
         let found = known.find(|(.., words)| words.split(' ').any(is_same));
@@ -63,10 +74,36 @@ impl Vocabulary {
     }
 }
 
+/// Symbols that may stand beside a name, as in `Speichermodul E'` or `Loss modulus (G'')`.
+const SYMBOLS: [(&str, Quantity, Option<Deformation>); 11] = [
+    ("E''", Loss, Some(Deformation::Tension)),
+    ("G''", Loss, Some(Deformation::Shear)),
+    ("E'", Storage, Some(Deformation::Tension)),
+    ("G'", Storage, Some(Deformation::Shear)),
+    ("tandelta", LossFactor, None),
+    ("tanδ", LossFactor, None),
+    ("tan(δ)", LossFactor, None),
+    ("f", Frequency, None),
+    ("ω", Frequency, None),
+    ("t", Time, None),
+    ("T", Temperature, None),
+];
+
+/// In small letters without accents.
+fn folded(name: &str) -> String {
+    let accents = ["áàâ a", "éèê e", "íìî i", "óòô o", "úùû u"];
+    let plain = |letter: char| {
+        let same = accents.iter().find(|letters| letters.contains(letter));
+        same.and_then(|letters| letters.chars().last())
+            .unwrap_or(letter)
+    };
+    name.to_lowercase().chars().map(plain).collect()
+}
+
 /// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]` or `E' / MPa` may be divided; without a unit that is empty.
 pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
-    let bracket = cell.strip_suffix([')', ']']);
-    let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[']));
+    let bracket = cell.strip_suffix([')', ']', '）']);
+    let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[', '（']));
     let parts = [Some((cell, "")), bracket, cell.split_once('/')];
     parts.into_iter().flatten()
 }
@@ -132,13 +169,14 @@ impl Quantity {
 }
 
 /// Other ways to write them.
-const SAME_UNITS: [(&str, &str); 8] = [
+const SAME_UNITS: [(&str, &str); 9] = [
     ("N/mm²", "MPa"),
     ("N/mm^2", "MPa"),
     ("rad/sec", "rad/s"),
     ("s-1", "1/s"),
     ("sec", "s"),
     ("ºC", "°C"),
+    ("℃", "°C"),
     ("deg C", "°C"),
     ("Å", "A"),
 ];

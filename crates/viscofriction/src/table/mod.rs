@@ -4,6 +4,7 @@
 mod columns;
 mod layout;
 
+use std::cmp::Reverse;
 use std::fmt::Display;
 use std::path::Path;
 
@@ -167,8 +168,15 @@ impl<'a> Source<'a> {
 
     fn without_head(&self) -> WrongInput {
         let needed = format!("a line of names is needed: {}", self.vocabulary.names);
-        let several = self.lines.iter().find(|line| line.cells.len() > 1);
-        let Some(line) = several.or(self.lines.first()) else {
+        let is_number = |cell: &&&str| self.layout.number(cell).is_some();
+        let is_row = |line: &Line| line.cells.iter().filter(is_number).count() > 1;
+        let above = self.lines.iter().take_while(|line| !is_row(line));
+        // The one with the most known names, of several the one with the most cells, and of those the first.
+        let rank = |line: &&Line| {
+            let filled = line.cells.iter().filter(|cell| !cell.is_empty());
+            Reverse([self.columns(line).len(), filled.count()])
+        };
+        let Some(line) = above.min_by_key(rank).or(self.lines.first()) else {
             return self.wrong_line(1, &needed);
         };
         self.wrong_line(line.number, &format!("{needed}; {}", self.found(line)))
