@@ -11,7 +11,7 @@ use rheology::RelaxationSpectrum;
 
 use super::Measured;
 use super::memory::{Late, Memory, Ring, Step};
-use super::path::{ROUNDING, mean_exponential};
+use super::path::{ROUNDING, decayed, mean_exponential};
 use super::radius::{ORDER, Radii};
 
 /// The element at the edge, and what became of the branches since it was touched.
@@ -151,7 +151,7 @@ impl Approach {
             terms: terms + radius * scale,
             load_error: self.load_error,
             radius: self.radius(),
-            edge: slope.abs() / self.edge.modulus * scale,
+            edge: change_of_edge(slope, self.edge.modulus, scale),
         }
     }
 
@@ -363,7 +363,7 @@ impl Approach {
         for (k, then) in touched.iter().enumerate() {
             let (rate, glass) = (self.rates[k], self.moduli[k]);
             let mean = mean_exponential(-rate * step);
-            let then = (1.0 - rate * step * mean) * then + rise * mean;
+            let then = decayed(rate * step, mean) * then + rise * mean;
             let decay = (-rate * edge.lag).exp();
             let strain = self.now.depth[k] - decay * then;
             (edge.decays[k], edge.strains[k]) = (decay, strain);
@@ -479,6 +479,15 @@ impl Approach {
         self.partial.set(&self.rates, ring.step, n_moments, 0.0);
         self.partial
             .grow(&mut self.then, &ring, &terms[..ring.n_terms]);
+    }
+}
+
+/// How far loads that cancel may move the edge; where every branch has forgotten when an element was touched, the edge stays.
+pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
+    if modulus > f64::MIN_POSITIVE {
+        slope.abs() / modulus * scale
+    } else {
+        0.0
     }
 }
 

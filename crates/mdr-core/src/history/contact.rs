@@ -16,6 +16,7 @@ use indenters::Axisymmetric;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::Measured;
+use super::approach::change_of_edge;
 use super::element::{Elements, Leg, Motion, State};
 use super::path::{Instant, Path, ROUNDING};
 use super::radius::Radii;
@@ -52,6 +53,8 @@ pub(super) struct Contact<'a> {
 const NODES: usize = 8;
 /// Gaps and loads of the wrong sign, relative to the depth and to the terms of a load, that rounding may leave.
 pub(super) const WRONG_SIGN: f64 = 1e-10;
+/// Part of a radius that rounding may leave.
+const LEFT: f64 = 1e-10;
 
 impl<'a> Contact<'a> {
     /// A body at the first point of a path, which will not be deeper than its radii are known.
@@ -97,7 +100,8 @@ impl<'a> Contact<'a> {
         let at_edge = self.rings.last().zip(self.edge_modulus);
         let edge = at_edge.map(|(ring, modulus)| {
             let depths = [ring.from, ring.to].map(|at| self.path.depth(at).max(0.0));
-            self.radii.at(depths)[1].abs() / modulus * self.path.scale(self.path.end())
+            let slope = self.radii.at(depths)[1];
+            change_of_edge(slope, modulus, self.path.scale(self.path.end()))
         });
         Measured {
             point: self.path.last(),
@@ -150,15 +154,16 @@ impl<'a> Contact<'a> {
             Some(_) => 1.0,
             None => self.path.tendency(&self.edge, at),
         };
-        if tendency > 0.0 && self.radius() < self.widest[0] {
+        // At a flat end all elements were touched at once, and rounding leaves none of them.
+        if tendency > 0.0 && self.radius() < (1.0 - LEFT) * self.widest[0] {
             return self.grow_again([at, end], turned.is_some());
         }
-        if tendency > 0.0 {
+        if tendency > 0.0 && self.path.depth(end) > self.widest[1] {
             return Ok(self.grow(at, end));
         }
         let stays =
             |edge: Edge| self.path.load(&edge.stresses, end) >= -ROUNDING * self.path.scale(end);
-        if tendency == 0.0 && self.outermost(end).is_some_and(stays) {
+        if tendency >= 0.0 && self.outermost(end).is_some_and(stays) {
             self.hold(end);
             return Ok(end);
         }
@@ -169,9 +174,10 @@ impl<'a> Contact<'a> {
     fn grow(&mut self, at: Instant, end: Instant) -> Instant {
         let deepest = self.widest[1];
         let path = &self.path;
-        if path.depth(end) <= deepest {
-            self.hold(end);
-            return end;
+        let passes = path.passes(at.segment, deepest);
+        if path.depth(at) < deepest && passes.part > at.part {
+            self.hold(passes);
+            return passes;
         }
         let mut depths = [path.depth(at).max(deepest), path.depth(end)];
         let mut to = end;
@@ -263,7 +269,8 @@ impl<'a> Contact<'a> {
         for node in &self.rule.nodes[1..NODES - 1] {
             let between = |[from, to]: [f64; 2]| from + 0.5 * (to - from) * (1.0 + node);
             let touched = self.gap(between([inner, edge]), at) <= allowed;
-            let free = self.gap(between([edge, widest]), at) >= -allowed;
+            let none = edge >= (1.0 - LEFT) * widest;
+            let free = none || self.gap(between([edge, widest]), at) >= -allowed;
             if !(touched && free) {
                 let time = self.path.time(at);
                 return Err(MdrError::NotADisc { time });

@@ -68,7 +68,8 @@ impl Elements<'_> {
     /// The element at a radius after the legs of a contact.
     pub(super) fn follow(&self, radius: f64, legs: &[Leg]) -> State {
         let inside = |leg: &&Leg| leg.inner < radius && radius <= leg.outer;
-        let height = self.body.line_height(radius);
+        // Beyond the end of a body is only what rounding of its radius puts there.
+        let height = self.body.line_height(radius.min(self.body.max_radius()));
         let mut state = State::Untouched;
         for leg in legs.iter().filter(inside) {
             state = match (leg.motion, state) {

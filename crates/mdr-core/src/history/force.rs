@@ -1,23 +1,26 @@
 //! The depth that a force needs, along a path of the force.
 //!
 //! ```text
-//! 8/(2 (1 − ν)) ∫₀^a x h̃' dx = ∫ J(t − s) dF        as long as the force does not fall (Lee & Radok 1960)
+//! 8/(2 (1 − ν)) ∫₀^a x h̃' dx = ∫ J(t − s) dF        as long as the contact does not shrink (Lee & Radok 1960)
 //! ```
 //! After that the depth is taken as straight over parts of each segment, at whose ends the force is as given; the parts are
 //! halved until that does not matter, and extrapolated in their length.
 
-use indenters::Axisymmetric;
-use numerics::{Estimate, NotReached, try_bracketed_root};
-use rheology::Material;
+use indenters::{Axisymmetric, IndenterError};
+use numerics::{Estimate, NotReached, finite, positive, try_bracketed_root};
+use rheology::{CreepSpectrum, Material};
 
 use super::contact::Contact;
-use super::path::{Path, mean_exponential};
+use super::path::{Path, decayed, mean_exponential};
 use super::radius::Radii;
 use super::{CurvePoint, Follow};
 use crate::MdrError;
 
 /// Parts of all segments together after which the refinement is given up.
 const MOST_PARTS: usize = 1 << 14;
+
+/// Of depths and radii that follow from a root, relative to them.
+const ROUNDING: f64 = 1e-13;
 
 /// A body under a force.
 pub(super) struct Pressed<'a> {
@@ -33,32 +36,43 @@ impl Pressed<'_> {
     pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, MdrError> {
         let factor = 8.0 / self.material.half_space_factor();
         let duration = self.points[self.points.len() - 1][0] - self.points[0][0];
-        let forces = self.points.iter().map(|[_, force]| *force);
-        let largest = forces.fold(0.0, f64::max);
-        let area = largest * self.material.creep_compliance(duration)? / factor;
-        let radii = reaching(self.body, area)?;
+        let radii = self.reaching(self.material.creep_compliance(duration)? / factor)?;
         let grown = self.grown(&self.points, &radii, factor);
         if grown.len() == self.points.len() {
             return Ok(grown);
         }
-        let mut parts = 2;
-        let mut fine = self.march(&radii, parts)?;
-        let mut better = extrapolated(&self.march(&radii, 1)?, &fine);
+        let mut parts = 1;
+        let mut change_before = f64::INFINITY;
+        let mut table = vec![self.march(&radii, parts)?];
         loop {
             parts *= 2;
-            let coarse = std::mem::replace(&mut fine, self.march(&radii, parts)?);
-            let before = std::mem::replace(&mut better, extrapolated(&coarse, &fine));
-            let change = changes(&before, &better, |point| point.indentation_depth.value);
-            let radius_change = changes(&before, &better, |point| point.contact_radius.value);
+            let coarse = std::mem::replace(&mut table, vec![self.march(&radii, parts)?]);
+            for (coarse, order) in coarse.iter().zip(self.orders()) {
+                let fine = extrapolated(coarse, &table[table.len() - 1], *order);
+                table.push(fine);
+            }
+            if coarse.len() < table.len() {
+                continue;
+            }
+            let [before, better] = [&coarse, &table].map(|rows| &rows[rows.len() - 1]);
+            let depth_change = changes(before, better, |point| point.indentation_depth.value);
+            // Two changes, because one may be small by chance; both are at least of second order.
+            let change =
+                depth_change.max(0.25 * std::mem::replace(&mut change_before, depth_change));
+            let radius_change = changes(before, better, |point| point.contact_radius.value);
             let depths = better.iter().map(|point| point.indentation_depth.value);
             let deepest = depths.fold(0.0, f64::max);
             if change <= self.options.relative_error * deepest {
+                let change = change + ROUNDING * deepest;
+                let mut better = better.clone();
                 for point in &mut better {
-                    let depth = &mut point.indentation_depth;
-                    let error = change + 2.0 * self.options.modulus_error * depth.value.abs();
-                    *depth = Estimate::new(depth.value, error);
-                    let radius = &mut point.contact_radius;
-                    *radius = Estimate::new(radius.value, radius_change);
+                    let depth = point.indentation_depth.value;
+                    let error = change + 2.0 * self.options.modulus_error * depth.abs();
+                    point.indentation_depth = Estimate::new(depth, error);
+                    let radius = point.contact_radius.value.max(0.0);
+                    let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * change;
+                    let error = radius_change + of_depth + ROUNDING * radius;
+                    point.contact_radius = Estimate::new(radius, error);
                 }
                 better[..grown.len()].copy_from_slice(&grown);
                 return Ok(better);
@@ -75,35 +89,88 @@ impl Pressed<'_> {
         }
     }
 
-    /// The points before the force falls for the first time.
+    /// Orders of the errors in the length of the parts: a lone dashpot has the speed of the whole part at its end.
+    fn orders(&self) -> &'static [i32] {
+        let has_dashpot = self.material.relaxation().viscosity() > 0.0;
+        if has_dashpot { &[1, 2] } else { &[2] }
+    }
+
+    /// The radii up to a depth at which ∫ a dd is well above that of the largest force, by its compliance over the factor of
+    /// the force; up to the end of the body where that comes before.
+    fn reaching(&self, compliance: f64) -> Result<Radii, MdrError> {
+        let forces = self.points.iter().map(|[_, force]| *force);
+        let normal_force = forces.fold(0.0, f64::max);
+        let area = normal_force * compliance;
+        // A length of the problem, in any unit.
+        let mut deepest = positive("area", finite("area", area)?)?.sqrt();
+        let mut radii = known_up_to(self.body, &mut deepest)?;
+        while radii.area() > 16.0 * area {
+            deepest *= 0.25;
+            radii = known_up_to(self.body, &mut deepest)?;
+        }
+        while radii.area() < 2.0 * area {
+            let wanted = 2.0 * deepest;
+            deepest = wanted;
+            radii = known_up_to(self.body, &mut deepest)?;
+            if deepest < wanted && radii.area() < area {
+                return Err(MdrError::ForceBeyondEdge {
+                    position: radii.at([deepest; 2])[0],
+                    available: deepest,
+                    carried_force: normal_force * (radii.area() / area),
+                    normal_force,
+                });
+            }
+            if deepest < wanted {
+                break;
+            }
+        }
+        Ok(radii)
+    }
+
+    /// The points before the contact shrinks for the first time, as it does not wherever ∫ J dF grows.
     fn grown(&self, points: &[[f64; 2]], radii: &Radii, factor: f64) -> Vec<CurvePoint> {
         let creep = self.material.creep();
         let mut delayed = vec![0.0; creep.elements().len()];
         let mut flown = 0.0;
         let mut before = [points[0][0], 0.0];
         let mut curve = Vec::new();
+        let mut has_fallen = false;
         for point in points {
             let ([time, force], step, rise) = (*point, point[0] - before[0], point[1] - before[1]);
-            if rise < 0.0 {
+            has_fallen |= rise < 0.0;
+            if has_fallen && shrinks(&creep, &delayed, before[1], [step, rise]) {
                 break;
             }
             for (value, element) in delayed.iter_mut().zip(creep.elements()) {
                 let x = step / element.retardation_time;
                 let mean = mean_exponential(-x);
                 let held = before[1] * x * mean + rise * (1.0 - mean);
-                *value = (1.0 - x * mean) * *value + element.compliance * held;
+                *value = decayed(x, mean) * *value + element.compliance * held;
             }
             flown += creep.fluidity() * step * (before[1] + 0.5 * rise);
             let recoverable =
                 creep.instantaneous_compliance() * force + delayed.iter().sum::<f64>();
             let depth = radii.depth_of_area((recoverable + flown) / factor);
-            let relative = 1e-13 + 2.0 * self.options.modulus_error;
-            let bar = |value: f64| Estimate::new(value, relative * value);
+            // Only a flat end has a contact before it is deeper than the surface.
+            let is_flat = self.body.profile_exponent() == f64::INFINITY;
+            let touches = depth > 0.0 || (is_flat && force > 0.0);
+            let radius = if touches {
+                radii.at([depth; 2])[0]
+            } else {
+                0.0
+            };
+            let unknown = if depth > 0.0 {
+                radii.area_error / radius
+            } else {
+                0.0
+            };
+            let relative = ROUNDING + 2.0 * self.options.modulus_error;
+            let bar = |value: f64, error: f64| Estimate::new(value, relative * value + error);
             curve.push(CurvePoint {
                 time,
-                indentation_depth: bar(depth),
+                indentation_depth: bar(depth, unknown),
                 normal_force: Estimate::exact(force),
-                contact_radius: bar(radii.at([depth; 2])[0]),
+                contact_radius: bar(radius, radii.at([depth; 2])[1].abs() * unknown),
             });
             before = *point;
         }
@@ -121,12 +188,19 @@ impl Pressed<'_> {
                 // Shorter parts at both ends, where the depth goes with a root of the time.
                 let share = part as f64 / n as f64;
                 let share = share * share * (3.0 - 2.0 * share);
-                points.push(([0, 1].map(|k| before[k] + share * step[k]), part == n));
+                let between = [0, 1].map(|k| before[k] + share * step[k]);
+                // What was given comes back as it is.
+                points.push(if part == n {
+                    (*point, true)
+                } else {
+                    (between, false)
+                });
             }
             before = *point;
         }
         let forces: Vec<[f64; 2]> = points.iter().map(|(point, _)| *point).collect();
         let factor = 8.0 / self.material.half_space_factor();
+        let largest = forces.iter().map(|[_, force]| *force).fold(0.0, f64::max);
         let grown = self.grown(&forces, radii, factor);
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
@@ -136,7 +210,8 @@ impl Pressed<'_> {
             if let Some(point) = grown.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
             } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
-                press(&mut contact, time, force / factor, radii.deepest())?;
+                let needed = [force, largest].map(|force| force / factor);
+                press(&mut contact, time, needed, radii.deepest())?;
             }
             if is_asked {
                 curve.push(CurvePoint {
@@ -152,46 +227,70 @@ impl Pressed<'_> {
 }
 
 /// Goes on to the depth at which the sum of the loads is as needed; without load the body touches.
-fn press(contact: &mut Contact<'_>, time: f64, needed: f64, deepest: f64) -> Result<(), MdrError> {
+fn press(
+    contact: &mut Contact<'_>,
+    time: f64,
+    [needed, largest]: [f64; 2],
+    deepest: f64,
+) -> Result<(), MdrError> {
     let excess = |depth: f64| {
         let mut trial = contact.clone();
         trial.follow(time, depth)?;
         let (excess, has_contact) = (trial.load()[0] - needed, trial.radius() > 0.0);
-        Ok::<f64, MdrError>(if has_contact { excess } else { -deepest })
+        Ok::<f64, MdrError>(if has_contact { excess } else { -largest })
     };
     let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)
 }
 
-/// The radii up to a depth at which ∫ a dd is well above an area.
-fn reaching(body: &dyn Axisymmetric, area: f64) -> Result<Radii, MdrError> {
-    // From 1 m, which stands for "anywhere", in steps that a body of finite height survives; of a body that ends at a
-    // vertical edge, as the sphere, from well inside it.
-    let end = body.max_radius();
-    let whole = body.line_height(end);
-    let start = if end.is_finite() && whole == f64::INFINITY {
-        body.line_height(0.5 * end)
-    } else {
-        whole.min(1.0)
+/// Whether ∫ J dF falls anywhere while a force rises by `rise` within a step.
+///
+/// ```text
+/// d/dt ∫ J dF = J₀ Ḟ + φ F + Σ g_k      g_k = J_k Ḟ + (g_k(0) − J_k Ḟ) e^(−t/λ_k)      g_k(0) = (J_k F − D_k)/λ_k
+/// ```
+fn shrinks(creep: &CreepSpectrum, delayed: &[f64], force: f64, [step, rise]: [f64; 2]) -> bool {
+    let at_once = creep.instantaneous_compliance();
+    if step <= 0.0 {
+        return at_once * rise < 0.0;
+    }
+    let rate = |part: f64| {
+        let mut rate = at_once * (rise / step) + creep.fluidity() * (force + part * rise);
+        for (delayed, element) in delayed.iter().zip(creep.elements()) {
+            let ramp = element.compliance * (rise / step);
+            let start = (element.compliance * force - delayed) / element.retardation_time;
+            rate += ramp + (start - ramp) * (-part * step / element.retardation_time).exp();
+        }
+        rate
     };
-    // A line that is flat up to its end says nothing.
-    let mut deepest = if start > 0.0 { 0.5 * start } else { 1.0 };
-    let mut radii = Radii::new(body, deepest)?;
-    while radii.area() > 16.0 * area {
-        deepest *= 0.25;
-        radii = Radii::new(body, deepest)?;
-    }
-    while radii.area() < 2.0 * area {
-        deepest *= 2.0;
-        radii = Radii::new(body, deepest)?;
-    }
-    Ok(radii)
+    // Evenly, and ever closer to the beginning, where the fast elements decide.
+    let evenly = (0..=PLACES).map(|place| f64::from(place) / f64::from(PLACES));
+    let closer = (1..=2 * PLACES).map(|halvings| 0.5_f64.powi(halvings));
+    evenly.chain(closer).any(|part| rate(part) < 0.0)
 }
 
-/// From the errors of second order of both, the finer one with twice as many parts.
-fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint]) -> Vec<CurvePoint> {
+/// Places in a segment at which it is looked whether a contact shrinks.
+const PLACES: i32 = 24;
+
+/// The radii up to a depth, or as far as the line of the body rises; then this is the depth.
+fn known_up_to(body: &dyn Axisymmetric, deepest: &mut f64) -> Result<Radii, MdrError> {
+    let available = match Radii::new(body, *deepest) {
+        Err(MdrError::Indenter(IndenterError::NotHighEnough { available, .. })) => available,
+        Err(MdrError::Indenter(IndenterError::NonMonotoneLine { limiting_depth, .. })) => {
+            limiting_depth
+        }
+        // Well inside the edge.
+        Err(MdrError::DepthBeyondEdge { available, .. }) => 0.999 * available,
+        other => return other,
+    };
+    *deepest = available;
+    Radii::new(body, available)
+}
+
+/// From the errors of both, which are of an order in the length of their parts; the finer one has twice as many.
+fn extrapolated(coarse: &[CurvePoint], fine: &[CurvePoint], order: i32) -> Vec<CurvePoint> {
+    let gain = 2.0_f64.powi(order) - 1.0;
     let better = |coarse: Estimate, fine: Estimate| {
-        Estimate::exact(fine.value + (fine.value - coarse.value) / 3.0)
+        Estimate::exact(fine.value + (fine.value - coarse.value) / gain)
     };
     let point = |(coarse, fine): (&CurvePoint, &CurvePoint)| CurvePoint {
         indentation_depth: better(coarse.indentation_depth, fine.indentation_depth),

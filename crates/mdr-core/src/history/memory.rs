@@ -1,6 +1,6 @@
 //! What the branches remember of a contact that grows over new elements.
 
-use super::path::{RECIPROCALS, moments};
+use super::path::{RECIPROCALS, decayed, moments};
 use super::radius::ORDER;
 
 /// A sweep over new elements, the radius a polynomial of θ ∈ [0, 1].
@@ -91,7 +91,7 @@ impl Step {
                     moments[k] = moment;
                 }
             }
-            *decay = 1.0 - *decay * self.moments[k];
+            *decay = decayed(*decay, self.moments[k]);
         }
     }
 

@@ -52,7 +52,7 @@ pub struct Follow {
     /// Relative error of the modulus of a material that stands for another one, as a Prony series for a springpot
     /// ([`PronyExpansion::relative_error`](rheology::PronyExpansion::relative_error)), which is part of all error bars.
     pub modulus_error: f64,
-    /// Error of the depth under a force that falls, relative to the largest depth; everything else is exact.
+    /// Error of the depth from where a contact under a force shrinks, relative to the largest depth; everything else is exact.
     pub relative_error: f64,
 }
 
@@ -71,13 +71,14 @@ impl Default for Follow {
 ///
 /// The surface is at rest before the first point, to which a body jumps that is below the surface there, or pressed. At a
 /// depth everything is exact up to rounding; between two points the edge of the contact may turn once. So is the depth
-/// under a force as long as the force does not fall; without force the body touches.
+/// under a force as long as the contact does not shrink; without force the body touches.
 ///
 /// # Errors
 /// [`MdrError::InvalidParameter`] for times that decrease, forces below 0, force and depth in one history, and a jump of the
 /// depth on a material with a lone dashpot; [`MdrError::Empty`] without points; [`MdrError::Indenter`] when the line of the
 /// body turns down or ends before the largest depth; [`MdrError::DepthBeyondEdge`] when the contact would reach a vertical
-/// edge, as the equator of a sphere; [`MdrError::NotADisc`] when a part of the contact would open inside
+/// edge, as the equator of a sphere, and [`MdrError::ForceBeyondEdge`] when it would under a force, or the line turns down or
+/// ends; [`MdrError::NotADisc`] when a part of the contact would open inside
 /// it, or close outside; [`MdrError::NotReached`] for a depth known less well than asked for; [`MdrError::NonFinite`].
 pub fn indent_along(
     body: &(impl Axisymmetric + ?Sized),

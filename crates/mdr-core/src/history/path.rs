@@ -77,7 +77,7 @@ impl Path {
         let start = self.memory.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
             let mean = mean_exponential(-rate * step);
-            let kept = (1.0 - rate * step * mean) * self.memory[start + k];
+            let kept = decayed(rate * step, mean) * self.memory[start + k];
             self.memory.push(kept + rise * mean);
         }
     }
@@ -152,7 +152,7 @@ impl Path {
         let rise = at.part * self.rise(at.segment);
         let later = self.rates.iter().zip(here).map(|(rate, before)| {
             let mean = mean_exponential(-rate * step);
-            (1.0 - rate * step * mean) * before + rise * mean
+            decayed(rate * step, mean) * before + rise * mean
         });
         Cow::Owned(later.collect())
     }
@@ -234,6 +234,12 @@ pub(super) fn mean_exponential(x: f64) -> f64 {
     } else {
         series::<N_TERMS>(x)
     }
+}
+
+/// e^(−x) at x ≥ 0, where its mean up to x is known; to its own rounding, because it may be what is left of a large force.
+#[inline]
+pub(super) fn decayed(x: f64, mean: f64) -> f64 {
+    if x > 1.0 { (-x).exp() } else { 1.0 - x * mean }
 }
 
 /// So many terms; even and odd ones are summed side by side, which does not wait for one chain.

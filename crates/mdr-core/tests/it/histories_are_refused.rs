@@ -49,11 +49,15 @@ fn a_body_is_not_pressed_where_its_line_turns_down_or_beyond_its_equator() {
     let result = follow(&hump, "solid", &rising(1.0, IndentationDepth));
     assert_matches!(result, Err(MdrError::Indenter(_)));
     let sphere = Sphere::new(5e-6).expect("a sphere");
-    for history in [rising(1e-2, IndentationDepth), rising(10.0, NormalForce)] {
-        let result = follow(&sphere, "solid", &history);
-        assert_matches!(
-            result,
-            Err(MdrError::DepthBeyondEdge { position: 5e-6, .. })
-        );
-    }
+    let result = follow(&sphere, "solid", &rising(1e-2, IndentationDepth));
+    assert_matches!(
+        result,
+        Err(MdrError::DepthBeyondEdge { position: 5e-6, .. })
+    );
+    // No depth is named that was not asked for.
+    let result = follow(&sphere, "solid", &rising(10.0, NormalForce));
+    assert_matches!(
+        result,
+        Err(MdrError::ForceBeyondEdge { normal_force: 10.0, available, .. }) if available < 1e-4
+    );
 }

@@ -7,6 +7,7 @@ mod edges_and_bars;
 mod force_derivatives_are_exact;
 mod friction_converges_to_the_theorem;
 mod histories_are_refused;
+mod histories_keep_their_answer;
 mod histories_match_quadrature;
 mod leading_edges_carry_the_load;
 mod march_ends_in_the_stationary_state;

@@ -88,7 +88,11 @@ impl Secular<'_> {
     /// that leaves the bracket or stops halving its steps.
     fn root_beside(&self, near: usize, side: f64, [mut low, mut high]: [f64; 2]) -> Place {
         const TOLERANCE: f64 = 4.0 * f64::EPSILON;
-        let middle = |low: f64, high: f64| low.sqrt() * high.sqrt();
+        // Exact under other units, unlike the product of two roots.
+        let middle = |low: f64, high: f64| match high / low {
+            ratio if ratio.is_finite() => low * ratio.sqrt(),
+            _ => low.sqrt() * high.sqrt(),
+        };
         let place = |distance: f64| Place {
             near,
             offset: side * distance,

@@ -2,13 +2,15 @@
 
 use super::Contact;
 use crate::history::element::{Leg, Motion};
-use crate::history::path::{Instant, Lag, moments};
+use crate::history::path::{Instant, Lag, decayed, moments};
 use crate::history::radius::ORDER;
 
 /// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided, and how often it
 /// may be.
 const PANEL: f64 = 1e-14;
 const MAX_DIVISIONS: u32 = 12;
+/// Error of a divided panel over its last change: where the stress jumps inside a panel, as much again is left, in each half.
+const LEFT_OF_CHANGE: f64 = 4.0;
 
 impl Contact<'_> {
     /// Φ_k.
@@ -49,7 +51,7 @@ impl Contact<'_> {
             moments(rate * step, row);
             let terms = radius.terms().iter().zip(&*row);
             let mean: f64 = terms.map(|(a, moment)| a * moment).sum();
-            *sum = (1.0 - rate * step * row[0]) * *sum + modulus * (depths[1] - depths[0]) * mean;
+            *sum = decayed(rate * step, row[0]) * *sum + modulus * (depths[1] - depths[0]) * mean;
         }
     }
 
@@ -74,7 +76,7 @@ impl Contact<'_> {
             let fine = pairs.map(|(one, other)| one + other);
             let change: f64 = fine.clone().zip(&whole).map(|(a, b)| (a - b).abs()).sum();
             if change <= tolerance || divisions == MAX_DIVISIONS {
-                self.quadrature_error += change;
+                self.quadrature_error += LEFT_OF_CHANGE * change;
                 let pairs = sums.iter_mut().zip(fine);
                 pairs.for_each(|(sum, part)| *sum += part);
             } else {
