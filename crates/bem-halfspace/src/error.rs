@@ -1,7 +1,7 @@
 //! Wrong input, and what was reached when a solution was not.
 
 use indenters::IndenterError;
-use numerics::InvalidParameter;
+use numerics::{InWords, InvalidParameter};
 use rheology::RheologyError;
 use thiserror::Error;
 
@@ -84,8 +84,9 @@ pub enum BemError {
     },
     /// The contact conditions were not satisfied to the tolerance within the iterations allowed.
     #[error(
-        "the contact was not solved: after {iterations} iterations the residual is {residual:e}, \
-         the tolerance {tolerance:e}"
+        "the contact was not solved: after {iterations} iterations the residual is {:e}, \
+         the tolerance {tolerance:e}",
+        InWords(*residual)
     )]
     ContactNotConverged {
         /// Iterations made.
@@ -125,7 +126,9 @@ pub enum BemError {
     },
     /// A quantity was not reached to the error asked for.
     #[error(
-        "the {quantity} was not reached to the relative error {relative_error:e}: it is {value} with an error of {error:e}"
+        "the {quantity} was not reached to the relative error {relative_error:e}: it is {} with an error of {:e}",
+        InWords(*value),
+        InWords(*error)
     )]
     NotReached {
         /// Name of the quantity, and its unit.
