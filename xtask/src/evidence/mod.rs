@@ -2,6 +2,7 @@
 //!
 //! Every experiment turns cases into tables, pictures and a summary.
 
+mod agreement;
 mod calibration;
 mod fit;
 mod report;
@@ -46,6 +47,8 @@ enum Experiment {
     WorkPrecision,
     /// Judge every method on stiff and extreme cases; fails when one is wrong.
     Stability(stability::Options),
+    /// Search random scenes for answers that contradict each other; goes on where it was interrupted.
+    Agreement(agreement::Options),
     /// Compare the error bars of every method with its deviations on random scenes.
     Calibration(calibration::Options),
     /// Compute friction over twelve decades of speed on the three-element solid, and where the viscous law holds.
@@ -82,6 +85,7 @@ impl Experiment {
             Self::Stationary(stationary::Options::default()),
             Self::WorkPrecision,
             Self::Stability(stability::Options::default()),
+            Self::Agreement(agreement::Options::default()),
             Self::Calibration(calibration::Options::default()),
             Self::SpeedRange,
             Self::Rough,
@@ -92,6 +96,7 @@ impl Experiment {
         match self {
             Self::WorkPrecision => work_precision::report(quick),
             Self::Stability(options) => stability::report(options, quick),
+            Self::Agreement(options) => agreement::report(options, out, quick),
             Self::Calibration(options) => calibration::report(options, quick),
             Self::SpeedRange => speed_range::report(quick),
             Self::Stationary(options) => stationary::report(options, quick),

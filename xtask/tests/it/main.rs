@@ -1,5 +1,6 @@
 //! What a maintainer types, and what comes back; one binary, one module per claim.
 
+mod agreement;
 mod calibration;
 mod commands;
 mod rough;

@@ -4,14 +4,21 @@ use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use strum::IntoStaticStr;
+use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 
 use super::height_map::HeightMapTable;
 
 /// The rigid body; its lowest point is the origin, lengths in metres.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[derive(
+    Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr, EnumDiscriminants,
+)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[strum(serialize_all = "kebab-case")]
+#[strum_discriminants(
+    name(IndenterKind),
+    derive(EnumIter),
+    doc = "The kinds of bodies, for whoever goes through all of them."
+)]
 pub enum Indenter {
     /// h = coefficient r^exponent.
     Power {

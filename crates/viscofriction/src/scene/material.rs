@@ -4,16 +4,23 @@ use std::path::PathBuf;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use strum::IntoStaticStr;
+use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::Table;
 
 use super::SceneError;
 use super::source::checked;
 
 /// The half space; every kind may have a Poisson ratio.
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr)]
+#[derive(
+    Debug, Clone, PartialEq, Deserialize, Serialize, JsonSchema, IntoStaticStr, EnumDiscriminants,
+)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[strum(serialize_all = "kebab-case")]
+#[strum_discriminants(
+    name(MaterialKind),
+    derive(EnumIter),
+    doc = "The kinds of materials, for whoever goes through all of them."
+)]
 pub enum MaterialTable {
     /// A dashpot.
     Viscous {

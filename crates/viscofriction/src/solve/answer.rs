@@ -244,6 +244,10 @@ impl Answer {
             }
             *friction = Estimate::new(0.0, error);
         }
+        // Of an area or a pressure whose extrapolation is not even positive nothing is known.
+        for quantity in [&mut self.contact_area, &mut self.peak_pressure] {
+            *quantity = quantity.filter(|known| known.value > 0.0 || known.error < -known.value);
+        }
         let is_elastic = problem.simple() == Some(&Simple::Elastic);
         let is_lost = |name: &str, known: Estimate| {
             let is_exact = is_elastic && (name.contains("friction") || name == "tangential_force");
