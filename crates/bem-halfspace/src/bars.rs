@@ -13,9 +13,6 @@ const SLOWEST: f64 = 0.1;
 /// Error of the ends of a contact in elements. Its outline follows the elements, and in the outermost of them the pressure
 /// decides whether all of it or nothing counts; `the_bars_of_an_elastic_contact_hold` has the ends of known contacts.
 const ELEMENTS_AT_END: f64 = 1.5;
-/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
-/// lesser of two bars holds less often than either.
-const BETTER: f64 = 0.2;
 
 /// A contact with the error bar of every quantity; an error of 0 says that the quantity is given.
 ///
@@ -95,6 +92,8 @@ pub(crate) struct Resolution<'w> {
     pub(crate) target: Target,
     /// Whether the largest pressure is known to have a limit.
     pub(crate) has_peak: bool,
+    /// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken.
+    pub(crate) better: f64,
 }
 
 /// The order 2p − 1 of the friction under an apex h ∼ r^p, or that of a smooth body where it is slower.
@@ -160,7 +159,7 @@ pub(crate) fn resolve<S, O>(
     let mut error_parts = refined.parts[target];
     if let Some(dissipated) = refined.value.dissipated {
         let error = refined.error[DISSIPATED];
-        if error < BETTER * friction.error {
+        if error < resolution.better * friction.error {
             friction = Estimate::new(dissipated, error);
             error_parts = refined.parts[DISSIPATED];
         }

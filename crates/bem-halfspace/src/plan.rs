@@ -11,6 +11,8 @@ use crate::{BemError, Elastomer};
 const COARSEST: f64 = 5.0;
 /// Edge of the coarsest elements in thicknesses of a layer; twice as long ones are refused.
 const THICKNESSES: f64 = 16.0;
+/// Jumps of the slope above this part of it, squared, decide how fast errors fall; the small ones of a table do not.
+pub(crate) const SHARP: f64 = 0.01;
 /// Height that is left of a steep flank one element further in, at least, on the coarsest grids.
 const RESOLVED: f64 = 0.3;
 /// Refinements by √2 at most; the limit of unknowns ends most before.
@@ -25,6 +27,8 @@ pub(crate) struct GridPlan {
     pub(crate) coarsest_spacing: f64,
     /// p of the sharpest point h ∼ r^p in contact; 2 or more for a smooth surface.
     pub(crate) apex_exponent: f64,
+    /// Sum of the squares of the jumps of the slope in contact over the square of the slope at its end, at most 1.
+    pub(crate) kinks: f64,
 }
 
 impl GridPlan {
@@ -39,12 +43,18 @@ impl GridPlan {
             Control::IndentationDepth(depth) => depth,
         };
         let footprint = Footprint::sliding(surface, elastomer, load)?;
-        Self::risen(surface, elastomer, depth, |depth| {
+        let mut plan = Self::risen(surface, elastomer, depth, |depth| {
             match surface.as_axisymmetric() {
                 Some(body) => Self::of_body(body, footprint, depth),
                 None => Ok(Self::of_surface(surface, footprint, depth)),
             }
-        })
+        })?;
+        plan.kinks = kinks(surface, depth, &footprint)?;
+        if plan.kinks > SHARP {
+            // Each is as sharp as a cone.
+            plan.apex_exponent = plan.apex_exponent.min(1.0);
+        }
+        Ok(plan)
     }
 
     /// For a body that is pressed into an elastic material.
@@ -91,6 +101,7 @@ impl GridPlan {
             footprint,
             coarsest_spacing: contact_radius(body, depth)? / COARSEST,
             apex_exponent: body.profile_exponent(),
+            kinks: 0.0,
         };
         // Where a steep flank is as long as an element, elements stand for nothing, and their contact is hard to find.
         let [_, radius] = plan.footprint.x;
@@ -111,6 +122,7 @@ impl GridPlan {
             footprint,
             coarsest_spacing: SHORTER * (0.5 * (front - rear)) / COARSEST,
             apex_exponent: surface.apex_exponent(),
+            kinks: 0.0,
         }
     }
 
@@ -128,4 +140,23 @@ impl GridPlan {
     pub(crate) fn length(&self) -> f64 {
         COARSEST * self.coarsest_spacing
     }
+}
+
+/// How much of the slope of a body that dips to a depth is jumps, as [`GridPlan::kinks`], where contact may occur.
+pub(crate) fn kinks(
+    surface: &dyn Surface,
+    depth: f64,
+    footprint: &Footprint,
+) -> Result<f64, BemError> {
+    let Some(body) = surface.as_axisymmetric() else {
+        return Ok(0.0);
+    };
+    let inside = body.kinks().into_iter();
+    let inside = inside.filter(|kink| kink.radius < footprint.x[1]);
+    let jumps: f64 = inside.map(|kink| kink.slope_jump.powi(2)).sum();
+    if jumps == 0.0 {
+        return Ok(0.0);
+    }
+    let slope = body.profile(contact_radius(body, depth)?).slope;
+    Ok((jumps / slope.powi(2)).min(1.0))
 }

@@ -290,6 +290,7 @@ fn estimate(
         control,
         target: Target::Depth,
         has_peak: spring.has_pressure && bars::peak_has_limit(surface, &spring.unit),
+        better: 0.0,
     };
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
     let estimate = bars::resolve(&resolution, |elements, _| {

@@ -169,6 +169,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
                 Target::Friction
             },
             has_peak: peak_has_limit(self.surface, self.elastomer),
+            better: 0.0,
         };
         let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
         if self.creep.is_elastic() {

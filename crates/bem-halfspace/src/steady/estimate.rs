@@ -5,7 +5,7 @@ use numerics::{Accuracy, ErrorParts, Estimate, Goal, Request, Unwatched, Watch};
 use rheology::Material as _;
 
 use crate::bars::{self, Resolution, Target, peak_has_limit};
-use crate::plan::GridPlan;
+use crate::plan::{GridPlan, SHARP};
 use crate::steady::loading::Loading;
 use crate::steady::refinement::{Problem, refine};
 use crate::steady::sliding_creep::SlidingCreep;
@@ -18,6 +18,11 @@ const ASPECT: f64 = 0.5;
 /// Order of the error under a smooth body. The front leaves 3/2, and an outline that follows the elements less: with 1.1 the
 /// bars hold in 98.8 of 100 random scenes (docs/calibration.md), with 3/2 in 90, and with the first order they are wider.
 const ORDER: f64 = 1.1;
+/// Order at the edge of a flat end just inside the contact, under which elements see a punch.
+const ORDER_AT_EDGE: f64 = 0.5;
+/// Part of the error of the friction from slopes that the error of that from dissipation must be below, to be taken: the
+/// lesser of two bars holds less often than either.
+const BETTER: f64 = 0.2;
 /// Of a transform of the elements along x and y, of which finer grids take hardly more.
 const WORK: f64 = 2.0;
 /// Memory for an element of the footprint that is followed, most of it for the kernel and the transforms, \[bytes].
@@ -128,13 +133,17 @@ fn with_elements(
 ) -> Result<SteadyEstimate, BemError> {
     let plan = plan(surface, elastomer, load)?;
     let has_peak = peak_has_limit(surface, elastomer);
-    let order = bars::order_of_friction(plan.apex_exponent, ORDER);
-    let resolution = resolution(request, load.control(), order, has_peak);
+    let mut resolution = resolution(request, load.control(), ORDER, has_peak);
+    if plan.kinks > SHARP {
+        (resolution.goal.order, resolution.better) = (ORDER_AT_EDGE, f64::INFINITY);
+    } else {
+        resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
+    }
     let creep = SlidingCreep::new(elastomer, load.velocity())?;
     let estimate = bars::resolve(&resolution, |elements, _| {
         let options = grid(&plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)?;
-        Ok(state.on_grid(&creep, options, load.sliding_distance()))
+        Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
     })?;
     with_meaning(load, elastomer, estimate)
 }
@@ -158,6 +167,7 @@ pub(super) fn resolution(
         control,
         target: Target::Friction,
         has_peak,
+        better: BETTER,
     }
 }
 

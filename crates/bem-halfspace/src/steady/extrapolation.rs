@@ -2,6 +2,9 @@
 
 use numerics::Estimate;
 
+/// Powers of the elements that are believed where they are observed.
+const OBSERVED: [f64; 2] = [0.5, 1.5];
+
 /// Extrapolates values on grids of which each has √2 times as many elements along a length as the one before.
 ///
 /// The error of a grid falls with the spacing to the power `order`, and with the next power after that. Each power is
@@ -19,6 +22,24 @@ pub(super) fn extrapolate(values: &[f64], order: f64) -> Estimate {
         (Some(first), None) => first,
         (None, None) => unknown,
     }
+}
+
+/// By how much the limit changes if errors fall with the observed power instead of `order`.
+///
+/// Where the edge of a flat end is just inside the contact, elements that are longer than what is around it see a punch, whose
+/// errors fall with the root of the elements. The larger of the last two counts, because one may agree by accident.
+pub(super) fn by_observed_order(values: &[f64], order: f64) -> f64 {
+    let [slowest, fastest] = OBSERVED.map(f64::exp2);
+    let change = |window: &[f64]| {
+        let [before, last] = [window[2] - window[0], window[4] - window[2]];
+        if last == 0.0 {
+            return 0.0;
+        }
+        let ratio = (before / last).clamp(slowest, fastest);
+        (last / (ratio - 1.0) - last / (order.exp2() - 1.0)).abs()
+    };
+    let windows = values.windows(5).rev();
+    windows.take(2).map(change).fold(0.0, f64::max)
 }
 
 /// Power of the error that is left when that of `order` is eliminated: the apex leaves 1 below that, then the front 3/2,

@@ -113,6 +113,7 @@ pub fn steady_line<'w>(
             footprint: strip.footprint(footprint),
             coarsest_spacing: length / COARSEST,
             apex_exponent: 2.0,
+            kinks: 0.0,
         },
         has_peak: bars::reacts_at_once(elastomer),
         watch: request.watch,
@@ -183,7 +184,7 @@ fn with_elements(
     let mut known = bars::resolve(&resolution, |elements, _| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
-        Ok(state.on_grid(&loading.creep, options, None))
+        Ok(state.on_grid((&loading.creep, 0.0), options, None))
     })?;
     let area = known.contact_area;
     known.contact_area = Estimate::new(area.value / strip, area.error / strip);

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use indenters::{Control, SlidingLoad, Surface};
 use numerics::{in_range, positive};
 
+use crate::plan::{SHARP, kinks};
 use crate::steady::contact_scale::{depth_scale, mean_height, scale_of_profile};
 use crate::steady::sliding_creep::{ElementCreep, SlidingCreep};
 use crate::{BemError, Elastomer, Footprint};
@@ -33,6 +34,8 @@ pub(super) struct Loading {
     pub(super) sliding_distance: Option<f64>,
     /// Length along y of a profile that stands for an infinite one, \[m]; none for a body of finite width.
     pub(super) strip: Option<f64>,
+    /// Whether the slope of the body jumps inside the contact.
+    pub(super) has_edges: bool,
 }
 
 /// Length of a strip in lengths of its footprint and its memory. The square of its inverse is what it lacks to an infinite
@@ -62,6 +65,7 @@ impl Loading {
             }
         };
         Ok(Self {
+            has_edges: kinks(surface, depth_scale, footprint)? > SHARP,
             creep,
             depth_scale,
             control: load.control(),
@@ -90,6 +94,7 @@ impl Loading {
             control: Control::NormalForce(force),
             sliding_distance: None,
             strip: Some(strip),
+            has_edges: false,
         })
     }
 
@@ -128,6 +133,7 @@ impl Loading {
             force_scale,
             spacing,
             is_strip: self.strip.is_some(),
+            has_edges: self.has_edges,
         })
     }
 }
@@ -161,9 +167,16 @@ pub(super) struct GridLoading {
     spacing: [f64; 2],
     /// Whether one element along y stands for infinitely many.
     pub(super) is_strip: bool,
+    pub(super) has_edges: bool,
 }
 
 impl GridLoading {
+    /// Whether the friction of a body with edges follows from the displacements beside an element. They are those at the points
+    /// where gaps are evaluated: near its centre, unless the material is more of a fluid for the shortest wave.
+    pub(super) fn is_solid_for_elements(&self) -> bool {
+        self.creep.shift > -0.25
+    }
+
     /// Normal force of the loads, \[N].
     pub(super) fn force_of(&self, total_load: f64) -> f64 {
         self.force_scale * (PI * (self.spacing[1] / self.spacing[0]) * total_load)

@@ -34,6 +34,8 @@ struct Element {
     height: f64,
     /// Mean of ∂h/∂x.
     slope: f64,
+    /// The slope that dissipates.
+    chord: f64,
 }
 
 /// The problem in units of D, the depth scale, for heights and Δx for lengths, with the load
@@ -135,11 +137,13 @@ impl Mesh {
                 let covered = heights.iter().all(|height| height.is_finite());
                 if covered && (front > rear || !self.only_rising) {
                     let [height, slope] = [height / self.loading.depth_scale, (front - rear) / dx];
+                    let chord = self.chord(surface, [x, y]).unwrap_or(slope);
                     self.elements.push(Element {
                         row,
                         column,
                         height,
                         slope,
+                        chord,
                     });
                 }
             }
@@ -270,14 +274,29 @@ impl Mesh {
         loads.into_iter().map(weighted).sum()
     }
 
-    /// Mean of a function of ∂h/∂x weighted with the load.
-    pub(super) fn mean(&self, loads: &[(usize, f64)], of_slope: fn(f64) -> f64) -> f64 {
-        let (mut sum, mut normal) = (0.0, 0.0);
+    /// Means weighted with the load, of ∂h/∂x, its modulus and the slope that dissipates.
+    pub(super) fn mean_slopes(&self, loads: &[(usize, f64)]) -> [f64; 3] {
+        let (mut sums, mut normal) = ([0.0; 3], 0.0);
         for &(element, load) in loads {
-            sum += self.weight(element) * load * of_slope(self.elements[element].slope);
+            let Element { slope, chord, .. } = self.elements[element];
+            for (sum, slope) in sums.iter_mut().zip([slope, slope.abs(), chord]) {
+                *sum += self.weight(element) * load * slope;
+            }
             normal += self.weight(element) * load;
         }
-        sum / normal
+        sums.map(|sum| sum / normal)
+    }
+
+    /// Of a body with edges the slope between the points of the two neighbours where gaps are evaluated: that of the element
+    /// alone does not dissipate as much, by the root of an element where the contact ends near the edge.
+    fn chord(&self, surface: &dyn Surface, [x, y]: [f64; 2]) -> Option<f64> {
+        if !self.loading.has_edges {
+            return None;
+        }
+        let dx = self.options.spacing[0];
+        let height = |shift| surface.height([x + (self.loading.creep.shift + shift) * dx, y]);
+        let chord = (height(1.0) - height(-1.0)) / (2.0 * dx);
+        chord.is_finite().then_some(chord)
     }
 
     /// Mean of half the difference of the gaps ahead and behind, weighted with the load.

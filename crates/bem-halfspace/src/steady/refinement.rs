@@ -15,7 +15,7 @@ use crate::BemError;
 use crate::averages::{Average, Refinement};
 use crate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
-use crate::steady::extrapolation::extrapolate;
+use crate::steady::extrapolation::{by_observed_order, extrapolate};
 use crate::steady::loading::Loading;
 use crate::steady::solution::{SteadyEstimate, SteadySliding};
 use crate::steady::{Reuse, SteadyOptions, solve};
@@ -133,19 +133,6 @@ pub(super) fn refine(
     }
 }
 
-/// The limit of averages with what is left of their scatter.
-fn limit(
-    refinements: &[Refinement],
-    order: f64,
-    quantity: impl Fn(&Refinement) -> Average,
-) -> Estimate {
-    let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
-    let scatter = refinements
-        .last()
-        .map_or(0.0, |last| quantity(last).scatter);
-    extrapolate(&values, order).widened(scatter)
-}
-
 /// Order of the error of the averages.
 fn order_of_friction(apex_exponent: f64) -> Result<f64, BemError> {
     let order = (2.0 * apex_exponent - 1.0).min(FRONT_ORDER);
@@ -204,12 +191,32 @@ impl Grids<'_> {
         self.progress.expect(work_of(index + 1..index + 1 + ahead));
     }
 
+    /// The limit of averages with what is left of their scatter, and under a body with edges with what it would be if the order
+    /// were the observed one.
+    fn limit(
+        &self,
+        refinements: &[Refinement],
+        order: f64,
+        quantity: impl Fn(&Refinement) -> Average,
+    ) -> Estimate {
+        let values: Vec<f64> = refinements.iter().map(|r| quantity(r).value).collect();
+        let scatter = refinements
+            .last()
+            .map_or(0.0, |last| quantity(last).scatter);
+        let limit = extrapolate(&values, order).widened(scatter);
+        if self.problem.loading.has_edges {
+            return limit.widened(by_observed_order(&values, order));
+        }
+        limit
+    }
+
     /// Of the pressure under the slopes, or of the dissipated power where that is known much better, with what no grid shows.
     fn friction(&self, refinements: &[Refinement]) -> Estimate {
         let mut friction = self.friction_of_slopes(refinements);
         if !self.problem.loading.creep.only_flows() {
-            let dissipated = limit(refinements, self.order, |r| r.friction_from_dissipation);
-            if dissipated.error < BETTER * friction.error {
+            let dissipated = self.limit(refinements, self.order, |r| r.friction_from_dissipation);
+            let has_edges = self.problem.loading.has_edges;
+            if has_edges || dissipated.error < BETTER * friction.error {
                 friction = dissipated;
             }
             friction = Estimate::new(friction.value, RECOVERING * friction.error);
@@ -230,7 +237,7 @@ impl Grids<'_> {
             scatter: 0.0,
             ..refinement.friction_coefficient
         };
-        let friction = limit(refinements, self.order, value);
+        let friction = self.limit(refinements, self.order, value);
         let last = refinements.iter().rev().take(counted);
         let scatter = last.map(|refinement| refinement.friction_coefficient.scatter);
         friction.widened(scatter.fold(0.0, f64::max))
@@ -239,7 +246,7 @@ impl Grids<'_> {
     /// The normal force that is given, or the limit of those at the depth.
     fn force(&self, refinements: &[Refinement]) -> Estimate {
         let [given, _] = bars::given(self.problem.loading.control);
-        given.unwrap_or_else(|| limit(refinements, self.order, |r| r.normal_force))
+        given.unwrap_or_else(|| self.limit(refinements, self.order, |r| r.normal_force))
     }
 
     /// The depth that is given, or the limit of those under the force; none where it has no meaning, in plane strain on a half
@@ -248,7 +255,9 @@ impl Grids<'_> {
         let Loading { creep, strip, .. } = &self.problem.loading;
         let [_, given] = bars::given(self.problem.loading.control);
         let has_depth = strip.is_none() || creep.base().is_layer();
-        given.or_else(|| has_depth.then(|| limit(refinements, self.order, |r| r.indentation_depth)))
+        given.or_else(|| {
+            has_depth.then(|| self.limit(refinements, self.order, |r| r.indentation_depth))
+        })
     }
 
     fn estimate(
@@ -259,7 +268,7 @@ impl Grids<'_> {
         finest: Solved,
     ) -> SteadyEstimate {
         let iteration = finest.state.iteration_error();
-        let known = |of: fn(&Refinement) -> Average| limit(&refinements, self.order, of);
+        let known = |of: fn(&Refinement) -> Average| self.limit(&refinements, self.order, of);
         let [dx, dy] = finest.options.spacing;
         SteadyEstimate {
             friction_coefficient: Estimate::new(friction.value, friction.error + iteration),
@@ -269,7 +278,7 @@ impl Grids<'_> {
             },
             normal_force,
             indentation_depth: self.depth(&refinements),
-            contact_area: limit(&refinements, AREA_ORDER, |r| r.contact_area),
+            contact_area: self.limit(&refinements, AREA_ORDER, |r| r.contact_area),
             peak_pressure: (self.problem.has_peak).then(|| known(|r| r.peak_pressure)),
             contact_box_error: bars::of_box(dx.max(dy)),
             refinements,
@@ -352,7 +361,9 @@ impl Grids<'_> {
         let average = |quantity: &dyn Fn(&SteadySliding) -> f64| Average::of(&states, quantity);
         let spacings = states.iter().map(|state| state.pressure.grid.spacing()[0]);
         let creep = &self.problem.loading.creep;
-        let unresolved = states.iter().map(|state| state.unresolved(creep));
+        let unresolved = states
+            .iter()
+            .map(|state| state.unresolved(creep, self.problem.plan.kinks));
         let averages = Refinement {
             spacing: spacings.sum::<f64>() / states.len() as f64,
             friction_coefficient: Average::of_halves(&states, |state| state.friction_coefficient),

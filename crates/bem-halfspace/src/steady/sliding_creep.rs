@@ -169,21 +169,23 @@ impl SlidingCreep {
     /// that forgets within an element, slow friction falls by up to (4/π) λv/a of itself under a paraboloid, because the rear
     /// of the contact moves and its front stays. Where it forgets in an element or two there is still something of that left,
     /// which falls faster than any power of the elements: cylinders on a Kelvin–Voigt solid err by up to e^(−2.5 λv/Δx) of it.
-    pub(super) fn unresolved(&self, spacing: f64, half_length: f64) -> f64 {
+    ///
+    /// Around a kink the pressure grows like ln(1/r) down to r = λv, and the friction like ln(a/λv), of which elements see
+    /// ln(a/Δx): under flat cones they miss up to the factor e^(−x) ln(1 + 1/x), x = λv/(2Δx), over ln(1 + a/Δx).
+    pub(super) fn unresolved(&self, spacing: f64, half_length: f64, kinks: f64) -> f64 {
         let (mut sum, mut missed) = (0.0, 0.0);
         for element in self.spectrum.elements() {
             let length = self.velocity * element.retardation_time;
             let ratio = length / half_length;
             // Friction is greatest where both lengths are alike.
             let friction = element.compliance * ratio.min(ratio.recip());
+            let x = 0.5 * length / spacing;
+            let around_kinks = (-x).exp() * x.recip().ln_1p() / (half_length / spacing).ln_1p();
             sum += friction;
-            missed += friction * ratio * (-2.5 * length / spacing).exp();
+            missed += friction * 2.0 * FRAC_2_PI * ratio * (-5.0 * x).exp();
+            missed += friction * kinks * around_kinks;
         }
-        if missed > 0.0 {
-            2.0 * FRAC_2_PI * missed / sum
-        } else {
-            0.0
-        }
+        if missed > 0.0 { missed / sum } else { 0.0 }
     }
 
     /// −δ/π with the loss angle δ at the wave number π/Δx, the shortest of the grid: moving the point by that part of an

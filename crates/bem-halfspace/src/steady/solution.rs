@@ -23,7 +23,8 @@ pub type SteadyEstimate = ContactEstimate<SteadySliding, SteadyOptions>;
 pub struct SteadySliding {
     /// Friction coefficient μ = F_h/F_N.
     pub friction_coefficient: f64,
-    /// The friction coefficient from the displacements beside the contact too, as the dissipated power has it.
+    /// The friction coefficient from the displacements beside the contact too, as the dissipated power has it; the same one
+    /// where a body with edges slides over what is more of a fluid at the length of an element.
     pub friction_from_dissipation: f64,
     /// Mean of |∂h/∂x| under the load: what the friction coefficient is the difference of, and its upper bound.
     pub mean_slope: f64,
@@ -62,11 +63,11 @@ impl SteadySliding {
 
     pub(super) fn on_grid(
         self,
-        creep: &SlidingCreep,
+        (creep, kinks): (&SlidingCreep, f64),
         options: SteadyOptions,
         sliding_distance: Option<f64>,
     ) -> OnGrid<Self, SteadyOptions> {
-        let unresolved = self.unresolved(creep) * self.friction_coefficient.abs();
+        let unresolved = self.unresolved(creep, kinks) * self.friction_coefficient.abs();
         OnGrid {
             quantities: [
                 self.friction_coefficient,
@@ -88,9 +89,10 @@ impl SteadySliding {
     }
 
     /// Part of the friction that the elements may miss because the surface forgets within them.
-    pub(super) fn unresolved(&self, creep: &SlidingCreep) -> f64 {
+    pub(super) fn unresolved(&self, creep: &SlidingCreep, kinks: f64) -> f64 {
         let [rear, front] = self.contact_x;
-        creep.unresolved(self.pressure.grid.spacing()[0], 0.5 * (front - rear))
+        let half_length = 0.5 * (front - rear);
+        creep.unresolved(self.pressure.grid.spacing()[0], half_length, kinks)
     }
 
     /// Turns a solution in the units of the mesh into one in SI.
@@ -123,12 +125,19 @@ impl SteadySliding {
         let unit = mesh.loading.pressure_unit();
         let pressures = loaded.iter().map(|(element, load)| (*element, load * unit));
         let pressure = PressureField::over(&bounds, (spacing, origin), pressures)?;
+        let [friction_coefficient, mean_slope, dissipating_slope] =
+            mesh.mean_slopes(&solution.loads);
         let total_load = mesh.total_load(solution.loads.iter().copied());
         Ok(Self {
-            friction_coefficient: mesh.mean(&solution.loads, |slope| slope),
-            friction_from_dissipation: mesh.mean(&solution.loads, |slope| slope)
-                - solution.opening * mesh.loading.depth_scale / spacing[0],
-            mean_slope: mesh.mean(&solution.loads, f64::abs),
+            friction_coefficient,
+            friction_from_dissipation: if mesh.loading.is_solid_for_elements()
+                || !mesh.loading.has_edges
+            {
+                dissipating_slope - solution.opening * mesh.loading.depth_scale / spacing[0]
+            } else {
+                friction_coefficient
+            },
+            mean_slope,
             normal_force: mesh.loading.force_of(total_load),
             depth: SinkingDepth::new(mesh, solution, edges[0][1] - edges[0][0]),
             contact_area: loaded.len() as f64 * pressure.grid.element_area(),

@@ -4,20 +4,21 @@
 use std::f64::consts::PI;
 
 use bem_halfspace::steady::{RefinementOptions, SteadyEstimate, steady_refined};
-use bem_halfspace::{BemError, indent, press, slide};
+use bem_halfspace::{BemError, indent, press, slide, steady};
 use friction_analytic::{
     half_space_power_friction, impulse_to_depth, power_indentation_after_impulse,
 };
 use indenters::{
-    Control, FlatCone, FlatPunch, PowerProfile, PressingLoad, Sphere, Surface, TruncatedParaboloid,
-    contact_radius,
+    Control, FlatCone, FlatPunch, PowerProfile, PressingLoad, SlidingLoad, Sphere, Surface,
+    TruncatedParaboloid, contact_radius,
 };
 use numerics::{Accuracy, Estimate};
-use rheology::{Compressible, Material};
+use rheology::{Compressible, KelvinVoigt, Material};
 
 use crate::support::{
-    Scene, after, assert_bar, assert_bars_agree, assert_close, assert_ends, assert_near, at_depth,
-    carried, cone, elastic, paraboloid, power, prony, under_force, viscous,
+    Scene, after, assert_bar, assert_bars_agree, assert_close, assert_ends, assert_near,
+    assert_refused, at_depth, carried, cone, elastic, paraboloid, power, prony, under_force,
+    viscous,
 };
 
 /// Bodies of revolution, whose contact radius at a depth the one-dimensional model has exactly.
@@ -225,6 +226,41 @@ fn error_bars_hold_against_finer_solutions() {
             compare((exponent, accuracy), &solid.steady(accuracy), &fine_state);
         }
     }
+}
+
+/// Where the slope jumps inside the contact errors fall with the elements, with their root as long as the contact ends less
+/// than an element beyond, and grow like a logarithm of them as long as the surface forgets within one. The values are
+/// extrapolated from up to 40 000 unknowns, where slopes and dissipation agree.
+#[test]
+fn bars_hold_where_a_flat_end_has_an_edge() {
+    let cone = FlatCone::new(1.0, 0.1).expect("a body");
+    let paraboloid = TruncatedParaboloid::new(1.0, 0.136_739_24).expect("a body");
+    let voigt = |length| KelvinVoigt::new(1.0, length).expect("a material");
+    let solid = prony([398.188, 0.0], &[(3360.674, 9.911_347)]);
+    let thin = under_force(54966.25 / 5.915_318_f64.powi(2), 1.602_873_6 / 5.915_318);
+    let cases: [(&dyn Surface, &dyn Material, SlidingLoad, f64); 3] = [
+        (&cone, &voigt(0.3), at_depth(0.068, 1.0), 0.033_05),
+        (&cone, &voigt(3.0), at_depth(0.068, 1.0), 0.0797),
+        (&paraboloid, &solid, thin, 0.016_332),
+    ];
+    for (body, material, load, expected) in cases {
+        for accuracy in [Accuracy::RelativeError(0.05), Accuracy::Elements(16)] {
+            let state = steady(&body, &material, &load, accuracy).expect("a state");
+            let widest = if accuracy == Accuracy::Elements(16) {
+                1.0
+            } else {
+                0.05
+            };
+            assert_bar(accuracy, state.friction_coefficient, expected, widest);
+        }
+    }
+    let options = RefinementOptions {
+        relative_error: 0.1,
+        max_unknowns: 3000,
+        ..RefinementOptions::default()
+    };
+    let slow = steady_refined(&cone, &voigt(0.03), &at_depth(0.068, 1.0), &options);
+    assert_refused("slow", slow.map(drop), "NotReached");
 }
 
 #[test]
