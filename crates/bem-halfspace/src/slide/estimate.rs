@@ -141,7 +141,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         let plan = GridPlan::sliding(surface, elastomer, load)?;
         let creep = elastomer.material().creep();
         Ok(Self {
-            path: Path::new(&plan, load, memory_of(&creep, load)),
+            path: Path::new(&plan, load, memory_of(elastomer, load)),
             plan,
             creep,
             surface,
@@ -176,6 +176,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             estimate.friction_coefficient = Estimate::exact(0.0);
             estimate.error_parts = ErrorParts::NONE;
         }
+        // On a layer it comes to rest more slowly than the friction, by which the march ends.
         if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
             estimate.indentation_depth = None;
         }
@@ -242,7 +243,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             return Ok(());
         }
         Err(BemError::MemoryTooLong {
-            memory: memory_of(&self.creep, self.load),
+            memory: memory_of(self.elastomer, self.load),
             contact_length,
             limit: LONGEST,
         })
@@ -254,7 +255,7 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
         load: &SlidingLoad,
         tell: &dyn Fn(f64),
     ) -> Result<End, BemError> {
-        let memory = memory_of(&self.creep, load);
+        let memory = memory_of(self.elastomer, load);
         if memory > 0.0 {
             return self.until_forgotten(memory, march, load, tell);
         }
@@ -298,11 +299,17 @@ fn over_distance(
     Ok((transient, friction, None))
 }
 
-/// Distance in which the slowest element forgets, \[m].
-fn memory_of(creep: &CreepSpectrum, load: &SlidingLoad) -> f64 {
+/// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
+fn memory_of(elastomer: &(impl Elastomer + ?Sized), load: &SlidingLoad) -> f64 {
+    let creep = elastomer.material().creep();
     let elements = creep.elements().iter();
     let times = elements.map(|element| element.retardation_time);
-    load.velocity() * times.fold(0.0, f64::max)
+    let memory = load.velocity() * times.fold(0.0, f64::max);
+    if creep.fluidity() > 0.0 && elastomer.thickness().is_finite() {
+        memory.max(elastomer.thickness())
+    } else {
+        memory
+    }
 }
 
 /// How much a residual of the size of the tolerance changes the friction.

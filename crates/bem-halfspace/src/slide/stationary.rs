@@ -160,7 +160,7 @@ pub(super) fn settle(
 ) -> Result<StationarySlide, BemError> {
     between_zero_and_one("stationary tolerance", stationary.tolerance)?;
     positive("over_distance", stationary.over_distance)?;
-    let flows = march.creep.fluidity() > 0.0;
+    let flows = march.sinks;
     let mut rows = Vec::new();
     let mut limits = Limits::default();
     let mut change = 1.0;

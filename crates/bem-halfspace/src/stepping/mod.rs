@@ -40,7 +40,9 @@ pub struct March<'a> {
     surface: &'a dyn Surface,
     options: GridOptions,
     layout: Layout,
-    pub(crate) creep: CreepSpectrum,
+    creep: CreepSpectrum,
+    /// Whether the body sinks for ever, as it does not into a layer.
+    pub(crate) sinks: bool,
     /// 2 (1 − ν).
     half_space_factor: f64,
     route: Route,
@@ -90,6 +92,7 @@ impl<'a> March<'a> {
             options: *options,
             layout,
             scale: 0.0,
+            sinks: creep.fluidity() > 0.0 && !elastomer.thickness().is_finite(),
             creep,
             half_space_factor: elastomer.material().half_space_factor(),
             route,

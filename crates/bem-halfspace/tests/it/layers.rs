@@ -15,7 +15,7 @@ use rheology::{Compressible, Material, Prony};
 
 use crate::support::{
     after, assert_bar, assert_bars_agree, assert_close, assert_near, assert_refused, cone, elastic,
-    paraboloid, three_elements, under_force, viscous,
+    paraboloid, prony, three_elements, under_force, viscous,
 };
 
 /// ν, s and M(s); casebook-2.json, "layer".
@@ -207,6 +207,23 @@ fn a_march_comes_to_the_stationary_state() {
             assert_within_bar(&scene, marched.indentation_depth.unwrap(), depth.value);
         }
     }
+}
+
+/// The body does not sink for ever into a liquid on a rigid base, so that nothing is extrapolated, and what the surface
+/// remembers is as long as the layer is thick.
+#[test]
+fn a_march_over_a_liquid_layer_goes_on_until_it_is_stationary() {
+    let branches = [(1613.36, 1.025_686e-4), (1015.92, 1.526_37e-3)];
+    let liquid = prony([0.0; 2], &branches);
+    let layer = Layer::new(&liquid, 2.386e-4).unwrap();
+    let (body, load) = (paraboloid(86.4), under_force(3.0945e-6, 0.042_263));
+    let stationary = steady(&body, &layer, &load, 1e-2).unwrap();
+    let marched = slide(&body, &layer, &load, 0.05).unwrap();
+    let frictions = [
+        stationary.friction_coefficient,
+        marched.friction_coefficient,
+    ];
+    assert_bars_agree("friction", frictions[0], frictions[1]);
 }
 
 /// What is missing to the half space falls like a/t: to the depth on a solid, and to the friction on a dashpot, on which the
