@@ -12,7 +12,7 @@ use viscofriction::indenters::{
 use viscofriction::mdr_core::{Follow, indent_along};
 use viscofriction::rheology::{Prony, RelaxationBranch, RelaxationSpectrum, Springpot};
 
-use crate::support::{Folder, assert_close};
+use crate::support::{Folder, Normal, assert_close};
 
 /// A body on a known material; contact point, baseline and tilt of its curves are always the same.
 struct Case {
@@ -118,24 +118,6 @@ fn cases() -> [Case; 5] {
         sphere(&[1.5e3, 0.2]),
         Case::new("pyramid, power law", pyramid, &[2e3, 0.45]),
     ]
-}
-
-/// Standard normal numbers by Box and Muller from a generator like splitmix64.
-struct Normal(u64);
-
-impl Normal {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0.wrapping_mul(0x2545_f491_4f6c_dd1d);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn draw(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        radius * (std::f64::consts::TAU * self.uniform()).cos()
-    }
 }
 
 /// Noise in parts of the peak force.
