@@ -11,7 +11,7 @@ use rheology::RelaxationSpectrum;
 
 use super::Measured;
 use super::memory::{Late, Memory, Ring, Step};
-use super::path::{ROUNDING, decayed, mean_exponential};
+use super::path::{ROUNDING, change_of_edge, decayed, mean_exponential};
 use super::radius::{ORDER, Radii};
 
 /// The element at the edge, and what became of the branches since it was touched.
@@ -479,15 +479,6 @@ impl Approach {
         self.partial.set(&self.rates, ring.step, n_moments, 0.0);
         self.partial
             .grow(&mut self.then, &ring, &terms[..ring.n_terms]);
-    }
-}
-
-/// How far loads that cancel may move the edge; where every branch has forgotten when an element was touched, the edge stays.
-pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
-    if modulus > f64::MIN_POSITIVE {
-        slope.abs() / modulus * scale
-    } else {
-        0.0
     }
 }
 

@@ -16,9 +16,8 @@ use indenters::Axisymmetric;
 use numerics::{LobattoRule, bracketed_root, lobatto_rule};
 
 use super::Measured;
-use super::approach::change_of_edge;
 use super::element::{Elements, Leg, Motion, State};
-use super::path::{Instant, Path, ROUNDING};
+use super::path::{Instant, Path, ROUNDING, change_of_edge};
 use super::radius::Radii;
 use crate::MdrError;
 use edge::Edge;

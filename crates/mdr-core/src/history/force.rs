@@ -64,16 +64,8 @@ impl Pressed<'_> {
             let deepest = depths.fold(0.0, f64::max);
             if change <= self.options.relative_error * deepest {
                 let change = change + ROUNDING * deepest;
-                let mut better = better.clone();
-                for point in &mut better {
-                    let depth = point.indentation_depth.value;
-                    let error = change + 2.0 * self.options.modulus_error * depth.abs();
-                    point.indentation_depth = Estimate::new(depth, error);
-                    let radius = point.contact_radius.value.max(0.0);
-                    let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * change;
-                    let error = radius_change + of_depth + ROUNDING * radius;
-                    point.contact_radius = Estimate::new(radius, error);
-                }
+                let bars = [change, radius_change];
+                let mut better = self.with_bars(better, &radii, bars);
                 better[..grown.len()].copy_from_slice(&grown);
                 return Ok(better);
             }
@@ -87,6 +79,23 @@ impl Pressed<'_> {
                 }));
             }
         }
+    }
+
+    /// A curve with the errors of its depths and radii.
+    fn with_bars(&self, curve: &[CurvePoint], radii: &Radii, bars: [f64; 2]) -> Vec<CurvePoint> {
+        let [of_depths, of_radii] = bars;
+        let point = |point: &CurvePoint| {
+            let depth = point.indentation_depth.value;
+            let radius = point.contact_radius.value.max(0.0);
+            let error = of_depths + 2.0 * self.options.modulus_error * depth.abs();
+            let of_depth = radii.at([depth.max(0.0); 2])[1].abs() * of_depths;
+            CurvePoint {
+                indentation_depth: Estimate::new(depth, error),
+                contact_radius: Estimate::new(radius, of_radii + of_depth + ROUNDING * radius),
+                ..*point
+            }
+        };
+        curve.iter().map(point).collect()
     }
 
     /// Orders of the errors in the length of the parts: a lone dashpot has the speed of the whole part at its end.

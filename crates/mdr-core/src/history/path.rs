@@ -223,6 +223,15 @@ pub(super) struct Lag {
     pub(super) stresses: Vec<f64>,
 }
 
+/// How far loads that cancel may move the edge; where every branch has forgotten when an element was touched, the edge stays.
+pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
+    if modulus > f64::MIN_POSITIVE {
+        slope.abs() / modulus * scale
+    } else {
+        0.0
+    }
+}
+
 /// (e^x − 1)/x.
 #[inline]
 pub(super) fn mean_exponential(x: f64) -> f64 {

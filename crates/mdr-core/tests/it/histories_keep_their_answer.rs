@@ -9,7 +9,7 @@ use rheology::{Compressible, Material, Prony};
 
 use Control::{IndentationDepth, NormalForce};
 
-use crate::histories_match_quadrature::{body, material};
+use crate::histories_match_quadrature::{body, material, numbers};
 use crate::support::{assert_agree, assert_close, history, prony};
 
 fn follow(
@@ -87,43 +87,18 @@ fn assert_same(
 /// Falls, dwells, jumps and pressing again, by depth and by force, on every material.
 #[test]
 fn points_in_between_change_nothing() {
-    let depths: [&[[f64; 2]]; 4] = [
-        &[
-            [0.0, 0.0],
-            [1.0, 0.01],
-            [2.0, 0.01],
-            [3.0, 0.002],
-            [4.0, 0.014],
-        ],
-        &[
-            [0.0, 0.0],
-            [0.5, 0.012],
-            [0.8, -0.001],
-            [1.0, 0.006],
-            [2.0, 0.002],
-        ],
-        &[
-            [0.0, 0.0],
-            [0.2, 0.01],
-            [1.0, 0.008],
-            [1.2, 0.02],
-            [1.5, 0.02],
-            [4.0, -0.001],
-        ],
-        &[[0.0, 0.0], [0.2, 0.01], [30.0, 0.01]],
+    let depths = [
+        "0 0, 1 0.01, 2 0.01, 3 0.002, 4 0.014",
+        "0 0, 0.5 0.012, 0.8 -0.001, 1 0.006, 2 0.002",
+        "0 0, 0.2 0.01, 1 0.008, 1.2 0.02, 1.5 0.02, 4 -0.001",
+        "0 0, 0.2 0.01, 30 0.01",
     ];
     // Where the contact is pressed on again, only a flat end is fast.
-    let falling = [[0.0, 0.01], [0.3, 0.02], [1.5, 0.005], [2.0, 0.0]];
-    let again: [&[[f64; 2]]; 3] = [
-        &[[0.0, 0.0], [1.0, 0.02], [1.5, 0.005], [2.5, 0.005]],
-        &[[0.0, 0.01], [1.0, 0.02], [2.0, 0.002], [2.5, 0.03]],
-        &[
-            [0.0, 0.0],
-            [0.3, 0.02],
-            [0.3, 0.015],
-            [2.0, 0.015],
-            [2.5, 0.0],
-        ],
+    let falling = numbers("0 0.01, 0.3 0.02, 1.5 0.005, 2 0");
+    let again = [
+        "0 0, 1 0.02, 1.5 0.005, 2.5 0.005",
+        "0 0.01, 1 0.02, 2 0.002, 2.5 0.03",
+        "0 0, 0.3 0.02, 0.3 0.015, 2 0.015, 2.5 0",
     ];
     let punch = FlatPunch::new(0.05).expect("a punch");
     let flat = FlatCone::new(0.02, 0.4).expect("a cone");
@@ -138,7 +113,7 @@ fn points_in_between_change_nothing() {
         .flat_map(|body| materials.iter().map(move |material| (*body, material)))
     {
         for knots in depths {
-            assert_same(body, material, knots, false);
+            assert_same(body, material, &numbers(knots), false);
         }
         assert_same(body, material, &falling, true);
     }
@@ -146,7 +121,7 @@ fn points_in_between_change_nothing() {
         .iter()
         .flat_map(|knots| materials.iter().map(move |material| (knots, material)))
     {
-        assert_same(&punch, material, knots, true);
+        assert_same(&punch, material, &numbers(knots), true);
     }
 }
 
