@@ -106,13 +106,7 @@ impl SteadySliding {
                 y: mesh.centre(1, *column),
             });
         }
-        let rise = mesh.largest_rise(&solution.loads) * mesh.loading.depth_scale;
-        if rise > mesh.loading.depth_scale {
-            return Err(BemError::SlopeNotResolved {
-                rise,
-                depth_scale: mesh.loading.depth_scale,
-            });
-        }
+        check_slopes(mesh, &solution.loads)?;
         let spacing = mesh.options.spacing;
         let edges = [0, 1].map(|axis| {
             let half = 0.5 * spacing[axis];
@@ -150,6 +144,16 @@ impl SteadySliding {
             factorised: solution.factorised,
         })
     }
+}
+
+/// Refuses a surface that rises by more than the depth over one element in contact.
+fn check_slopes(mesh: &Mesh, loads: &[(usize, f64)]) -> Result<(), BemError> {
+    let depth_scale = mesh.loading.depth_scale;
+    let rise = mesh.largest_rise(loads) * depth_scale;
+    if rise > depth_scale {
+        return Err(BemError::SlopeNotResolved { rise, depth_scale });
+    }
+    Ok(())
 }
 
 /// The box around the loaded elements, if that is inside the footprint and covers enough elements.
