@@ -125,25 +125,8 @@ impl Relation {
                 };
                 *branches = split(branches)?;
             }
-            Self::Mirrored | Self::OtherFile => {
-                let Indenter::HeightMap(map) = &mut scene.indenter else {
-                    return None;
-                };
-                let lengths = derived.case.lengths.as_mut()?;
-                // All heights in the opposite order are the map turned by 180 degrees.
-                if self == Self::OtherFile {
-                    map.direction = 180.0;
-                    map.heights_are = HeightsAre::Surface;
-                    lengths
-                        .values
-                        .iter_mut()
-                        .for_each(|height| *height = -*height);
-                } else {
-                    let rows = lengths.values.chunks_mut(lengths.columns);
-                    rows.for_each(<[f64]>::reverse);
-                }
-                lengths.values.reverse();
-            }
+            Self::Mirrored => other_map(&mut derived.case, false)?,
+            Self::OtherFile => other_map(&mut derived.case, true)?,
             Self::LaterHistory => later(
                 scene.load.history.as_mut()?,
                 case.scene.load.history.as_ref()?,
@@ -183,6 +166,28 @@ fn other_control(scene: &mut Scene, answer: &Answer) -> Option<()> {
         (None, Some(_)) => load.normal_force = Some(found(answer.normal_force.value)?),
         _ => return None,
     }
+    Some(())
+}
+
+/// The map mirrored across the motion, or in another file of the same surface; none of other bodies.
+fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
+    let Indenter::HeightMap(map) = &mut case.scene.indenter else {
+        return None;
+    };
+    let lengths = case.lengths.as_mut()?;
+    // All heights in the opposite order are the map turned by 180 degrees.
+    if is_turned {
+        map.direction = 180.0;
+        map.heights_are = HeightsAre::Surface;
+        lengths
+            .values
+            .iter_mut()
+            .for_each(|height| *height = -*height);
+    } else {
+        let rows = lengths.values.chunks_mut(lengths.columns);
+        rows.for_each(<[f64]>::reverse);
+    }
+    lengths.values.reverse();
     Some(())
 }
 

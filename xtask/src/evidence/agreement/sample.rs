@@ -287,6 +287,7 @@ impl Sample<'_> {
         })
     }
 
+    #[expect(clippy::too_many_lines, reason = "one arm for each kind")]
     fn half_space(&mut self, kind: MaterialKind) -> MaterialTable {
         let compressible = self.random.between([-0.9, 0.5]);
         let poisson_ratio = self.random.choice(&[0.5, compressible]);

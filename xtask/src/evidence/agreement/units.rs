@@ -116,6 +116,7 @@ impl Units {
         }
     }
 
+    #[expect(clippy::too_many_lines, reason = "one arm for each kind")]
     fn material(self, material: &mut MaterialTable) {
         let Self { stress, time, .. } = self;
         match material {
