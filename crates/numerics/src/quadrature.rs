@@ -18,7 +18,7 @@ const LAST_NODE: f64 = 6.1;
 /// The integrand receives its argument as the pair (nearer end, distance from that end with its sign), so that a
 /// singularity at an end can be resolved below the rounding of `x`; [`integrate`] is the plain form. Halving stops
 /// when the estimate of the error, which is the change by the last halving, falls below `relative_tolerance` times the
-/// integral of the modulus; the caller reads from [`Estimate::error`] what was reached.
+/// integral of the modulus; the caller reads from `Estimate::error` what was reached.
 pub fn integrate_from_ends(
     integrand: impl Fn(f64, f64) -> f64,
     interval: [f64; 2],
