@@ -83,7 +83,7 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
     theirs = tomllib.loads((tmp_path / "fit" / "material.toml").read_text())["material"]["prony"]
     fit = vf.fit_material(table)
     assert fit.material.equilibrium_modulus == theirs["equilibrium_modulus"]
-    assert fit.material.branches == [(one["modulus"], one["relaxation_time"]) for one in theirs["branches"]]
+    assert fit.material.branches == tuple((one["modulus"], one["relaxation_time"]) for one in theirs["branches"])
     assert [temperature for temperature, _ in fit.log10_factors] == (list(temperatures) if len(temperatures) > 1 else [])
     for temperature, factor in fit.log10_factors:
         assert abs(factor - 0.1 * (20.0 - temperature)) < 1e-3
