@@ -27,6 +27,7 @@ pub(crate) struct Curve<'py> {
     columns: Option<[PyReadonlyArray1<'py, f64>; 3]>,
     spring_constant: Option<f64>,
     sensitivity: Option<f64>,
+    ramp_rate: Option<f64>,
     material: String,
     branches: Option<usize>,
     poisson_ratio: f64,
@@ -44,6 +45,7 @@ impl Curve<'_> {
         let options = CurveOptions {
             spring_constant: self.spring_constant,
             sensitivity: self.sensitivity,
+            ramp_rate: self.ramp_rate,
         };
         let file = self.file.clone().unwrap_or_default();
         let contents = read_table(&file).map_err(wrong)?;

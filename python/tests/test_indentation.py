@@ -74,6 +74,8 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     assert np.abs(fit.fitted_force - fit.force).max() < 0.05 * fit.force.max()
     assert fit.correlation.shape == (len(fit.findings),) * 2
     assert repr(fit).startswith("fit of a curve\n  G_inf: 2048 ± 70 Pa, 95 % within")
+    # Young's modulus, 3 G of an incompressible material.
+    assert "\n  E_inf: 6.14e+03 ± 2.1e+02 Pa, 95 % within" in repr(fit)
     assert fit.plot().get_xlabel() == "time [s]"
 
 
@@ -85,6 +87,45 @@ def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:
     of_table = vf.fit_indentation(table, body=vf.Sphere(5e-6), profile=False)
     value = of_columns.findings["G_inf"].value
     assert value is not None and of_table.findings["G_inf"].value == pytest.approx(value, rel=1e-9)
+
+
+class Measured(dict[str, np.ndarray]):
+    """A curve as afmformats knows it: columns, and what the microscope says beside them."""
+
+    metadata = {"spring constant": 0.05, "rate approach": 100.0}
+
+    @property
+    def columns(self) -> list[str]:
+        return list(self)
+
+
+def test_curves_with_named_columns_are_those_of_arrays() -> None:
+    time, depth, force = curve(noise=0.01)
+    expected = vf.fit_indentation(time, depth, force, body=vf.Sphere(5e-6), profile=False).findings["G_inf"].value
+    height = -depth - force / 0.05
+    of_microscope = Measured({"force": force, "height (measured)": height, "index": np.arange(time.size)})
+    for measured in of_microscope, {"time": time, "force": force, "tip position": -depth}:
+        fit = vf.fit_indentation(measured, body=vf.Sphere(5e-6), profile=False)
+        assert fit.findings["G_inf"].value == pytest.approx(expected, rel=1e-6)
+    for named, message in (
+        ({"time": time, "force": force}, "'tip position'"),
+        ({"time": time, "force": force, "height (piezo)": height}, "spring_constant"),
+        ({"force": force, "depth": depth}, "'time'"),
+        ({"time": time}, "'force'"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            vf.fit_indentation(named, body=vf.Sphere(5e-6))
+
+
+def test_a_pyramid_has_the_force_of_its_cone_and_does_not_slide() -> None:
+    pyramid = vf.Pyramid(1 / np.tan(np.radians(35.0)))
+    time, depth = [0.0, 1.0], [0.0, 1e-6]
+    elastic = vf.indent(pyramid, vf.Elastic(1e3), time=time, indentation_depth=depth)
+    # 0.7453 E* d² tan θ, with E* = 4 G.
+    assert elastic.normal_force[-1] == pytest.approx(0.7453 * 4e3 * 1e-12 * np.tan(np.radians(35.0)), rel=1e-9)
+    assert elastic.contact_radius is None and "way back" in elastic.warnings[-1]
+    with pytest.raises(ValueError, match="indent and fit_indentation"):
+        vf.slide(pyramid, GEL, normal_force=1.0, velocity=1.0)
 
 
 def test_wrong_input_is_named() -> None:

@@ -25,6 +25,7 @@ __all__ = [
     "Hyperboloid",
     "Paraboloid",
     "Power",
+    "Pyramid",
     "Roughness",
     "RoundTippedCone",
     "SelfAffine",
@@ -100,13 +101,28 @@ class Cone(Body):
     slope: float
     _kind = "cone"
 
-    @classmethod
-    def of_pyramid(cls, slope: float) -> Cone:
-        """The cone with the elastic force of a four-sided pyramid whose faces have a slope > 0 (Bilodeau 1992).
 
-        The contact of a pyramid is no disc, so that the way back is an approximation.
-        """
-        return cls(2 / math.pi / 0.7453 * slope)
+@dataclass(frozen=True)
+class Pyramid(Body):
+    """A four-sided pyramid whose faces have a slope > 0, for ``indent`` and ``fit_indentation``.
+
+    They take the cone with the same elastic force (Bilodeau 1992), exact on the way in; the contact of a pyramid is no disc, so
+    that the way back is an approximation. A tip of faces at an angle θ to the axis has the slope 1/tan θ.
+    """
+
+    slope: float
+    _kind = "pyramid"
+
+    @property
+    def cone(self) -> Cone:
+        """The cone with the same elastic force."""
+        return Cone(2 / math.pi / 0.7453 * self.slope)
+
+    def _table(self) -> dict[str, Any]:
+        raise ValueError(
+            "a Pyramid is a body of indent and fit_indentation only: its .cone has the same elastic force, and another "
+            "contact and friction"
+        )
 
 
 @dataclass(frozen=True)

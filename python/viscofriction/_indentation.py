@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, columns
-from ._bodies import Body
+from ._bodies import Body, Pyramid
 from ._materials import Material, Prony
 from ._results import rounded
 from ._solving import ask, given
@@ -70,6 +70,20 @@ class Finding:
     #: Ends of the 95 % interval; None on a side on which the curve sets no bound.
     interval: tuple[float | None, float | None]
 
+    def times(self, factor: float) -> Finding:
+        """The same of this quantity times a factor, as 2 (1 + ν) makes Young's modulus of a shear modulus."""
+        value, error, low, high = (
+            None if one is None else factor * one for one in (self.value, self.error, *self.interval)
+        )
+        return Finding(value, error, self.unit, (low, high))
+
+    def __str__(self) -> str:
+        known = "not determined"
+        if self.value is not None and self.error is not None:
+            known = " ± ".join(rounded(self.value, self.error)) + f" {self.unit}".rstrip()
+        low, high = ("…" if end is None else f"{end:.4g}" for end in self.interval)
+        return f"{known}, 95 % within {low} and {high}"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Compared):
@@ -97,11 +111,9 @@ class IndentationFit(Compared):
     def __repr__(self) -> str:
         rows = []
         for name, one in self.findings.items():
-            known = "not determined"
-            if one.value is not None and one.error is not None:
-                known = " ± ".join(rounded(one.value, one.error)) + f" {one.unit}".rstrip()
-            low, high = ("…" if end is None else f"{end:.4g}" for end in one.interval)
-            rows.append(f"  {name}: {known}, 95 % within {low} and {high}")
+            rows.append(f"  {name}: {one}")
+            if name.startswith("G"):
+                rows.append(f"  E{name[1:]}: {one.times(2 * (1 + self.material.poisson_ratio))}")
         return "\n".join(["fit of a curve", *rows, *(f"  flag: {flag}" for flag in self.flags)])
 
     def plot(self, ax: Any = None) -> Any:
@@ -142,7 +154,7 @@ def indent(
     [name] = path_of
     times, path = columns(time=time, **path_of)
     scene = {
-        "indenter": body,
+        "indenter": _axisymmetric(body),
         "material": material,
         "load": {},
         "layer": None if thickness is None else {"thickness": thickness},
@@ -150,11 +162,54 @@ def indent(
     }
     answer = ask(scene, {}, (), None, history=(name, times, path), fields=work)
     known: dict[str, Any] = answer._single()
-    return Indentation(**known["history"], **known["history_errors"], warnings=tuple(answer.warnings))
+    history, warnings = known["history"] | known["history_errors"], list(answer.warnings)
+    if isinstance(body, Pyramid):
+        warnings.append("the contact of a pyramid is no disc, so that the way back is an approximation")
+        history = {key: value for key, value in history.items() if not key.startswith("contact_")}
+    return Indentation(**history, warnings=tuple(warnings))
+
+
+def _axisymmetric(body: Body) -> Body:
+    """The body itself, or the cone for a pyramid."""
+    return body.cone if isinstance(body, Pyramid) else body
+
+
+def _measured(curve: Any, spring_constant: float | None) -> list[ArrayLike]:
+    """Time, depth and force of a curve with named columns, of the package afmformats, pandas or a dictionary."""
+    names = set(getattr(curve, "columns", curve))
+    stated = getattr(curve, "metadata", {})
+
+    def column(*known: str) -> Numbers | None:
+        found = next((name for name in known if name in names), None)
+        return None if found is None else np.asarray(curve[found], dtype=np.float64)
+
+    def missing(what: str) -> ValueError:
+        return ValueError(f"{what} is needed; the columns are {', '.join(sorted(map(str, names)))}")
+
+    force, time = column("force"), column("time")
+    if force is None:
+        raise missing("a column 'force' [N]")
+    rate = stated.get("rate approach")
+    if time is None and rate:
+        time = np.arange(force.size) / rate
+    if time is None:
+        raise missing("a column 'time' [s]")
+    depth, tip = column("depth", "indentation"), column("tip position")
+    height = column("height (measured)", "height (piezo)")
+    if depth is None and tip is not None:
+        depth = -tip
+    if depth is None and height is not None:
+        stiffness = spring_constant or stated.get("spring constant")
+        if not stiffness:
+            raise missing("beside the height the spring_constant [N/m]")
+        depth = -height - force / stiffness
+    if depth is None:
+        raise missing("a column 'depth', 'tip position' or 'height (measured)' [m]")
+    return [time, depth, force]
 
 
 def fit_indentation(
-    time: ArrayLike | str | os.PathLike[str],
+    time: ArrayLike | str | os.PathLike[str] | Mapping[str, ArrayLike] | Any,
     depth: ArrayLike | None = None,
     force: ArrayLike | None = None,
     *,
@@ -167,12 +222,16 @@ def fit_indentation(
     profile: bool = True,
     spring_constant: float | None = None,
     sensitivity: float | None = None,
+    ramp_rate: float | None = None,
 ) -> IndentationFit:
     """The material behind a curve of force [N] over depth [m] and time [s], with 95 % intervals.
 
     Depth grows towards the sample, force is that on the sample; both count from any zero, as contact point, baseline and
     (with ``tilt``) the slope of the baseline are fitted along. Instead of the three arrays the name of a table will do, whose
-    columns and units are found; ``spring_constant`` [N/m] and ``sensitivity`` [m/V] are for deflections in it.
+    columns and units are found (also in the text exports of JPK, NanoScope and Asylum); ``spring_constant`` [N/m] and
+    ``sensitivity`` [m/V] are for deflections in it, and ``ramp_rate`` [1/s] for the two halves of a ramp without times.
+    Or a curve with named columns in SI, as ``afmformats.load_data(file)[0]`` reads it from the files of many microscopes:
+    "time", "force", and "depth", "tip position" or "height (measured)", with the spring constant that it knows.
 
     ``material`` is "standard-solid", "prony" with ``branches`` (or as many as the curve tells apart) or "power-law".
     ``before_retraction`` leaves the way back out, on which most bodies stick. ``profile`` takes all intervals from the profile
@@ -182,11 +241,12 @@ def fit_indentation(
     Raises ValueError for wrong input and for a damaged curve, with the reason.
     """
     request: dict[str, Any] = {
-        "body": body._table(),
+        "body": _axisymmetric(body)._table(),
         "file": None,
         "columns": None,
         "spring_constant": spring_constant,
         "sensitivity": sensitivity,
+        "ramp_rate": ramp_rate,
         "material": material,
         "branches": branches,
         "poisson_ratio": poisson_ratio,
@@ -198,11 +258,15 @@ def fit_indentation(
         if depth is not None or force is not None:
             raise ValueError("depth and force: a file has its own")
         request["file"] = os.fspath(time)
+    elif hasattr(time, "columns") or isinstance(time, Mapping):
+        if depth is not None or force is not None:
+            raise ValueError("depth and force: a curve has its own")
+        request["columns"] = columns(**dict(zip(("time", "depth", "force"), _measured(time, spring_constant), strict=True)))
     else:
         if depth is None or force is None:
             raise ValueError("depth and force are needed beside time")
-        if spring_constant is not None or sensitivity is not None:
-            raise ValueError("spring_constant and sensitivity are for files")
+        if (spring_constant, sensitivity, ramp_rate) != (None, None, None):
+            raise ValueError("spring_constant, sensitivity and ramp_rate are for files")
         request["columns"] = columns(time=time, depth=depth, force=force)
     found = _native.fit_curve(request)
     findings = {}

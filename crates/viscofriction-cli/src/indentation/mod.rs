@@ -13,7 +13,7 @@ use viscofriction::indentation::{
     CurveOptions, Finding, FitOptions, IndentationFit, Rheology, fit_indentation, indentation_curve,
 };
 use viscofriction::indenters::{Axisymmetric, FlatPunch, IndenterError, PowerProfile, Sphere};
-use viscofriction::numerics::in_range;
+use viscofriction::numerics::{in_range, positive};
 
 use crate::input::{protect, read_table};
 use crate::material::prony;
@@ -28,8 +28,8 @@ use crate::progress;
 )]
 pub(crate) struct FitIndentation {
     /// Tables with a line of names: t, force and depth, in any order; or piezo (towards the sample) or height (away from
-    /// it), and deflection, with --spring-constant. Units are in the names or in the line below. Several are a map: one
-    /// row each, in curves.csv.
+    /// it), and deflection, with --spring-constant. Units are in the names or in the line below. Text exports of JPK,
+    /// NanoScope and Asylum are such tables. Several are a map: one row each, in curves.csv.
     #[arg(required = true)]
     curves: Vec<PathBuf>,
     #[command(flatten)]
@@ -43,12 +43,16 @@ pub(crate) struct FitIndentation {
     /// Poisson ratio.
     #[arg(long, default_value_t = 0.5, value_name = "NU")]
     poisson_ratio: f64,
-    /// Stiffness of the cantilever in N/m.
+    /// Stiffness of the cantilever in N/m [default: what the table says].
     #[arg(long, value_name = "N/m")]
     spring_constant: Option<f64>,
     /// Deflection per volt in m/V.
     #[arg(long, value_name = "m/V")]
     sensitivity: Option<f64>,
+    /// Ramps per second, there and back, where a table has the two halves of a ramp and no times (NanoScope: the columns
+    /// that end in _Ex and _Rt).
+    #[arg(long, value_name = "1/s")]
+    ramp_rate: Option<f64>,
     /// Fit up to the deepest point only: most bodies stick on the way back.
     #[arg(long)]
     before_retraction: bool,
@@ -71,6 +75,9 @@ struct Body {
     /// Sphere of this radius in m.
     #[arg(long, value_name = "RADIUS")]
     sphere: Option<f64>,
+    /// Paraboloid of this radius of curvature at its tip in m.
+    #[arg(long, value_name = "RADIUS")]
+    paraboloid: Option<f64>,
     /// Cone of this angle between axis and flank in degrees.
     #[arg(long, value_name = "ANGLE")]
     cone: Option<f64>,
@@ -92,13 +99,16 @@ impl Body {
         };
         let cone = |angle| PowerProfile::cone(slope("--cone", angle)?);
         let pyramid = |angle| PowerProfile::pyramid(slope("--pyramid", angle)?);
-        let shape = match (self.sphere, self.cone, self.pyramid, self.flat_punch) {
-            (Some(radius), ..) => Sphere::new(radius).map(boxed),
-            (_, Some(angle), ..) => cone(angle).map(boxed),
-            (_, _, Some(angle), _) => pyramid(angle).map(boxed),
-            // One of them is given.
-            (.., radius) => FlatPunch::new(radius.unwrap_or_default()).map(boxed),
-        };
+        let paraboloid = |radius| PowerProfile::paraboloid(0.5 / positive("--paraboloid", radius)?);
+        // One of them is given.
+        let shapes = [
+            self.sphere.map(|radius| Sphere::new(radius).map(boxed)),
+            self.paraboloid.map(|radius| paraboloid(radius).map(boxed)),
+            self.cone.map(|angle| cone(angle).map(boxed)),
+            self.pyramid.map(|angle| pyramid(angle).map(boxed)),
+        ];
+        let punch = || FlatPunch::new(self.flat_punch.unwrap_or_default()).map(boxed);
+        let shape = shapes.into_iter().flatten().next().unwrap_or_else(punch);
         shape.map_err(|error| WrongInput(error.to_string()))
     }
 }
@@ -121,7 +131,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     let fit = progress::during(format!("fitting {}", file.display()), |_| {
         options.fitted(file, &*body, true)
     })?;
-    print_text(&table(&fit))?;
+    print_text(&options.table(&fit))?;
     let Some(out) = &out else {
         return Ok(());
     };
@@ -135,7 +145,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     out.write("fit.csv", &to_csv(header, &fit.points)?)?;
     out.draw("fit", &picture::figure(&fit))?;
     // Last: with it the others are there. What is not determined is said in front of the numbers.
-    let findings = table(&fit).replace('\n', "\n# ");
+    let findings = options.table(&fit).replace('\n', "\n# ");
     let material = prony(&fit.material.relaxation(), options.poisson_ratio);
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
@@ -152,6 +162,7 @@ impl FitIndentation {
         let read = CurveOptions {
             spring_constant: self.spring_constant,
             sensitivity: self.sensitivity,
+            ramp_rate: self.ramp_rate,
         };
         let curve = indentation_curve(file, &read_table(file)?, &read)?;
         let options = FitOptions {
@@ -235,30 +246,50 @@ fn numbers(finding: &Finding) -> [Option<f64>; 4] {
     [value, error, lower, upper]
 }
 
-/// What was found, and what is doubtful.
-fn table(fit: &IndentationFit) -> String {
-    let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
-    for finding in &fit.findings {
-        let digits = |number: f64| format!("{number:.4e}");
-        let [value, error] = match finding.estimate {
-            Some(estimate) => [estimate.value, estimate.error].map(digits),
-            None => ["not determined", ""].map(str::to_owned),
-        };
-        let interval = match finding.interval.map(|end| end.map(digits)) {
-            [Some(lower), Some(upper)] => format!("{lower} to {upper}"),
-            [Some(lower), None] => format!("more than {lower}"),
-            [None, Some(upper)] => format!("less than {upper}"),
-            [None, None] => "any".to_owned(),
-        };
-        table.add_row([&finding.name, &value, &error, &interval, finding.unit]);
+impl FitIndentation {
+    /// What was found, and what is doubtful.
+    fn table(&self, fit: &IndentationFit) -> String {
+        let mut table = markdown("quantity | value | standard error | 95 % interval | unit");
+        for finding in &fit.findings {
+            table.add_row(row(&finding.name, 1.0, finding));
+            if let Some(of) = finding.name.strip_prefix('G') {
+                table.add_row(row(
+                    &format!("E{of}"),
+                    2.0 * (1.0 + self.poisson_ratio),
+                    finding,
+                ));
+            }
+        }
+        let noise = fit.noise;
+        let noise = noise.map(|noise| format!(", noise before the contact {noise:.3e} N"));
+        let noise = noise.unwrap_or_default();
+        let [residual, correlated] = [fit.residual, fit.correlated_points];
+        let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
+        format!(
+            "{table}\nresidual {residual:.3e} N{noise}; one independent point in {correlated:.1}\n{}",
+            flags.collect::<String>()
+        )
     }
-    let noise = fit.noise;
-    let noise = noise.map(|noise| format!(", noise before the contact {noise:.3e} N"));
-    let noise = noise.unwrap_or_default();
-    let [residual, correlated] = [fit.residual, fit.correlated_points];
-    let flags = fit.flags.iter().map(|flag| format!("flag: {flag}\n"));
-    format!(
-        "{table}\nresidual {residual:.3e} N{noise}; one independent point in {correlated:.1}\n{}",
-        flags.collect::<String>()
-    )
+}
+
+/// A finding times a factor.
+fn row(name: &str, factor: f64, finding: &Finding) -> [String; 5] {
+    let digits = |number: f64| format!("{:.4e}", factor * number);
+    let [value, error] = match finding.estimate {
+        Some(estimate) => [estimate.value, estimate.error].map(digits),
+        None => ["not determined", ""].map(str::to_owned),
+    };
+    let interval = match finding.interval.map(|end| end.map(digits)) {
+        [Some(lower), Some(upper)] => format!("{lower} to {upper}"),
+        [Some(lower), None] => format!("more than {lower}"),
+        [None, Some(upper)] => format!("less than {upper}"),
+        [None, None] => "any".to_owned(),
+    };
+    [
+        name.to_owned(),
+        value,
+        error,
+        interval,
+        finding.unit.to_owned(),
+    ]
 }

@@ -1,12 +1,14 @@
 //! Measured moduli in the layouts in which instruments export them are read as the same numbers.
 //!
-//! Each table has the three points of [`POINTS`], in the words, units, order, separators and encodings of one software as it
+//! Each table of moduli has the three points of [`POINTS`], in the words, units, order, separators and encodings of one software as it
 //! is known from its exports and manuals; the numbers are made up.
 
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
+use encoding_rs::{GB18030, SHIFT_JIS, UTF_8, WINDOWS_1252};
+use viscofriction::indentation::{CurveOptions, indentation_curve};
 use viscofriction::moduli::{
     Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
 };
@@ -63,14 +65,69 @@ fn isotherms(read: MeasuredModuli) -> Vec<(f64, Vec<[f64; 3]>)> {
 #[test]
 fn names_in_six_languages_are_those_of_the_same_quantities() {
     for [names] in table("names of moduli") {
-        let above = "Prüfling;SBR 1502\nGerät;Eplexor\nDatum;12.03.2024\n\n";
+        let above = "Sample;SBR 1502\nInstrument;Eplexor\nDatum;12.03.2024\n\n";
         let text = format!("{above}{names}\n0,1;20;1,5;0,3\n1;20;2,25;0,45\n10;20;4;1,2\n");
-        let isotherms = isotherms(read(text.as_bytes(), Some(Deformation::Shear)));
-        let points = isotherms[0].1.as_flattened();
-        assert_eq!(points.len(), 9, "{names}: {isotherms:?}");
-        for (read, written) in points.iter().zip(POINTS.as_flattened()) {
-            assert_close(&names, *read, *written, 1e-12);
+        let is_european = names.chars().all(|letter| letter < '\u{100}');
+        for encoding in [UTF_8, WINDOWS_1252, GB18030, SHIFT_JIS] {
+            let (contents, _, is_foreign) = encoding.encode(&text);
+            if is_foreign || (is_european && ![UTF_8, WINDOWS_1252].contains(&encoding)) {
+                continue;
+            }
+            let what = format!("{names}, {}", encoding.name());
+            let isotherms = isotherms(read(&contents, Some(Deformation::Shear)));
+            let points = isotherms[0].1.as_flattened();
+            assert_eq!(points.len(), 9, "{what}: {isotherms:?}");
+            for (read, written) in points.iter().zip(POINTS.as_flattened()) {
+                assert_close(&what, *read, *written, 1e-12);
+            }
         }
+    }
+}
+
+/// Force and depth of six points, \[nN] and \[nm], a quarter of a second apart.
+const CURVE: [[f64; 2]; 6] = [
+    [0.0, 0.0],
+    [1.0, 100.0],
+    [2.0, 200.0],
+    [2.0, 190.0],
+    [1.0, 90.0],
+    [0.0, -10.0],
+];
+
+#[test]
+fn force_curves_of_three_makers_have_the_same_points() {
+    let options = CurveOptions {
+        spring_constant: Some(0.1),
+        sensitivity: None,
+        ramp_rate: Some(0.5 / 0.75),
+    };
+    for [software, text] in table("exports of curves") {
+        let read = |text: &str, options: &CurveOptions| {
+            indentation_curve(Path::new("curve.txt"), text.as_bytes(), options)
+        };
+        let curve = read(&text, &options).unwrap_or_else(|error| panic!("{software}: {error}"));
+        assert_eq!(curve.time.len(), 6, "{software}: {curve:?}");
+        for (i, [force, depth]) in CURVE.into_iter().enumerate() {
+            let close = |of: &str, read: f64, written: f64, least: f64| {
+                let off = (read - written).abs();
+                assert!(
+                    off <= 1e-9 * least,
+                    "{software}, {of} {i}: {read}, not {written}"
+                );
+            };
+            close("time", curve.time[i], 0.25 * i as f64, 1.0);
+            close("depth", curve.depth[i], 1e-9 * depth, 1e-7);
+            close("force", curve.force[i], 1e-9 * force, 1e-9);
+        }
+        let is_stated = text.contains("pringConstant");
+        let alone = read(&text, &CurveOptions::default());
+        let reason = alone.err().map(|error| error.to_string());
+        let is_asked_for = reason.as_ref().is_some_and(|reason| {
+            ["ramp_rate", "spring_constant"]
+                .iter()
+                .any(|option| reason.contains(option))
+        });
+        assert_eq!(is_asked_for, !is_stated, "{software}: {reason:?}");
     }
 }
 

@@ -9,6 +9,7 @@
 mod checks;
 mod depth;
 mod flag;
+mod igor;
 mod intervals;
 mod judgement;
 mod means;

@@ -66,7 +66,7 @@ pub fn measured_moduli(
     contents: &[u8],
     options: &TableOptions,
 ) -> Result<MeasuredModuli, WrongInput> {
-    let text = text_of(contents);
+    let text = text_of(contents, &MODULI);
     let scale = |column: &Column| match column.deformation {
         Some(Deformation::Tension) => options.shear_per_tension,
         _ => 1.0,

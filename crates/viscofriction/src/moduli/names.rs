@@ -10,6 +10,7 @@ pub(super) static MODULI: Vocabulary = Vocabulary {
     is_head,
     needed,
     optional: &[Temperature, Set],
+    has_order: false,
 };
 
 const TENSION: Option<Deformation> = Some(Deformation::Tension);
@@ -23,13 +24,13 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 41] = [
     (Frequency, None, "frequence frequenceangulaire pulsation"),
     (Frequency, None, "frecuencia frecuenciaangular"),
     (Frequency, None, "frequenza frequenzaangolare pulsazione"),
-    (Frequency, None, "频率 角频率 周波数 角周波数"),
+    (Frequency, None, "频率 角频率 頻率 周波数 角周波数"),
     (Time, None, "t time zeit temps tiempo tempo 时间 時間"),
     (Storage, None, "storagemodulus speichermodul"),
     (Storage, None, "moduledeconservation moduledestockage"),
     (Storage, None, "modulodealmacenamiento moduloconservativo"),
     (Storage, None, "modulodiaccumulo modulodiimmagazzinamento"),
-    (Storage, None, "储能模量 貯蔵弾性率"),
+    (Storage, None, "储能模量 儲能模量 貯蔵弾性率"),
     (Storage, TENSION, "E' Estor Estorage"),
     (Storage, SHEAR, "G' Gstor Gstorage"),
     (Storage, SHEAR, "shearstoragemodulus"),
@@ -39,7 +40,7 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 41] = [
     (Loss, None, "moduledeperte moduledepertes"),
     (Loss, None, "modulodeperdida modulodeperdidas"),
     (Loss, None, "modulodissipativo modulodiperdita"),
-    (Loss, None, "损耗模量 損失弾性率"),
+    (Loss, None, "损耗模量 損耗模量 損失弾性率"),
     (Loss, TENSION, "E'' Eloss"),
     (Loss, SHEAR, "G'' Gloss"),
     (Loss, SHEAR, "shearlossmodulus"),
@@ -57,7 +58,7 @@ const KNOWN: [(Quantity, Option<Deformation>, &str); 41] = [
     (Temperature, None, "T Ts temp temperature temperatur"),
     (Temperature, None, "sampletemperature"),
     (Temperature, None, "temperatura"),
-    (Temperature, None, "温度"),
+    (Temperature, None, "温度 溫度"),
 ];
 
 /// Whether names are those of moduli over something else.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Deformation;
 use Quantity::{
     Deflection, Depth, Force, Frequency, Height, Loss, LossFactor, Other, Piezo, Relaxation, Set,
-    Storage, Temperature, Time,
+    Storage, Temperature, Time, Tip,
 };
 
 /// What a column holds.
@@ -27,6 +27,8 @@ pub(crate) enum Quantity {
     Piezo,
     /// Position of the piezo, away from the sample.
     Height,
+    /// Position of the tip, away from the sample.
+    Tip,
     Deflection,
     /// A name of which only a part is known.
     Other,
@@ -44,33 +46,44 @@ pub(crate) struct Vocabulary {
     pub(crate) needed: fn(&[Quantity]) -> Vec<Quantity>,
     /// What is read beside that.
     pub(crate) optional: &'static [Quantity],
+    /// Whether of several columns of a quantity the one whose name stands first in `known` counts, of the same name that
+    /// whose unit does.
+    pub(crate) has_order: bool,
 }
 
 impl Vocabulary {
-    /// What a name stands for. Capitals count in letters that stand alone: T is a temperature and t a time, and F is a
-    /// force.
-    pub(super) fn meaning(&self, name: &str) -> Option<(Quantity, Option<Deformation>)> {
+    /// What a name stands for, by its place in `known`, and how the body was deformed. Capitals count in letters that stand
+    /// alone: T is a temperature and t a time, and F is a force.
+    pub(super) fn meaning(&self, name: &str) -> Option<(usize, Option<Deformation>)> {
         let name = name
-            .replace(['′', '’', '´', '`', '\u{92}'], "'")
-            .replace(['″', '”', '"', '\u{94}'], "''")
+            .replace(['′', '’', '´', '`'], "'")
+            .replace(['″', '”', '"'], "''")
             .replace([' ', '_', '-', '.'], "");
         let beside = |&(symbol, quantity, deformation): &(&str, Quantity, Option<Deformation>)| {
             let rest = name.strip_suffix(')').unwrap_or(&name).strip_suffix(symbol);
             let rest = rest.or_else(|| name.strip_prefix(symbol))?;
-            let (found, _) = self.find(rest.trim_matches(['(', ')', ',']))?;
-            (found == quantity).then_some((quantity, deformation))
+            let found = self.find(rest.trim_matches(['(', ')', ',']))?;
+            (self.known[found].0 == quantity).then_some((found, deformation))
         };
-        self.find(&name).or_else(|| SYMBOLS.iter().find_map(beside))
+        let found = self.find(&name).map(|found| (found, self.known[found].1));
+        found.or_else(|| SYMBOLS.iter().find_map(beside))
     }
 
-    fn find(&self, name: &str) -> Option<(Quantity, Option<Deformation>)> {
+    fn find(&self, name: &str) -> Option<usize> {
         let folded = folded(name);
         let is_same = |word: &str| {
             word == name || (name.chars().count() > 1 && word.to_lowercase() == folded)
         };
         let mut known = self.known.iter();
-        let found = known.find(|(.., words)| words.split(' ').any(is_same));
-        found.map(|&(quantity, deformation, _)| (quantity, deformation))
+        known.position(|(.., words)| words.split(' ').any(is_same))
+    }
+
+    /// Whether a text has Chinese or Japanese names in it.
+    pub(super) fn has_ideographs_in(&self, text: &str) -> bool {
+        let words = self.known.iter().flat_map(|(.., words)| words.split(' '));
+        let is_ideograph = |letter| letter > '\u{3000}';
+        let mut words = words.filter(|word| word.contains(is_ideograph));
+        words.any(|word| text.contains(word))
     }
 }
 
@@ -100,13 +113,24 @@ fn folded(name: &str) -> String {
     name.to_lowercase().chars().map(plain).collect()
 }
 
-/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]` or `E' / MPa` may be divided; without a unit that is empty.
+/// A name and its unit, as `E'`, `E' (MPa)`, `E' [MPa]`, `E' / MPa` or `Defl_pN_Ex` may be divided; without a unit that is empty.
 pub(crate) fn divided(cell: &str) -> impl Iterator<Item = (&str, &str)> {
     let bracket = cell.strip_suffix([')', ']', '）']);
     let bracket = bracket.and_then(|cell| cell.rsplit_once(['(', '[', '（']));
-    let parts = [Some((cell, "")), bracket, cell.split_once('/')];
+    // The name and the half of a ramp may have the unit between them or behind them.
+    let half = |name| HALVES.iter().find_map(|half| str::strip_suffix(name, half));
+    let name = half(cell).unwrap_or(cell);
+    let ramp = name.rsplit_once('_');
+    let ramp = ramp.and_then(|(name, unit)| match half(name) {
+        None if name.len() + unit.len() + 1 == cell.len() => None,
+        before => Some((before.unwrap_or(name), unit)),
+    });
+    let parts = [Some((cell, "")), bracket, cell.split_once('/'), ramp];
     parts.into_iter().flatten()
 }
+
+/// How NanoScope marks the columns of the way there and back, as in `Defl_pN_Ex` and `Calc_Ramp_Rt_nm`.
+pub(super) const HALVES: [&str; 2] = ["_Ex", "_Rt"];
 
 impl Quantity {
     /// The usual names, for messages, and the units between blanks, of which one may be empty.
@@ -124,8 +148,9 @@ impl Quantity {
             Depth => ("depth", "m mm um nm pm A"),
             Piezo => ("piezo", "m mm um nm pm A"),
             Height => ("height", "m mm um nm pm A"),
-            // Lengths, and what a detector says.
-            Deflection => ("deflection", "m um nm pm V mV"),
+            Tip => ("tip position", "m mm um nm pm A"),
+            // As a force, as a length, and what a detector says.
+            Deflection => ("deflection", "N mN uN nN pN m um nm pm V mV"),
             Other => ("", "-  1"),
         }
     }

@@ -4,20 +4,23 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The text of a file in UTF-8, in UTF-16 with a byte-order mark, or else in Latin-1.
-pub(crate) fn text_of(contents: &[u8]) -> Cow<'_, str> {
-    let utf16 = |pairs: &[u8], unit: fn([u8; 2]) -> u16| {
-        let units = pairs.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
-        Cow::from(String::from_utf16_lossy(&units.collect::<Vec<_>>()))
-    };
-    match contents {
-        [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes),
-        [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes),
-        [0xef, 0xbb, 0xbf, rest @ ..] | rest => str::from_utf8(rest).map_or_else(
-            |_| rest.iter().map(|&byte| char::from(byte)).collect(),
-            Cow::from,
-        ),
+use encoding_rs::{GB18030, SHIFT_JIS, UTF_8, WINDOWS_1252};
+
+use super::Vocabulary;
+
+/// The text of a file in UTF-8, in UTF-16 with a byte-order mark, in GB 18030 or Shift JIS where that has Chinese or Japanese
+/// names of quantities in it, or else in Windows-1252.
+pub(crate) fn text_of<'a>(contents: &'a [u8], vocabulary: &Vocabulary) -> Cow<'a, str> {
+    let (text, _, has_errors) = UTF_8.decode(contents);
+    if !has_errors {
+        return text;
     }
+    let encodings = [GB18030, SHIFT_JIS].into_iter();
+    let mut texts = encodings.filter_map(|encoding| {
+        encoding.decode_without_bom_handling_and_without_replacement(contents)
+    });
+    let known = texts.find(|text| vocabulary.has_ideographs_in(text));
+    known.unwrap_or_else(|| WINDOWS_1252.decode(contents).0)
 }
 
 /// How the cells of a table are separated, and their numbers written.
@@ -97,6 +100,7 @@ impl Layout {
     /// Names and units may stand in a comment. Where blanks separate, names with blanks in them are two blanks apart.
     pub(crate) fn names(self, line: &str) -> Vec<&str> {
         let line = line.trim_start_matches(MARKS);
+        let line = tagged(line).map_or(line, |(_, names)| names);
         if self.is_blank() && line.trim().contains("  ") {
             let names = line.split("  ").map(str::trim);
             return names.filter(|name| !name.is_empty()).collect();
@@ -117,6 +121,13 @@ impl Layout {
 fn unquoted(cell: &str) -> &str {
     let rest = cell.strip_prefix('"');
     rest.map_or(cell, |rest| rest.strip_suffix('"').unwrap_or(rest).trim())
+}
+
+/// The tag of a comment of JPK, which has the names or the units of the columns below, and what comes after it.
+pub(crate) fn tagged(line: &str) -> Option<(&str, &str)> {
+    let (tag, rest) = line.trim_start_matches(MARKS).split_once(':')?;
+    let is_known = ["columns", "units"].contains(&tag.trim());
+    is_known.then(|| (tag.trim(), rest))
 }
 
 const MARKS: [char; 2] = ['#', '%'];

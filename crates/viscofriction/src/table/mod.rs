@@ -10,9 +10,9 @@ use std::path::Path;
 
 use crate::WrongInput;
 use Quantity::{Frequency, Loss, Storage};
-use columns::divided;
+use columns::{HALVES, divided};
 pub(crate) use columns::{Quantity, Vocabulary};
-use layout::{Layout, is_comment};
+use layout::{Layout, is_comment, tagged};
 
 type Result<T, E = WrongInput> = std::result::Result<T, E>;
 
@@ -60,6 +60,8 @@ pub(crate) struct Column<'a> {
     pub(crate) deformation: Option<Deformation>,
     name: &'a str,
     place: usize,
+    /// Place of its name in the vocabulary.
+    order: usize,
     pub(crate) unit: &'a str,
     /// To SI, and what that is multiplied by.
     factor: f64,
@@ -76,6 +78,8 @@ pub(crate) struct Table<'a> {
     columns: Vec<Column<'a>>,
     /// Lines of names and units.
     n_heads: usize,
+    /// Whether it is the way there or back of a ramp, which stand side by side.
+    pub(crate) is_half: bool,
 }
 
 impl<'a> Source<'a> {
@@ -111,10 +115,18 @@ impl<'a> Source<'a> {
         };
         let heads: Vec<usize> = (0..lines.len()).filter(is_head).collect();
         let ends = heads.iter().skip(1).copied().chain([lines.len()]);
-        let tables = heads.iter().zip(ends).map(|(&head, end)| {
-            let block = &lines[head..end];
-            let table = Table::new(self, block)?;
-            let rows = table.rows(block, end == lines.len());
+        let blocks = heads.iter().zip(ends).map(|(&head, end)| &lines[head..end]);
+        let blocks = blocks.flat_map(|block| {
+            let is_back = |column: &Column| column.name.contains(HALVES[1]);
+            let has_halves = self.columns(&block[0]).iter().any(is_back);
+            let halves = if has_halves { &HALVES[..] } else { &[""] };
+            halves.iter().map(move |half| (block, *half))
+        });
+        let tables = blocks.map(|(block, half)| {
+            let table = Table::new(self, block, half)?;
+            let is_last =
+                block.last().map(|line| line.number) == lines.last().map(|line| line.number);
+            let rows = table.rows(block, is_last);
             Ok((table, rows))
         });
         let tables: Vec<_> = tables.collect::<Result<_>>()?;
@@ -133,13 +145,15 @@ impl<'a> Source<'a> {
             let meaning = |name| self.vocabulary.meaning(name);
             let mut parts = divided(name);
             let (found, unit) = parts.find_map(|(name, unit)| Some((meaning(name)?, unit)))?;
-            let (quantity, deformation) = found;
+            let (order, deformation) = found;
+            let quantity = self.vocabulary.known[order].0;
             let deformation = deformation.or(self.meaning.deformation);
             Some(Column {
                 quantity,
                 deformation: deformation.filter(|_| quantity.is_modulus()),
                 name,
                 place,
+                order,
                 unit,
                 factor: 1.0,
             })
@@ -204,11 +218,12 @@ fn shown(cell: &str, most: usize) -> String {
 }
 
 impl<'a> Table<'a> {
-    /// The table of a block of lines that begins with the names.
-    fn new(source: &'a Source<'a>, block: &[Line<'a>]) -> Result<Self> {
+    /// The table of a block of lines that begins with the names, of which those with a part count.
+    fn new(source: &'a Source<'a>, block: &[Line<'a>], half: &str) -> Result<Self> {
         let head = &block[0];
         let vocabulary = source.vocabulary;
         let mut columns = source.columns(head);
+        columns.retain(|column| column.name.contains(half));
         let quantities = quantities(&columns);
         let needed = (vocabulary.needed)(&quantities);
         if let Some(missing) = needed.iter().find(|one| !quantities.contains(one)) {
@@ -220,12 +235,28 @@ impl<'a> Table<'a> {
             let quantity = &column.quantity;
             vocabulary.optional.contains(quantity) || needed.contains(quantity)
         });
+        if vocabulary.has_order {
+            let rank = |column: &Column| {
+                let mut units = column.quantity.units().split(' ');
+                (column.order, units.position(|unit| unit == column.unit))
+            };
+            let ranks: Vec<_> = columns
+                .iter()
+                .map(|one| (one.quantity, rank(one)))
+                .collect();
+            columns.retain(|one| {
+                ranks
+                    .iter()
+                    .all(|(quantity, other)| *quantity != one.quantity || *other >= rank(one))
+            });
+        }
         let mut table = Self {
             source,
             line: head.number,
             needed,
             columns,
             n_heads: 1,
+            is_half: !half.is_empty(),
         };
         table.check_names(head.number)?;
         table.read_units(block)?;
@@ -259,7 +290,21 @@ impl<'a> Table<'a> {
     fn read_units(&mut self, block: &[Line<'a>]) -> Result<()> {
         let layout = self.source.layout;
         let is_open = |one: &Column| one.unit.is_empty() && one.quantity.unit("").is_none();
-        let below = block.get(1).filter(|_| self.columns.iter().any(is_open));
+        let below = match tagged(block[0].text) {
+            None => block.get(1),
+            Some(_) => {
+                let comments = block.iter().take_while(|line| is_comment(line.text));
+                let mut units =
+                    comments.filter(|line| matches!(tagged(line.text), Some(("units", _))));
+                let needed = "a line '# units:' is needed below it";
+                Some(
+                    units
+                        .next()
+                        .ok_or_else(|| self.source.wrong_line(self.line, &needed))?,
+                )
+            }
+        };
+        let below = below.filter(|_| self.columns.iter().any(is_open));
         self.n_heads += usize::from(below.is_some());
         let mut units = below.map_or(Vec::new(), |line| layout.names(line.text));
         if layout.is_blank() {
