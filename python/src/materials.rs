@@ -35,6 +35,7 @@ pub(crate) fn material_curve<'py>(
     let HalfSpace {
         material,
         expansion,
+        ..
     } = half_space(&material, &files).map_err(wrong)?;
     let (relaxation, creep) = (material.relaxation(), material.creep());
     let modulus = |omega: f64| relaxation.complex_modulus(omega);

@@ -29,7 +29,11 @@ __all__ = [
 
 
 class Material:
-    """A material. Moduli [Pa], viscosities [Pa s] and times [s] are checked when they are used."""
+    """A material. Moduli [Pa], viscosities [Pa s] and times [s] are checked when they are used.
+
+    ``valid_frequencies`` are the lowest and the highest angular frequency at which it was measured [rad/s]; an answer whose friction
+    comes from others warns, and says how much in ``dissipation``.
+    """
 
     _kind: ClassVar[str]
 
@@ -72,6 +76,7 @@ class Viscous(Material):
     viscosity: float
     _: KW_ONLY
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "viscous"
 
 
@@ -82,6 +87,7 @@ class Elastic(Material):
     shear_modulus: float
     _: KW_ONLY
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "elastic"
 
 
@@ -93,6 +99,7 @@ class KelvinVoigt(Material):
     viscosity: float
     _: KW_ONLY
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "kelvin-voigt"
 
 
@@ -104,6 +111,7 @@ class Maxwell(Material):
     viscosity: float
     _: KW_ONLY
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "maxwell"
 
 
@@ -116,6 +124,7 @@ class StandardSolid(Material):
     viscosity: float
     _: KW_ONLY
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "standard-solid"
 
 
@@ -128,6 +137,7 @@ class Prony(Material):
     _: KW_ONLY
     viscosity: float = 0.0
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "prony"
 
     def _table(self) -> dict[str, Any]:
@@ -150,6 +160,7 @@ class Springpot(Material):
     time_range: tuple[float, float]
     equilibrium_modulus: float = 0.0
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "springpot"
 
 
@@ -167,6 +178,7 @@ class FractionalMaxwell(Material):
     time_range: tuple[float, float]
     equilibrium_modulus: float = 0.0
     poisson_ratio: float = 0.5
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "fractional-maxwell"
 
 
@@ -177,8 +189,10 @@ class MaterialFile(Material):
     path: str | os.PathLike[str]
     _: KW_ONLY
     poisson_ratio: float | None = None
+    valid_frequencies: tuple[float, float] | None = None
     _kind = "file"
 
     def _table(self) -> dict[str, Any]:
-        path = os.fspath(Path(self.path).absolute())
-        return {self._kind: {"path": path, "poisson_ratio": self.poisson_ratio}}
+        table = super()._table()
+        table[self._kind]["path"] = os.fspath(Path(self.path).absolute())
+        return table

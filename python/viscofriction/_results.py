@@ -144,6 +144,15 @@ class Answer(Compared):
         return {name: values for name, values in theory.items() if values is not None}
 
     @property
+    def dissipation(self) -> dict[str, Values]:
+        """Parts of the friction, 0 to 1, where they are known: ``outside_window`` from frequencies at which the material was not
+        measured, ``below_window`` and ``above_window``."""
+        prefix = "dissipation_"
+        names = [name for name in self._columns if name.startswith(prefix)]
+        shares = {name.removeprefix(prefix): self._values(name) for name in names}
+        return {name: values for name, values in shares.items() if values is not None}
+
+    @property
     def contact_box(self) -> dict[str, Values]:
         """Edges of the contact relative to the lowest point [m], by their names ``x_min`` to ``y_max``."""
         edges = {name: self._values(name) for name in EDGES}

@@ -47,6 +47,7 @@ pub mod periodic;
 mod plan;
 mod plane_transform;
 mod pressure_field;
+mod pressure_spectrum;
 mod rectangle;
 mod reductions;
 mod resolution;
@@ -74,6 +75,7 @@ pub use periodic::{
     PeriodicLoad, PeriodicOptions, PeriodicRow, PeriodicSliding, PeriodicTransient,
     slide_periodic_on_grid, steady_periodic_on_grid,
 };
+pub use pressure_spectrum::line_spectrum;
 pub use resolution::GridOptions;
 pub use slide::{PressureField, slide, slide_on_grid};
 pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};

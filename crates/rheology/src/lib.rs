@@ -36,6 +36,7 @@ mod materials;
 mod spectrum;
 mod step;
 mod time_temperature;
+mod window;
 
 pub use complex::{ComplexCompliance, ComplexModulus};
 pub use error::RheologyError;
@@ -51,3 +52,4 @@ pub use spectrum::creep::{CreepSpectrum, RetardationElement};
 pub use spectrum::relaxation::{RelaxationBranch, RelaxationSpectrum};
 pub use step::ExponentialStep;
 pub use time_temperature::{ArrheniusShift, WlfShift};
+pub use window::{OutsideWindow, StressBand};

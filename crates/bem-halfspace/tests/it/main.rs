@@ -20,6 +20,7 @@ mod nested_grids;
 mod periodic_contact;
 mod periodic_march;
 mod periodic_sliding;
+mod pressure_spectrum;
 mod stationary_state;
 mod support;
 #[cfg(feature = "rayon")]

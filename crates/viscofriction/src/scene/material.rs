@@ -29,6 +29,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// A spring.
     Elastic {
@@ -37,6 +39,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// Spring and dashpot in parallel.
     KelvinVoigt {
@@ -47,6 +51,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// Spring and dashpot in series.
     Maxwell {
@@ -57,6 +63,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// A spring in parallel with a Maxwell element.
     StandardSolid {
@@ -69,6 +77,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// Spring, dashpot and Maxwell branches in parallel.
     Prony {
@@ -82,6 +92,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
@@ -98,6 +110,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// Spring and springpot in series: G* = G z/(1 + z), z = (iωτ)^a.
     FractionalMaxwell {
@@ -115,6 +129,8 @@ pub enum MaterialTable {
         /// Poisson ratio, −1 < ν ≤ 1/2.
         #[serde(default = "incompressible")]
         poisson_ratio: f64,
+        /// Lowest and highest frequency at which it was measured, \[rad/s].
+        valid_frequencies: Option<[f64; 2]>,
     },
     /// The material of another file.
     File {
@@ -122,6 +138,8 @@ pub enum MaterialTable {
         path: PathBuf,
         /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
         poisson_ratio: Option<f64>,
+        /// Lowest and highest frequency at which it was measured, \[rad/s]; without them those of the file.
+        valid_frequencies: Option<[f64; 2]>,
     },
 }
 
@@ -166,6 +184,38 @@ impl MaterialTable {
             | Self::FractionalMaxwell { poisson_ratio, .. } => Some(*poisson_ratio),
             Self::File { poisson_ratio, .. } => *poisson_ratio,
         }
+    }
+
+    /// The window of frequencies in which the material was measured, where it is given here.
+    pub const fn valid_frequencies(&self) -> Option<[f64; 2]> {
+        let (Self::Viscous {
+            valid_frequencies, ..
+        }
+        | Self::Elastic {
+            valid_frequencies, ..
+        }
+        | Self::KelvinVoigt {
+            valid_frequencies, ..
+        }
+        | Self::Maxwell {
+            valid_frequencies, ..
+        }
+        | Self::StandardSolid {
+            valid_frequencies, ..
+        }
+        | Self::Prony {
+            valid_frequencies, ..
+        }
+        | Self::Springpot {
+            valid_frequencies, ..
+        }
+        | Self::FractionalMaxwell {
+            valid_frequencies, ..
+        }
+        | Self::File {
+            valid_frequencies, ..
+        }) = self;
+        *valid_frequencies
     }
 }
 

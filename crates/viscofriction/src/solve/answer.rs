@@ -6,6 +6,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::body::Body;
 use super::curve::Curve;
+use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
 use super::half_space::Simple;
 use super::omission::Omission;
@@ -39,6 +40,8 @@ pub struct Answer {
     pub rough: Option<RoughAnswer>,
     /// The rectangle around the contact.
     pub contact_box: Option<ContactBox>,
+    /// Where the dissipated power comes from.
+    pub dissipation: Dissipation,
     /// Unknown pressures, elements or polynomials at the same time; none in a closed form.
     pub unknowns: usize,
     /// Iterations or time steps on the finest resolution.
@@ -147,6 +150,7 @@ impl Answer {
             peak_pressure: None,
             rough: None,
             contact_box: None,
+            dissipation: Dissipation::default(),
             unknowns: 0,
             iterations: 0,
             is_per_length: false,
@@ -215,6 +219,8 @@ impl Answer {
         ];
         let others = EDGES.into_iter().zip(edges).chain(others);
         numbers.extend(others.map(|(name, number)| (name.to_owned(), number)));
+        let shares = self.dissipation.shares().into_iter();
+        numbers.extend(shares.map(|(name, share)| (format!("dissipation_{name}"), share)));
         numbers
     }
 
@@ -324,6 +330,9 @@ impl Serialize for Answer {
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;
             map.serialize_entry("contact_box_error", &contact.error)?;
+        }
+        if self.dissipation != Dissipation::default() {
+            map.serialize_entry("dissipation", &self.dissipation)?;
         }
         if !self.error_parts.is_none() {
             map.serialize_entry("error_parts", &self.error_parts)?;

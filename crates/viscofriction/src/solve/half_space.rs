@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use numerics::in_range;
 use rheology::{
     Compressible, Elastic, FractionalMaxwell, FractionalMaxwellParameters, KelvinVoigt, Material,
     Maxwell, Prony, RelaxationBranch, RelaxationSpectrum, RheologyError, Springpot, StandardSolid,
@@ -20,6 +21,8 @@ pub struct HalfSpace {
     pub material: Box<dyn Material>,
     /// How well the series does.
     pub expansion: Option<Expansion>,
+    /// The frequencies in which it was measured, \[rad/s]; none of a material that is known at all.
+    pub window: Option<[f64; 2]>,
 }
 
 /// The half space of a table of the scene file.
@@ -32,6 +35,17 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     let ratio = ratio.unwrap_or_else(|| found.material.poisson_ratio());
     let material = Compressible::new(&*found.material, ratio).map(boxed);
     found.material = material.map_err(|error| refused(&table.key(), error))?;
+    if let Some([lowest, highest]) = table.valid_frequencies() {
+        let key = |place| format!("{}.valid_frequencies[{place}]", table.key());
+        let checked = |place, value, holds, allowed| {
+            in_range("", value, holds, allowed)
+                .map_err(|refused| SceneError::value(key(place), refused))
+        };
+        checked(0, lowest, lowest > 0.0, "greater than 0")?;
+        let allowed = "finite and greater than valid_frequencies[0]";
+        checked(1, highest, highest > lowest, allowed)?;
+        found.window = Some([lowest, highest]);
+    }
     Ok(found)
 }
 
@@ -101,6 +115,7 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
     Ok(HalfSpace {
         material,
         expansion: None,
+        window: None,
     })
 }
 
@@ -140,6 +155,7 @@ fn fractional(table: &MaterialTable) -> Result<HalfSpace, RheologyError> {
     Ok(HalfSpace {
         material: Box::new(material),
         expansion: Some(expansion),
+        window: None,
     })
 }
 

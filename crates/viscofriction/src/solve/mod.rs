@@ -5,6 +5,7 @@ mod analytic;
 mod answer;
 mod body;
 mod curve;
+mod dissipation;
 mod elements;
 mod error;
 mod expansion;
@@ -24,6 +25,7 @@ mod work;
 pub use answer::{Answer, ContactBox, Fields, HistoryRow, Persson, RoughAnswer};
 pub use body::{Body, BodyOfScene, Revolution, body};
 pub use curve::{Curve, CurveColumn};
+pub use dissipation::Dissipation;
 pub use error::{NotOffered, Result, SolveError};
 pub use expansion::Expansion;
 pub use half_space::{HalfSpace, half_space};
@@ -36,6 +38,7 @@ pub use omission::Omission;
 pub use problem::{Motion, Problem};
 pub use with_fields::with_fields;
 
+use self::dissipation::dissipation;
 use self::left_out::left_out;
 use self::validity::warnings;
 use self::work::work;
@@ -82,11 +85,12 @@ fn watched(
     let left_out = left_out(problem, &answer);
     // Closed forms of pressing are those of both models.
     let model = method.model().unwrap_or(problem.model());
-    let answer = Answer {
+    let mut answer = Answer {
         model,
         left_out,
-        warnings: warnings(problem, &answer),
+        dissipation: dissipation(problem, &answer),
         ..answer
     };
+    answer.warnings = warnings(problem, &answer);
     answer.finite()?.physical(problem)
 }

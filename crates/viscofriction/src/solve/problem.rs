@@ -31,6 +31,7 @@ pub struct Problem {
     material: Box<dyn Material>,
     thickness: f64,
     expansion: Option<Expansion>,
+    window: Option<[f64; 2]>,
     motion: Motion,
     history: Vec<HistoryPoint>,
     accuracy: Accuracy,
@@ -105,6 +106,7 @@ impl Problem {
             material: elastomer.material,
             thickness,
             expansion: elastomer.expansion,
+            window: elastomer.window,
             motion,
             history,
             accuracy: scene.solve.accuracy()?,
@@ -154,6 +156,11 @@ impl Problem {
     /// How well the material stands for a fractional element; none of a material that stands for itself.
     pub const fn expansion(&self) -> Option<Expansion> {
         self.expansion
+    }
+
+    /// The frequencies in which the material was measured, \[rad/s]; none of one that is known at all.
+    pub const fn window(&self) -> Option<[f64; 2]> {
+        self.window
     }
 
     /// How the body is pressed and moves.

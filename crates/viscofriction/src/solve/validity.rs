@@ -13,6 +13,8 @@ use super::problem::Problem;
 const STEEPEST: f64 = 0.5;
 /// Depth over the radius of a sphere or the thickness of a layer, likewise.
 const DEEPEST: f64 = 1.0 / 3.0;
+/// Part of the friction from outside of the material's window of frequencies, likewise.
+const MOST_EXTRAPOLATED: f64 = 0.1;
 
 /// Sentences about the validity of an answer, none where linear theory holds.
 pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
@@ -42,7 +44,25 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
             problem.thickness()
         ));
     }
+    warnings.extend(extrapolated(problem, answer));
     warnings
+}
+
+/// That the friction comes from frequencies at which the material was not measured.
+fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
+    let [lowest, highest] = problem.window()?;
+    let outside = answer.dissipation.outside_window?;
+    let percent = |share: Option<f64>| format!("{:.0} %", 100.0 * share.unwrap_or_default());
+    let of_window = &answer.dissipation;
+    (outside > MOST_EXTRAPOLATED).then(|| {
+        format!(
+            "{} of the friction comes from frequencies at which the material was not measured: {} from below {lowest:.3e} rad/s \
+             and {} from above {highest:.3e} rad/s; there its moduli are extrapolated",
+            percent(Some(outside)),
+            percent(of_window.below_window),
+            percent(of_window.above_window)
+        )
+    })
 }
 
 /// From the lowest point to the farthest edge of the contact, and of a periodic surface the root mean square; where no edge

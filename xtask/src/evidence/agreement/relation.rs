@@ -241,6 +241,7 @@ fn other_material(material: &MaterialTable) -> Option<MaterialTable> {
             viscosity,
             branches,
             poisson_ratio,
+            valid_frequencies: None,
         })
     };
     match *material {

@@ -301,26 +301,31 @@ impl Sample<'_> {
             MaterialKind::Viscous => MaterialTable::Viscous {
                 viscosity,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::Elastic => MaterialTable::Elastic {
                 shear_modulus: stress,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::KelvinVoigt => MaterialTable::KelvinVoigt {
                 shear_modulus: stress,
                 viscosity,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::Maxwell => MaterialTable::Maxwell {
                 shear_modulus: stress,
                 viscosity,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::StandardSolid => MaterialTable::StandardSolid {
                 equilibrium_modulus: stress,
                 maxwell_modulus,
                 viscosity: maxwell_modulus * self.time,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::Prony => self.prony(poisson_ratio),
             MaterialKind::Springpot => MaterialTable::Springpot {
@@ -329,6 +334,7 @@ impl Sample<'_> {
                 equilibrium_modulus,
                 time_range,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::FractionalMaxwell => MaterialTable::FractionalMaxwell {
                 shear_modulus: stress,
@@ -337,12 +343,14 @@ impl Sample<'_> {
                 equilibrium_modulus,
                 time_range,
                 poisson_ratio,
+                valid_frequencies: None,
             },
             MaterialKind::File => {
                 self.material = Some(self.prony(poisson_ratio));
                 MaterialTable::File {
                     path: MATERIAL.into(),
                     poisson_ratio: None,
+                    valid_frequencies: None,
                 }
             }
         }
@@ -362,6 +370,7 @@ impl Sample<'_> {
             viscosity: self.random.choice(&[0.0, 0.0, viscosity]),
             branches,
             poisson_ratio,
+            valid_frequencies: None,
         }
     }
 

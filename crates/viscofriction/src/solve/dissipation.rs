@@ -1,0 +1,86 @@
+//! Where the power comes from that a stationary state dissipates.
+
+use bem_halfspace::line_spectrum;
+use friction_analytic::{ElasticContact, slow_spectrum};
+use rheology::{OutsideWindow, StressBand};
+use serde::ser::{Serialize, Serializer};
+
+use super::answer::Answer;
+use super::body::Body;
+use super::problem::{Motion, Problem};
+use crate::scene::Model;
+
+/// Parts of the dissipated power, 0 to 1, which are those of the friction too; what is not known is none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dissipation {
+    /// From frequencies at which the material was not measured.
+    pub outside_window: Option<f64>,
+    /// From those below the window in which it was.
+    pub below_window: Option<f64>,
+    /// From those above.
+    pub above_window: Option<f64>,
+}
+
+impl Dissipation {
+    /// The parts by their names in JSON, and in CSV after `dissipation_`.
+    pub(super) const fn shares(&self) -> [(&'static str, Option<f64>); 3] {
+        [
+            ("outside_window", self.outside_window),
+            ("below_window", self.below_window),
+            ("above_window", self.above_window),
+        ]
+    }
+}
+
+impl Serialize for Dissipation {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let known = self.shares().into_iter();
+        serializer.collect_map(known.filter_map(|(name, share)| Some((name, share?))))
+    }
+}
+
+/// The parts of an answer that are known.
+pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
+    let outside = outside_window(problem, answer);
+    Dissipation {
+        outside_window: outside.map(|parts| parts.below + parts.above),
+        below_window: outside.map(|parts| parts.below),
+        above_window: outside.map(|parts| parts.above),
+    }
+}
+
+/// Of a stationary state, whose waves have one frequency each.
+fn outside_window(problem: &Problem, answer: &Answer) -> Option<OutsideWindow> {
+    let (Some(window), Motion::Sliding(load)) = (problem.window(), problem.motion()) else {
+        return None;
+    };
+    if load.sliding_distance().is_some() {
+        return None;
+    }
+    let creep = problem.material().creep();
+    creep.outside_window(window, stress(problem, answer, load.velocity())?)
+}
+
+/// The frequencies of the pressure, where the method knows it.
+fn stress(problem: &Problem, answer: &Answer, velocity: f64) -> Option<Vec<StressBand>> {
+    let elastomer = problem.elastomer().ok()?;
+    let fields = &answer.fields;
+    match (problem.body(), &fields.pressure, &answer.contact_box) {
+        (Body::Periodic(_), Some(pressure), _) => {
+            Some(pressure.periodic_spectrum(&elastomer, velocity))
+        }
+        (_, Some(pressure), _) => Some(pressure.spectrum(&elastomer, velocity)),
+        (Body::Cylinder(_), None, _) => {
+            Some(line_spectrum(&fields.line_pressure, &elastomer, velocity))
+        }
+        (Body::Revolution(body), None, Some(contact)) if answer.model == Model::HalfSpace => {
+            let contact_radius = contact.x[1];
+            let contact = ElasticContact {
+                contact_radius,
+                velocity,
+            };
+            Some(slow_spectrum(&**body, contact))
+        }
+        _ => None,
+    }
+}
