@@ -1,7 +1,6 @@
 //! Work away from the interpreter, which stays free for other threads, shows progress, and can be interrupted.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use std::{mem, process, thread};
@@ -16,8 +15,7 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// The results of `work` for 0 to `count` − 1, on `threads` threads of their own or on those of the process, in order.
 ///
-/// After an interruption no new work begins; what is under way ends unseen. What `progress`, called with how many are done
-/// and how many there are, or a handler of signals raises is passed on.
+/// What `progress`, called with how many are done and how many there are, or a handler of signals raises is passed on.
 pub(crate) fn all<T: Send + 'static>(
     py: Python<'_>,
     count: usize,
@@ -25,50 +23,61 @@ pub(crate) fn all<T: Send + 'static>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl Fn(usize) -> T + Send + Sync + 'static,
 ) -> PyResult<Vec<T>> {
-    let (sender, mut receiver) = channel();
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let done = Arc::new(AtomicUsize::new(0));
-    let counted = {
-        let (interrupted, done) = (interrupted.clone(), done.clone());
-        move |index: usize| {
-            let result = (!interrupted.load(Ordering::Relaxed)).then(|| work(index));
-            done.fetch_add(1, Ordering::Relaxed);
-            result
+    let mut results = Vec::with_capacity(count);
+    each(py, count, threads, work, |finished| {
+        results.extend(finished);
+        if let Some(progress) = progress {
+            progress.call1((results.len(), count))?;
         }
-    };
+        Ok(())
+    })?;
+    results.sort_unstable_by_key(|(index, _)| *index);
+    Ok(results.into_iter().map(|(_, result)| result).collect())
+}
+
+/// Hands over the results of `work` for 0 to `count` − 1 with their numbers, soon after they are there and in any order.
+///
+/// After an interruption what is finished is handed over, and no new work begins; what is under way ends unseen.
+pub(crate) fn each<T: Send + 'static>(
+    py: Python<'_>,
+    count: usize,
+    threads: Option<usize>,
+    work: impl Fn(usize) -> T + Send + Sync + 'static,
+    mut take: impl FnMut(Vec<(usize, T)>) -> PyResult<()>,
+) -> PyResult<()> {
     let pool = match threads {
         Some(threads) => Arc::new(pool_of(threads)?),
         None => pool_of_process(py)?,
     };
+    let (sender, mut receiver) = channel();
     let compute = move || {
-        let results = pool.install(|| (0..count).into_par_iter().map(counted).collect());
-        // Nobody waits for it after an interruption.
-        drop(sender.send(results));
+        // One after the other, so that they are finished nearly in order. Where nobody takes them any more, none begins.
+        let indices = (0..count).into_par_iter().with_max_len(1);
+        let one = |sender: &mut Sender<_>, index| sender.send((index, work(index)));
+        drop(pool.install(|| indices.try_for_each_with(sender, one)));
     };
     thread::Builder::new().spawn(compute).map_err(failed)?;
-    let mut shown = None;
-    loop {
-        let (results, back) = py.detach(move || (receiver.recv_timeout(LOOK), receiver));
+    let mut taken = 0;
+    while taken < count {
+        let (finished, has_ended, back) = py.detach(move || {
+            let first = receiver.recv_timeout(LOOK);
+            let has_ended = matches!(first, Err(RecvTimeoutError::Disconnected));
+            let finished: Vec<(usize, T)> = first.into_iter().chain(receiver.try_iter()).collect();
+            (finished, has_ended, receiver)
+        });
         receiver = back;
-        let looked = look(
-            py,
-            progress,
-            &mut shown,
-            [done.load(Ordering::Relaxed), count],
-        );
-        if looked.is_err() {
-            interrupted.store(true, Ordering::Relaxed);
+        // An interruption that came meanwhile does not reach what takes the results.
+        let looked = py.check_signals();
+        taken += finished.len();
+        if !finished.is_empty() {
+            take(finished)?;
         }
         looked?;
-        match results {
-            Ok(results) => {
-                let results: Option<Vec<T>> = results;
-                return results.ok_or_else(|| failed("the work was interrupted"));
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return Err(failed("the work has panicked")),
+        if has_ended {
+            return Err(failed("the work has panicked"));
         }
     }
+    Ok(())
 }
 
 /// A process and its threads.
@@ -94,23 +103,6 @@ fn pool_of_process(_: Python<'_>) -> PyResult<Arc<ThreadPool>> {
 fn pool_of(threads: usize) -> PyResult<ThreadPool> {
     let builder = ThreadPoolBuilder::new().num_threads(threads);
     builder.build().map_err(failed)
-}
-
-/// Shows the progress where it has changed, and handles signals.
-fn look(
-    py: Python<'_>,
-    progress: Option<&Bound<'_, PyAny>>,
-    shown: &mut Option<usize>,
-    [done, count]: [usize; 2],
-) -> PyResult<()> {
-    py.check_signals()?;
-    if let Some(progress) = progress
-        && *shown != Some(done)
-    {
-        *shown = Some(done);
-        progress.call1((done, count))?;
-    }
-    Ok(())
 }
 
 fn failed(why: impl std::fmt::Display) -> PyErr {

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use viscofriction::scene::{Indenter, Layer, LoadPoint, Method, Source};
 use viscofriction::solve::{BodyOfScene, body, body_of_heights, with_fields};
-use viscofriction::sweep::{Plan, Vary, header, identity};
+use viscofriction::sweep::{Plan, Varied, Vary, each_once, header, identity};
 use viscofriction::{Answer, Body, Files, Problem, Scene, SolveError, choose, solve};
 
 use crate::background;
@@ -217,6 +217,7 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     dictionary.set_item("unknowns", answer.unknowns)?;
     dictionary.set_item("iterations", answer.iterations)?;
     dictionary.set_item("warnings", answer.warnings)?;
+    dictionary.set_item("not_modelled", answer.not_modelled)?;
     let left_out = answer.left_out.into_iter().map(<&str>::from);
     let left_out: Vec<&str> = left_out.collect();
     dictionary.set_item("left_out", left_out)?;
@@ -252,6 +253,16 @@ fn other(py: Python<'_>, answer: Answer) -> PyResult<Bound<'_, PyDict>> {
     Ok(dictionary)
 }
 
+/// The warnings of many answers, each once, with how many answers have it.
+#[pyfunction]
+pub(crate) fn shared_warnings(answers: Vec<Vec<String>>) -> Vec<String> {
+    let answers = answers
+        .iter()
+        .map(|warnings| warnings.iter().map(String::as_str).collect());
+    let shared = each_once(answers).into_iter();
+    shared.map(|warning| warning.to_string()).collect()
+}
+
 /// A sweep, as [`sweep_points`] is asked.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
@@ -260,7 +271,28 @@ pub(crate) struct Sweep<'py> {
     /// Where the files are that the scene names.
     folder: PathBuf,
     /// Keys and their values.
-    vary: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    vary: Vec<(String, Values<'py>)>,
+}
+
+/// The values of a key.
+#[derive(FromPyObject)]
+enum Values<'py> {
+    Numbers(PyReadonlyArray1<'py, f64>),
+    Texts(Vec<String>),
+}
+
+impl Values<'_> {
+    fn varied(&self) -> Vec<Varied> {
+        match self {
+            Self::Numbers(values) => values
+                .as_array()
+                .iter()
+                .copied()
+                .map(Varied::Number)
+                .collect(),
+            Self::Texts(values) => values.iter().cloned().map(Varied::Text).collect(),
+        }
+    }
 }
 
 impl Sweep<'_> {
@@ -269,7 +301,7 @@ impl Sweep<'_> {
         let source = Source::new(&self.folder.join("scene"), text.into_bytes()).map_err(wrong)?;
         let vary = self.vary.iter().map(|(key, values)| Vary {
             key: key.clone(),
-            values: values.as_array().to_vec(),
+            values: values.varied(),
         });
         Plan::new(source, &vary.collect::<Vec<_>>(), read_file).map_err(wrong)
     }
@@ -284,22 +316,29 @@ pub(crate) fn sweep_plan(sweep: Sweep<'_>) -> PyResult<(Vec<String>, Vec<Vec<Str
     Ok((header(&plan), identities.collect()))
 }
 
-/// The rows of these points of a sweep, in the order of `points`, as the texts that the program writes.
+/// Calls `take` with lists of points and their rows, as the texts that the program writes, soon after they are computed and
+/// in any order.
 #[pyfunction]
 pub(crate) fn sweep_points<'py>(
     py: Python<'py>,
     sweep: Sweep<'py>,
     points: Vec<usize>,
-    progress: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Vec<Vec<String>>> {
+    take: &Bound<'py, PyAny>,
+) -> PyResult<()> {
     let plan = sweep.plan()?;
     if let Some(point) = points.iter().find(|point| **point >= plan.n_points()) {
         return Err(wrong(format!("points: there is no point {point}")));
     }
-    let rows = background::all(py, points.len(), None, progress, move |index| {
-        plan.solve(points[index]).map(|row| row.fields)
-    })?;
-    rows.into_iter().map(|row| row.map_err(wrong)).collect()
+    let count = points.len();
+    let work = move |index: usize| plan.solve(points[index]);
+    background::each(py, count, None, work, |finished| {
+        let rows = finished.into_iter().map(|(_, row)| {
+            let row = row.map_err(wrong)?;
+            Ok((row.point, row.fields))
+        });
+        let rows: Vec<(usize, Vec<String>)> = rows.collect::<PyResult<_>>()?;
+        take.call1((rows,)).map(drop)
+    })
 }
 
 /// A number for each value, in a new array.

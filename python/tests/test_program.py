@@ -26,8 +26,9 @@ def test_a_scene_has_the_answer_of_the_program(name: str, program: Callable[...,
 
 def test_a_sweep_has_the_rows_of_the_program(program: Callable[..., str], tmp_path: Path) -> None:
     scene = SCENES / "cone-viscous.toml"
-    program("sweep", scene, "--vary", "load.velocity=0.1,0.2,0.3", "--out", tmp_path / "sweep.csv")
-    table = vf.sweep(scene, {"load.velocity": [0.1, 0.2, 0.3]})
+    vary = ["--vary", "load.velocity=0.1,0.2,0.3", "--vary", "solve.model=line,half-space"]
+    program("sweep", scene, *vary, "--out", tmp_path / "sweep.csv")
+    table = vf.sweep(scene, {"load.velocity": [0.1, 0.2, 0.3], "solve.model": ["line", "half-space"]})
     table.to_csv(tmp_path / "ours.csv")
     theirs, ours = ((tmp_path / name).read_text().splitlines() for name in ("sweep.csv", "ours.csv"))
     # The first column is the fingerprint of the text of the scene.

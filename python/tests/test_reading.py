@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+import viscofriction as vf
+
 MAIN = """<ISO5436_2><Record1><Axes><CX><AxisType>I</AxisType><Increment>1e-6</Increment></CX>
 <CY><AxisType>I</AxisType><Increment>1e-6</Increment></CY><CZ><DataType>D</DataType></CZ></Axes></Record1>
 <Record3><MatrixDimension><SizeX>{size}</SizeX><SizeY>{size}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
@@ -72,3 +74,13 @@ def test_no_file_takes_more_memory_than_the_scene_allows(name: str, tmp_path: Pa
     said, peak = done.stdout.strip().rsplit("\n", 1)
     assert message in said and len(said) < 400, done.stdout[:1000]
     assert int(peak.split()[0]) <= 64, peak
+
+
+def test_a_scene_file_has_a_largest_size(tmp_path: Path) -> None:
+    file = tmp_path / "scene.toml"
+    file.write_bytes(b"#" * ((1 << 24) + 1))
+    for path in (file, tmp_path, Path("/dev/zero")):
+        with pytest.raises(ValueError, match="a regular file of at most 16777216 bytes is needed"):
+            vf.solve(path)
+    with pytest.raises(FileNotFoundError):
+        vf.solve(tmp_path / "none.toml")

@@ -37,10 +37,57 @@ def test_families_and_grids_are_drawn() -> None:
     assert len(axes.containers) == 2
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["normal force [N]: 1", "normal force [N]: 2"]
     scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 1.0}}
-    table = vf.sweep(scene, {"load.velocity": SPEEDS, "load.normal_force": [1.0, 2.0, 3.0]})
+    table = vf.sweep(scene, {"load.velocity": np.logspace(-3, 1, 8), "load.normal_force": np.arange(1.0, 8.0)})
     axes = table.plot()
     assert (axes.get_xlabel(), axes.get_xscale(), axes.get_yscale()) == ("speed [m/s]", "log", "linear")
-    assert (axes.collections[0].get_array() == table["friction_coefficient"].reshape(5, 3).T).all()
+    assert (axes.collections[0].get_array() == table["friction_coefficient"].reshape(8, 7).T).all()
+    vary = {"solve.model": ["line", "half-space"], "load.normal_force": [1.0, 2.0], "load.velocity": SPEEDS}
+    axes = vf.sweep(scene, vary).plot()
+    texts = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert texts[:2] == ["model: line, normal force [N]: 1", "model: line, normal force [N]: 2"] and len(texts) == 4
+    with pytest.raises(ValueError, match="no key that varies has numbers"):
+        vf.sweep(scene, {"solve.model": ["line", "half-space"]}).plot()
+
+
+def test_results_know_their_warnings_and_what_is_not_in_them() -> None:
+    slides = ["adhesion", "strain dependence", "heating", "interfacial shear"]
+    steep, load = vf.Cone(0.8), {"normal_force": 1.0, "velocity": 0.01}
+    answer = vf.slide(steep, vf.Viscous(1e4), **load)
+    (sentence,) = answer.warnings
+    assert sentence.startswith("the mean slope") and answer.not_modelled == slides
+    assert vf.slide(vf.Cone(0.1), vf.Viscous(1e4), **load).warnings == []
+    several = vf.slide(steep, vf.Viscous(1e4), normal_force=1.0, velocity=SPEEDS)
+    assert several.warnings == [f"{sentence} (at 5 of 5 points)"] and several.not_modelled == slides
+    scene = {"indenter": steep, "material": vf.Viscous(1e4), "load": load}
+    table = vf.sweep(scene, {"indenter.cone.slope": [0.1, 0.8, 0.9]})
+    (shared,) = table.warnings
+    assert shared == f"{sentence} (at 2 of 3 points)"
+    assert table["warnings"].tolist()[:2] == ["", sentence]
+    for result in (answer, several, table):
+        assert "warning: the mean slope" in repr(result) and "<p>the mean slope" in result._repr_html_()
+
+
+def test_numbers_of_tables_are_numbers() -> None:
+    scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 1.0}}
+    table = vf.sweep(scene, {"load.velocity": SPEEDS, "solve.model": ["line", "half-space"]})
+    columns = table.to_dict()
+    assert {type(value) for value in columns["friction_coefficient"] + columns["load.velocity"]} == {float}
+    assert {type(value) for value in columns["point"] + columns["unknowns"]} == {int}
+    assert columns["solve.model"] == table["solve.model"].tolist() == ["line", "half-space"] * 5
+    assert "mean_pressure" not in columns
+    several = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=SPEEDS).to_dict()
+    assert several["velocity"] == SPEEDS.tolist()
+    assert {type(value) for value in several["friction_coefficient"]} == {float}
+
+
+def test_many_answers_are_a_table_in_a_notebook() -> None:
+    answers = vf.slide(vf.Cone(0.1), vf.Viscous(1e4), normal_force=1.0, velocity=np.logspace(-3, 1, 30))
+    scene = {"indenter": vf.Cone(0.1), "material": vf.Viscous(1e4), "load": {"normal_force": 1.0, "velocity": 1.0}}
+    table = vf.sweep(scene, {"load.velocity": np.logspace(-3, 1, 30)})
+    for result in (answers, table):
+        text = result._repr_html_()
+        assert text.count("<tr>") == 22 and "…" in text, "the names, ten rows, dots and ten rows"
+        assert "<td>0.001</td>" in text and "friction_coefficient</th>" in text and " ± " in text
 
 
 def test_pressure_is_drawn_where_it_is() -> None:

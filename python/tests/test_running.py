@@ -125,7 +125,51 @@ def test_a_table_goes_on_where_it_ended(tmp_path: Path) -> None:
     assert part.read_text() == text
 
 
-def test_a_cluster_gives_the_same_rows_when_a_worker_dies() -> None:
+SWEEPING = """
+import sys
+import numpy as np
+import viscofriction as vf
+
+scene = {"indenter": vf.Sphere(5e-3), "material": vf.StandardSolid(1e6, 1e7, 1e4)}
+scene |= {"load": {"normal_force": 2.0, "velocity": 1.0}, "solve": {"relative_error": 5e-3}}
+vf.sweep(scene, {"load.velocity": np.logspace(-2, 1, 10000)}, out=sys.argv[1], progress=lambda done, _: print(done, flush=True))
+"""
+
+
+def test_an_interrupted_sweep_keeps_every_finished_row(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", SWEEPING, tmp_path / "rows.csv"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path
+    ) as child:
+        assert child.stdout is not None
+        told = [child.stdout.readline() for _ in range(3)]
+        child.send_signal(signal.SIGINT)
+        more, errors = child.communicate(timeout=20)
+    done = [int(line) for line in "".join([*told, more]).splitlines()]
+    rows = (tmp_path / "rows.csv").read_text().splitlines(keepends=True)
+    assert "KeyboardInterrupt" in errors
+    assert len(rows) - 1 == done[-1] < 100 and rows[-1].endswith("\n")
+    assert {row.count(",") for row in rows} == {rows[0].count(",")}
+
+
+def test_a_table_has_one_writer_and_ends_in_order(tmp_path: Path) -> None:
+    file = tmp_path / "rows.csv"
+    whole = vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=file)
+    text = file.read_text()
+    assert text.splitlines()[1:] == [",".join(row) for row in whole._rows]
+    first, *rows = text.splitlines(keepends=True)
+    file.write_text("".join([first, *rows[:1:-1]]))
+
+    def again(done: int, count: int) -> None:
+        with pytest.raises(ValueError, match="another sweep is writing it"):
+            vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=file, resume=True)
+
+    vf.sweep(SCENE, {"load.velocity": SPEEDS}, out=file, resume=True, progress=again)
+    assert file.read_text() == text
+    assert [path.name for path in tmp_path.iterdir()] == ["rows.csv"]
+
+
+def test_a_cluster_gives_the_same_rows_when_a_worker_dies(tmp_path: Path) -> None:
     from distributed import Client, LocalCluster
 
     alone = vf.sweep(SCENE, {"load.velocity": SPEEDS})
@@ -133,10 +177,14 @@ def test_a_cluster_gives_the_same_rows_when_a_worker_dies() -> None:
         processes = list(client.run(os.getpid).values())
 
         def kill(done: int, count: int) -> None:
+            assert len(file.read_text().splitlines()) == done + 1, "a row was reported before it was written"
             if done >= 3 and processes:
                 os.kill(processes.pop(), signal.SIGKILL)
                 processes.clear()
 
-        shared = vf.sweep(SCENE, {"load.velocity": SPEEDS}, client=client, progress=kill)
+        file = tmp_path / "rows.csv"
+        shared = vf.sweep(SCENE, {"load.velocity": SPEEDS}, client=client, out=file, progress=kill)
     assert not processes
     assert shared._rows == alone._rows
+    alone.to_csv(tmp_path / "alone.csv")
+    assert file.read_text() == (tmp_path / "alone.csv").read_text()

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Numbers = NDArray[np.float64]
+Values = NDArray[Any]
 
 LABELS = {
     "velocity": "speed [m/s]",
@@ -21,7 +22,7 @@ LABELS = {
     "sliding_distance": "sliding distance [m]",
 }
 # With more lines than these a legend says nothing.
-LINES = 8
+LINES = 6
 
 
 def axes(ax: Any) -> Any:
@@ -68,17 +69,39 @@ def plot(answer: Any, ax: Any) -> Any:
     return lines(axes(ax), (over, loads[over]), others, (quantity, np.ravel(values), np.ravel(errors)))
 
 
+def table(ax: Any, keys: dict[str, Values], drawn: tuple[str, Numbers, Numbers]) -> Any:
+    """A quantity over the key with the most numbers: a line for each combination of the others, or colours over two."""
+    counts = {name: np.unique(values).size if values.dtype.kind == "f" else 0 for name, values in keys.items()}
+    over = max(counts, key=lambda name: counts[name])
+    if counts[over] == 0:
+        raise ValueError("no key that varies has numbers")
+    others = {name: values for name, values in keys.items() if name != over}
+    if len(set(families(others, keys[over].size))) <= LINES:
+        return lines(ax, (over, keys[over]), others, drawn)
+    if len(others) == 1 and all(counts.values()):
+        return grid(ax, list(keys.items()), drawn[:2])
+    raise ValueError(f"the keys beside {over} have more than {LINES} combinations, and the picture would say nothing")
+
+
+def families(others: dict[str, Values], count: int) -> list[str]:
+    """What each point has in common with others of its line."""
+
+    def named(name: str, value: Any) -> str:
+        return f"{name.rsplit('.', 1)[-1]}: {value}" if isinstance(value, str) else f"{label(name)}: {value:.4g}"
+
+    return [", ".join(named(name, values[index]) for name, values in others.items()) for index in range(count)]
+
+
 def lines(
-    ax: Any, over: tuple[str, Numbers], others: dict[str, Numbers], drawn: tuple[str, Numbers, Numbers]
+    ax: Any, over: tuple[str, Numbers], others: dict[str, Values], drawn: tuple[str, Numbers, Numbers]
 ) -> Any:
     """A quantity with its bars over another, one line for each combination of the others."""
     (name, where), (quantity, values, errors) = over, drawn
-    families = np.array(list(others.values())).T if others else np.zeros((where.size, 0))
-    distinct = np.unique(families, axis=0)
+    of = np.array(families(others, where.size))
+    distinct = list(dict.fromkeys(of.tolist()))
     for family in distinct:
-        of_family = np.flatnonzero((families == family).all(axis=1))
+        of_family = np.flatnonzero(of == family)
         order = of_family[np.argsort(where[of_family], kind="stable")]
-        named = ", ".join(f"{label(other)}: {value:.4g}" for other, value in zip(others, family, strict=True))
         ax.errorbar(
             where[order],
             values[order],
@@ -86,7 +109,7 @@ def lines(
             capsize=2,
             marker="o",
             markersize=3,
-            label=named or None,
+            label=family or None,
         )
     if 1 < len(distinct) <= LINES:
         ax.legend()

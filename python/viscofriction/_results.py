@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import math
 from collections.abc import Sequence
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _native
 from ._arrays import Compared
 
 __all__ = ["Answer", "NotReached"]
@@ -28,6 +30,8 @@ QUANTITIES = {
     "area_fraction": "",
     "friction_from_dissipation": "",
 }
+# Rows at the beginning and at the end of a table in a notebook.
+SHOWN = 10
 EDGES = ("x_min", "x_max", "y_min", "y_max")
 
 
@@ -177,9 +181,15 @@ class Answer(Compared):
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences about the validity of the answers, each once."""
-        every = [warning for answer in self._answers if answer for warning in answer["warnings"]]
-        return list(dict.fromkeys(every))
+        """Sentences about the validity of the answer; of an array of loads each once, with how many have it."""
+        every: list[list[str]] = [answer["warnings"] if answer else [] for answer in self._answers]
+        return every[0] if self.shape == () else _native.shared_warnings(every)
+
+    @property
+    def not_modelled(self) -> list[str]:
+        """What a reader might take to be in the answer and is not, as words of a fixed list."""
+        known: list[str] = next((answer["not_modelled"] for answer in self._answers if answer), [])
+        return known
 
     @property
     def pressure(self) -> NDArray[np.float64]:
@@ -240,7 +250,8 @@ class Answer(Compared):
         if self.shape == () and self._answers[0] is not None:
             whole: dict[str, Any] = json.loads(self._answers[0]["json"])
             return whole
-        entries: dict[str, Any] = {"method": self.method, "model": self.model}
+        entries: dict[str, Any] = {name: np.ravel(load).tolist() for name, load in self.loads.items()}
+        entries |= {"method": self.method, "model": self.model}
         for name, values in self._columns.items():
             if name.startswith("error_") or name in EDGES or name == "contact_box_error":
                 continue
@@ -257,6 +268,7 @@ class Answer(Compared):
         for name in ("unknowns", "iterations"):
             entries[name] = self._one_or_all(name)
         entries["warnings"] = self.warnings
+        entries["not_modelled"] = self.not_modelled
         entries["left_out"] = self._one_or_all("left_out")
         return entries
 
@@ -275,20 +287,26 @@ class Answer(Compared):
             loads = ", ".join(self.loads)
             failed = sum(failure is not None for failure in self.failures)
             failures = f", {failed} without an answer" if failed else ""
-            return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}>"
+            warnings = "".join(f"\n  warning: {text}" for text in self.warnings)
+            return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}{warnings}>"
         if self.failures[0] is not None:
             return f"<no answer: {self.failures[0]}>"
         rows = [f"  {name}: {value} {'± ' + error if error else ''} {unit}".rstrip() for name, value, error, unit in self._rows()]
         return "\n".join([f"{self.method}, {self.model}", *rows, *(f"  warning: {text}" for text in self.warnings)])
 
     def _repr_html_(self) -> str:
-        if self.shape != () or self.failures[0] is not None:
-            return f"<pre>{escaped(repr(self))}</pre>"
-        cells = ["".join(f"<td>{escaped(cell)}</td>" for cell in row) for row in self._rows()]
-        head = "".join(f"<th>{name}</th>" for name in ("quantity", "value", "error", "unit"))
-        body = "".join(f"<tr>{row}</tr>" for row in cells)
-        notes = "".join(f"<p>{escaped(text)}</p>" for text in self.warnings)
-        return f"<table><caption>{self.method}, {self.model}</caption><tr>{head}</tr>{body}</table>{notes}"
+        failed = [f"no answer: {failure}" for failure in dict.fromkeys(self.failures) if failure]
+        notes = [*self.warnings, *failed]
+        if self.shape == ():
+            head = ["quantity", "value", "error", "unit"]
+            return html_table("" if failed else f"{self.method}, {self.model}", head, self._rows(), notes)
+        known = [name for name in QUANTITIES if self._values(name) is not None]
+        head = [*self.loads, *map(with_unit, known)]
+        columns = [[f"{load:g}" for load in np.ravel(values)] for values in self.loads.values()]
+        for name in known:
+            pairs = zip(self._columns[name], self._columns[f"{name}_error"], strict=True)
+            columns.append([" ± ".join(filter(None, rounded(*map(float, pair)))) for pair in pairs])
+        return html_table(f"{len(self.failures)} answers", head, list(zip(*columns, strict=True)), notes)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws friction with its bars over what varies, or the pressure of a single scene; returns the axes of matplotlib."""
@@ -303,7 +321,9 @@ def plain(values: NDArray[np.float64]) -> list[float | None]:
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:
-    """Value and error to the digits that the error leaves."""
+    """Value and error to the digits that the error leaves; nothing of what is not known."""
+    if math.isnan(value):
+        return "", ""
     if error == 0.0:
         return f"{value:.10g}", ""
     if value == 0.0:
@@ -312,9 +332,22 @@ def rounded(value: float, error: float) -> tuple[str, str]:
     return f"{value:.{min(digits, 17)}g}", f"{error:.2g}"
 
 
-def escaped(text: str) -> str:
-    """Text as HTML."""
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+def with_unit(name: str) -> str:
+    """The name of a quantity, with its unit where it has one."""
+    return f"{name} [{QUANTITIES[name]}]" if QUANTITIES[name] else name
+
+
+def html_table(caption: str, head: Sequence[str], rows: Sequence[Sequence[str]], notes: Sequence[str]) -> str:
+    """A table for a notebook, of many rows the first and the last, with sentences below it."""
+    if len(rows) > 2 * SHOWN:
+        rows = [*rows[:SHOWN], ["…"] * len(head), *rows[-SHOWN:]]
+
+    def line(cells: Sequence[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    body = line(head, "th") + "".join(line(row, "td") for row in rows)
+    paragraphs = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
+    return f"<table><caption>{html.escape(caption)}</caption>{body}</table>{paragraphs}"
 
 
 def not_reached(answer: Answer) -> None:

@@ -21,6 +21,8 @@ __all__ = ["press", "slide", "solve"]
 
 #: Called with how many scenes are done and how many there are; True shows a bar of tqdm.
 Progress = Callable[[int, int], object] | bool | None
+# As the program has it: a scene is written by a person, and names the files that are large.
+LARGEST_SCENE = 1 << 24
 Scene = str | os.PathLike[str] | Mapping[str, Any]
 
 
@@ -152,7 +154,7 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
     if not isinstance(scene, Mapping):
         path = Path(scene)
         try:
-            return tomllib.loads(path.read_text("utf-8")), os.fspath(path.parent), None
+            return tomllib.loads(_scene_text(path)), os.fspath(path.parent), None
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
             raise ValueError(f"{path}: {error}") from None
     table = dict(scene)
@@ -167,6 +169,13 @@ def read(scene: Scene) -> tuple[dict[str, Any], str, Any]:
         elif not isinstance(value, Mapping):
             raise ValueError(f"{key} must be a {kind.__name__} of this package, but is {value!r}")
     return table, "", heights
+
+
+def _scene_text(path: Path) -> str:
+    # A device has no end, and a larger file is something else that was named by mistake.
+    if path.exists() and (not path.is_file() or path.stat().st_size > LARGEST_SCENE):
+        raise ValueError(f"{path}: a regular file of at most {LARGEST_SCENE} bytes is needed")
+    return path.read_text("utf-8")
 
 
 @contextmanager

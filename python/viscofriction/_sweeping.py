@@ -5,77 +5,103 @@ from __future__ import annotations
 import csv
 import io
 import os
-from collections.abc import Mapping
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers
+from ._results import QUANTITIES, html_table, rounded, with_unit
 from ._solving import Progress, Scene, read, shown
 
 __all__ = ["Sweep", "sweep"]
 
-# Rows that are computed before they are written.
-BATCH = 64
+# Columns that hold no numbers, and those that hold whole ones; keys may hold either.
+TEXTS = {"sweep", "check", "method", "model", "warnings", "failure"}
+WHOLE = {"point", "points", "unknowns"}
+
+Row = list[str]
+Finished = list[tuple[int, Row]]
 
 
 class Sweep(Compared):
     """The rows of a sweep, in the order of the points; the last key varies fastest."""
 
-    def __init__(self, header: list[str], rows: list[list[str]], keys: list[str]) -> None:
+    def __init__(self, header: Row, rows: list[Row], vary: dict[str, Any]) -> None:
         self._header = header
         self._rows = rows
+        self._texts = TEXTS | {key for key, values in vary.items() if isinstance(values, list)}
         #: The keys that vary.
-        self.keys = keys
+        self.keys = list(vary)
 
     def __len__(self) -> int:
         return len(self._rows)
 
-    def __getitem__(self, column: str) -> NDArray[np.float64]:
-        """The numbers of a column by the name that it has in the CSV, NaN where not known."""
-        index = self._header.index(column) if column in self._header else None
-        if index is None:
+    def __getitem__(self, column: str) -> NDArray[Any]:
+        """The numbers of a column by the name that it has in the CSV, NaN where not known; texts of one that holds texts."""
+        if column not in self._header:
             raise KeyError(f"there is no column {column!r}; there are {', '.join(self._header)}")
-        return np.array([float(row[index]) if row[index] else np.nan for row in self._rows])
+        cells = self._cells(column)
+        return np.array(cells) if column in self._texts else np.array([float(cell) if cell else np.nan for cell in cells])
+
+    def _cells(self, column: str) -> Row:
+        index = self._header.index(column)
+        return [row[index] for row in self._rows]
 
     @property
     def failures(self) -> list[str | None]:
         """Of each point why it has no answer, or None."""
-        return [row[-1] or None for row in self._rows]
+        return [text or None for text in self._cells("failure")]
+
+    @property
+    def warnings(self) -> list[str]:
+        """Sentences about the validity of the answers, each once, with how many points have it; the column has all."""
+        return _native.shared_warnings([text.split(" | ") if text else [] for text in self._cells("warnings")])
 
     def to_dict(self) -> dict[str, list[Any]]:
-        """Columns by their names, as numbers where they are numbers."""
-        texts = ("sweep", "check", "method", "model", "failure")
+        """Columns by their names, numbers as int and float, None where not known; a column of which nothing is known is left out."""
         columns: dict[str, list[Any]] = {}
-        for index, name in enumerate(self._header):
-            cells = [row[index] for row in self._rows]
-            columns[name] = cells if name in texts else [float(cell) if cell else None for cell in cells]
+        for name in self._header:
+            cells = self._cells(name)
+            if name in self._texts:
+                columns[name] = list(cells)
+            elif any(cells):
+                number = int if name in WHOLE else float
+                columns[name] = [number(cell) if cell else None for cell in cells]
         return columns
 
     def to_csv(self, file: str | os.PathLike[str]) -> None:
         """Writes the table of the program's ``sweep``; a file that is there is not replaced."""
         with Path(file).open("x", encoding="utf-8", newline="") as out:
-            out.write(_line(self._header) + "".join(map(_line, self._rows)))
+            out.write(_text(self._header, *self._rows))
 
     def __repr__(self) -> str:
         failed = sum(failure is not None for failure in self.failures)
         failures = f", {failed} without an answer" if failed else ""
-        return f"<{len(self)} points over {', '.join(self.keys)}{failures}>"
+        warnings = "".join(f"\n  warning: {text}" for text in self.warnings)
+        return f"<{len(self)} points over {', '.join(self.keys)}{failures}{warnings}>"
+
+    def _repr_html_(self) -> str:
+        known = [name for name in QUANTITIES if any(self._cells(name))]
+        head = [*self.keys, *map(with_unit, known)]
+        columns = [self._cells(key) for key in self.keys]
+        columns += [_with_bars(self._cells(name), self._cells(f"{name}_error")) for name in known]
+        rows = list(zip(*columns, strict=True))
+        failed = [f"no answer: {failure}" for failure in dict.fromkeys(self.failures) if failure]
+        return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
 
     def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:
-        """Draws a quantity, with its bars over one key that varies, as colours over two; returns the axes of matplotlib."""
+        """Draws a quantity with its bars over the key that has the most values, a line for each combination of the others where they are few, or as colours over two; returns the axes of matplotlib."""
         from . import _plotting
 
-        over = [(key, self[key]) for key in self.keys]
-        if len(over) == 2:
-            return _plotting.grid(_plotting.axes(ax), over, (quantity, self[quantity]))
-        if len(over) != 1:
-            raise ValueError(f"one key must vary, or two, but {len(over)} do")
-        bars = self[quantity + "_error"]
-        return _plotting.lines(_plotting.axes(ax), over[0], {}, (quantity, self[quantity], bars))
+        keys = {key: self[key] for key in self.keys}
+        drawn = (quantity, self[quantity], self[quantity + "_error"])
+        return _plotting.table(_plotting.axes(ax), keys, drawn)
 
 
 def sweep(
@@ -89,84 +115,152 @@ def sweep(
 ) -> Sweep:
     """Solves a scene for all combinations of the values of its keys, such as ``vary={"load.velocity": v}``.
 
-    With a ``client`` of dask.distributed each point is a task of that cluster, done again where a worker dies; rows and their
-    order are the same to the last bit. ``out`` is a CSV file, written as points are finished; with ``resume`` the points
-    that it holds are not computed again.
+    Values are numbers, or texts: files, ``{"material.file.path": ["a.toml", "b.toml"]}``, and words of a scene,
+    ``{"solve.model": ["line", "half-space"]}``.
+
+    With a ``client`` of dask.distributed each point is a task of that cluster, done again where a worker dies; rows are the
+    same to the last bit. ``out`` is a CSV file, to which each point is added, and ``progress`` called, as soon as it is finished,
+    in any order; at the end the file is sorted. With ``resume`` the points that it holds are not computed again, as after
+    an interruption.
 
     What a method could not reach is part of its row. Raises ValueError for wrong input, before anything is computed.
     """
     table, folder, heights = read(scene)
     if heights is not None:
         raise ValueError("indenter: a sweep needs the heights in a file, {'height-map': {'file': …, 'spacing': …}}")
-    values = [(key, numbers(key, wanted, dimensions=1)) for key, wanted in vary.items()]
-    request = {"scene": table, "folder": os.path.abspath(folder), "vary": values}
+    values = {key: _values(key, wanted) for key, wanted in vary.items()}
+    request = {"scene": table, "folder": os.path.abspath(folder), "vary": list(values.items())}
     header, identities = _native.sweep_plan(request)
-    rows: list[list[str] | None] = [None] * len(identities)
-    if out is not None:
-        _begin(Path(out), header, identities, rows, resume)
-    missing = [point for point, row in enumerate(rows) if row is None]
-    with shown(progress) as show:
+    rows: list[Row | None] = [None] * len(identities)
+    with shown(progress) as show, _opened(out, header, identities, rows, resume) as file:
+        missing = [point for point, row in enumerate(rows) if row is None]
         done = len(rows) - len(missing)
-        for batch in _batches(request, missing, client):
-            for point, row in batch:
+
+        def take(finished: Finished) -> None:
+            nonlocal done
+            if file is not None:
+                file.write(_text(*(row for _, row in finished)))
+                file.flush()
+            for point, row in finished:
                 rows[point] = row
-            if out is not None:
-                with Path(out).open("a", encoding="utf-8", newline="") as file:
-                    file.write("".join(_line(row) for _, row in batch))
-            done += len(batch)
+            done += len(finished)
             if show is not None:
                 show(done, len(rows))
-    finished = [row for row in rows if row is not None]
-    return Sweep(header, finished, list(vary))
+
+        _compute(request, missing, client, take)
+        complete = [row for row in rows if row is not None]
+        if out is not None:
+            _sort(Path(out).resolve(), _text(header, *complete))
+    return Sweep(header, complete, values)
 
 
-def _batches(request: dict[str, Any], points: list[int], client: Any) -> Any:
-    """Points and their rows, in order, some at a time."""
+def _values(key: str, wanted: Any) -> NDArray[np.float64] | list[str]:
+    """Numbers as an array; texts, files, True and False as a list of texts."""
+    if isinstance(wanted, list | tuple | np.ndarray):
+        texts = [
+            str(value).lower() if isinstance(value, bool | np.bool_) else str(os.fspath(value))
+            for value in wanted
+            if isinstance(value, str | os.PathLike | bool | np.bool_)
+        ]
+        if texts and len(texts) == len(wanted):
+            return texts
+    return numbers(key, wanted, dimensions=1)
+
+
+def _compute(request: dict[str, Any], points: list[int], client: Any, take: Callable[[Finished], None]) -> None:
+    """Hands over points and their rows as they are finished."""
     if client is None:
-        for start in range(0, len(points), BATCH):
-            batch = points[start : start + BATCH]
-            yield list(zip(batch, _native.sweep_points(request, batch, None), strict=True))
+        _native.sweep_points(request, points, take)
         return
-    futures = [client.submit(_row, request, point, pure=False) for point in points]
-    for point, future in zip(points, futures, strict=True):
-        yield [(point, future.result())]
+    import distributed
+
+    as_completed: Any = distributed.as_completed
+    futures = client.map(_row, points, request=request, pure=False)
+    try:
+        for _, finished in as_completed(futures, with_results=True):
+            take([finished])
+    finally:
+        # After an interruption nobody waits for them.
+        client.cancel(futures)
 
 
-def _row(request: dict[str, Any], point: int) -> list[str]:
+def _row(point: int, request: dict[str, Any]) -> tuple[int, Row]:
     # What has travelled need not be aligned.
-    vary = [(key, numbers(key, values)) for key, values in request["vary"]]
-    return _native.sweep_points(request | {"vary": vary}, [point], None)[0]
+    vary = [(key, values if isinstance(values, list) else numbers(key, values)) for key, values in request["vary"]]
+    finished: Finished = []
+    _native.sweep_points(request | {"vary": vary}, [point], finished.extend)
+    return finished[0]
 
 
-def _begin(
-    file: Path,
-    header: list[str],
-    identities: list[list[str]],
-    rows: list[list[str] | None],
+@contextmanager
+def _opened(
+    out: str | os.PathLike[str] | None,
+    header: Row,
+    identities: list[Row],
+    rows: list[Row | None],
     resume: bool,
-) -> None:
-    """Writes the names into a new file, or reads the rows of an older one that are of this sweep."""
-    if not file.exists():
-        file.write_text(_line(header), encoding="utf-8")
+) -> Iterator[IO[str] | None]:
+    """A new file with its names, or an older one whose rows, which are of this sweep, are read; closed to other writers."""
+    if out is None:
+        yield None
         return
-    if not resume:
-        raise FileExistsError(f"{file} is there already; resume=True goes on with it")
-    text = file.read_text(encoding="utf-8")
-    whole = text[: text.rfind("\n") + 1]
-    old = list(csv.reader(io.StringIO(whole)))
-    if not old or old[0] != header:
-        raise ValueError(f"{file} is not the table of this sweep: its columns differ")
-    for row in old[1:]:
+    path = Path(out)
+    if path.exists() and not resume:
+        raise FileExistsError(f"{path} is there already; resume=True goes on with it")
+    with path.open("a+", encoding="utf-8", newline="") as file:
+        _lock(file, path)
+        file.seek(0)
+        text = file.read()
+        whole = text[: text.rfind("\n") + 1]
+        for row in _old_rows(path, whole, header, identities):
+            rows[int(row[1]) - 1] = row
+        # The last line need not be finished.
+        file.truncate(len(whole.encode("utf-8")))
+        file.write("" if whole else _text(header))
+        file.flush()
+        yield file
+
+
+def _old_rows(path: Path, text: str, header: Row, identities: list[Row]) -> list[Row]:
+    """The rows of an older file, which are refused if they are of another sweep."""
+    first, *old = list(csv.reader(io.StringIO(text))) or [header]
+    if first != header:
+        raise ValueError(f"{path} is not the table of this sweep: its columns differ")
+    for row in old:
         point = int(row[1]) - 1 if len(row) == len(header) and row[1].isdecimal() else -1
-        if not 0 <= point < len(rows) or row[: len(identities[point])] != identities[point]:
-            raise ValueError(f"{file} is not the table of this sweep: it holds other points")
-        rows[point] = row
-    if whole != text:
-        # The last line was not finished.
-        os.truncate(file, len(whole.encode("utf-8")))
+        if not 0 <= point < len(identities) or row[: len(identities[point])] != identities[point]:
+            raise ValueError(f"{path} is not the table of this sweep: it holds other points")
+    return old
 
 
-def _line(fields: list[str]) -> str:
-    line = io.StringIO()
-    csv.writer(line, lineterminator="\n").writerow(fields)
-    return line.getvalue()
+def _lock(file: IO[str], path: Path) -> None:
+    """Refuses a file that another process writes, the program included, where the system can tell."""
+    try:
+        import fcntl
+    except ImportError:
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise ValueError(f"{path}: another sweep is writing it") from None
+
+
+def _sort(path: Path, text: str) -> None:
+    """Gives a finished file its rows in order, so that an interruption leaves the old one or the new one."""
+    if path.read_bytes() == text.encode("utf-8"):
+        return
+    part = path.with_name(f".{path.name}.part")
+    part.write_text(text, encoding="utf-8", newline="")
+    shutil.copymode(path, part)
+    part.replace(path)
+
+
+def _with_bars(values: Row, errors: Row) -> Row:
+    pairs = zip(values, errors, strict=True)
+    return [" ± ".join(filter(None, rounded(float(value), float(error)))) if value else "" for value, error in pairs]
+
+
+def _text(*rows: Row) -> str:
+    lines = io.StringIO()
+    csv.writer(lines, lineterminator="\n").writerows(rows)
+    return lines.getvalue()

@@ -124,7 +124,8 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
                 print_line(&format!("error bar: {parts}"))?;
             }
             let mut warnings = answer.warnings.iter();
-            warnings.try_for_each(|warning| print_line(&format!("warning: {warning}")))
+            warnings.try_for_each(|warning| print_line(&format!("warning: {warning}")))?;
+            print_line(&format!("not modelled: {}", answer.not_modelled.join(", ")))
         }
     }
 }

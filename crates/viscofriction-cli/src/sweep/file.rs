@@ -36,11 +36,11 @@ pub(super) struct SweepFile {
 impl SweepFile {
     /// Takes a file that is to be begun or gone on with, and leaves it as it is until [`Self::begin`].
     pub(super) fn open(path: PathBuf, plan: &Plan, existing: Existing) -> Result<Self> {
-        let writing = || format!("writing {}", path.display());
-        fs::create_dir_all(folder_of(&path)).with_context(writing)?;
+        let wrong = |error| WrongInput(format!("--out {}: {error}", path.display()));
+        fs::create_dir_all(folder_of(&path)).map_err(wrong)?;
         let mut options = OpenOptions::new();
         let options = options.write(true).create(true).truncate(false);
-        let file = options.open(&path).with_context(writing)?;
+        let file = options.open(&path).map_err(wrong)?;
         lock(&file, &path)?;
         remove_parts(folder_of(&path), &[&name_of(&path)]);
         let contents = match existing {

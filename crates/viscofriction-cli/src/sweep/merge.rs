@@ -9,7 +9,7 @@ use viscofriction::sweep::Row;
 
 use super::file::RowTable;
 use super::picture::PictureFiles;
-use super::wrong_row;
+use super::{say_warnings, wrong_row};
 use crate::input::read_table;
 use crate::output::{OutputFile, print_text, say};
 
@@ -29,6 +29,7 @@ pub(super) fn merge(paths: &[PathBuf], out: Option<&Path>, overwrite: bool) -> R
     } else {
         print_text(&table.text()?)?;
     }
+    say_warnings(&table.rows);
     let points = table.rows.first();
     let points = points.and_then(|row| row.fields.get(2)?.parse::<usize>().ok());
     let has = |point: usize| table.rows.binary_search_by_key(&point, |row| row.point);

@@ -14,7 +14,7 @@ use anyhow::{Result, bail};
 use clap::Args;
 use rayon::prelude::*;
 use viscofriction::WrongInput;
-use viscofriction::sweep::{Plan, Row, Shard, Vary, header};
+use viscofriction::sweep::{Plan, Row, Shard, Vary, each_once, header};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
 use crate::output::{print_text, say};
@@ -32,8 +32,9 @@ pub(crate) struct Sweep {
     /// The scene file, or - for the standard input; docs/scenes.md describes it.
     #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     scene: Option<PathBuf>,
-    /// A key of the scene and its values: `load.velocity=1e-3:1:10:log`, or a list, `load.velocity=1,2,5`; with several
-    /// of them every combination is computed, the last key fastest.
+    /// A key of the scene and its values: `load.velocity=1e-3:1:10:log`, or a list, `load.velocity=1,2,5`, also of texts
+    /// and files, `material.file.path=a.toml,b.toml`; with several of them every combination is computed, the last key
+    /// fastest.
     #[arg(
         long,
         value_name = "KEY=START:STOP:COUNT[:log]",
@@ -70,24 +71,35 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
     let threads = plan.validate()?.unwrap_or(0);
     let mine = |point: &usize| options.shard.is_none_or(|shard| shard.holds(*point));
     let points: Vec<usize> = (0..plan.n_points()).filter(mine).collect();
-    let [n_failed, n_points] = match &options.out {
+    let rows = match &options.out {
         Some(out) => into_file(&plan, points, threads, (out, options.existing()))?,
         None => {
             print_text(&line(&header(&plan))?)?;
-            let mut n_failed = 0;
+            let mut rows = Vec::new();
             compute(&plan, &points, threads, |row| {
-                n_failed += usize::from(row.failed());
-                print_text(&line(&row.fields)?)
+                print_text(&line(&row.fields)?)?;
+                rows.push(row.clone());
+                Ok(())
             })?;
-            [n_failed, points.len()]
+            rows
         }
     };
+    say_warnings(&rows);
+    let n_failed = rows.iter().filter(|row| row.failed()).count();
     if n_failed > 0 {
+        let n_points = rows.len();
         bail!(
             "{n_failed} of {n_points} points could not be computed; the column `failure` says why"
         );
     }
     Ok(())
+}
+
+/// Says what the points warn of, each once; the column `warnings` has them all.
+fn say_warnings(rows: &[Row]) {
+    for warning in each_once(rows.iter().map(Row::warnings)) {
+        say(&format!("warning: {warning}"));
+    }
 }
 
 impl Sweep {
@@ -100,13 +112,13 @@ impl Sweep {
     }
 }
 
-/// Computes the points that a file does not have, and draws all of it; returns how many rows failed, and how many there are.
+/// Computes the points that a file does not have, and draws all of it; returns all rows.
 fn into_file(
     plan: &Plan,
     mut points: Vec<usize>,
     threads: usize,
     (out, existing): (&Path, Existing),
-) -> Result<[usize; 2]> {
+) -> Result<Vec<Row>> {
     let path = checked(out, existing)?;
     let open = || SweepFile::open(path.clone(), plan, existing);
     let (mut file, pictures) = match existing {
@@ -132,8 +144,7 @@ fn into_file(
     let n_rows = table.rows.len();
     let (n_computed, path) = (points.len(), path.display());
     say(&format!("{n_computed} points computed, {n_rows} in {path}"));
-    let failed = table.rows.iter().filter(|row| row.failed());
-    Ok([failed.count(), n_rows])
+    Ok(table.rows)
 }
 
 /// Computes points on several threads, and hands over each row in the order in which it is finished.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use viscofriction::WrongInput;
-use viscofriction_plot::{Axis, Chart, Colour, Field, Figure, Marker, Series, Shape};
+use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
 use super::file::RowTable;
 use crate::input::read_rows;
@@ -104,18 +104,19 @@ fn figure(table: &RowTable) -> Result<Figure> {
     let [before, behind] = AROUND_KEYS.map(place);
     let keys = before.zip(behind);
     let (before, behind) = keys.context("the columns are not those of a sweep")?;
-    let column = |place: usize| -> Vec<Option<f64>> {
-        let cells = table.rows.iter().map(|row| row.fields[place].parse().ok());
-        cells.collect()
-    };
-    let values = |name: &str| place(name).map(&column).unwrap_or_default();
+    let cells = |place: usize| table.rows.iter().map(move |row| &*row.fields[place]);
+    let column = |place: usize| cells(place).map(|cell| cell.parse().ok()).collect();
+    let values = |name: &str| -> Vec<Option<f64>> { place(name).map(column).unwrap_or_default() };
     let is_known = |name: &str| values(name).iter().any(Option::is_some);
-    let key = |place: usize| (&*table.header[place], column(place));
-    let keys: Vec<(&str, Vec<Option<f64>>)> = (before + 1..behind).map(key).collect();
+    let key = |place: usize| Key {
+        name: &table.header[place],
+        cells: cells(place).collect(),
+    };
+    let mut keys: Vec<Key> = (before + 1..behind).map(key).collect();
     let is_drawn = |name: &str| match name {
         "indentation_depth" => {
             let forces = sorted(values("normal_force").into_iter().flatten());
-            forces.len() < 2 || keys.iter().any(|(key, _)| *key == "load.normal_force")
+            forces.len() < 2 || keys.iter().any(|key| key.name == "load.normal_force")
         }
         _ => true,
     };
@@ -123,41 +124,129 @@ fn figure(table: &RowTable) -> Result<Figure> {
     let drawn = quantities.find(|(name, _)| is_known(name) && is_drawn(name));
     let (name, label) = drawn.context("no point has a result")?;
     let errors = values(&format!("{name}_error"));
-    let values = values(name);
+    let quantity = (label, &values(name)[..]);
+    // Over the key that has the most numbers, the first of several.
+    let most = (0..keys.len())
+        .rev()
+        .max_by_key(|key| keys[*key].n_numbers());
+    let over = keys.remove(most.context("no key varies")?);
+    if over.n_numbers() == 0 {
+        bail!("no key that varies has numbers");
+    }
+    let curves = Curves::new(&keys, table.rows.len());
     match &keys[..] {
-        [(key, over)] => Ok(chart((key, over), (label, &values), &errors)),
-        [(one, x), (other, y)] => map([(one, x), (other, y)], (label, &values)),
-        _ => bail!("more than two keys vary"),
+        _ if curves.labels.len() <= MOST_CURVES => chart(&over, &curves, quantity, &errors),
+        [other] if other.n_numbers() > 0 => map([&over, other], quantity),
+        _ => bail!(
+            "the keys beside {} have more than {MOST_CURVES} combinations",
+            over.name
+        ),
+    }
+}
+
+/// More curves than these are not told apart.
+const MOST_CURVES: usize = 6;
+
+/// A key that varies, and what each row has in its column.
+struct Key<'a> {
+    name: &'a str,
+    cells: Vec<&'a str>,
+}
+
+impl Key<'_> {
+    fn numbers(&self) -> Vec<Option<f64>> {
+        self.cells.iter().map(|cell| cell.parse().ok()).collect()
+    }
+
+    /// How many numbers it takes; 0 where it takes texts.
+    fn n_numbers(&self) -> usize {
+        let numbers: Option<Vec<f64>> = self.numbers().into_iter().collect();
+        numbers.map_or(0, |numbers| sorted(numbers.into_iter()).len())
+    }
+}
+
+/// The rows by the values of the keys over which they are not drawn.
+struct Curves {
+    /// What the rows of each curve have in common, in the order of the rows.
+    labels: Vec<String>,
+    /// The curve of each row.
+    of: Vec<usize>,
+}
+
+impl Curves {
+    fn new(keys: &[Key<'_>], rows: usize) -> Self {
+        let (mut labels, mut of) = (Vec::new(), Vec::new());
+        for row in 0..rows {
+            let value = |key: &Key| {
+                let name = key.name.rsplit('.').next().unwrap_or(key.name);
+                format!("{name} = {}", key.cells[row])
+            };
+            let label = keys.iter().map(value).collect::<Vec<_>>().join(", ");
+            let known = labels.iter().position(|known| *known == label);
+            of.push(known.unwrap_or(labels.len()));
+            if known.is_none() && labels.len() <= MOST_CURVES {
+                labels.push(label);
+            }
+        }
+        Self { labels, of }
     }
 }
 
 /// A name, and what stands in its column.
 type Column<'a> = (&'a str, &'a [Option<f64>]);
 
-fn chart((key, over): Column<'_>, (label, values): Column<'_>, errors: &[Option<f64>]) -> Figure {
-    let points = over.iter().zip(values).zip(errors);
-    let points = points.filter_map(|((x, y), error)| Some(([(*x)?, (*y)?], error.unwrap_or(0.0))));
-    let mut points: Vec<([f64; 2], f64)> = points.collect();
-    // Points of shards and of several threads come in any order.
-    points.sort_by(|(one, _), (other, _)| one[0].total_cmp(&other[0]));
-    let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = points.into_iter().unzip();
-    let ends = points.iter().zip(&errors);
+fn chart(
+    over: &Key,
+    curves: &Curves,
+    (label, values): Column<'_>,
+    errors: &[Option<f64>],
+) -> Result<Figure> {
+    let over_values = over.numbers();
+    let series = curves.labels.iter().enumerate().map(|(curve, name)| {
+        let rows = (0..values.len()).filter(|row| curves.of[*row] == curve);
+        let points = rows.filter_map(|row| {
+            let point = [over_values[row]?, values[row]?];
+            Some((point, errors.get(row).copied().flatten().unwrap_or(0.0)))
+        });
+        let mut points: Vec<([f64; 2], f64)> = points.collect();
+        // Points of shards and of several threads come in any order.
+        points.sort_by(|(one, _), (other, _)| one[0].total_cmp(&other[0]));
+        let (points, errors) = points.into_iter().unzip();
+        let marker = Marker::filled(SHAPES[curve % SHAPES.len()]);
+        Series {
+            label: Some(name.clone()).filter(|name| !name.is_empty()),
+            line: Some(Line::thin(Dash::Solid)),
+            errors,
+            ..Series::markers(points, marker, COLOURS[curve % COLOURS.len()])
+        }
+    });
+    let series = series.filter(|series| !series.points.is_empty());
+    let series: Vec<Series> = series.collect();
+    let ends = series
+        .iter()
+        .flat_map(|one| one.points.iter().zip(&one.errors));
     let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
     let y = Axis::linear(label, around(ends));
-    let places = sorted(points.iter().map(|point| point[0]));
+    let points = series.iter().flat_map(|one| &one.points);
+    let places = sorted(points.map(|point| point[0]));
     let [first, last] = ends_of(&places);
     let is_wide = first > 0.0 && last / first >= WIDE;
     let x = if !is_arithmetic(&places) && (is_geometric(&places) || is_wide) {
-        Axis::decades(labelled(key), places.iter().copied())
+        Axis::decades(labelled(over.name), places.iter().copied())
     } else {
-        Axis::linear(labelled(key), [first, last])
+        Axis::linear(labelled(over.name), [first, last])
     };
-    let series = Series {
-        errors,
-        ..Series::markers(points, Marker::filled(Shape::Circle), Colour::Blue)
-    };
-    Figure::single(Chart::new(x, y, vec![series]))
+    Ok(Figure::single(Chart::new(x, y, series)))
 }
+
+const COLOURS: [Colour; 5] = [
+    Colour::Blue,
+    Colour::Red,
+    Colour::Green,
+    Colour::Magenta,
+    Colour::Black,
+];
+const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
 /// A key with the unit of its quantity, where it has one.
 fn labelled(key: &str) -> String {
@@ -175,11 +264,12 @@ fn labelled(key: &str) -> String {
     format!("{key} [{unit}]")
 }
 
-fn map([one, other]: [Column<'_>; 2], (label, values): Column<'_>) -> Result<Figure> {
-    let places = [one, other].map(|(_, over)| sorted(over.iter().copied().flatten()));
+fn map([one, other]: [&Key<'_>; 2], (label, values): Column<'_>) -> Result<Figure> {
+    let over = [one, other].map(Key::numbers);
+    let places = [0, 1].map(|axis: usize| sorted(over[axis].iter().copied().flatten()));
     let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
     let mut found = HashMap::new();
-    for ((x, y), value) in one.1.iter().zip(other.1).zip(values) {
+    for ((x, y), value) in over[0].iter().zip(&over[1]).zip(values) {
         if let (Some(x), Some(y), Some(value)) = (x, y, value) {
             found.insert(place(*x, *y), *value);
         }
@@ -190,7 +280,7 @@ fn map([one, other]: [Column<'_>; 2], (label, values): Column<'_>) -> Result<Fig
         let place = place(places[0][column], places[1][row]);
         found.get(&place).copied()
     });
-    let [x, y] = [cells(one.0, &places[0])?, cells(other.0, &places[1])?];
+    let [x, y] = [cells(one.name, &places[0])?, cells(other.name, &places[1])?];
     Ok(Figure::single(Chart::map(x, y, field.stretched())))
 }
 

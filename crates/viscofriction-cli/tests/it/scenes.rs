@@ -60,6 +60,20 @@ fn each_method_names_the_parts_that_it_has() {
 }
 
 #[test]
+fn an_answer_names_what_has_no_part_in_it() {
+    let folder = Folder::new("not-modelled");
+    for [parts, expected] in table("not modelled") {
+        let answer = folder.answer(&parts);
+        let words = answer["not_modelled"].as_array().expect("a list");
+        let words: Vec<&str> = words.iter().filter_map(Value::as_str).collect();
+        assert_eq!(words.join(", "), expected, "{parts}");
+        let printed = folder.done("run scene.toml").stdout;
+        let line = format!("\nnot modelled: {expected}\n");
+        assert!(printed.contains(&line), "{printed}");
+    }
+}
+
+#[test]
 fn a_material_that_is_viscous_by_another_name_is_the_same() {
     let folder = Folder::new("another-name");
     // 2 (1 − ν) = 2 halves the viscosity that the surface feels.

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Folder, said, table};
+use crate::support::{Folder, assert_close, said, table};
 
 const VARY: &str = "--vary indenter.cone.slope=0.05:0.2:4 --vary load.velocity=1e-3:1:5:log";
 
@@ -166,6 +166,55 @@ fn powers_of_ten_and_lists_are_met_exactly() {
     let thirds = values("load.velocity=1e-3:1:10:log");
     assert_eq!([&thirds[3], &thirds[6]], ["0.01", "0.1"]);
     assert_eq!(values("load.velocity=0.3, 0.1,2"), ["0.3", "0.1", "2.0"]);
+}
+
+#[test]
+fn files_and_words_of_a_scene_vary() {
+    let folder = Folder::new("varied-texts");
+    let material = |modulus: f64| format!("material.elastic.shear_modulus = {modulus:e}\n");
+    folder.write("soft.toml", material(1e6));
+    folder.write("hard.toml", material(8e6));
+    let load = "load = { normal_force = 1.0, velocity = 0.0 }\n";
+    let body = "indenter.paraboloid.curvature = 50.0\nmaterial.file.path = \"soft.toml\"\n";
+    folder.write("scene.toml", [load, body].concat());
+    let vary = "--vary solve.duration=1,2 --vary material.file.path=soft.toml,hard.toml";
+    let line = format!("sweep scene.toml {vary} --out rows.csv");
+    folder.done(&line);
+    let rows = folder.text("rows.csv");
+    let place = rows.split(',').position(|name| name == "indentation_depth");
+    let depths = folder.column("rows.csv", place.expect("a depth"));
+    // The depth of a paraboloid falls with the power 2/3 of the modulus.
+    assert_close("depth", depths[0], 4.0 * depths[1], 1e-12);
+    assert!(rows.contains(",2.0,hard.toml,"), "{rows}");
+    folder.write("hard.toml", material(9e6));
+    let line = format!("{line} --resume");
+    folder.ends(
+        &line,
+        2,
+        "from before a file that the scene names was changed",
+    );
+}
+
+#[test]
+fn warnings_are_a_column_and_are_said_once() {
+    let steep = [("slope = 0.1", "slope = 0.7")];
+    let folder = Folder::with("warned", "cone-viscous.toml", &steep);
+    let line = "sweep scene.toml --vary indenter.cone.slope=0.1,0.7,0.8 --out rows.csv";
+    let said = folder.done(line).stderr;
+    let warnings: Vec<&str> = said
+        .lines()
+        .filter(|line| line.starts_with("warning"))
+        .collect();
+    let [warning] = warnings[..] else {
+        panic!("{said}");
+    };
+    assert!(warning.ends_with("(at 2 of 3 points)"), "{warning}");
+    let rows = folder.text("rows.csv");
+    let rows: Vec<&str> = rows.lines().collect();
+    assert!(rows[0].ends_with(",warnings,failure"), "{}", rows[0]);
+    assert!(rows[1].ends_with(",,"), "{}", rows[1]);
+    let [steep, steeper] = [rows[2], rows[3]].map(|row| row.contains("the mean slope"));
+    assert!(steep && steeper, "{rows:?}");
 }
 
 #[test]

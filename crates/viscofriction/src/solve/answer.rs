@@ -50,6 +50,8 @@ pub struct Answer {
     pub is_per_length: bool,
     /// Sentences about the validity of the answer.
     pub warnings: Vec<String>,
+    /// What a reader might take to be in the answer, and is not: words of a fixed list.
+    pub not_modelled: Vec<&'static str>,
     /// Parts of the method that the scene did not need.
     pub left_out: Vec<Omission>,
     /// The finest boundary elements.
@@ -155,6 +157,7 @@ impl Answer {
             iterations: 0,
             is_per_length: false,
             warnings: Vec::new(),
+            not_modelled: Vec::new(),
             left_out: Vec::new(),
             grid: None,
             fields: Fields::default(),
@@ -343,6 +346,7 @@ impl Serialize for Answer {
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;
         map.serialize_entry("warnings", &self.warnings)?;
+        map.serialize_entry("not_modelled", &self.not_modelled)?;
         map.serialize_entry("left_out", &self.left_out)?;
         map.end()
     }

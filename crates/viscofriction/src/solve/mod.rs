@@ -40,7 +40,7 @@ pub use with_fields::with_fields;
 
 use self::dissipation::dissipation;
 use self::left_out::left_out;
-use self::validity::warnings;
+use self::validity::{not_modelled, warnings};
 use self::work::work;
 use crate::scene::{Accuracy, Method};
 use numerics::{Unwatched, Watch};
@@ -89,6 +89,7 @@ fn watched(
         model,
         left_out,
         dissipation: dissipation(problem, &answer),
+        not_modelled: not_modelled(problem),
         ..answer
     };
     answer.warnings = warnings(problem, &answer);

@@ -7,7 +7,8 @@ use indenters::Surface as _;
 use super::answer::Answer;
 use super::body::{Body, Revolution};
 use super::curve::{AREA, DEPTH, RADIUS};
-use super::problem::Problem;
+use super::half_space::Simple;
+use super::problem::{Motion, Problem};
 
 /// Mean slope of the surface in contact above which linear theory is no longer accurate.
 const STEEPEST: f64 = 0.5;
@@ -63,6 +64,20 @@ fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
             percent(of_window.above_window)
         )
     })
+}
+
+/// What a measurement has and no method does, of scenes of this kind.
+pub(super) fn not_modelled(problem: &Problem) -> Vec<&'static str> {
+    let slides = matches!(problem.motion(), Motion::Sliding(_));
+    let dissipates = problem.simple() != Some(&Simple::Elastic);
+    let words = [
+        ("adhesion", true),
+        ("strain dependence", dissipates),
+        ("heating", slides && dissipates),
+        ("interfacial shear", slides),
+    ];
+    let words = words.into_iter().filter(|(_, applies)| *applies);
+    words.map(|(word, _)| word).collect()
 }
 
 /// From the lowest point to the farthest edge of the contact, and of a periodic surface the root mean square; where no edge

@@ -2,6 +2,8 @@
 
 mod plan;
 mod vary;
+mod warnings;
 
 pub use plan::{Plan, Row, header, identity};
-pub use vary::{Shard, Vary};
+pub use vary::{Shard, Varied, Vary};
+pub use warnings::{SharedWarning, each_once};

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use super::vary::{MOST_POINTS, Vary};
+use super::vary::{MOST_POINTS, Varied, Vary};
 use crate::files::{Files, ReadFile};
 use crate::scene::{SceneError, Source, scene_file, split_index};
 use crate::solve::{self, Answer, Problem, check_memory, choose, not_offered, solve};
@@ -30,19 +30,11 @@ impl Plan {
     /// # Errors
     /// [`WrongInput`] for a key that varies twice, too many points, or a scene that is no TOML.
     pub fn new(source: Source, vary: &[Vary], read: ReadFile) -> Result<Self, WrongInput> {
-        let table = source.table()?;
-        for (index, one) in vary.iter().enumerate() {
-            if vary[..index].iter().any(|other| other.key == one.key) {
-                let problem = "it is varied twice";
-                return Err(source.locate(&SceneError::at(&one.key, problem)));
-            }
-        }
-        let mut counts = vary.iter().map(|vary| vary.values.len());
-        let points = counts.try_fold(1_usize, usize::checked_mul);
-        if points.is_none_or(|points| points > MOST_POINTS) {
-            let problem = format!("--vary gives more than {MOST_POINTS} points");
-            return Err(WrongInput(problem));
-        }
+        let mut table = source.table()?;
+        // A scene may leave it out, and its keys vary all the same.
+        let solve = || Value::Table(Table::new());
+        table.entry("solve").or_insert_with(solve);
+        check(&source, vary)?;
         let mut scene = table.clone();
         // On how many threads a point is computed, and how much memory it may take, does not change it.
         if let Some(Value::Table(solve)) = scene.get_mut("solve") {
@@ -55,7 +47,7 @@ impl Plan {
             memory: memory(&table),
         };
         let mut hash = hashed(EMPTY, format!("{scene}\n{vary:?}").as_bytes());
-        for file in named_files(&table) {
+        for file in named_files(&table).into_iter().chain(varied_files(vary)) {
             // A file that cannot be read is refused with the key that names it, by the first point.
             let contents = files.contents(file.as_ref(), files.memory());
             hash = hashed(hash, &contents.unwrap_or_default());
@@ -81,12 +73,12 @@ impl Plan {
     }
 
     /// The values of a point; the last key is fastest.
-    pub fn values(&self, point: usize) -> Vec<f64> {
+    pub fn values(&self, point: usize) -> Vec<&Varied> {
         let mut rest = point;
-        let mut values: Vec<f64> = Vec::new();
+        let mut values = Vec::new();
         for vary in self.vary.iter().rev() {
             let count = vary.values.len();
-            values.push(vary.values[rest % count]);
+            values.push(&vary.values[rest % count]);
             rest /= count;
         }
         values.reverse();
@@ -129,7 +121,7 @@ impl Plan {
         let mut table = self.table.clone();
         let build = || {
             for (key, value) in self.keys().zip(&values) {
-                set(&mut table, key, *value)?;
+                set(&mut table, key, value)?;
             }
             let problem = Problem::new(&scene_file(table)?, self.source.folder(), self.read)?;
             Ok(problem.or_max_memory(self.max_memory))
@@ -137,11 +129,33 @@ impl Plan {
         build().map_err(|error| {
             let WrongInput(message) = self.source.locate(&error);
             let settings = self.keys().zip(&values);
-            let settings = settings.map(|(key, value)| format!("{key} = {value:?}"));
+            let settings = settings.map(|(key, value)| format!("{key} = {value}"));
             let settings = settings.collect::<Vec<_>>().join(", ");
             WrongInput(format!("{message} (point {}: {settings})", point + 1))
         })
     }
+}
+
+/// Refuses a key that varies twice, too many points, and texts that are no cell of a row.
+fn check(source: &Source, vary: &[Vary]) -> Result<(), WrongInput> {
+    let is_broken =
+        |value: &Varied| matches!(value, Varied::Text(text) if text.contains(char::is_control));
+    for (index, one) in vary.iter().enumerate() {
+        let is_twice = vary[..index].iter().any(|other| other.key == one.key);
+        let problem = match one.values.iter().find(|value| is_broken(value)) {
+            Some(text) => format!("a text must be one line, but one is {:?}", text.to_string()),
+            None if is_twice => "it is varied twice".to_owned(),
+            None => continue,
+        };
+        return Err(source.locate(&SceneError::at(&one.key, problem)));
+    }
+    let mut counts = vary.iter().map(|vary| vary.values.len());
+    let points = counts.try_fold(1_usize, usize::checked_mul);
+    if points.is_none_or(|points| points > MOST_POINTS) {
+        let problem = format!("--vary gives more than {MOST_POINTS} points");
+        return Err(WrongInput(problem));
+    }
+    Ok(())
 }
 
 /// The column behind the values of a point, by which a change of one of them is noticed.
@@ -151,7 +165,7 @@ const CHECK: &str = "check";
 pub fn header(plan: &Plan) -> Vec<String> {
     let before = ["sweep", "point", "points"].into_iter().chain(plan.keys());
     let before = before.chain([CHECK, "method", "model"]).map(str::to_owned);
-    let after = ["unknowns", "failure"].map(str::to_owned);
+    let after = ["unknowns", "warnings", "failure"].map(str::to_owned);
     before.chain(Answer::columns()).chain(after).collect()
 }
 
@@ -170,12 +184,20 @@ impl Row {
     pub fn is_unchanged(&self, header: &[String]) -> bool {
         let end = header.iter().position(|name| name == CHECK);
         let identity = end.and_then(|end| self.fields.split_at_checked(end));
-        identity.is_some_and(|(identity, rest)| rest.first() == Some(&check(identity)))
+        identity.is_some_and(|(identity, rest)| rest.first() == Some(&checksum(identity)))
     }
 
     /// Whether the point has no answer.
     pub fn failed(&self) -> bool {
         self.fields.last().is_some_and(|why| !why.is_empty())
+    }
+
+    /// The warnings of its answer.
+    pub fn warnings(&self) -> Vec<&str> {
+        let before = self.fields.len().checked_sub(2);
+        let sentences = before.map_or("", |place| &self.fields[place]);
+        let sentences = sentences.split(BETWEEN_WARNINGS);
+        sentences.filter(|sentence| !sentence.is_empty()).collect()
     }
 }
 
@@ -186,16 +208,28 @@ fn results(answer: solve::Result<Answer>) -> Vec<String> {
             let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
             let numbers = answer.numbers().into_iter();
             let numbers = numbers.map(|(_, value)| value.map_or(String::new(), written));
-            let after = [answer.unknowns.to_string(), String::new()];
+            let warnings = answer.warnings.join(BETWEEN_WARNINGS);
+            let after = [
+                answer.unknowns.to_string(),
+                one_line(&warnings),
+                String::new(),
+            ];
             names.into_iter().chain(numbers).chain(after).collect()
         }
         Err(error) => {
-            let mut fields = vec![String::new(); Answer::columns().len() + 3];
-            // A row is a line.
-            fields.push(error.to_string().replace(['\n', '\r'], " "));
+            let mut fields = vec![String::new(); Answer::columns().len() + 4];
+            fields.push(one_line(&error.to_string()));
             fields
         }
     }
+}
+
+/// Between the sentences of a cell.
+const BETWEEN_WARNINGS: &str = " | ";
+
+/// A row is a line.
+fn one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
 }
 
 /// A number as JSON and Rust read it back.
@@ -208,17 +242,17 @@ pub fn identity(plan: &Plan, point: usize) -> Vec<String> {
     let numbers = [point + 1, plan.n_points()].map(|number| number.to_string());
     let mut fields = vec![plan.fingerprint.clone()];
     fields.extend(numbers);
-    fields.extend(plan.values(point).into_iter().map(written));
-    fields.push(check(&fields));
+    fields.extend(plan.values(point).into_iter().map(Varied::to_string));
+    fields.push(checksum(&fields));
     fields
 }
 
-fn check(identity: &[String]) -> String {
+fn checksum(identity: &[String]) -> String {
     format!("{:016x}", hashed(EMPTY, identity.join(",").as_bytes()))
 }
 
 /// Sets a key; the table it is in must be there.
-fn set(table: &mut Table, key: &str, value: f64) -> Result<(), SceneError> {
+fn set(table: &mut Table, key: &str, value: &Varied) -> Result<(), SceneError> {
     let missing = || SceneError::at(key, "the scene has no such table to vary a key of");
     let (path, last) = key.rsplit_once('.').ok_or_else(missing)?;
     let mut inner = table;
@@ -230,7 +264,14 @@ fn set(table: &mut Table, key: &str, value: f64) -> Result<(), SceneError> {
         }
         inner = found.as_table_mut().ok_or_else(missing)?;
     }
-    inner.insert(last.to_owned(), number(value));
+    let value = match value {
+        Varied::Number(value) => number(*value),
+        Varied::Text(text) => match text.parse() {
+            Ok(is) => Value::Boolean(is),
+            Err(_) => Value::String(text.clone()),
+        },
+    };
+    inner.insert(last.to_owned(), value);
     Ok(())
 }
 
@@ -258,6 +299,24 @@ fn named_files(table: &Table) -> Vec<&str> {
         }
     }
     files
+}
+
+/// The files that a key takes one after the other.
+fn varied_files(vary: &[Vary]) -> impl Iterator<Item = &str> {
+    let names_files = |vary: &&Vary| {
+        vary.key
+            .rsplit('.')
+            .next()
+            .is_some_and(|last| FILE_KEYS.contains(&last))
+    };
+    let values = vary
+        .iter()
+        .filter(names_files)
+        .flat_map(|vary| &vary.values);
+    values.filter_map(|value| match value {
+        Varied::Text(file) => Some(file.as_str()),
+        Varied::Number(_) => None,
+    })
 }
 
 /// Memory that the scene allows, where it is one.

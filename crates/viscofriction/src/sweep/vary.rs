@@ -1,5 +1,6 @@
 //! What the command line says about the points of a sweep.
 
+use std::fmt;
 use std::str::FromStr;
 
 /// A key and its values.
@@ -8,7 +9,26 @@ pub struct Vary {
     /// The path of the key, such as `load.velocity`.
     pub key: String,
     /// In the order in which they were given.
-    pub values: Vec<f64>,
+    pub values: Vec<Varied>,
+}
+
+/// A value that a key takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Varied {
+    /// As a number.
+    Number(f64),
+    /// As a text, such as the name of a file, or a word of the scene; `true` and `false` are those of TOML.
+    Text(String),
+}
+
+/// As a row has it: a number as JSON and Rust read it back.
+impl fmt::Display for Varied {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "{number:?}"),
+            Self::Text(text) => out.write_str(text),
+        }
+    }
 }
 
 /// Every `count`-th point, beginning with the `number`-th.
@@ -43,10 +63,8 @@ impl FromStr for Vary {
         let values = match parts[..] {
             [start, stop, count] => range([start, stop, count], Scale::Linear)?,
             [start, stop, count, "log"] => range([start, stop, count], Scale::Logarithmic)?,
-            [list] if list.contains(',') => {
-                let values = list.split(',').map(|value| number("a value", value.trim()));
-                values.collect::<Result<_, _>>()?
-            }
+            [one] if !one.contains(',') => return Err(form.to_owned()),
+            _ if values.contains(',') => list(values)?,
             _ => return Err(form.to_owned()),
         };
         Ok(Self {
@@ -56,8 +74,23 @@ impl FromStr for Vary {
     }
 }
 
+/// Values between commas, all of them numbers, or none.
+fn list(values: &str) -> Result<Vec<Varied>, String> {
+    let values = values.split(',').map(str::trim);
+    let is_number = |value: &str| value.parse::<f64>().is_ok();
+    if values.clone().any(is_number) {
+        let numbers = values.map(|value| number("a value", value).map(Varied::Number));
+        return numbers.collect();
+    }
+    let text = |value: &str| match value {
+        "" => Err("a value is missing between commas".to_owned()),
+        text => Ok(Varied::Text(text.to_owned())),
+    };
+    values.map(text).collect()
+}
+
 /// COUNT values from START to STOP, which are met exactly.
-fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<f64>, String> {
+fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<Varied>, String> {
     let [start, stop] = [number("START", start)?, number("STOP", stop)?];
     let count = whole("COUNT", count, MOST_POINTS)?;
     if scale == Scale::Logarithmic && !(start > 0.0 && stop > 0.0) {
@@ -72,7 +105,7 @@ fn range([start, stop, count]: [&str; 3], scale: Scale) -> Result<Vec<f64>, Stri
             (_, Scale::Logarithmic) => or_power_of_ten(start * (stop / start).powf(fraction)),
         }
     };
-    Ok((0..count).map(value).collect())
+    Ok((0..count).map(value).map(Varied::Number).collect())
 }
 
 fn or_power_of_ten(value: f64) -> f64 {
