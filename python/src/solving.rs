@@ -180,7 +180,9 @@ fn to_python(
     let mut columns = vec![vec![f64::NAN; answers.len()]; names.len()];
     let [others, failures] = [PyList::empty(py), PyList::empty(py)];
     for (index, answer) in answers.into_iter().enumerate() {
-        match answer {
+        failures.append(answer.as_ref().err().map(ToString::to_string))?;
+        let reached = answer.or_else(|error| error.reached().cloned().ok_or(error));
+        match reached {
             Ok(answer) => {
                 for (column, (_, value)) in columns.iter_mut().zip(answer.numbers()) {
                     column[index] = value.unwrap_or(f64::NAN);
@@ -190,12 +192,8 @@ fn to_python(
                 let other = other(py, answer)?;
                 other.set_item("json", json)?;
                 others.append(other)?;
-                failures.append(py.None())?;
             }
-            Err(error) => {
-                others.append(py.None())?;
-                failures.append(error.to_string())?;
-            }
+            Err(_) => others.append(py.None())?,
         }
     }
     let arrays = PyDict::new(py);

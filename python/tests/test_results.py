@@ -210,3 +210,14 @@ def test_what_was_not_reached_travels() -> None:
         vf.slide(vf.Sphere(5e-3), vf.Prony(100.0, [(1e3, 1.0)]), normal_force=2000.0, velocity=1.0, model="line")
     there = pickle.loads(pickle.dumps(raised.value))
     assert str(there) == str(raised.value) and there.answer == raised.value.answer
+
+
+def test_what_was_reached_is_held_with_its_bars() -> None:
+    far = {"normal_force": 1.0, "velocity": 0.01, "sliding_distance": 2e-3, "method": "bem-transient"}
+    with pytest.raises(vf.NotReached, match="was not reached to the relative error 1e-6") as raised:
+        vf.slide(vf.Cone(0.1), vf.Viscous(1e4), **far, relative_error=1e-6)
+    answer = raised.value.answer
+    assert answer.mu is not None and answer.mu_error is not None and 1e-6 * answer.mu < answer.mu_error < 0.1 * answer.mu
+    assert answer.pressure.size > 0 and answer.to_dict()["not_reached"] == str(raised.value)
+    assert "not reached: the friction coefficient" in repr(answer)
+    assert pickle.loads(pickle.dumps(answer)) == answer

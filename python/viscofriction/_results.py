@@ -38,7 +38,8 @@ EDGES = ("x_min", "x_max", "y_min", "y_max")
 class NotReached(RuntimeError):
     """The error that was asked for was not reached, or there is no answer.
 
-    ``answer`` holds what was: of an array of loads all that were solved, NaN and a sentence in ``failures`` for the others.
+    ``answer`` holds what was: numbers with their bars, wider than asked for where a sentence in ``failures`` says so, and NaN where
+    nothing was found.
     """
 
     def __init__(self, message: str, answer: Answer) -> None:
@@ -289,17 +290,19 @@ class Answer(Compared):
             failures = f", {failed} without an answer" if failed else ""
             warnings = "".join(f"\n  warning: {text}" for text in self.warnings)
             return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}{warnings}>"
-        if self.failures[0] is not None:
+        if self._answers[0] is None:
             return f"<no answer: {self.failures[0]}>"
+        notes = [f"  not reached: {failure}" for failure in self.failures if failure]
+        notes += [f"  warning: {text}" for text in self.warnings]
         rows = [f"  {name}: {value} {'± ' + error if error else ''} {unit}".rstrip() for name, value, error, unit in self._rows()]
-        return "\n".join([f"{self.method}, {self.model}", *rows, *(f"  warning: {text}" for text in self.warnings)])
+        return "\n".join([f"{self.method}, {self.model}", *rows, *notes])
 
     def _repr_html_(self) -> str:
-        failed = [f"no answer: {failure}" for failure in dict.fromkeys(self.failures) if failure]
+        failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
         notes = [*self.warnings, *failed]
         if self.shape == ():
             head = ["quantity", "value", "error", "unit"]
-            return html_table("" if failed else f"{self.method}, {self.model}", head, self._rows(), notes)
+            return html_table(f"{self.method}, {self.model}", head, self._rows(), notes)
         known = [name for name in QUANTITIES if self._values(name) is not None]
         head = [*self.loads, *map(with_unit, known)]
         columns = [[f"{load:g}" for load in np.ravel(values)] for values in self.loads.values()]

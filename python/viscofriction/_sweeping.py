@@ -92,7 +92,7 @@ class Sweep(Compared):
         columns = [self._cells(key) for key in self.keys]
         columns += [_with_bars(self._cells(name), self._cells(f"{name}_error")) for name in known]
         rows = list(zip(*columns, strict=True))
-        failed = [f"no answer: {failure}" for failure in dict.fromkeys(self.failures) if failure]
+        failed = [f"not reached: {failure}" for failure in dict.fromkeys(self.failures) if failure]
         return html_table(f"{len(self)} points", head, rows, [*self.warnings, *failed])
 
     def plot(self, ax: Any = None, quantity: str = "friction_coefficient") -> Any:

@@ -3,7 +3,7 @@
 use indenters::{Control, Surface};
 use numerics::{ErrorParts, Estimate, Goal, NotReached, Quantity};
 
-use crate::{BemError, Elastomer};
+use crate::{BemError, Elastomer, Reached};
 use rheology::Material as _;
 
 use crate::averages::Refinement;
@@ -96,6 +96,17 @@ pub(crate) struct Resolution<'w> {
     pub(crate) better: f64,
 }
 
+impl Resolution<'_> {
+    /// The place of the target.
+    const fn place(&self) -> usize {
+        match (self.target, self.control) {
+            (Target::Friction, _) => FRICTION,
+            (Target::Depth, Control::NormalForce(_)) => DEPTH,
+            (Target::Depth, Control::IndentationDepth(_)) => FORCE,
+        }
+    }
+}
+
 /// The order 2p − 1 of the friction under an apex h ∼ r^p, or that of a smooth body where it is slower.
 pub(crate) fn order_of_friction(apex_exponent: f64, smooth: f64) -> f64 {
     (2.0 * apex_exponent - 1.0).clamp(SLOWEST, smooth)
@@ -122,17 +133,13 @@ pub(crate) fn peak_has_limit(surface: &dyn Surface, elastomer: &(impl Elastomer 
 }
 
 /// Solves with the number of elements asked for, or with more and more until normal force and target have the error asked
-/// for.
-pub(crate) fn resolve<S, O>(
+/// for; `finish` makes of it what is returned, also where that error was not reached.
+pub(crate) fn resolve<S, O, E: Into<Reached>>(
     resolution: &Resolution,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<OnGrid<S, O>, BemError>,
-) -> Result<ContactEstimate<S, O>, BemError> {
-    let control = resolution.control;
-    let target = match (resolution.target, control) {
-        (Target::Friction, _) => FRICTION,
-        (Target::Depth, Control::NormalForce(_)) => DEPTH,
-        (Target::Depth, Control::IndentationDepth(_)) => FORCE,
-    };
+    finish: impl FnOnce(ContactEstimate<S, O>) -> Result<E, BemError>,
+) -> Result<E, BemError> {
+    let (control, target) = (resolution.control, resolution.place());
     let quantities = |contact: &OnGrid<S, O>| {
         let quantities = contact.quantities.iter().chain(&contact.dissipated);
         let driving = |(index, value): (usize, &f64)| Quantity {
@@ -165,7 +172,7 @@ pub(crate) fn resolve<S, O>(
         }
     }
     let [given_force, given_depth] = given(control);
-    Ok(ContactEstimate {
+    let estimate = finish(ContactEstimate {
         friction_coefficient: friction,
         error_parts,
         normal_force: given_force.unwrap_or(force),
@@ -176,19 +183,26 @@ pub(crate) fn resolve<S, O>(
         refinements: Vec::new(),
         finest: refined.value.state,
         options: refined.value.options,
-    })
+    })?;
+    refused(refined.missed, estimate)
 }
 
-impl From<NotReached> for BemError {
-    fn from(reached: NotReached) -> Self {
-        Self::NotReached {
-            // Of a history the quantities of each row come one after the other.
-            quantity: NAMES[reached.quantity % NAMES.len()],
-            value: reached.value,
-            error: reached.error,
-            relative_error: reached.asked,
-        }
-    }
+/// What was found, or the error that holds it where something was missed.
+pub(crate) fn refused<E: Into<Reached>>(
+    missed: Option<NotReached>,
+    found: E,
+) -> Result<E, BemError> {
+    let Some(missed) = missed else {
+        return Ok(found);
+    };
+    Err(BemError::NotReached {
+        // Of a history the quantities of each row come one after the other.
+        quantity: NAMES[missed.quantity % NAMES.len()],
+        value: missed.value,
+        error: missed.error,
+        relative_error: missed.asked,
+        reached: Box::new(found.into()),
+    })
 }
 
 /// Force and depth, exactly, as far as they are given.

@@ -5,7 +5,7 @@ use numerics::{InWords, InvalidParameter};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::Footprint;
+use crate::{Footprint, Reached};
 
 /// Why there is no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -139,6 +139,8 @@ pub enum BemError {
         error: f64,
         /// Relative error asked for.
         relative_error: f64,
+        /// Everything else that was found.
+        reached: Box<Reached>,
     },
     /// The load has no sliding distance where one is needed.
     #[error("a sliding distance is needed: {why}")]

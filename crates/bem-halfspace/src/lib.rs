@@ -48,6 +48,7 @@ mod plan;
 mod plane_transform;
 mod pressure_field;
 mod pressure_spectrum;
+mod reached;
 mod rectangle;
 mod reductions;
 mod resolution;
@@ -76,6 +77,7 @@ pub use periodic::{
     slide_periodic_on_grid, steady_periodic_on_grid,
 };
 pub use pressure_spectrum::line_spectrum;
+pub use reached::Reached;
 pub use resolution::GridOptions;
 pub use slide::{PressureField, slide, slide_on_grid};
 pub use steady::{steady, steady_line, steady_line_on_grid, steady_on_grid};

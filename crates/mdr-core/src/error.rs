@@ -5,7 +5,7 @@ use numerics::{InWords, InvalidParameter, NotReached};
 use rheology::RheologyError;
 use thiserror::Error;
 
-use crate::SlideRow;
+use crate::{SlideRow, Sliding};
 
 /// Why a problem is refused, or has no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -111,6 +111,14 @@ pub enum MdrError {
     /// A quantity is known less well than asked for on the finest resolution allowed.
     #[error(transparent)]
     NotReached(#[from] NotReached),
+    /// The same of a march, with everything else that was found.
+    #[error("{missed}")]
+    SlidingNotReached {
+        /// What is not known well enough.
+        missed: NotReached,
+        /// What was found, with its bars.
+        reached: Box<Sliding>,
+    },
     /// A material that flows has no contact at rest.
     #[error(
         "under a constant load a material that flows never comes to rest: press it for a time (`indent`)"

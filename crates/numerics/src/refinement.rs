@@ -111,6 +111,8 @@ pub struct Refined<T> {
     pub parts: Vec<ErrorParts>,
     /// Elements of the finest resolution.
     pub elements: usize,
+    /// What is not known well enough on it, although it is the finest one allowed; whoever asked refuses it.
+    pub missed: Option<NotReached>,
 }
 
 /// A quantity is not known well enough on the finest resolution allowed.
@@ -151,8 +153,8 @@ const ROUNDING: f64 = 1e-12;
 /// Both are given what is to be told of their progress, from 0 to 1.
 ///
 /// # Errors
-/// [`NotReached`] on the finest resolution allowed, and those of `solve` and `others`.
-pub fn refine<T, E: From<NotReached>>(
+/// Those of `solve` and `others`.
+pub fn refine<T, E>(
     goal: &Goal,
     solve: impl Fn(usize, &dyn Fn(f64)) -> Result<T, E>,
     quantities: impl Fn(&T) -> Vec<Quantity>,
@@ -190,16 +192,16 @@ pub fn refine<T, E: From<NotReached>>(
             }
         }
         match not_reached(asked, &fine, &parts, elements) {
-            None => {
+            Some(missed) if !is_last() => progress.expect(goal.work_after(&missed)),
+            missed => {
                 return Ok(Refined {
                     error: errors(&fine, &parts),
                     value,
                     parts,
                     elements,
+                    missed,
                 });
             }
-            Some(missed) if is_last() => return Err(missed.into()),
-            Some(missed) => progress.expect(goal.work_after(&missed)),
         }
         elements *= 2;
         half = fine;
@@ -406,9 +408,11 @@ mod tests {
     #[test]
     fn a_resolution_that_is_not_allowed_is_not_begun() {
         let watch = Recorder(Mutex::default(), 100);
-        let missed = watched(Accuracy::RelativeError(1e-3), &watch).expect_err("too coarse");
+        let refined = watched(Accuracy::RelativeError(1e-3), &watch).expect("a value");
+        let missed = refined.missed.expect("too coarse");
         assert_eq!(missed.elements, 64, "{missed}");
         assert_relative_eq!(missed.error, 5.0 / 64.0, max_relative = 1e-6);
+        assert_relative_eq!(refined.value, 4.0 + 4.0 / 64.0);
     }
 
     #[test]

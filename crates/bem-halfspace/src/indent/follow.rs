@@ -8,7 +8,7 @@ use rheology::Material as _;
 use super::history::refined;
 use super::press::{BYTES_PER_ELEMENT, Spring, goal, grid, n_followed};
 use super::{HistoryOptions, IndentHistory, MotionRow, indent_history};
-use crate::bars::{DEPTH, FORCE, reacts_at_once};
+use crate::bars::{DEPTH, FORCE, reacts_at_once, refused};
 use crate::contact::check_control;
 use crate::{BemError, Elastomer, GridOptions};
 
@@ -108,13 +108,14 @@ pub fn follow<'w>(
     };
     let (found, options) = fine.value;
     let errors = PLACES.map(|place| worst(place).sum());
-    Ok(IndentCurve {
+    let found = IndentCurve {
         points: path.with_errors(history, &found.rows, errors),
         error_parts: worst(path.sought()),
         n_contact: found.rows.last().map_or(0, |row| row.n_contact),
         n_steps: found.rows.len() * found.steps_per_row,
         options,
-    })
+    };
+    refused(fine.missed, found)
 }
 
 /// Memory that [`follow`] takes at most for a number of elements along the largest contact, \[bytes].

@@ -293,7 +293,7 @@ fn estimate(
         better: 0.0,
     };
     let punch = surface.as_axisymmetric().and_then(radius_of_punch);
-    let estimate = bars::resolve(&resolution, |elements, _| {
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
         let mut options = grid(&plan, elements);
         let state = if let Some(radius) = punch {
             if elements < FEWEST_OF_DISC {
@@ -311,12 +311,14 @@ fn estimate(
             spring.solve(surface, control, &options)?
         };
         Ok(state.on_grid(control, options, elements))
-    })?;
-    if let Some(body) = surface.as_axisymmetric() {
-        // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
-        contact_radius(body, estimate.finest.indentation_depth)?;
-    }
-    Ok(estimate)
+    };
+    bars::resolve(&resolution, solve, |estimate: PressEstimate| {
+        if let Some(body) = surface.as_axisymmetric() {
+            // Refuses a contact beyond the end of the body, as beyond the equator of a sphere.
+            contact_radius(body, estimate.finest.indentation_depth)?;
+        }
+        Ok(estimate)
+    })
 }
 
 /// The radius of a body that is a flat punch.

@@ -12,7 +12,7 @@ use crate::periodic::search::Problem;
 use crate::periodic::{
     PeriodicLoad, PeriodicOptions, PeriodicSliding, PeriodicTransient, check_surface, solve_from,
 };
-use crate::{BemError, ContactOptions, Elastomer, Grid, PressureField};
+use crate::{BemError, ContactOptions, Elastomer, Grid, PressureField, Reached};
 
 /// Elements per shortest wave along an axis on the first grid, and fewest elements along an edge that is not level.
 const FIRST: usize = 4;
@@ -291,24 +291,38 @@ fn refine<S>(
     surface: &PeriodicSurface,
     goal: &Goal,
     mut solve: impl FnMut(&Grid, &[f64], f64) -> Result<(Found, S), BemError>,
-) -> Result<PeriodicEstimate<S>, BemError> {
+) -> Result<PeriodicEstimate<S>, BemError>
+where
+    PeriodicEstimate<S>: Into<Reached>,
+{
     between_zero_and_one("relative_error", goal.relative_error)?;
     let mut shape = first_shape(surface);
     let (mut grids, mut tolerance) = (Vec::new(), TOLERANCE);
-    let mut best = None;
+    let mut best: Option<(Known, PeriodicEstimate<S>)> = None;
     loop {
-        goal.check(best, shape)?;
+        if let Some(too_large) = goal.too_large(shape, 1.0) {
+            return Err(match best {
+                Some((known, bars)) => known.missed(goal.relative_error, bars.into()),
+                None => too_large,
+            });
+        }
+        goal.check_march(best.as_ref().map(|(known, _)| known), shape)?;
         let spacing = [0, 1].map(|axis| surface.period()[axis] / shape[axis] as f64);
         let (grid, heights) = (Grid::new(shape, spacing)?, surface.heights(shape)?);
         check_surface(&grid, &heights)?;
         let (found, state) = solve(&grid, &heights, tolerance)?;
         grids.push(found);
         if let Some(bars) = goal.bars(&grids, state) {
-            let reached = bars.reached(&grids);
-            if reached.is_enough(goal.relative_error) {
+            let known = bars.known(&grids);
+            if known.is_enough(goal.relative_error) {
                 return Ok(bars);
             }
-            best = Some(best.map_or(reached, |best: Reached| best.or(reached)));
+            if best
+                .as_ref()
+                .is_none_or(|(best, _)| !best.is_better(&known))
+            {
+                best = Some((known, bars));
+            }
         }
         shape = shape.map(|n| 2 * n);
         tolerance *= 0.5;
@@ -317,13 +331,13 @@ fn refine<S>(
 
 /// What the relative error is of, and whether enough elements are in contact to believe it.
 #[derive(Clone, Copy)]
-struct Reached {
+struct Known {
     quantity: &'static str,
     estimate: Estimate,
     is_resolved: bool,
 }
 
-impl Reached {
+impl Known {
     fn relative_error(&self) -> f64 {
         self.estimate.error / self.estimate.value.abs()
     }
@@ -332,13 +346,18 @@ impl Reached {
         self.is_resolved && self.estimate.is_within(relative_error)
     }
 
-    /// The finer one, unless the other is better known.
-    fn or(self, finer: Self) -> Self {
-        let is_better = self.relative_error() <= finer.relative_error();
-        if self.is_resolved && is_better {
-            self
-        } else {
-            finer
+    /// Whether it is better than what is known from a finer grid.
+    fn is_better(&self, finer: &Self) -> bool {
+        self.is_resolved && self.relative_error() <= finer.relative_error()
+    }
+
+    fn missed(self, relative_error: f64, reached: Reached) -> BemError {
+        BemError::NotReached {
+            quantity: self.quantity,
+            value: self.estimate.value,
+            error: self.estimate.error,
+            relative_error,
+            reached: Box::new(reached),
         }
     }
 }
@@ -354,30 +373,23 @@ impl Goal {
         }
     }
 
-    /// Refuses a grid that is too large, with the best that was reached, and a march that cannot be fine enough.
-    fn check(&self, best: Option<Reached>, shape: [usize; 2]) -> Result<(), BemError> {
+    /// Why a grid that is finer by a factor has no solution.
+    fn too_large(&self, shape: [usize; 2], finer: f64) -> Option<BemError> {
         let [rows, columns] = shape.map(|n| n as f64);
-        let refuse = |finer: f64| {
-            let elements = finer.powi(2) * rows * columns;
-            let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
-            let limit = self.max_elements.min(MOST_STEPS / steps);
-            (elements > limit).then_some(BemError::GridTooLarge { elements, limit })
+        let elements = finer.powi(2) * rows * columns;
+        let steps = self.steps_per_row.map_or(1.0, |steps| steps * finer * rows);
+        let limit = self.max_elements.min(MOST_STEPS / steps);
+        (elements > limit).then_some(BemError::GridTooLarge { elements, limit })
+    }
+
+    /// Half an hour is not spent on a march in vain: no error falls faster than with the second order.
+    fn check_march(&self, best: Option<&Known>, shape: [usize; 2]) -> Result<(), BemError> {
+        let (Some(best), Some(_)) = (best, self.steps_per_row) else {
+            return Ok(());
         };
-        let refused = match (refuse(1.0), best) {
-            (Some(_), Some(best)) => Some(BemError::NotReached {
-                quantity: best.quantity,
-                value: best.estimate.value,
-                error: best.estimate.error,
-                relative_error: self.relative_error,
-            }),
-            // Half an hour is not spent on a march in vain: no error falls faster than with the second order.
-            (None, Some(best)) if self.steps_per_row.is_some() => {
-                let excess = best.relative_error() / self.relative_error;
-                refuse(0.5 * excess.sqrt().log2().ceil().max(1.0).exp2())
-            }
-            (refused, _) => refused,
-        };
-        refused.map_or(Ok(()), Err)
+        let excess = best.relative_error() / self.relative_error;
+        let finer = 0.5 * excess.sqrt().log2().ceil().max(1.0).exp2();
+        self.too_large(shape, finer).map_or(Ok(()), Err)
     }
 
     /// From three grids or more.
@@ -426,10 +438,10 @@ impl Goal {
 }
 
 impl<S> PeriodicEstimate<S> {
-    fn reached(&self, grids: &[Found]) -> Reached {
+    fn known(&self, grids: &[Found]) -> Known {
         let (quantity, estimate) = self.asked();
         let coarse = &grids[grids.len().saturating_sub(3)];
-        Reached {
+        Known {
             quantity,
             estimate,
             is_resolved: coarse.in_contact >= FEWEST_IN_CONTACT,

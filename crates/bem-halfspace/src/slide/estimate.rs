@@ -171,16 +171,18 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
             has_peak: peak_has_limit(self.surface, self.elastomer),
             better: 0.0,
         };
-        let mut estimate = bars::resolve(&resolution, |elements, tell| self.march(elements, tell))?;
-        if self.creep.is_elastic() {
-            estimate.friction_coefficient = Estimate::exact(0.0);
-            estimate.error_parts = ErrorParts::NONE;
-        }
-        // On a layer it comes to rest more slowly than the friction, by which the march ends.
-        if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
-            estimate.indentation_depth = None;
-        }
-        Ok(estimate)
+        let march = |elements, tell: &dyn Fn(f64)| self.march(elements, tell);
+        bars::resolve(&resolution, march, |mut estimate: SlideEstimate| {
+            if self.creep.is_elastic() {
+                estimate.friction_coefficient = Estimate::exact(0.0);
+                estimate.error_parts = ErrorParts::NONE;
+            }
+            // On a layer it comes to rest more slowly than the friction, by which the march ends.
+            if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
+                estimate.indentation_depth = None;
+            }
+            Ok(estimate)
+        })
     }
 
     /// At a depth the body reaches the boundary of its footprint.

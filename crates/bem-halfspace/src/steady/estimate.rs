@@ -121,7 +121,9 @@ fn refined(
         has_peak: peak_has_limit(surface, elastomer),
         watch,
     };
-    with_meaning(load, elastomer, refine(&problem, options)?)
+    refine(&problem, options, |estimate| {
+        with_meaning(load, elastomer, estimate)
+    })
 }
 
 /// The state on a grid of a given number of elements, compared with grids of fewer.
@@ -140,12 +142,14 @@ fn with_elements(
         resolution.goal.order = bars::order_of_friction(plan.apex_exponent, ORDER);
     }
     let creep = SlidingCreep::new(elastomer, load.velocity())?;
-    let estimate = bars::resolve(&resolution, |elements, _| {
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = grid(&plan, elements);
         let state = steady_on_grid(surface, elastomer, load, &options)?;
         Ok(state.on_grid((&creep, plan.kinks), options, load.sliding_distance()))
-    })?;
-    with_meaning(load, elastomer, estimate)
+    };
+    bars::resolve(&resolution, solve, |estimate| {
+        with_meaning(load, elastomer, estimate)
+    })
 }
 
 /// On a given number of elements.

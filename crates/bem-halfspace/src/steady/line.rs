@@ -118,34 +118,44 @@ pub fn steady_line<'w>(
         has_peak: bars::reacts_at_once(elastomer),
         watch: request.watch,
     };
-    let known = match request.accuracy {
+    let is_elastic = elastomer.material().creep().is_elastic();
+    let has_depth = creep.base().is_layer();
+    let of_line = |known| {
+        let mut found = of_line(known, force);
+        if is_elastic {
+            found.friction_coefficient = Estimate::exact(0.0);
+            found.error_parts = ErrorParts::NONE;
+        }
+        found.indentation_depth = found.indentation_depth.filter(|_| has_depth);
+        Ok(found)
+    };
+    match request.accuracy {
         Accuracy::RelativeError(relative_error) => {
             let options = RefinementOptions {
                 relative_error,
                 max_unknowns: MOST_UNKNOWNS,
                 ..RefinementOptions::default()
             };
-            refine(&problem, &options)?
+            refine(&problem, &options, of_line)
         }
-        Accuracy::Elements(_) => with_elements(&problem, strip.length, request)?,
-    };
-    let (friction_coefficient, error_parts) = if elastomer.material().creep().is_elastic() {
-        (Estimate::exact(0.0), ErrorParts::NONE)
-    } else {
-        (known.friction_coefficient, known.error_parts)
-    };
-    Ok(LineEstimate {
-        friction_coefficient,
-        error_parts,
+        Accuracy::Elements(_) => of_line(with_elements(&problem, strip.length, request)?),
+    }
+}
+
+/// The estimate of a strip as that of a line that bears a force per length.
+fn of_line(known: SteadyEstimate, force: f64) -> LineEstimate {
+    LineEstimate {
+        friction_coefficient: known.friction_coefficient,
+        error_parts: known.error_parts,
         normal_force: Estimate::exact(force),
-        indentation_depth: known.indentation_depth.filter(|_| creep.base().is_layer()),
+        indentation_depth: known.indentation_depth,
         contact_area: known.contact_area,
         peak_pressure: known.peak_pressure,
         contact_box_error: bars::of_box(known.options.spacing[0]),
         refinements: known.refinements,
         finest: LineSliding::of(&known.finest),
         options: LineOptions::of(&known.options),
-    })
+    }
 }
 
 /// Solves the stationary sliding of a `profile` on one grid, under a load whose normal force is per length, \[N/m].
@@ -181,11 +191,12 @@ fn with_elements(
     let (loading, plan) = (&problem.loading, &problem.plan);
     let length = ELEMENTS_OF_CYLINDER * plan.coarsest_spacing;
     let resolution = resolution(request, loading.control, ORDER, problem.has_peak);
-    let mut known = bars::resolve(&resolution, |elements, _| {
+    let solve = |elements: usize, _: &dyn Fn(f64)| {
         let options = SteadyOptions::new([length / elements as f64, strip], plan.footprint);
         let state = solve(problem.surface, loading, &options, &mut Reuse::default())?;
         Ok(state.on_grid((&loading.creep, 0.0), options, None))
-    })?;
+    };
+    let mut known = bars::resolve(&resolution, solve, Ok)?;
     let area = known.contact_area;
     known.contact_area = Estimate::new(area.value / strip, area.error / strip);
     Ok(known)

@@ -12,6 +12,7 @@ use indenters::Surface;
 use numerics::{ErrorParts, Estimate, Progress, Watch, between_zero_and_one, in_range, positive};
 
 use crate::BemError;
+use crate::Reached;
 use crate::averages::{Average, Refinement};
 use crate::bars::{self, DEPTH, FORCE, FRICTION, NAMES};
 use crate::plan::{GridPlan, MAX_REFINEMENTS};
@@ -92,11 +93,13 @@ pub(super) struct Problem<'a> {
     pub(super) watch: &'a dyn Watch,
 }
 
-/// Refines until friction and force have the error asked for.
-pub(super) fn refine(
+/// Refines until friction and force have the error asked for; `finish` makes of the estimate what is returned, also where
+/// that error was not reached.
+pub(super) fn refine<E: Into<Reached>>(
     problem: &Problem,
     options: &RefinementOptions,
-) -> Result<SteadyEstimate, BemError> {
+    finish: impl FnOnce(SteadyEstimate) -> Result<E, BemError>,
+) -> Result<E, BemError> {
     let relative_error = between_zero_and_one("relative_error", options.relative_error)?;
     positive("aspect", options.aspect)?;
     let mut grids = Grids {
@@ -118,11 +121,19 @@ pub(super) fn refine(
             None if friction.error <= rounding => (NAMES[FORCE], force),
             _ => (NAMES[FRICTION], friction),
         };
-        if driving.is_within(relative_error) && force.is_within(relative_error) {
-            return Ok(grids.estimate(friction, force, refinements, finest));
-        }
-        if !grids.allows(index + 1, &finest.averages) {
-            return Err(not_reached((name, driving), force, relative_error));
+        let is_enough = driving.is_within(relative_error) && force.is_within(relative_error);
+        if is_enough || !grids.allows(index + 1, &finest.averages) {
+            let found = finish(grids.estimate(friction, force, refinements, finest))?;
+            return if is_enough {
+                Ok(found)
+            } else {
+                Err(not_reached(
+                    (name, driving),
+                    force,
+                    relative_error,
+                    found.into(),
+                ))
+            };
         }
         let excess = [driving, force].map(|known| known.error / known.value.abs());
         let excess = excess[0].max(excess[1]) / relative_error;
@@ -145,6 +156,7 @@ fn not_reached(
     driving: (&'static str, Estimate),
     force: Estimate,
     relative_error: f64,
+    reached: Reached,
 ) -> BemError {
     let (quantity, known) = if force.is_within(relative_error) {
         driving
@@ -156,6 +168,7 @@ fn not_reached(
         value: known.value,
         error: known.error,
         relative_error,
+        reached: Box::new(reached),
     }
 }
 

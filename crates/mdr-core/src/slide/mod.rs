@@ -62,7 +62,7 @@ pub struct Sliding {
 /// along the contact, and whatever error that has.
 ///
 /// # Errors
-/// [`MdrError::NotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
+/// [`MdrError::SlidingNotReached`] with what the finest chain gives; [`MdrError::FrictionDiverges`] for a kink or cusp on a lone
 /// dashpot; otherwise like [`slide_on_grid`].
 pub fn slide<'w>(
     line: &(impl RigidLine + ?Sized),
@@ -92,7 +92,7 @@ pub fn slide<'w>(
     let values = motion.values(&march.transient);
     let [friction_coefficient, indentation_depth, rear, front] =
         std::array::from_fn(|k| Estimate::new(values[k], error[k]));
-    Ok(Sliding {
+    let found = Sliding {
         friction_coefficient,
         error_parts,
         indentation_depth,
@@ -100,7 +100,14 @@ pub fn slide<'w>(
         ends: [rear, front],
         finest: march.transient,
         options: march.options,
-    })
+    };
+    match refined.missed {
+        None => Ok(found),
+        Some(missed) => Err(MdrError::SlidingNotReached {
+            missed,
+            reached: Box::new(found),
+        }),
+    }
 }
 
 /// What slides, on what, and how.

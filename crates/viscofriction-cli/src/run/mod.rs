@@ -7,13 +7,13 @@ mod table;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use viscofriction::Watch;
 use viscofriction::scene::Method;
 use viscofriction::solve::{
-    Answer, Omission, Problem, check_memory, problem_of, solve_watched, with_fields,
+    Answer, Omission, Problem, SolveError, check_memory, problem_of, solve_watched, with_fields,
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
@@ -75,7 +75,13 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     let started = Instant::now();
     let answer = progress::during(task, |watch| in_pool(&problem, watch));
     let seconds = started.elapsed().as_secs_f64();
-    let mut answer = answer.with_context(|| path.to_string())?;
+    let (mut answer, missed) = match answer {
+        Ok(answer) => (answer, None),
+        Err(error) => match error.downcast_ref().and_then(SolveError::reached) {
+            Some(reached) => (reached.clone(), Some(error)),
+            None => return Err(error.context(path.to_string())),
+        },
+    };
     if out.is_some() {
         let task = format!("fields of {path}");
         answer = progress::during(task, |_| with_fields(&problem, answer));
@@ -95,7 +101,7 @@ pub(crate) fn run(options: &Run) -> Result<()> {
     if options.explain {
         explain(&problem, answer.answer, options.format)?;
     }
-    Ok(())
+    missed.map_or(Ok(()), |error| Err(error.context(path.to_string())))
 }
 
 /// Why a method was chosen.
@@ -122,6 +128,9 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             print_line(&table::table(answer))?;
             if let Some(parts) = table::parts(&answer.error_parts) {
                 print_line(&format!("error bar: {parts}"))?;
+            }
+            if let Some(why) = &answer.not_reached {
+                print_line(&format!("not reached: {why}"))?;
             }
             let mut warnings = answer.warnings.iter();
             warnings.try_for_each(|warning| print_line(&format!("warning: {warning}")))?;

@@ -131,8 +131,24 @@ fn what_could_not_be_reached_ends_with_status_1_and_says_how_far_it_came() {
     ];
     let folder = Folder::with("unreachable", "half-space-run-in.toml", &replaced);
     let needed = "was not reached to the relative error 1e-6";
-    let said = folder.ends("run scene.toml", 1, needed);
-    assert!(said.stderr.contains(": it is 0."), "{said:?}");
+    let said = folder.ends("run scene.toml --out out", 1, needed);
+    let refused = said.stderr.contains(": it is 0.");
+    let friction = said.stdout.contains("| friction coefficient | 0.");
+    let says_so = said
+        .stdout
+        .contains("\nnot reached: the friction coefficient was not reached");
+    assert!(refused && friction && says_so, "{said:?}");
+    // What was reached has its fields, as an answer has them.
+    let written = folder.names("out").join(" ");
+    assert!(
+        written.contains("history.csv") && written.contains("pressure.csv"),
+        "{written}"
+    );
+    let result: Value = serde_json::from_str(&folder.text("out/result.json")).expect("JSON");
+    let [value, error] = ["friction_coefficient", "friction_coefficient_error"];
+    let bar = number(&result, error) / number(&result, value);
+    assert!((1e-6..1.0).contains(&bar), "{result}");
+    assert!(result["not_reached"].is_string(), "{result}");
 }
 
 #[test]

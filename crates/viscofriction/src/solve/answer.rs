@@ -50,6 +50,8 @@ pub struct Answer {
     pub is_per_length: bool,
     /// Sentences about the validity of the answer.
     pub warnings: Vec<String>,
+    /// Why it is not what was asked, of an answer that a [`SolveError`] holds.
+    pub not_reached: Option<String>,
     /// What a reader might take to be in the answer, and is not: words of a fixed list.
     pub not_modelled: Vec<&'static str>,
     /// Parts of the method that the scene did not need.
@@ -157,6 +159,7 @@ impl Answer {
             iterations: 0,
             is_per_length: false,
             warnings: Vec::new(),
+            not_reached: None,
             not_modelled: Vec::new(),
             left_out: Vec::new(),
             grid: None,
@@ -345,6 +348,9 @@ impl Serialize for Answer {
         }
         map.serialize_entry("unknowns", &self.unknowns)?;
         map.serialize_entry("iterations", &self.iterations)?;
+        if let Some(why) = &self.not_reached {
+            map.serialize_entry("not_reached", why)?;
+        }
         map.serialize_entry("warnings", &self.warnings)?;
         map.serialize_entry("not_modelled", &self.not_modelled)?;
         map.serialize_entry("left_out", &self.left_out)?;

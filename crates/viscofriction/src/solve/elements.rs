@@ -1,10 +1,12 @@
 //! What boundary elements say, as answers.
 
-use bem_halfspace::indent::{IndentPoint, follow};
-use bem_halfspace::slide::{PressureField, SlideRow, slide};
+use bem_halfspace::indent::{IndentCurve, IndentPoint, PressEstimate, follow};
+use bem_halfspace::slide::{PressureField, SlideEstimate, SlideRow, slide};
+use bem_halfspace::steady::{LineEstimate, SteadyEstimate};
 use bem_halfspace::{
-    ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, indent,
-    press_periodic, slide_periodic, steady, steady_line, steady_periodic,
+    ContactEstimate, GridOptions, PeriodicEstimate, PeriodicLoad, PeriodicRow, PeriodicSliding,
+    PeriodicTransient, Reached, indent, press_periodic, slide_periodic, steady, steady_line,
+    steady_periodic,
 };
 use friction_analytic::{RoughLoad, SurfaceWave, persson_of_waves};
 use indenters::rough::{PeriodicSurface, Wave};
@@ -15,7 +17,7 @@ use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
 use super::error::Result;
 use super::half_space::Simple;
-use super::problem::Problem;
+use super::problem::{Motion, Problem};
 use crate::scene::{Method, Model};
 
 /// The quantities of an estimate, with the ends of its contact along x and y.
@@ -38,7 +40,10 @@ pub(crate) fn stationary(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = steady(surface, &problem.elastomer()?, load, request)?;
+    of_steady(steady(surface, &problem.elastomer()?, load, request)?)
+}
+
+fn of_steady(estimate: SteadyEstimate) -> Result<Answer> {
     let (finest, options) = (&estimate.finest, &estimate.options);
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -62,6 +67,10 @@ pub(crate) fn line_contact(
     request: Request,
 ) -> Result<Answer> {
     let estimate = steady_line(cylinder, &problem.elastomer()?, load, request)?;
+    Ok(of_line(estimate))
+}
+
+fn of_line(estimate: LineEstimate) -> Answer {
     let finest = &estimate.finest;
     let contact = ContactBox::along(finest.contact, estimate.contact_box_error);
     let mut answer = Answer {
@@ -72,7 +81,7 @@ pub(crate) fn line_contact(
         ..answer(&estimate, Method::BemSteady, [finest.contact; 2])
     };
     answer.fields.line_pressure = estimate.finest.pressure;
-    Ok(answer)
+    answer
 }
 
 /// Largest grid of a period, and memory that one of its elements takes at most, and what contacts of few elements on stiff
@@ -82,6 +91,7 @@ const BYTES_PER_ELEMENT: u64 = 200;
 const BYTES_BESIDE: u64 = 32 << 20;
 
 /// A periodic surface, and what it is asked for.
+#[derive(Clone, Copy)]
 pub(crate) struct Rough<'a> {
     pub(crate) surface: &'a PeriodicSurface,
     pub(crate) load: PeriodicLoad,
@@ -94,6 +104,15 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough) -> Result<Answer> {
     let most = largest_grid(problem);
     let elastomer = problem.elastomer()?;
     let estimate = steady_periodic(surface, &elastomer, &load, rough.relative_error, most)?;
+    of_periodic(problem, rough, estimate)
+}
+
+fn of_periodic(
+    problem: &Problem,
+    rough: Rough,
+    estimate: PeriodicEstimate<PeriodicSliding>,
+) -> Result<Answer> {
+    let Rough { surface, load, .. } = rough;
     let mut answer = of_rough(problem, rough, Method::BemSteady, &estimate);
     answer.iterations = estimate.finest.products;
     if let Some(rough) = &mut answer.rough {
@@ -113,6 +132,14 @@ pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Re
         rough.relative_error,
         most,
     )?;
+    Ok(of_pressed(problem, rough, estimate))
+}
+
+fn of_pressed(
+    problem: &Problem,
+    rough: Rough,
+    estimate: PeriodicEstimate<PeriodicSliding>,
+) -> Answer {
     let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
     answer.iterations = estimate.finest.products;
     answer.friction_coefficient = None;
@@ -125,7 +152,7 @@ pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Re
         // It depends on how the contact has grown.
         answer.fields.pressure = None;
     }
-    Ok(answer)
+    answer
 }
 
 /// A periodic surface on the way from rest to the stationary state.
@@ -138,6 +165,14 @@ pub(crate) fn periodic_transient(
     let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
     let way = (&load, sliding_distance);
     let estimate = slide_periodic(surface, &elastomer, way, rough.relative_error, most)?;
+    Ok(of_way(problem, rough, estimate))
+}
+
+fn of_way(
+    problem: &Problem,
+    rough: Rough,
+    estimate: PeriodicEstimate<PeriodicTransient>,
+) -> Answer {
     let mut answer = of_rough(problem, rough, Method::BemTransient, &estimate);
     let rows = &estimate.finest.rows;
     answer.iterations = rows.len();
@@ -148,7 +183,7 @@ pub(crate) fn periodic_transient(
         friction_coefficient: row.friction_coefficient,
     };
     answer.fields.history = rows.iter().map(row).collect();
-    Ok(answer.under(estimate.finest.pressure))
+    answer.under(estimate.finest.pressure)
 }
 
 /// Elements of the largest grid of a period.
@@ -228,7 +263,10 @@ pub(crate) fn transient(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = slide(surface, &problem.elastomer()?, load, request)?;
+    of_slide(slide(surface, &problem.elastomer()?, load, request)?)
+}
+
+fn of_slide(estimate: SlideEstimate) -> Result<Answer> {
     let last = estimate.finest.last();
     let ends = [last.contact_x, last.contact_y];
     let mut answer = Answer {
@@ -255,7 +293,10 @@ pub(crate) fn pressed(
     load: &PressingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let estimate = indent(surface, &problem.elastomer()?, load, request)?;
+    of_press(indent(surface, &problem.elastomer()?, load, request)?)
+}
+
+fn of_press(estimate: PressEstimate) -> Result<Answer> {
     let finest = &estimate.finest;
     let ends = [finest.contact_x, finest.contact_y];
     let mut answer = Answer {
@@ -275,7 +316,15 @@ pub(crate) fn followed(
     surface: &dyn Surface,
     request: Request,
 ) -> Result<Answer> {
-    let found = follow(surface, &problem.elastomer()?, problem.history(), request)?;
+    of_curve(&follow(
+        surface,
+        &problem.elastomer()?,
+        problem.history(),
+        request,
+    )?)
+}
+
+fn of_curve(found: &IndentCurve) -> Result<Answer> {
     let last = found.points[found.points.len() - 1];
     let columns: [OfPoint<IndentPoint>; 3] = [
         (FORCE, |point| point.normal_force),
@@ -293,6 +342,23 @@ pub(crate) fn followed(
     };
     answer.fields.curve = Curve::of(&found.points, |point| point.time, columns);
     Ok(answer)
+}
+
+/// The answer of what was reached, where that was not enough.
+pub(crate) fn reached(problem: &Problem, rough: Option<Rough>, found: Reached) -> Option<Answer> {
+    let answer = match found {
+        Reached::Steady(found) => of_steady(found),
+        Reached::Line(found) => Ok(of_line(found)),
+        Reached::Slide(found) => of_slide(found),
+        Reached::Press(found) => of_press(found),
+        Reached::Curve(found) => of_curve(&found),
+        Reached::Periodic(found) if matches!(problem.motion(), Motion::Pressing(_)) => {
+            Ok(of_pressed(problem, rough?, found))
+        }
+        Reached::Periodic(found) => of_periodic(problem, rough?, found),
+        Reached::PeriodicTransient(found) => Ok(of_way(problem, rough?, found)),
+    };
+    answer.ok()
 }
 
 fn of_march(options: &GridOptions) -> Result<Grid> {

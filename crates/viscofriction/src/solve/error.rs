@@ -9,6 +9,7 @@ use rheology::RheologyError;
 use thiserror::Error;
 
 use super::advice::{of_body, of_closed_form, of_half_space, of_line};
+use super::answer::Answer;
 use crate::scene::{Method, SceneError};
 
 /// Why a problem that is well posed has no answer.
@@ -39,6 +40,14 @@ pub enum SolveError {
         reached: Box<Self>,
         /// What is needed, and what is allowed.
         refused: SceneError,
+    },
+    /// What was found is not what was asked.
+    #[error("{why}")]
+    NotReached {
+        /// All that was found, with its bars.
+        answer: Box<Answer>,
+        /// What is missing.
+        why: Box<Self>,
     },
     /// No method was asked.
     #[error(transparent)]
@@ -104,6 +113,16 @@ pub enum SolveError {
         /// The force, \[N].
         normal_force: f64,
     },
+}
+
+impl SolveError {
+    /// What was found where that is not what was asked, as an answer.
+    pub fn reached(&self) -> Option<&Answer> {
+        match self {
+            Self::NotReached { answer, .. } => Some(answer),
+            _ => None,
+        }
+    }
 }
 
 // Not by the attribute `from`, which would say the cause a second time.

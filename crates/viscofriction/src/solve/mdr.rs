@@ -1,7 +1,9 @@
 //! What the one-dimensional model says, as answers.
 
 use indenters::{Axisymmetric, EquivalentLine, PressingLoad, SlidingLoad};
-use mdr_core::{CurvePoint, Follow, MdrError, SlideRow, indent, indent_along, slide, steady};
+use mdr_core::{
+    CurvePoint, Follow, MdrError, SlideRow, Sliding, indent, indent_along, slide, steady,
+};
 use numerics::{ErrorParts, Estimate, Request};
 use rheology::Material;
 
@@ -36,7 +38,16 @@ pub(crate) fn transient(
     load: &SlidingLoad,
     request: Request,
 ) -> Result<Answer> {
-    let state = slide(&EquivalentLine(body), material, load, request)?;
+    Ok(of_march(slide(
+        &EquivalentLine(body),
+        material,
+        load,
+        request,
+    )?))
+}
+
+/// The answer of a march.
+pub(crate) fn of_march(state: Sliding) -> Answer {
     let mut answer = Answer {
         friction_coefficient: Some(state.friction_coefficient),
         indentation_depth: Some(state.indentation_depth),
@@ -53,7 +64,7 @@ pub(crate) fn transient(
         friction_coefficient: row.friction_coefficient,
     };
     answer.fields.history = state.finest.rows.iter().map(row).collect();
-    Ok(answer)
+    answer
 }
 
 /// Pressing without sliding.

@@ -41,8 +41,10 @@ pub use with_fields::with_fields;
 use self::dissipation::dissipation;
 use self::left_out::left_out;
 use self::validity::{not_modelled, warnings};
-use self::work::work;
+use self::work::{rough, work};
 use crate::scene::{Accuracy, Method};
+use bem_halfspace::BemError;
+use mdr_core::MdrError;
 use numerics::{Unwatched, Watch};
 
 /// Asks the method of the scene, or the cheapest that answers it.
@@ -80,18 +82,73 @@ fn watched(
     let of_the_method = problem.of_the_method(accuracy);
     let work = work(problem, method, of_the_method).map_err(refused)?;
     let limited = Limited::new(problem, method, watch);
-    let answer = work(&limited).map_err(|reached| limited.or_memory(reached))?;
-    let answer = problem.with_modulus_error(answer, accuracy)?;
-    let left_out = left_out(problem, &answer);
-    // Closed forms of pressing are those of both models.
-    let model = method.model().unwrap_or(problem.model());
-    let mut answer = Answer {
-        model,
-        left_out,
-        dissipation: dissipation(problem, &answer),
-        not_modelled: not_modelled(problem),
-        ..answer
+    let found = match work(&limited) {
+        Ok(answer) => Found {
+            answer,
+            missed: None,
+        },
+        Err(why) => {
+            let answer = reached(problem, of_the_method, &why);
+            let why = limited.or_memory(why);
+            match answer {
+                Some(answer) => Found {
+                    answer,
+                    missed: Some(why),
+                },
+                None => return Err(why),
+            }
+        }
     };
-    answer.warnings = warnings(problem, &answer);
-    answer.finite()?.physical(problem)
+    found.complete(problem, method, accuracy)
+}
+
+/// What a method has found, and why it is not what was asked, where it is not.
+struct Found {
+    answer: Answer,
+    missed: Option<SolveError>,
+}
+
+impl Found {
+    /// The answer with what is said of it, and refused where it is not what was asked.
+    fn complete(self, problem: &Problem, method: Method, accuracy: Accuracy) -> Result<Answer> {
+        let answer = problem.with_modulus_error(self.answer)?;
+        let missed = self.missed.or_else(|| problem.missed(&answer, accuracy));
+        // Closed forms of pressing are those of both models.
+        let model = method.model().unwrap_or(problem.model());
+        let mut answer = Answer {
+            model,
+            left_out: left_out(problem, &answer),
+            dissipation: dissipation(problem, &answer),
+            not_modelled: not_modelled(problem),
+            ..answer
+        };
+        answer.warnings = warnings(problem, &answer);
+        let answer = answer.finite().and_then(|answer| answer.physical(problem));
+        match (answer, missed) {
+            (answer, None) => answer,
+            (Err(_), Some(why)) => Err(why),
+            (Ok(mut answer), Some(why)) => {
+                answer.not_reached = Some(why.to_string());
+                let (answer, why) = (Box::new(answer), Box::new(why));
+                Err(SolveError::NotReached { answer, why })
+            }
+        }
+    }
+}
+
+/// The answer that an error of a method holds.
+fn reached(problem: &Problem, accuracy: Accuracy, why: &SolveError) -> Option<Answer> {
+    match why {
+        SolveError::HalfSpace(BemError::NotReached { reached, .. }) => {
+            let rough = match problem.body() {
+                Body::Periodic(surface) => Some(rough(problem, surface, accuracy).ok()?),
+                _ => None,
+            };
+            elements::reached(problem, rough, (**reached).clone())
+        }
+        SolveError::Line(MdrError::SlidingNotReached { reached, .. }) => {
+            Some(mdr::of_march((**reached).clone()))
+        }
+        _ => None,
+    }
 }

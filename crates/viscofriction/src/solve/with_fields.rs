@@ -64,8 +64,7 @@ fn since_touch(problem: &Problem, body: &Revolution, duration: f64) -> Vec<Curve
     let point = |time: f64| {
         let answer = pressed(body, problem.material(), problem.motion().control(), time);
         let answer = answer.and_then(Answer::finite);
-        let answer =
-            answer.and_then(|answer| problem.with_modulus_error(answer, problem.accuracy()));
+        let answer = answer.and_then(|answer| problem.with_modulus_error(answer));
         let answer = answer.ok()?;
         let contact = answer.contact_box?;
         Some(CurvePoint {

@@ -137,12 +137,12 @@ fn line_contact<'a>(
     }
 }
 
-fn periodic<'a>(
-    problem: &'a Problem,
+/// A periodic surface, and what it is asked for.
+pub(super) fn rough<'a>(
+    problem: &Problem,
     surface: &'a PeriodicSurface,
-    method: Method,
     accuracy: Accuracy,
-) -> Work<'a> {
+) -> Result<Rough<'a>, Refusal> {
     let Control::NormalForce(force) = problem.motion().control() else {
         return Err("a periodic surface is pressed by a mean pressure");
     };
@@ -158,12 +158,21 @@ fn periodic<'a>(
         return Err("it refines the period itself; give relative_error instead of elements");
     };
     let area: f64 = surface.period().iter().product();
-    let rough = Rough {
+    Ok(Rough {
         surface,
         load: PeriodicLoad::new(force / area, velocity)
             .map_err(|_| "the mean pressure is no number above 0")?,
         relative_error,
-    };
+    })
+}
+
+fn periodic<'a>(
+    problem: &'a Problem,
+    surface: &'a PeriodicSurface,
+    method: Method,
+    accuracy: Accuracy,
+) -> Work<'a> {
+    let rough = rough(problem, surface, accuracy)?;
     let load = match problem.motion() {
         Sliding(load) => load,
         Pressing(load) if method == BemTransient => {

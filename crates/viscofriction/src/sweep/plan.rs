@@ -108,7 +108,7 @@ impl Plan {
     pub fn solve(&self, point: usize) -> Result<Row, WrongInput> {
         let answer = solve(&self.problem(point)?);
         let mut fields = identity(self, point);
-        fields.extend(results(answer));
+        fields.extend(results(&answer));
         Ok(Row { point, fields })
     }
 
@@ -201,27 +201,25 @@ impl Row {
     }
 }
 
-/// What comes behind the [`identity`]: the answer, or why there is none.
-fn results(answer: solve::Result<Answer>) -> Vec<String> {
-    match answer {
-        Ok(answer) => {
+/// What comes behind the [`identity`]: the answer, or what was found and why that is none.
+fn results(answer: &solve::Result<Answer>) -> Vec<String> {
+    let (found, failure) = match answer {
+        Ok(answer) => (Some(answer), String::new()),
+        Err(error) => (error.reached(), one_line(&error.to_string())),
+    };
+    let mut fields = match found {
+        Some(answer) => {
             let names = [answer.method.name(), answer.model.name()].map(str::to_owned);
             let numbers = answer.numbers().into_iter();
             let numbers = numbers.map(|(_, value)| value.map_or(String::new(), written));
-            let warnings = answer.warnings.join(BETWEEN_WARNINGS);
-            let after = [
-                answer.unknowns.to_string(),
-                one_line(&warnings),
-                String::new(),
-            ];
+            let warnings = one_line(&answer.warnings.join(BETWEEN_WARNINGS));
+            let after = [answer.unknowns.to_string(), warnings];
             names.into_iter().chain(numbers).chain(after).collect()
         }
-        Err(error) => {
-            let mut fields = vec![String::new(); Answer::columns().len() + 4];
-            fields.push(one_line(&error.to_string()));
-            fields
-        }
-    }
+        None => vec![String::new(); Answer::columns().len() + 4],
+    };
+    fields.push(failure);
+    fields
 }
 
 /// Between the sentences of a cell.

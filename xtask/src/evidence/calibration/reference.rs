@@ -1,7 +1,6 @@
 //! What a result is compared with: a closed form, or the stationary solver of the model with a far smaller error.
 
 use anyhow::{Context, Result, bail};
-use bem_halfspace::BemError;
 use friction_analytic::{
     FrictionError, LineContact, cylinder_sliding, power_indentation_after_impulse,
 };
@@ -74,17 +73,13 @@ pub(super) fn numerical(scene: &Scene, model: Model, bar: f64) -> Result<Referen
 /// Where the error is not reached, what was reached is the reference, with the error that it has.
 fn half_space(scene: &scene::Scene, error: f64) -> Result<Reference> {
     first_reached(scene, Model::HalfSpace, &[error]).or_else(|failure| {
-        match failure.downcast_ref() {
-            Some(&SolveError::HalfSpace(BemError::NotReached {
-                quantity: "friction coefficient",
-                value,
-                error,
-                ..
-            })) => {
+        let reached = failure.downcast_ref().and_then(SolveError::reached);
+        match reached.and_then(|answer| answer.friction_coefficient) {
+            Some(friction) => {
                 let source = "bem-steady, as far as it came";
-                Ok(Reference::new(value, error, source))
+                Ok(Reference::new(friction.value, friction.error, source))
             }
-            _ => Err(failure),
+            None => Err(failure),
         }
     })
 }
