@@ -21,7 +21,7 @@ mod native {
     #[pymodule_export]
     use super::materials::{fit_oscillation, fit_relaxation, material_curve, scaling_factor};
     #[pymodule_export]
-    use super::moduli::{master_curve, read_moduli};
+    use super::moduli::{master_curve, read_moduli, shift_factor};
     #[pymodule_export]
     use super::roughness::{check_height_map, surface_numbers};
     #[pymodule_export]

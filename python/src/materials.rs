@@ -138,6 +138,7 @@ fn fitted<'py>(
     let options = options.checked()?;
     let curve = curve.map_err(wrong)?;
     let found = py.detach(|| identify(&curve, &options)).map_err(wrong)?;
+    let [lowest, highest] = curve.frequencies();
     let branches = found.spectrum.branches().iter();
     let branches: Vec<[f64; 2]> = branches
         .map(|branch| [branch.modulus, branch.relaxation_time])
@@ -146,6 +147,7 @@ fn fitted<'py>(
     let modulus = found.spectrum.equilibrium_modulus();
     dictionary.set_item("equilibrium_modulus", modulus)?;
     dictionary.set_item("branches", branches)?;
+    dictionary.set_item("valid_frequencies", (lowest, highest))?;
     dictionary.set_item("rms_relative_error", found.rms_relative_error)?;
     let pair = |error: Option<RelativeError>| error.map(|one| (one.rms, one.max));
     dictionary.set_item("storage_error", pair(found.storage_error))?;

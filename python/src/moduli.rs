@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use rheology::fit::{Isotherm, ModulusPoint, automatic_master_curve};
+use rheology::fit::{Isotherm, ModulusPoint};
 use viscofriction::moduli::{
-    Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
+    self, Deformation, MeasuredModuli, Measurements, Shifting, TableOptions, measured_moduli,
+    shear_per_tension,
 };
+use viscofriction::scene::Shift;
 
 use crate::reading::read_table;
 use crate::tables::wrong;
@@ -16,14 +18,14 @@ type Column<'py> = Bound<'py, PyArray1<f64>>;
 /// Temperature, and angular frequencies, storage and loss moduli; of relaxation times and moduli.
 type Measured<'py> = Vec<(Option<f64>, Vec<Column<'py>>)>;
 
-/// The isotherms of a table, or its one relaxation curve, in SI and in shear.
+/// The isotherms of a table, or its one relaxation curve, in SI and in shear, and whether their temperatures are in °C.
 #[pyfunction]
 pub(crate) fn read_moduli<'py>(
     py: Python<'py>,
     file: PathBuf,
     poisson_ratio: f64,
     deformation: Option<&str>,
-) -> PyResult<Measured<'py>> {
+) -> PyResult<(Measured<'py>, Option<bool>)> {
     let deformation = match deformation {
         None => None,
         Some("tension") => Some(Deformation::Tension),
@@ -38,9 +40,11 @@ pub(crate) fn read_moduli<'py>(
         deformation,
     };
     let contents = read_table(&file).map_err(wrong)?;
-    let MeasuredModuli { measurements, .. } =
-        measured_moduli(&file, &contents, &options).map_err(wrong)?;
-    Ok(match measurements {
+    let MeasuredModuli {
+        measurements,
+        celsius,
+    } = measured_moduli(&file, &contents, &options).map_err(wrong)?;
+    let measured = match measurements {
         Measurements::Relaxation(points) => {
             let times = points.iter().map(|point| point.time).collect();
             let moduli = points.iter().map(|point| point.modulus).collect();
@@ -48,17 +52,18 @@ pub(crate) fn read_moduli<'py>(
         }
         Measurements::Oscillation(isotherms) => {
             let one =
-                |isotherm: Isotherm| (Some(isotherm.temperature), moduli(py, &isotherm.points));
+                |isotherm: Isotherm| (Some(isotherm.temperature), columns_of(py, &isotherm.points));
             isotherms.into_iter().map(one).collect()
         }
-    })
+    };
+    Ok((measured, celsius))
 }
 
 fn columns<const N: usize>(py: Python<'_>, columns: [Vec<f64>; N]) -> Vec<Column<'_>> {
     columns.map(|column| column.into_pyarray(py)).into()
 }
 
-fn moduli<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
+fn columns_of<'py>(py: Python<'py>, points: &[ModulusPoint]) -> Vec<Column<'py>> {
     let numbers: [fn(&ModulusPoint) -> f64; 3] =
         [|p| p.angular_frequency, |p| p.storage, |p| p.loss];
     columns(
@@ -82,18 +87,42 @@ pub(crate) fn points(columns: &[PyReadonlyArray1<'_, f64>; 3]) -> Vec<ModulusPoi
 /// One isotherm as [`read_moduli`] returns it.
 type Given<'py> = (f64, [PyReadonlyArray1<'py, f64>; 3]);
 
-/// Isotherms shifted onto one another: frequencies, storage and loss moduli, and pairs of temperature and log₁₀ of the factor.
+/// Isotherms shifted onto one another: frequencies, storage and loss moduli, pairs of temperature and log₁₀ of the factor, the
+/// temperature of the curve, and as JSON the shift law.
+type Master<'py> = (Vec<Column<'py>>, Vec<[f64; 2]>, f64, Option<String>);
+
+/// The master curve of isotherms at a temperature, or at that of the one in the middle.
 #[pyfunction]
 pub(crate) fn master_curve<'py>(
     py: Python<'py>,
     isotherms: Vec<Given<'py>>,
-    reference_temperature: f64,
-) -> PyResult<(Vec<Column<'py>>, Vec<[f64; 2]>)> {
+    celsius: bool,
+    reference_temperature: Option<f64>,
+) -> PyResult<Master<'py>> {
     let isotherm = |(temperature, columns): &Given<'py>| Isotherm {
         temperature: *temperature,
         points: points(columns),
     };
     let isotherms: Vec<Isotherm> = isotherms.iter().map(isotherm).collect();
-    let master = automatic_master_curve(&isotherms, reference_temperature).map_err(wrong)?;
-    Ok((moduli(py, &master.points), master.log10_factors))
+    let shifting = Shifting {
+        reference_temperature,
+        law: None,
+    };
+    let found = moduli::master_curve(&isotherms, celsius, shifting).map_err(wrong)?;
+    let master = found.master;
+    let shift = found.shift.map(|shift| serde_json::to_string(&shift));
+    Ok((
+        columns_of(py, &master.points),
+        master.log10_factors,
+        master.reference_temperature,
+        shift.transpose().map_err(wrong)?,
+    ))
+}
+
+/// The factor of all times to a temperature \[°C], by a shift law as JSON.
+#[pyfunction]
+pub(crate) fn shift_factor(shift: &str, temperature: f64) -> PyResult<f64> {
+    let shift: Shift = serde_json::from_str(shift).map_err(wrong)?;
+    let log10_factor = shift.log10_factor(temperature).map_err(wrong)?;
+    Ok(10_f64.powf(log10_factor))
 }

@@ -119,3 +119,36 @@ def test_what_is_not_reached_comes_with_what_was() -> None:
     answer = raised.value.answer
     assert answer.mu is not None and np.isfinite(answer.mu[0]) and np.isnan(answer.mu[1])
     assert answer.failures[0] is None and "2000" in str(answer.failures[1])
+
+
+def test_branches_have_names_and_exchanged_pairs_are_refused() -> None:
+    moduli, times = [1e7, 3e6, 10.0], [1e-3, 1e-1, 20.0]
+    pairs = list(zip(moduli, times, strict=True))
+    named = [{"modulus": modulus, "relaxation_time": time} for modulus, time in pairs]
+    by_name = vf.Prony(1e6, moduli=np.array(moduli), relaxation_times=times, viscosity=2.0)
+    assert by_name == vf.Prony(1e6, pairs, viscosity=2.0) == vf.Prony(1e6, named, viscosity=2.0)
+    exchanged = [(time, modulus) for modulus, time in pairs[:2]]
+    with pytest.raises(ValueError, match=r"seem to be exchanged: 0.001 Pa and 1e\+07 s"):
+        vf.Prony(1e6, exchanged)
+    # Who names them means them.
+    assert vf.Prony(1e6, moduli=times[:2], relaxation_times=moduli[:2]).branches == tuple(exchanged)
+    for given in (
+        {},
+        {"moduli": moduli},
+        {"branches": pairs, "moduli": moduli, "relaxation_times": times},
+        {"moduli": moduli, "relaxation_times": times[:2]},
+        {"branches": [{"modulus": 1e6, "time": 1.0}]},
+    ):
+        with pytest.raises(ValueError, match="relaxation_time"):
+            vf.Prony(1e6, **given)  # type: ignore[arg-type]
+
+
+def test_friction_from_outside_of_the_measured_frequencies_is_said() -> None:
+    rubber = vf.Prony(1e6, [(1e7, 1e-3)], valid_frequencies=(1.0, 1e3))
+    friction = vf.slide(BALL, rubber, normal_force=2.0, velocity=[1e-6, 0.1, 10.0])
+    share = friction.dissipation
+    assert np.allclose(share["outside_window"], share["below_window"] + share["above_window"])
+    assert share["below_window"][0] > 0.99 and share["outside_window"][1] < 0.1 and share["above_window"][2] > 0.5
+    assert len(friction.warnings) == 2 and all("was not measured" in warning for warning in friction.warnings)
+    with pytest.raises(ValueError, match=r"valid_frequencies\[0\] must be greater than 0"):
+        vf.slide(BALL, vf.Elastic(1e6, valid_frequencies=(-1.0, 1.0)), normal_force=2.0, velocity=1.0)

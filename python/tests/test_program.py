@@ -88,6 +88,21 @@ def test_a_table_of_an_instrument_has_the_fit_of_the_program(
     assert [temperature for temperature, _ in fit.log10_factors] == (list(temperatures) if len(temperatures) > 1 else [])
     for temperature, factor in fit.log10_factors:
         assert abs(factor - 0.1 * (20.0 - temperature)) < 1e-3
+    assert fit.material.valid_frequencies == tuple(theirs["valid_frequencies"])
+    assert fit.temperature == 20.0 and fit.shift == theirs.get("shift")
+    if len(temperatures) > 1:
+        wanted = vf.fit_material(table, reference_temperature=24.0)
+        shifted = fit.at(24.0)
+        assert wanted.temperature == 24.0
+        frequency = np.logspace(-1, 1, 5)
+        assert np.allclose(shifted.loss_modulus(frequency), wanted.material.loss_modulus(frequency), rtol=0.02)
+        by_file = vf.MaterialFile(tmp_path / "fit" / "material.toml", temperature=24.0)
+        assert np.array_equal(shifted.loss_modulus(frequency), by_file.loss_modulus(frequency))
+        with pytest.raises(ValueError, match="from 10 °C to 30 °C"):
+            fit.at(31.0)
+    else:
+        with pytest.raises(ValueError, match="no shift law"):
+            fit.at(24.0)
     moduli = vf.read_moduli(table)
     assert moduli.time is None and moduli.storage is not None and moduli.storage.size == 17 * len(temperatures)
     assert (moduli.temperature is None) == (len(temperatures) == 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass, replace
 from typing import Any
@@ -34,6 +35,29 @@ class Fit:
     loss_error: tuple[float, float] | None = None
     #: Of several isotherms that were shifted onto one another, pairs of temperature and log₁₀ of the factor of frequency.
     log10_factors: tuple[tuple[float, float], ...] = ()
+    #: Of isotherms the temperature of the material, in the unit of the table.
+    temperature: float | None = None
+    #: The shift law as in a scene's ``shift``, in °C, where several isotherms have one.
+    shift: dict[str, Any] | None = None
+
+    def at(self, temperature: float) -> Prony:
+        """The material at another temperature, in the unit of the table, by the shift law; the frequencies at which it was
+        measured shift along.
+
+        Raises ValueError outside of the law's range of temperatures.
+        """
+        if self.shift is None or self.temperature is None:
+            raise ValueError("temperature: the fit has no shift law, which needs isotherms of several temperatures")
+        celsius = temperature + (self.shift["temperature"] - self.temperature)
+        factor = _native.shift_factor(json.dumps(self.shift), celsius)
+        material = self.material
+        window = material.valid_frequencies
+        return Prony(
+            material.equilibrium_modulus,
+            [{"modulus": modulus, "relaxation_time": time * factor} for modulus, time in material.branches],
+            poisson_ratio=material.poisson_ratio,
+            valid_frequencies=window and (window[0] / factor, window[1] / factor),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +82,7 @@ def read_moduli(file: File, *, poisson_ratio: float = 0.5, deformation: str | No
     a relaxation modulus. Young's moduli become G = E/(2 (1 + ν)); ``deformation``, "tension" or "shear", says which one a
     "storage modulus" is that has no letter. Raises ValueError with line and column.
     """
-    parts = _native.read_moduli(os.fspath(file), poisson_ratio, deformation)
+    parts, _ = _native.read_moduli(os.fspath(file), poisson_ratio, deformation)
     if parts[0][0] is None:
         time, modulus = parts[0][1]
         return Moduli(time=time, modulus=modulus)
@@ -83,8 +107,8 @@ def fit_material(
 ) -> Fit:
     """The Prony series with the least relative error of shear moduli [Pa] that were measured over frequency [Hz], in any order.
 
-    Instead of the three arrays the name of a file will do, which ``read_moduli`` reads; isotherms are then shifted onto that of
-    ``reference_temperature``, or the one in the middle.
+    Instead of the three arrays the name of a file will do, which ``read_moduli`` reads; isotherms are then shifted to
+    ``reference_temperature``, or onto the one in the middle.
 
     Without ``branches`` the fewest are taken whose error is at most 1 + ``tolerance`` (0.02) times that of many;
     ``smoothing`` keeps ``branches`` equally spaced and smooths their moduli with this weight. A ``liquid`` has no equilibrium
@@ -96,8 +120,8 @@ def fit_material(
     if isinstance(frequency, str | os.PathLike):
         if storage is not None or loss is not None:
             raise ValueError("storage and loss: a file has its own")
-        parts = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
-        return _fit_table(parts, reference_temperature, options, poisson_ratio)
+        measured = _native.read_moduli(os.fspath(frequency), poisson_ratio, deformation)
+        return _fit_table(measured, reference_temperature, options, poisson_ratio)
     if storage is None or loss is None:
         raise ValueError("storage and loss are needed beside frequency")
     if deformation is not None or reference_temperature is not None:
@@ -109,23 +133,25 @@ def fit_material(
 
 
 def _fit_table(
-    parts: list[tuple[float | None, list[Numbers]]],
+    measured: tuple[list[tuple[float | None, list[Numbers]]], bool | None],
     reference: float | None,
     options: dict[str, Any],
     poisson_ratio: float,
 ) -> Fit:
+    parts, celsius = measured
+    if celsius is None and reference is not None:
+        raise ValueError("reference_temperature: the table has no temperatures, from which it could be shifted to another one")
     isotherms = [(temperature, columns) for temperature, columns in parts if temperature is not None]
     if not isotherms:
         time, modulus = parts[0][1]
         return _fit(_native.fit_relaxation(time, modulus, options), poisson_ratio)
-    columns = isotherms[0][1]
-    factors: list[list[float]] = []
-    if len(isotherms) > 1:
-        middle = sorted(temperature for temperature, _ in isotherms)[len(isotherms) // 2]
-        columns, factors = _native.master_curve(isotherms, middle if reference is None else reference)
-    omega, storage, loss = columns
+    if celsius is None:
+        omega, storage, loss = isotherms[0][1]
+        return _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
+    (omega, storage, loss), factors, temperature, shift = _native.master_curve(isotherms, celsius, reference)
     fit = _fit(_native.fit_oscillation(omega, storage, loss, options), poisson_ratio)
-    return replace(fit, log10_factors=tuple((temperature, factor) for temperature, factor in factors))
+    pairs = tuple((one, factor) for one, factor in factors) if len(isotherms) > 1 else ()
+    return replace(fit, log10_factors=pairs, temperature=temperature, shift=json.loads(shift) if shift else None)
 
 
 def fit_relaxation(
@@ -151,7 +177,12 @@ def scaling_factor(exponent: float) -> tuple[float, float]:
 
 
 def _fit(found: dict[str, Any], poisson_ratio: float) -> Fit:
-    branches = [(modulus, time) for modulus, time in found["branches"]]
-    material = Prony(found["equilibrium_modulus"], branches, poisson_ratio=poisson_ratio)
+    branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in found["branches"]]
+    material = Prony(
+        found["equilibrium_modulus"],
+        branches,
+        poisson_ratio=poisson_ratio,
+        valid_frequencies=found["valid_frequencies"],
+    )
     errors = (found[name] for name in ("rms_relative_error", "max_relative_error", "storage_error", "loss_error"))
     return Fit(material, *errors)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, fields
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._arrays import as_value, numbers
+from ._arrays import as_value, columns, numbers
 
 __all__ = [
     "Elastic",
@@ -128,23 +128,86 @@ class StandardSolid(Material):
     _kind = "standard-solid"
 
 
-@dataclass(frozen=True)
+Branches = Sequence[tuple[float, float]] | Sequence[Mapping[str, float]]
+
+#: Of branches in the order of modulus [Pa] and time [s] no material has times that are all so many times the moduli.
+_EXCHANGED = 1e3
+
+
+@dataclass(frozen=True, init=False)
 class Prony(Material):
-    """A spring ≥ 0 [Pa] and branches in parallel, pairs of a modulus [Pa] and a relaxation time [s]."""
+    """A spring ≥ 0 [Pa] and branches in parallel: ``moduli`` [Pa] and ``relaxation_times`` [s] of the same length.
+
+    Instead of both, ``branches`` are dictionaries ``{"modulus": …, "relaxation_time": …}``, or pairs in this order, which are
+    refused where all seem to be the other way round.
+    """
 
     equilibrium_modulus: float
-    branches: Sequence[tuple[float, float]]
+    branches: tuple[tuple[float, float], ...]
     _: KW_ONLY
     viscosity: float = 0.0
     poisson_ratio: float = 0.5
     valid_frequencies: tuple[float, float] | None = None
     _kind = "prony"
 
+    def __init__(
+        self,
+        equilibrium_modulus: float,
+        branches: Branches | None = None,
+        *,
+        moduli: ArrayLike | None = None,
+        relaxation_times: ArrayLike | None = None,
+        viscosity: float = 0.0,
+        poisson_ratio: float = 0.5,
+        valid_frequencies: tuple[float, float] | None = None,
+    ) -> None:
+        if branches is not None:
+            if moduli is not None or relaxation_times is not None:
+                raise ValueError("branches: either these or moduli and relaxation_times")
+            pairs = _pairs(branches)
+        elif moduli is None or relaxation_times is None:
+            raise ValueError("moduli and relaxation_times are needed, or branches")
+        else:
+            stiff, slow = columns(moduli=moduli, relaxation_times=relaxation_times)
+            pairs = tuple(zip(stiff.tolist(), slow.tolist(), strict=True))
+        values = {
+            "equilibrium_modulus": equilibrium_modulus,
+            "branches": pairs,
+            "viscosity": viscosity,
+            "poisson_ratio": poisson_ratio,
+            "valid_frequencies": valid_frequencies,
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, as_value(value))
+
     def _table(self) -> dict[str, Any]:
         table = super()._table()
         branches = [{"modulus": modulus, "relaxation_time": time} for modulus, time in self.branches]
         table[self._kind]["branches"] = branches
         return table
+
+
+def _pairs(branches: Branches) -> tuple[tuple[float, float], ...]:
+    pairs: list[tuple[float, float]] = []
+    has_names = False
+    for branch in branches:
+        if isinstance(branch, Mapping):
+            if set(branch) != {"modulus", "relaxation_time"}:
+                raise ValueError(f"branches: the keys modulus and relaxation_time are needed, and not {', '.join(branch)}")
+            pairs.append((branch["modulus"], branch["relaxation_time"]))
+            has_names = True
+        else:
+            modulus, time = branch
+            pairs.append((modulus, time))
+    # What is no number is refused where the branches are used.
+    are_numbers = all(isinstance(value, int | float | np.number) for pair in pairs for value in pair)
+    if pairs and are_numbers and not has_names and all(time > _EXCHANGED * modulus > 0 for modulus, time in pairs):
+        modulus, time = pairs[0]
+        raise ValueError(
+            f"branches: a pair is a modulus [Pa] and a relaxation time [s], and these seem to be exchanged: {modulus:g} Pa and {time:g} s, "
+            f"every time more than {_EXCHANGED:g} times the modulus; if they are meant, give moduli=… and relaxation_times=…"
+        )
+    return tuple(pairs)
 
 
 @dataclass(frozen=True)
@@ -184,10 +247,11 @@ class FractionalMaxwell(Material):
 
 @dataclass(frozen=True)
 class MaterialFile(Material):
-    """The material of a file with a table ``[material.…]``, as ``fit-material`` writes it."""
+    """The material of a file with a table ``[material.…]``, as ``fit-material`` writes it, at another ``temperature`` [°C] by its law."""
 
     path: str | os.PathLike[str]
     _: KW_ONLY
+    temperature: float | None = None
     poisson_ratio: float | None = None
     valid_frequencies: tuple[float, float] | None = None
     _kind = "file"

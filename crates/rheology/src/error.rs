@@ -40,6 +40,29 @@ pub enum RheologyError {
         /// The temperature at which the shift factor becomes infinite.
         pole: f64,
     },
+    /// A temperature at which a law of shifting is not known to hold.
+    #[error(
+        "the temperature must be from {lowest} °C to {highest} °C, the range of the shift law, but is {temperature} °C"
+    )]
+    OutsideShiftLaw {
+        /// The temperature, \[°C].
+        temperature: f64,
+        /// The lowest of the range, \[°C].
+        lowest: f64,
+        /// The highest, \[°C].
+        highest: f64,
+    },
+    /// Shifts that neither the law of Williams, Landel and Ferry nor that of Arrhenius describes.
+    #[error(
+        "no shift law leads from the nearest isotherm, at {nearest}, to the reference temperature {temperature}: a law needs isotherms \
+         of several temperatures, the warmer the faster; ask for the temperature of an isotherm"
+    )]
+    NoShiftLaw {
+        /// The temperature that is wanted.
+        temperature: f64,
+        /// That of the nearest isotherm.
+        nearest: f64,
+    },
     /// Too few measurements.
     #[error("at least {needed} points are needed, but there are {given}")]
     TooFewPoints {

@@ -74,7 +74,7 @@ impl WlfShift {
 
     /// The law that comes closest to measured pairs of temperature and log₁₀ a_T.
     ///
-    /// Linear in the constants: C₁ ΔT + C₂ log₁₀ a_T = −ΔT log₁₀ a_T.
+    /// Linear in the constants: C₁ ΔT + C₂ log₁₀ a_T = −ΔT log₁₀ a_T, with weights that make it the least squares of log₁₀ a_T.
     ///
     /// # Errors
     /// [`RheologyError::TooFewPoints`] with fewer than two temperatures besides the reference;
@@ -89,19 +89,32 @@ impl WlfShift {
                 given: pairs.len(),
             });
         }
-        let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
-        for [d, l] in pairs {
-            dd += d * d;
-            dl += d * l;
-            ll += l * l;
-            ddl += d * d * l;
-            dll += d * l * l;
+        let mut constants = linear_constants(&pairs, |_| 1.0);
+        // An error of log₁₀ a_T is C₂ + ΔT times as large in the linear equation, which is known once C₂ is.
+        for _ in 0..REWEIGHTED {
+            let [_, c2] = constants;
+            constants = linear_constants(&pairs, |difference| (c2 + difference).powi(-2));
         }
-        let determinant = dd * ll - dl * dl;
-        let c1 = (dl * dll - ll * ddl) / determinant;
-        let c2 = (dl * ddl - dd * dll) / determinant;
-        Self::new([c1, c2], reference_temperature)
+        Self::new(constants, reference_temperature)
     }
+}
+
+/// Times that the weights of the linear equations are found anew.
+const REWEIGHTED: usize = 30;
+
+/// C₁ and C₂ of the least squares of the linear equations for pairs of ΔT and log₁₀ a_T.
+fn linear_constants(pairs: &[[f64; 2]], weight: impl Fn(f64) -> f64) -> [f64; 2] {
+    let [mut dd, mut dl, mut ll, mut ddl, mut dll] = [0.0; 5];
+    for &[d, l] in pairs {
+        let w = weight(d);
+        dd += w * d * d;
+        dl += w * d * l;
+        ll += w * l * l;
+        ddl += w * d * d * l;
+        dll += w * d * l * l;
+    }
+    let determinant = dd * ll - dl * dl;
+    [dl * dll - ll * ddl, dl * ddl - dd * dll].map(|numerator| numerator / determinant)
 }
 
 impl ArrheniusShift {
@@ -114,6 +127,26 @@ impl ArrheniusShift {
             activation_energy: positive("activation_energy", activation_energy)?,
             reference_temperature: positive("reference_temperature", reference_temperature)?,
         })
+    }
+
+    /// The law that comes closest to pairs of a temperature > 0 \[K] and log₁₀ a_T.
+    ///
+    /// # Errors
+    /// [`RheologyError::InvalidParameter`] when no positive energy describes the pairs.
+    pub fn through(shifts: &[[f64; 2]], reference_temperature: f64) -> Result<Self, RheologyError> {
+        let per_energy = Self::new(1.0, reference_temperature)?;
+        let [mut products, mut squares] = [0.0; 2];
+        for &[temperature, log] in shifts {
+            let slope = per_energy.log10_factor(temperature)?;
+            products += slope * log;
+            squares += slope * slope;
+        }
+        Self::new(products / squares, reference_temperature)
+    }
+
+    /// The activation energy, [J/mol].
+    pub const fn activation_energy(&self) -> f64 {
+        self.activation_energy
     }
 
     /// log₁₀ a_T at a temperature > 0 \[K].

@@ -102,6 +102,12 @@ impl MeasuredCurve {
         Ok(Self { rows, time_window })
     }
 
+    /// The lowest and the highest angular frequency that the curve covers, \[rad/s], 1/t of a relaxation.
+    pub fn frequencies(&self) -> [f64; 2] {
+        let [shortest, longest] = self.time_window;
+        [longest.recip(), shortest.recip()]
+    }
+
     /// The curve of oscillation with the names of its moduli exchanged.
     pub(super) fn swapped(&self) -> Option<Self> {
         let swapped = |row: &Row| {

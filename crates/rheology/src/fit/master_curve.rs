@@ -26,6 +26,27 @@ pub struct MasterCurve {
     pub log10_factors: Vec<[f64; 2]>,
 }
 
+impl MasterCurve {
+    /// The same at another temperature, at which all times are `10^log10_factor` of those at this one.
+    ///
+    /// # Errors
+    /// Those of [`MeasuredCurve::oscillation`], where a frequency leaves the range of `f64`.
+    pub fn about(mut self, temperature: f64, log10_factor: f64) -> Result<Self, RheologyError> {
+        let factor = 10_f64.powf(log10_factor);
+        for point in &mut self.points {
+            point.angular_frequency /= factor;
+        }
+        for [_, log] in &mut self.log10_factors {
+            *log -= log10_factor;
+        }
+        Ok(Self {
+            curve: MeasuredCurve::oscillation(self.points.clone())?,
+            reference_temperature: temperature,
+            ..self
+        })
+    }
+}
+
 /// The master curve at a reference temperature with log₁₀ a_T given as a function of temperature.
 ///
 /// # Errors

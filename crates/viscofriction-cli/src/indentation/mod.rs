@@ -146,7 +146,7 @@ pub(crate) fn fit(options: &FitIndentation) -> Result<()> {
     out.draw("fit", &picture::figure(&fit))?;
     // Last: with it the others are there. What is not determined is said in front of the numbers.
     let findings = options.table(&fit).replace('\n', "\n# ");
-    let material = prony(&fit.material.relaxation(), options.poisson_ratio);
+    let material = prony(&fit.material.relaxation(), options.poisson_ratio, "");
     let material = format!("# {}\n#\n# {findings}\n{material}", file.display());
     out.write("material.toml", material.as_bytes())?;
     print_line(&format!("written into {}", out.path().display()))

@@ -2,21 +2,22 @@
 
 mod output_files;
 mod picture;
-mod shifting;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use clap::Args;
 use rheology::fit::{
-    Control, Ending, Identification, IdentifyOptions, MasterCurve, MeasuredCurve, ModulusPoint,
-    RelativeError, RelaxationPoint, identify,
+    Control, Ending, Identification, IdentifyOptions, MeasuredCurve, ModulusPoint, RelativeError,
+    RelaxationPoint, identify,
 };
 use rheology::{InvalidParameter, RheologyError};
 use viscofriction::WrongInput;
 use viscofriction::moduli::{
-    Deformation, MeasuredModuli, Measurements, TableOptions, measured_moduli, shear_per_tension,
+    Deformation, MeasuredModuli, Measurements, Shifted, Shifting, TableOptions, master_curve,
+    measured_moduli, shear_per_tension,
 };
+use viscofriction::scene::ShiftLaw;
 
 use crate::input::read_table;
 use crate::output::{OutputFolder, print_line, print_text};
@@ -73,7 +74,12 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let table = options.table()?;
     let moduli = measured_moduli(&options.data, &contents, &table)?;
     let wrong = |error: RheologyError| WrongInput(format!("{}: {error}", options.data.display()));
-    let (points, master) = joined(moduli, options).map_err(wrong)?;
+    if moduli.celsius.is_none() && options.shifting() != Shifting::default() {
+        let problem =
+            "the table has no temperatures, from which it could be shifted to another one";
+        return Err(WrongInput(format!("{}: {problem}", options.data.display())).into());
+    }
+    let (points, shifted) = joined(moduli, options).map_err(wrong)?;
     let curve = points.curve().map_err(wrong)?;
     let open = |out: &PathBuf| OutputFolder::new(out, options.overwrite, output_files::NAMES);
     let out = options.out.as_ref().map(open).transpose()?;
@@ -83,7 +89,8 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     let fitted = Fitted {
         options,
         points,
-        master,
+        shifted,
+        frequencies: curve.frequencies(),
         found,
     };
     let Some(out) = &out else {
@@ -94,20 +101,23 @@ pub(crate) fn fit(options: &FitMaterial) -> Result<()> {
     print_line(&format!("written into {}", out.path().display()))
 }
 
-/// The points of one curve, and of several isotherms their master curve.
+/// The points of one curve, and where there are temperatures what they were shifted by.
 fn joined(
     moduli: MeasuredModuli,
     options: &FitMaterial,
-) -> Result<(Points, Option<MasterCurve>), RheologyError> {
-    let isotherms = match moduli.measurements {
-        Measurements::Relaxation(points) => return Ok((Points::Relaxation(points), None)),
-        Measurements::Oscillation(isotherms) => isotherms,
-    };
-    if let [only] = &isotherms[..] {
-        return Ok((Points::Oscillation(only.points.clone()), None));
+) -> Result<(Points, Option<Shifted>), RheologyError> {
+    match (moduli.measurements, moduli.celsius) {
+        (Measurements::Relaxation(points), _) => Ok((Points::Relaxation(points), None)),
+        (Measurements::Oscillation(isotherms), None) => {
+            let points = isotherms.into_iter().flat_map(|only| only.points);
+            Ok((Points::Oscillation(points.collect()), None))
+        }
+        (Measurements::Oscillation(isotherms), Some(celsius)) => {
+            let shifted = master_curve(&isotherms, celsius, options.shifting())?;
+            let points = shifted.master.points.clone();
+            Ok((Points::Oscillation(points), Some(shifted)))
+        }
     }
-    let master = shifting::master_curve(&isotherms, moduli.celsius, options)?;
-    Ok((Points::Oscillation(master.points.clone()), Some(master)))
 }
 
 /// Checks what would be a table of incompressible material.
@@ -123,7 +133,9 @@ pub(crate) fn check_table(file: &Path, contents: &[u8]) -> Result<(), WrongInput
 struct Fitted<'a> {
     options: &'a FitMaterial,
     points: Points,
-    master: Option<MasterCurve>,
+    shifted: Option<Shifted>,
+    /// At which the material was measured.
+    frequencies: [f64; 2],
     found: Identification,
 }
 
@@ -149,6 +161,17 @@ impl FitMaterial {
                 .map_err(|refused| wrong_option(refused.into()))?,
             deformation: self.deformation,
         })
+    }
+
+    fn shifting(&self) -> Shifting {
+        let wlf = match self.wlf.as_deref() {
+            Some([c1, c2]) => Some(ShiftLaw::Wlf([*c1, *c2])),
+            _ => None,
+        };
+        Shifting {
+            reference_temperature: self.reference_temperature,
+            law: wlf.or(self.arrhenius.map(ShiftLaw::Arrhenius)),
+        }
     }
 
     fn identification(&self) -> IdentifyOptions {

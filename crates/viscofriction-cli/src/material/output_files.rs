@@ -1,8 +1,9 @@
 //! The files that the command leaves behind.
 
 use anyhow::Result;
+use rheology::RelaxationSpectrum;
 use rheology::fit::{ModulusPoint, RelaxationPoint};
-use rheology::{RelaxationSpectrum, WlfShift};
+use viscofriction::scene::{Shift, ShiftLaw};
 
 use super::picture::{Comparison, OSCILLATION, RELAXATION, figure};
 use super::{Fitted, Points};
@@ -17,9 +18,12 @@ pub(super) fn write(fitted: &Fitted<'_>, out: &OutputFolder) -> Result<()> {
     let rows = to_csv(comparison.names, &comparison.rows)?;
     out.write("fit.csv", &rows)?;
     out.draw("fit", &figure(&comparison))?;
-    if let Some(master) = &fitted.master {
-        let names = "temperature log10_shift_factor";
-        out.write("shifts.csv", &to_csv(names, &master.log10_factors)?)?;
+    if let Some(shifted) = &fitted.shifted {
+        let factors = &shifted.master.log10_factors;
+        if factors.len() > 1 {
+            let names = "temperature log10_shift_factor";
+            out.write("shifts.csv", &to_csv(names, factors)?)?;
+        }
     }
     // Last: with it the others are there.
     out.write("material.toml", material(fitted).as_bytes())
@@ -58,19 +62,31 @@ pub(super) fn material(fitted: &Fitted<'_>) -> String {
     let spectrum = &fitted.found.spectrum;
     let data = fitted.options.data.display();
     let mut text = format!("# {data}: {}\n", fitted.summary());
-    if let Some(master) = &fitted.master {
-        let reference = master.reference_temperature;
+    let [lowest, highest] = fitted.frequencies;
+    let mut measured = format!("valid_frequencies = [{lowest:?}, {highest:?}]\n");
+    if let Some(shifted) = &fitted.shifted {
+        let reference = shifted.master.reference_temperature;
         text += &format!("# at the temperature {reference}\n");
-        if let Ok(law) = WlfShift::through(&master.log10_factors, reference) {
-            let [c1, c2] = law.constants();
-            text += &format!("# WLF law closest to the shifts: C1 = {c1:.4}, C2 = {c2:.4} K\n");
+        if let Some(shift) = &shifted.shift {
+            measured += &shift_line(shift);
         }
     }
-    text + &prony(spectrum, fitted.options.poisson_ratio)
+    text + &prony(spectrum, fitted.options.poisson_ratio, &measured)
 }
 
-/// The table `[material.prony]` of a scene file.
-pub(crate) fn prony(spectrum: &RelaxationSpectrum, poisson_ratio: f64) -> String {
+/// How times change with temperature, as a key of the material.
+fn shift_line(shift: &Shift) -> String {
+    let law = match shift.law {
+        ShiftLaw::Wlf([c1, c2]) => format!("wlf = [{c1:?}, {c2:?}]"),
+        ShiftLaw::Arrhenius(energy) => format!("arrhenius = {energy:?}"),
+    };
+    let (temperature, [lowest, highest]) = (shift.temperature, shift.temperature_range);
+    let range = format!("temperature_range = [{lowest:?}, {highest:?}]");
+    format!("shift = {{ temperature = {temperature:?}, {range}, law = {{ {law} }} }}\n")
+}
+
+/// The table `[material.prony]` of a scene file, with lines about how it was `measured`.
+pub(crate) fn prony(spectrum: &RelaxationSpectrum, poisson_ratio: f64, measured: &str) -> String {
     let branches = spectrum.branches().iter().map(|branch| {
         let (modulus, time) = (branch.modulus, branch.relaxation_time);
         format!("    {{ modulus = {modulus:?}, relaxation_time = {time:?} }},\n")
@@ -78,7 +94,7 @@ pub(crate) fn prony(spectrum: &RelaxationSpectrum, poisson_ratio: f64) -> String
     let viscosity = Some(spectrum.viscosity()).filter(|viscosity| *viscosity > 0.0);
     let viscosity = viscosity.map(|viscosity| format!("viscosity = {viscosity:?}\n"));
     format!(
-        "[material.prony]\nequilibrium_modulus = {:?}\n{}poisson_ratio = {poisson_ratio:?}\nbranches = [\n{}]\n",
+        "[material.prony]\nequilibrium_modulus = {:?}\n{}poisson_ratio = {poisson_ratio:?}\n{measured}branches = [\n{}]\n",
         spectrum.equilibrium_modulus(),
         viscosity.unwrap_or_default(),
         branches.collect::<String>()

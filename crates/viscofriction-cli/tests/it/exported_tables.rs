@@ -157,7 +157,7 @@ fn isotherms_are_found_in_temperature_sweeps_of_any_order() {
     let sweep = "f / Hz,T / K,G' / MPa,G'' / MPa\n10,293.2,2,1\n10,313,3,1\n10,303,4,1\n\n% 1 Hz\n1,303.3,5,1\n1,293,6,1\n\
         1,313.1,7,1\n1,293.1,8,1\n";
     let read = read(sweep.as_bytes(), None);
-    assert!(!read.celsius, "K");
+    assert_eq!(read.celsius, Some(false), "K");
     let isotherms = isotherms(read);
     let storage = isotherms.iter().map(|(_, points)| {
         let storage = points.iter().map(|point| point[1].round());

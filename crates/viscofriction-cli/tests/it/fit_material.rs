@@ -4,7 +4,7 @@ use std::fs;
 
 use toml::{Table, Value};
 
-use crate::support::{Folder, assert_close, measured};
+use crate::support::{Folder, assert_close, measured, number};
 
 /// The table `[material.prony]` that a fit has written.
 fn prony(folder: &Folder) -> Table {
@@ -40,13 +40,13 @@ fn a_master_curve_becomes_the_material_of_a_scene() {
 }
 
 /// Logarithms of some shifts by pyvisco 2.1.3, `master.get_aT(df_raw, -5)`, which fits power laws to the storage moduli and
-/// shifts those. The two coldest isotherms are nearly flat and left out.
+/// shifts those: onto the isotherm at −4.761699 °C. The two coldest isotherms are nearly flat and left out.
 const PEERS: [f64; 6] = [7.840, 6.095, 0.0, -6.689, -14.511, -18.345];
 
 #[test]
 fn isotherms_are_shifted_onto_one_curve() {
     let folder = Folder::new("isotherms");
-    let table = "DATA/pyvisco_frequency_raw.csv --reference-temperature -5";
+    let table = "DATA/pyvisco_frequency_raw.csv --reference-temperature -4.761699";
     folder.done(format!("fit-material {table} --out out"));
     let [temperatures, logs] = [0, 1].map(|column| folder.column("out/shifts.csv", column));
     assert_eq!(logs.len(), 21, "isotherms");
@@ -183,4 +183,158 @@ fn a_scene_names_the_file_of_a_fit() {
     let other = inside.replace("poisson_ratio = 0.4", "poisson_ratio = 0.3");
     let named = format!("{named}\npoisson_ratio = 0.3");
     assert_eq!(answer(&named), answer(&other), "with another Poisson ratio");
+}
+
+/// Branches half a decade apart at 20 °C, a steep transition above a flat plateau.
+const TIMES: std::ops::Range<i32> = -16..3;
+
+fn modulus_at(time: f64) -> f64 {
+    1e6 + 3e7 * (time / 1e-8).powf(-0.5)
+}
+
+/// log₁₀ a_T by WLF about 20 °C.
+fn log_shift(temperature: f64) -> f64 {
+    let above = temperature - 20.0;
+    -8.86 * above / (101.6 + above)
+}
+
+fn rubber(temperature: f64) -> Vec<[f64; 2]> {
+    let time = |k: i32| 10_f64.powf(0.5 * f64::from(k));
+    let branch = |k| {
+        [
+            modulus_at(time(k)),
+            time(k) * 10_f64.powf(log_shift(temperature)),
+        ]
+    };
+    TIMES.map(branch).collect()
+}
+
+/// Isotherms of that rubber from −20 °C to 60 °C, 0.1 to 100 Hz, in °C or in K.
+fn isotherms(zero: f64) -> String {
+    let mut table = format!(
+        "f,T,G′,G″\nHz,{},Pa,Pa\n",
+        if zero > 0.0 { "K" } else { "C" }
+    );
+    for temperature in [-20.0, -10.0, 0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0] {
+        for k in 0..=24 {
+            let hertz = 10_f64.powf(f64::from(k) / 8.0 - 1.0);
+            let [mut storage, mut loss] = [1e6, 0.0];
+            for [modulus, time] in rubber(temperature) {
+                let x = std::f64::consts::TAU * hertz * time;
+                storage += modulus * x * x / (1.0 + x * x);
+                loss += modulus * x / (1.0 + x * x);
+            }
+            table += &format!("{hertz},{},{storage},{loss}\n", temperature + zero);
+        }
+    }
+    table
+}
+
+/// Between isotherms friction is that of the true rubber to 2 %, as far as it was measured; beyond it warns with the part that was
+/// not. Which isotherm the fit was shifted to does not matter.
+#[test]
+fn a_material_has_the_temperature_that_is_asked_for() {
+    let folder = Folder::new("temperatures");
+    folder.write("isotherms.csv", isotherms(0.0));
+    folder.write("kelvin.csv", isotherms(273.15));
+    folder.done("fit-material isotherms.csv --reference-temperature 20 --out warm");
+    folder.done("fit-material kelvin.csv --reference-temperature 270.15 --out cold");
+    let friction = |material: &str, velocity: f64| {
+        let load = format!("[load]\nnormal_force = 2.0\nvelocity = {velocity:e}");
+        let body = "[indenter.sphere]\nradius = 5e-3";
+        let solve = "[solve]\nrelative_error = 2e-3";
+        folder.write(
+            "scene.toml",
+            format!("{body}\n{material}\n{load}\n{solve}\n"),
+        );
+        folder.json("scene.toml")
+    };
+    for (fit, temperature) in [
+        ("warm", -15.0),
+        ("warm", -3.0),
+        ("cold", -3.0),
+        ("cold", 14.0),
+        ("warm", 37.0),
+        ("cold", 56.0),
+    ] {
+        let branches = rubber(temperature).into_iter().map(|[modulus, time]| {
+            format!("{{ modulus = {modulus:e}, relaxation_time = {time:e} }}, ")
+        });
+        let branches: String = branches.collect();
+        let exact = format!("[material.prony]\nequilibrium_modulus = 1e6\nbranches = [{branches}]");
+        let fitted = format!(
+            "[material.file]\npath = \"{fit}/material.toml\"\ntemperature = {temperature:?}"
+        );
+        let [exact, found] = [&exact, &fitted].map(|material| friction(material, 0.1));
+        let [exact, near] = [&exact, &found].map(|result| number(result, "friction_coefficient"));
+        assert_close(format!("{fit} at {temperature} °C"), near, exact, 0.02);
+        let outside = number(&found["dissipation"], "outside_window");
+        assert!(
+            outside < 0.1 && found["warnings"] == serde_json::json!([]),
+            "{found}"
+        );
+        // Slower than was measured where it is warm, and faster where it is cold.
+        let far = friction(&fitted, if temperature > 20.0 { 1e-8 } else { 1e8 });
+        let outside = number(&far["dissipation"], "outside_window");
+        let said = format!(
+            "{:.0} % of the friction comes from frequencies",
+            100.0 * outside
+        );
+        assert!(
+            outside > 0.1 && far["warnings"].to_string().contains(&said),
+            "{far}"
+        );
+    }
+}
+
+#[test]
+fn temperatures_without_a_law_are_refused() {
+    let folder = Folder::new("no_law");
+    let table = isotherms(0.0);
+    folder.write("isotherms.csv", &table);
+    let without = table
+        .lines()
+        .filter(|line| !line.contains(',') || line.contains(",-20,") || !line.contains('.'));
+    let first: Vec<&str> = without.collect();
+    folder.write("one.csv", first.join("\n"));
+    let plain = first
+        .join("\n")
+        .replace("f,T,", "f,")
+        .replace("Hz,C,", "Hz,")
+        .replace(",-20,", ",");
+    folder.write("plain.csv", plain);
+    let outside =
+        "the temperature must be from -20 °C to 60 °C, the range of the shift law, but is 61 °C";
+    folder.ends(
+        "fit-material isotherms.csv --reference-temperature 61",
+        2,
+        outside,
+    );
+    folder.ends(
+        "fit-material one.csv --reference-temperature -19",
+        2,
+        "no shift law leads from the nearest isotherm, at -20",
+    );
+    folder.ends(
+        "fit-material plain.csv --reference-temperature 20",
+        2,
+        "the table has no temperatures",
+    );
+    folder.done("fit-material isotherms.csv --out many");
+    folder.done("fit-material one.csv --out one");
+    for (fit, reason) in [("many", outside), ("one", "the file has no shift law")] {
+        let material =
+            format!("[material.file]\npath = \"{fit}/material.toml\"\ntemperature = 61.0");
+        let rest = "[load]\nnormal_force = 2.0\nvelocity = 0.1";
+        folder.write(
+            "scene.toml",
+            format!("[indenter.sphere]\nradius = 5e-3\n{material}\n{rest}"),
+        );
+        let refused = folder.ends("run scene.toml", 2, reason);
+        assert!(
+            refused.stderr.contains("scene.toml:5:"),
+            "{}",
+            refused.stderr
+        );
+    }
 }

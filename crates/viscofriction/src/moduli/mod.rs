@@ -4,6 +4,7 @@
 
 mod isotherms;
 mod names;
+mod shifting;
 
 use std::path::Path;
 
@@ -17,6 +18,7 @@ use crate::table::Quantity::{Loss, LossFactor, Set, Storage, Temperature, Time};
 use crate::table::{Column, Line, Meaning, Source, Table, text_of};
 use isotherms::{Group, Row, insert};
 use names::MODULI;
+pub use shifting::{Shifted, Shifting, master_curve};
 
 /// What was measured, in SI and in shear.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +26,8 @@ use names::MODULI;
 pub struct MeasuredModuli {
     /// The moduli.
     pub measurements: Measurements,
-    /// Whether temperatures are in °C, and not in K.
-    pub celsius: bool,
+    /// Whether temperatures are in °C, and not in K; none of a table without them.
+    pub celsius: Option<bool>,
 }
 
 /// Moduli over frequency or over time.
@@ -97,7 +99,7 @@ pub fn measured_moduli(
     }
     Ok(MeasuredModuli {
         measurements: measurements(&source, groups, kind.is_relaxation)?,
-        celsius: kind.celsius.unwrap_or_default(),
+        celsius: kind.celsius,
     })
 }
 

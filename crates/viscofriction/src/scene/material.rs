@@ -8,6 +8,7 @@ use strum::{EnumDiscriminants, EnumIter, IntoStaticStr};
 use toml::Table;
 
 use super::SceneError;
+use super::shift::Shift;
 use super::source::checked;
 
 /// The half space; every kind may have a Poisson ratio.
@@ -94,6 +95,8 @@ pub enum MaterialTable {
         poisson_ratio: f64,
         /// Lowest and highest frequency at which it was measured, \[rad/s].
         valid_frequencies: Option<[f64; 2]>,
+        /// How its times change with temperature, for scenes that name this material as a file.
+        shift: Option<Shift>,
     },
     /// Between spring and dashpot: G* = K (iω)^a.
     Springpot {
@@ -136,6 +139,8 @@ pub enum MaterialTable {
     File {
         /// A file beside the scene file with a table `[material.…]`, such as the material.toml of `fit-material`.
         path: PathBuf,
+        /// Another temperature of the material than that of the file, by its shift law, \[°C].
+        temperature: Option<f64>,
         /// Poisson ratio, −1 < ν ≤ 1/2; without it that of the file.
         poisson_ratio: Option<f64>,
         /// Lowest and highest frequency at which it was measured, \[rad/s]; without them those of the file.
@@ -183,6 +188,14 @@ impl MaterialTable {
             | Self::Springpot { poisson_ratio, .. }
             | Self::FractionalMaxwell { poisson_ratio, .. } => Some(*poisson_ratio),
             Self::File { poisson_ratio, .. } => *poisson_ratio,
+        }
+    }
+
+    /// How times change with temperature, where that is known.
+    pub const fn shift(&self) -> Option<Shift> {
+        match self {
+            Self::Prony { shift, .. } => *shift,
+            _ => None,
         }
     }
 

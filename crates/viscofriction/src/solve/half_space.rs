@@ -11,7 +11,7 @@ use rheology::{
 
 use super::expansion::{Expansion, expanded};
 use crate::files::Files;
-use crate::scene::{Branch, MaterialTable, SceneError, Source};
+use crate::scene::{Branch, MaterialTable, SceneError, Shift, Source};
 use crate::text::WrongInput;
 
 /// The material of a scene.
@@ -49,8 +49,12 @@ pub fn half_space(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace,
     Ok(found)
 }
 
-/// The material that another file holds.
-fn of_file(file: &Path, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
+/// The material that another file holds, at its own temperature or at another one \[°C].
+fn of_file(
+    file: &Path,
+    temperature: Option<f64>,
+    files: &Files<'_>,
+) -> Result<HalfSpace, SceneError> {
     let material = || {
         let (file, contents) = files.material(file)?;
         let source = Source::new(&file, contents)?;
@@ -59,10 +63,36 @@ fn of_file(file: &Path, files: &Files<'_>) -> Result<HalfSpace, SceneError> {
             read: no_file,
             ..*files
         };
-        let material = table.and_then(|table| half_space(&table, &none));
-        material.map_err(|error| source.locate(&error))
+        let read = |table: MaterialTable| Ok((half_space(&table, &none)?, table.shift()));
+        table.and_then(read).map_err(|error| source.locate(&error))
     };
-    material().map_err(|WrongInput(problem)| SceneError::at("material.file.path", problem))
+    let wrong = |WrongInput(problem)| SceneError::at("material.file.path", problem);
+    let (found, shift) = material().map_err(wrong)?;
+    let Some(temperature) = temperature else {
+        return Ok(found);
+    };
+    let key = "material.file.temperature";
+    let shift = shift.ok_or_else(|| {
+        let problem = "the file has no shift law, as fit-material writes it for isotherms of several temperatures";
+        SceneError::at(key, problem)
+    })?;
+    found
+        .shifted(shift, temperature)
+        .map_err(|error| SceneError::at(key, error.to_string()))
+}
+
+impl HalfSpace {
+    /// The same at another temperature \[°C].
+    fn shifted(self, shift: Shift, temperature: f64) -> Result<Self, RheologyError> {
+        let factor = 10_f64.powf(shift.log10_factor(temperature)?);
+        let spectrum = self.material.relaxation().shifted(factor)?;
+        let material = Compressible::new(&Prony::new(spectrum)?, self.material.poisson_ratio())?;
+        Ok(Self {
+            material: Box::new(material),
+            window: self.window.map(|ends| ends.map(|end| end / factor)),
+            ..self
+        })
+    }
 }
 
 fn no_file(file: &Path, _: u64) -> Result<Vec<u8>, WrongInput> {
@@ -109,7 +139,9 @@ fn in_shear(table: &MaterialTable, files: &Files<'_>) -> Result<HalfSpace, Scene
         MaterialTable::Springpot { .. } | MaterialTable::FractionalMaxwell { .. } => {
             return fractional(table).map_err(|error| refused(&table.key(), error));
         }
-        MaterialTable::File { path, .. } => return of_file(path, files),
+        MaterialTable::File {
+            path, temperature, ..
+        } => return of_file(path, *temperature, files),
     };
     let material = material.map_err(|error| refused(&table.key(), error))?;
     Ok(HalfSpace {

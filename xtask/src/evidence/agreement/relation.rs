@@ -242,6 +242,7 @@ fn other_material(material: &MaterialTable) -> Option<MaterialTable> {
             branches,
             poisson_ratio,
             valid_frequencies: None,
+            shift: None,
         })
     };
     match *material {

@@ -349,6 +349,7 @@ impl Sample<'_> {
                 self.material = Some(self.prony(poisson_ratio));
                 MaterialTable::File {
                     path: MATERIAL.into(),
+                    temperature: None,
                     poisson_ratio: None,
                     valid_frequencies: None,
                 }
@@ -371,6 +372,7 @@ impl Sample<'_> {
             branches,
             poisson_ratio,
             valid_frequencies: None,
+            shift: None,
         }
     }
 
