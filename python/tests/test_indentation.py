@@ -41,7 +41,7 @@ def test_a_history_is_that_of_the_program(program: Callable[..., str], tmp_path:
     # Lost on the way back, and exact up to rounding.
     assert got.normal_force[-1] == 0.0 and got.normal_force_error < 1e-11 * got.normal_force.max()
     axes = got.plot()
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth [m]", "normal force [N]")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("depth d [µm]", "normal force F [nN]")
 
 
 def test_elements_follow_the_same_history_on_a_thick_layer() -> None:
@@ -76,7 +76,7 @@ def test_a_fit_finds_the_material_within_its_intervals() -> None:
     assert repr(fit).startswith("fit of a curve\n  G_inf: 2048 ± 70 Pa, 95 % within")
     # Young's modulus, 3 G of an incompressible material.
     assert "\n  E_inf: 6.14e+03 ± 2.1e+02 Pa, 95 % within" in repr(fit)
-    assert fit.plot().get_xlabel() == "time [s]"
+    assert fit.plot().get_xlabel() == "time t [s]"
 
 
 def test_a_table_is_fitted_as_its_columns_are(tmp_path: Path) -> None:

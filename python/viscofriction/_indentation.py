@@ -56,7 +56,7 @@ class Indentation(Compared):
 
         axes = _plotting.axes(ax)
         axes.plot(self.indentation_depth, self.normal_force, marker=".")
-        return _plotting.tidy(axes, "depth [m]", "normal force [N]", (None, None))
+        return _plotting.tidy(axes, "depth d [m]", "normal force F [N]", (None, None))
 
 
 @dataclass(frozen=True)
@@ -121,10 +121,10 @@ class IndentationFit(Compared):
         from . import _plotting
 
         axes = _plotting.axes(ax)
-        axes.plot(self.time, self.force, ".", markersize=3, label="measured")
+        axes.plot(self.time, self.force, ".", markersize=3, color="0.6", label="measured")
         axes.plot(self.time, self.fitted_force, label="fit")
         axes.legend()
-        return _plotting.tidy(axes, "time [s]", "force [N]", (None, None))
+        return _plotting.tidy(axes, "time t [s]", "force F [N]", (None, None))
 
 
 def indent(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -11,27 +12,41 @@ Numbers = NDArray[np.float64]
 Values = NDArray[Any]
 
 LABELS = {
-    "velocity": "speed [m/s]",
-    "normal_force": "normal force [N]",
+    "velocity": "speed v [m/s]",
+    "normal_force": "normal force F [N]",
+    "mean_pressure": "mean pressure p [Pa]",
     "tangential_force": "friction force [N]",
-    "indentation_depth": "depth [m]",
+    "indentation_depth": "depth d [m]",
     "contact_area": "contact area [m²]",
     "peak_pressure": "peak pressure [Pa]",
-    "friction_coefficient": "friction coefficient",
-    "duration": "duration [s]",
-    "sliding_distance": "sliding distance [m]",
+    "friction_coefficient": "friction coefficient μ",
+    "duration": "duration t [s]",
+    "sliding_distance": "sliding distance s [m]",
+    "radius": "radius R [m]",
+    "thickness": "thickness h [m]",
+    "temperature": "temperature T [°C]",
+    "shortest_wavelength": "shortest wavelength [m]",
 }
+# The program draws in the same colours: those of Okabe and Ito, and viridis.
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#aa3377", "#000000"]
+FIELD = "viridis"
+# Units that take a prefix, so that lengths stand in mm, µm or nm, and the prefixes from 10⁻¹² on.
+PREFIXED = {"m", "s", "m/s", "N", "Pa", "N/m"}
+PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"]
+# Part of the load on elements of the darkest colour, where colours are logarithmic.
+DARKEST = 0.01
 # With more lines than these a legend says nothing.
 LINES = 6
 
 
 def axes(ax: Any) -> Any:
     """These axes, or new ones."""
-    if ax is not None:
-        return ax
-    import matplotlib.pyplot as pyplot
+    if ax is None:
+        import matplotlib.pyplot as pyplot
 
-    return pyplot.subplots(layout="constrained")[1]
+        ax = pyplot.subplots(layout="constrained")[1]
+        ax.set_prop_cycle(color=COLOURS)
+    return ax
 
 
 def label(name: str) -> str:
@@ -46,10 +61,37 @@ def tidy(ax: Any, x: str, y: str, varied: tuple[Numbers | None, Numbers | None])
         if values is not None and values.min() > 0 and values.max() > 30 * values.min():
             getattr(ax, f"set_{axis}scale")("log")
         else:
-            ax.ticklabel_format(axis=axis, style="sci", scilimits=(-3, 4), useMathText=True)
-            ax.locator_params(axis=axis, nbins=6)
+            name = few(ax, axis, name)
         getattr(ax, f"set_{axis}label")(name)
     return ax
+
+
+def few(ax: Any, axis: str, name: str) -> str:
+    """Keeps the digits of an axis few, by a prefix of the unit or a power of ten; returns its label."""
+    ax.locator_params(axis=axis, nbins=6)
+    factor, name = prefixed(name, getattr(ax, f"get_{axis}lim")())
+    if factor is None:
+        ax.ticklabel_format(axis=axis, style="sci", scilimits=(-3, 4), useMathText=True)
+    else:
+        getattr(ax, f"{axis}axis").set_major_formatter(in_units_of(factor))
+    return name
+
+
+def in_units_of(factor: float) -> Any:
+    """A formatter of ticks."""
+    from matplotlib.ticker import FuncFormatter
+
+    return FuncFormatter(lambda value, _: f"{value / factor:.6g}".replace("-", "−"))
+
+
+def prefixed(name: str, limits: tuple[float, float]) -> tuple[float | None, str]:
+    """What the numbers of an axis count in, and its label with the prefix; None where the unit takes none."""
+    quantity, bracket, unit = name.removesuffix("]").rpartition("[")
+    largest = max(map(abs, limits))
+    if not bracket or unit not in PREFIXED or not largest > 0:
+        return None, name
+    step = min(max(math.floor((math.log10(largest) + 1e-9) / 3), -4), 3)
+    return 10.0 ** (3 * step), f"{quantity}[{PREFIXES[step + 4]}{unit}]"
 
 
 def plot(answer: Any, ax: Any) -> Any:
@@ -122,7 +164,7 @@ def grid(ax: Any, over: list[tuple[str, Numbers]], drawn: tuple[str, Numbers]) -
     places = tuple(np.searchsorted(axis, values) for axis, (_, values) in zip((x, y), over, strict=True))
     values = np.full((x.size, y.size), np.nan)
     values[places] = drawn[1]
-    image = ax.pcolormesh(x, y, values.T, shading="nearest", cmap="viridis")
+    image = ax.pcolormesh(x, y, values.T, shading="nearest", cmap=FIELD)
     ax.figure.colorbar(image, ax=ax, label=label(drawn[0]))
     return tidy(ax, label(first), label(second), (x, y))
 
@@ -137,12 +179,24 @@ def single(answer: Any, ax: Any) -> Any:
     if "pressure" not in known and "history" in known:
         ax.plot(answer.history["indentation_depth"], answer.history["normal_force"], marker=".")
         return tidy(ax, LABELS["indentation_depth"], LABELS["normal_force"], (None, None))
-    image = ax.pcolormesh(answer.x, answer.y, answer.pressure, shading="nearest", cmap="magma")
-    bar = ax.figure.colorbar(image, ax=ax, label="pressure [Pa]")
-    bar.formatter.set_useMathText(True)
+    pressure = np.ma.masked_less_equal(answer.pressure, 0.0)
+    image = ax.pcolormesh(answer.x, answer.y, pressure, shading="nearest", cmap=FIELD, norm=colours(answer, pressure))
+    factor, name = prefixed("pressure P [Pa]", (0.0, float(pressure.max())))
+    ax.figure.colorbar(image, ax=ax, label=name, format=in_units_of(factor or 1.0))
     ax.set_aspect("equal")
     if answer.mu is not None:
-        arrow = {"arrowstyle": "->", "color": "white"}
+        arrow = {"arrowstyle": "->"}
         ax.annotate("", xy=(0.3, 0.06), xytext=(0.06, 0.06), xycoords="axes fraction", arrowprops=arrow)
-        ax.text(0.06, 0.09, "motion", color="white", transform=ax.transAxes)
+        ax.text(0.06, 0.09, "motion", bbox={"color": "white", "alpha": 0.7, "pad": 1}, transform=ax.transAxes)
     return tidy(ax, "x [m]", "y [m]", (None, None))
+
+
+def colours(answer: Any, pressure: Any) -> Any:
+    """Linear from zero to a peak that is known; else logarithmic, and darkest where 1 % of the load is."""
+    from matplotlib.colors import LogNorm, Normalize
+
+    if answer.peak_pressure is not None:
+        return Normalize(0.0, pressure.max())
+    loaded = np.sort(pressure.compressed())
+    lowest = loaded[np.searchsorted(np.cumsum(loaded), DARKEST * loaded.sum())]
+    return LogNorm(min(lowest, 0.4 * loaded[-1]), loaded[-1])

@@ -1,12 +1,13 @@
 //! Lines, markers and error bars.
 
-use crate::canvas::{Canvas, Pen, Pixel};
+use crate::canvas::{Canvas, NO_PEN, Pen, Pixel};
 use crate::colour::Colour;
 use crate::frame::Frame;
 use crate::series::{Dash, Fill, Line, Marker, Series, Shape};
 
 /// Radius of a circular marker, \[px\]; the other shapes have about its area.
 pub(crate) const MARKER_RADIUS: f64 = 3.6;
+const DOT_RADIUS: f64 = 1.7;
 const CAP: f64 = 3.5;
 
 /// Draws series one after the other: of each the line, then the error bars, then the markers.
@@ -74,6 +75,7 @@ pub(crate) fn draw_marker(
         Fill::Filled => colour,
     };
     match marker.shape {
+        Shape::Dot => canvas.circle([x, y], DOT_RADIUS, colour, &NO_PEN),
         Shape::Circle => canvas.circle([x, y], radius, fill, &pen),
         Shape::Square => {
             let [low, high] = [-0.9 * radius, 0.9 * radius];

@@ -64,6 +64,8 @@ pub enum Shape {
     Diamond,
     /// Two strokes, filled or not.
     Plus,
+    /// A small disc, filled or not, for many points under a line.
+    Dot,
 }
 
 /// Inside of a marker.

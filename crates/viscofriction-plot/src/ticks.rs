@@ -22,15 +22,16 @@ const MOST_DECADES: f64 = 8.0;
 /// Ticks of an axis from its lower to its upper end.
 pub(crate) fn ticks(axis: &Axis) -> Vec<Tick> {
     match axis.scale {
-        Scale::Linear => linear_ticks(axis.range),
+        Scale::Linear => linear_ticks(axis),
         Scale::Log10 => log_ticks(axis.range),
     }
 }
 
-fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
+fn linear_ticks(axis: &Axis) -> Vec<Tick> {
+    let [from, to] = axis.range;
     let (step, parts) = linear_step(to - from);
     // All labels have the same power of ten, which stands at the axis, and the same decimals.
-    let unit = 10_f64.powf(linear_exponent([from, to]));
+    let unit = 10_f64.powf(linear_exponent(axis));
     let rests = successors(Some(step / unit), |rest| Some(10.0 * rest));
     let decimals = rests.take_while(|rest| *rest < 0.999).count();
     let label = |value: f64| {
@@ -54,10 +55,16 @@ fn linear_ticks([from, to]: [f64; 2]) -> Vec<Tick> {
         .collect()
 }
 
-/// Power of ten that the labels of a linear axis are multiples of: that of their step, where plain numbers would be long.
-fn linear_exponent([from, to]: [f64; 2]) -> f64 {
+/// Power of ten that the labels of a linear axis are multiples of: that of the prefix of the unit, or where it takes none that
+/// of the step, if plain numbers would be long.
+fn linear_exponent(axis: &Axis) -> f64 {
+    let [from, to] = axis.range;
+    let largest = from.abs().max(to.abs());
+    if unit(axis).is_some_and(|unit| PREFIXED.contains(&unit)) {
+        return 3.0 * ((largest.log10() + 1e-9) / 3.0).floor().clamp(-4.0, 3.0);
+    }
     let (step, _) = linear_step(to - from);
-    let is_plain = from.abs().max(to.abs()) < 1e5 && step >= 0.999e-4;
+    let is_plain = largest < 1e5 && step >= 0.999e-4;
     if is_plain {
         0.0
     } else {
@@ -65,20 +72,38 @@ fn linear_exponent([from, to]: [f64; 2]) -> f64 {
     }
 }
 
-/// The label of an axis, with the power of ten of its ticks before the unit.
+/// Units that take a prefix, so that lengths stand in mm, µm or nm.
+const PREFIXED: [&str; 6] = ["m", "s", "m/s", "N", "Pa", "N/m"];
+/// From 10⁻¹² on in steps of 10³.
+const PREFIXES: [&str; 8] = ["p", "n", "µ", "m", "", "k", "M", "G"];
+
+/// The unit of an axis, which stands in brackets behind its quantity.
+fn unit(axis: &Axis) -> Option<&str> {
+    let bare = axis.label.strip_suffix(']')?;
+    bare.rsplit_once('[').map(|(_, unit)| unit)
+}
+
+/// The label of an axis, with the prefix or the power of ten of its ticks before the unit.
 pub(crate) fn label(axis: &Axis) -> String {
     let exponent = match axis.scale {
-        Scale::Linear => linear_exponent(axis.range),
+        Scale::Linear => linear_exponent(axis),
         Scale::Log10 => 0.0,
     };
     if exponent.abs() < 0.5 {
         return axis.label.clone();
     }
     let power = power_of_ten(exponent);
-    let bare = axis.label.strip_suffix(']');
-    match bare.and_then(|label| label.rsplit_once('[')) {
-        Some((name, unit)) => format!("{name}[{power} {unit}]"),
-        None => format!("{} [{power}]", axis.label),
+    let Some(unit) = unit(axis) else {
+        return format!("{} [{power}]", axis.label);
+    };
+    let name = &axis.label[..axis.label.len() - unit.len() - 1];
+    let steps = counts(-4.0, 3.0).map(|step| 3.0 * step);
+    let mut prefixes = steps
+        .zip(PREFIXES)
+        .filter(|(step, _)| (step - exponent).abs() < 0.5);
+    match prefixes.next().filter(|_| PREFIXED.contains(&unit)) {
+        Some((_, prefix)) => format!("{name}{prefix}{unit}]"),
+        None => format!("{name}{power} {unit}]"),
     }
 }
 
@@ -179,7 +204,13 @@ mod tests {
     #[test]
     fn the_power_of_ten_stands_at_the_axis() {
         let cases = [
-            (Axis::linear("x [m]", [-1e-6, 1e-6]), "x [10⁻⁷ m]"),
+            (Axis::linear("x [m]", [-1e-6, 1e-6]), "x [µm]"),
+            (Axis::linear("x [m]", [0.0, 0.02]), "x [mm]"),
+            (
+                Axis::linear("pressure [Pa]", [0.0, 2.5e6]),
+                "pressure [MPa]",
+            ),
+            (Axis::linear("k [1/m]", [0.0, 2e6]), "k [10⁵ 1/m]"),
             (Axis::linear("friction", [0.0, 2e-4]), "friction [10⁻⁵]"),
             (Axis::linear("x [m]", [0.0, 3.0]), "x [m]"),
             (Axis::log10("x [m]", [1e-9, 1e-6]), "x [m]"),

@@ -8,25 +8,31 @@ const POINTS: usize = 1500;
 
 pub(super) fn figure(fit: &IndentationFit) -> Figure {
     let step = fit.points.len().div_ceil(POINTS);
+    let mut found = fit.findings.iter();
+    let contact = found.find(|one| one.name == "contact_point");
+    let contact = contact
+        .and_then(|one| one.estimate)
+        .map_or(0.0, |one| one.value);
     let points = |x: usize, y: &dyn Fn(&[f64; 4]) -> f64| -> Vec<[f64; 2]> {
         let points = fit.points.iter().step_by(step);
-        points.map(|point| [point[x], y(point)]).collect()
+        let from = if x == 1 { contact } else { 0.0 };
+        points.map(|point| [point[x] - from, y(point)]).collect()
     };
     let force = |x: usize, label: &str| {
-        let marker = Marker::open(Shape::Circle);
+        let marker = Marker::filled(Shape::Dot);
         let measured = Series::markers(points(x, &|point| point[2]), marker, Colour::Blue);
         let line = Line::thick(Dash::Solid);
         let fitted = Series::line(points(x, &|point| point[3]), line, Colour::Red);
         let series = vec![measured.labelled("measured"), fitted.labelled("fit")];
-        chart(label, "force [N]", series)
+        chart(label, "force F [N]", series)
     };
-    let marker = Marker::filled(Shape::Circle);
+    let marker = Marker::filled(Shape::Dot);
     let residual = |point: &[f64; 4]| (point[2] - point[3]) / fit.residual;
     let residuals = Series::markers(points(0, &residual), marker, Colour::Black);
     let charts = [
-        force(0, "time [s]"),
-        force(1, "depth [m]"),
-        chart("time [s]", "residual / its spread", vec![residuals]),
+        force(0, "time t [s]"),
+        force(1, "depth from the contact [m]"),
+        chart("time t [s]", "residual / its spread", vec![residuals]),
     ];
     Figure::new(charts, 3)
 }

@@ -83,7 +83,7 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
     out.write("history.csv", &to_csv(&names, rows)?)?;
     let known = |name| curve.column(name).map_or(&[][..], |column| &column.values);
     let [force, depth] = ["normal_force", "indentation_depth"].map(known);
-    let labels = ["normal force [N]", "indentation depth [m]"];
+    let labels = ["normal force F [N]", "depth d [m]"];
     let varies = |values: &[Estimate]| values.windows(2).any(|pair| pair[0] != pair[1]);
     if varies(force) && varies(depth) {
         let points = depth
@@ -101,7 +101,11 @@ fn write_curve(curve: &Curve, out: &OutputFolder) -> Result<()> {
         .iter()
         .zip(found)
         .map(|(time, found)| [*time, found.value]);
-    let figure = pictures::points("time [s]", labels[usize::from(is_found)], points.collect());
+    let figure = pictures::points(
+        "time t [s]",
+        labels[usize::from(is_found)],
+        points.collect(),
+    );
     out.draw("history_over_time", &figure)
 }
 
@@ -116,6 +120,6 @@ fn write_history(answer: &Answer, out: &OutputFolder) -> Result<()> {
     out.write("history.csv", &to_csv("", rows)?)?;
     let point = |row: &HistoryRow| [row.sliding_distance_m, row.friction_coefficient];
     let points = rows.iter().map(point).collect();
-    let figure = pictures::curve("sliding distance [m]", "friction coefficient", points);
+    let figure = pictures::curve("sliding distance s [m]", "friction coefficient μ", points);
     out.draw("history", &figure)
 }

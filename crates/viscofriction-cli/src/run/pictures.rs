@@ -4,6 +4,10 @@ use anyhow::{Context, Result};
 use viscofriction::{Answer, PressureField};
 use viscofriction_plot::{Axis, Chart, Colour, Dash, Field, Figure, Line, Marker, Series, Shape};
 
+/// Part of the load on elements of the darkest colour, where colours are logarithmic: stray ones at the edge of a contact
+/// reach many decades below.
+const DARKEST: f64 = 0.01;
+
 /// The pressure over the contact: itself where its peak is known, else, where it grows without limit on finer elements, its
 /// logarithm; with an arrow along the motion, where the body slides.
 pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure> {
@@ -14,26 +18,36 @@ pub(super) fn pressure(answer: &Answer, field: &PressureField) -> Result<Figure>
         [origin - 0.5 * spacing, last]
     };
     let loaded = field.pressure.iter().filter(|pressure| **pressure > 0.0);
-    let lowest = loaded.clone().copied().reduce(f64::min);
-    let highest = loaded.copied().reduce(f64::max);
-    let (lowest, highest) = lowest.zip(highest).context("nothing is loaded")?;
-    let (colours, shown): (_, fn(f64) -> f64) = if answer.peak_pressure.is_some() {
-        (Axis::linear("pressure [Pa]", [0.0, highest]), |pressure| {
-            pressure
-        })
+    let mut loaded: Vec<f64> = loaded.copied().collect();
+    loaded.sort_by(f64::total_cmp);
+    let highest = *loaded.last().context("nothing is loaded")?;
+    let (colours, lowest) = if answer.peak_pressure.is_some() {
+        (Axis::linear("pressure P [Pa]", [0.0, highest]), 0.0)
     } else {
-        let [lowest, highest] = [lowest, highest].map(f64::log10);
-        let ends = [lowest.min(highest - 1e-3), highest];
-        (Axis::linear("log₁₀ (P / Pa)", ends), f64::log10)
+        let of_darkest = DARKEST * loaded.iter().sum::<f64>();
+        let mut load = 0.0;
+        let mut above = loaded.iter().skip_while(|pressure| {
+            load += **pressure;
+            load < of_darkest
+        });
+        let lowest = above
+            .next()
+            .map_or(highest, |lowest| lowest.min(0.4 * highest));
+        (Axis::log10("pressure P [Pa]", [lowest, highest]), lowest)
     };
+    let is_cut = loaded[0] < lowest;
     let pressures = Field::new(shape, colours, |x, y| {
         let pressure = field.pressure[x * shape[1] + y];
-        (pressure > 0.0).then(|| shown(pressure))
+        (pressure > 0.0).then(|| pressure.max(lowest))
     });
     let [x, y] = [range(0), range(1)];
     let motion = answer.friction_coefficient.map(|_| arrow(x, y, true));
+    // Narrow maps have no room for it.
+    let has_room = x[1] - x[0] > 0.5 * (y[1] - y[0]);
+    let title = (is_cut && has_room).then(|| "darkest: 1 % of the load".to_owned());
     let [x, y] = [Axis::linear("x [m]", x), Axis::linear("y [m]", y)];
     Ok(Figure::single(Chart {
+        title,
         series: motion.into_iter().collect(),
         ..Chart::map(x, y, pressures)
     }))
@@ -79,5 +93,6 @@ pub(crate) fn around(values: impl Iterator<Item = f64>) -> [f64; 2] {
         [low.min(value), high.max(value)]
     });
     let room = if high > low { 0.05 * (high - low) } else { 1.0 };
-    [if low < 0.0 { low - room } else { 0.0 }, high + room]
+    // Marks on the border are not cut by the frame.
+    [low - room, high + room]
 }

@@ -15,9 +15,9 @@ use crate::run::around;
 /// What may be drawn, as its column and as the label of its axis: friction where something slides, the depth where a force
 /// is given, and else the force.
 const QUANTITIES: [(&str, &str); 3] = [
-    ("friction_coefficient", "friction coefficient"),
-    ("indentation_depth", "indentation depth [m]"),
-    ("normal_force", "normal force [N]"),
+    ("friction_coefficient", "friction coefficient μ"),
+    ("indentation_depth", "depth d [m]"),
+    ("normal_force", "normal force F [N]"),
 ];
 /// The column before the keys that vary, and the one behind them.
 const AROUND_KEYS: [&str; 2] = ["points", "check"];
@@ -123,8 +123,12 @@ fn figure(table: &RowTable) -> Result<Figure> {
     let mut quantities = QUANTITIES.into_iter();
     let drawn = quantities.find(|(name, _)| is_known(name) && is_drawn(name));
     let (name, label) = drawn.context("no point has a result")?;
-    let errors = values(&format!("{name}_error"));
-    let quantity = (label, &values(name)[..]);
+    let drawn = Drawn {
+        label,
+        values: values(name),
+        errors: values(&format!("{name}_error")),
+        theory: values(&format!("persson_{name}")),
+    };
     // Over the key that has the most numbers, the first of several.
     let most = (0..keys.len())
         .rev()
@@ -135,8 +139,8 @@ fn figure(table: &RowTable) -> Result<Figure> {
     }
     let curves = Curves::new(&keys, table.rows.len());
     match &keys[..] {
-        _ if curves.labels.len() <= MOST_CURVES => chart(&over, &curves, quantity, &errors),
-        [other] if other.n_numbers() > 0 => map([&over, other], quantity),
+        _ if curves.labels.len() <= MOST_CURVES => Ok(chart(&over, &curves, &drawn)),
+        [other] if other.n_numbers() > 0 => map([&over, other], &drawn),
         _ => bail!(
             "the keys beside {} have more than {MOST_CURVES} combinations",
             over.name
@@ -192,52 +196,87 @@ impl Curves {
     }
 }
 
-/// A name, and what stands in its column.
-type Column<'a> = (&'a str, &'a [Option<f64>]);
-
-fn chart(
-    over: &Key,
-    curves: &Curves,
-    (label, values): Column<'_>,
-    errors: &[Option<f64>],
-) -> Result<Figure> {
-    let over_values = over.numbers();
-    let series = curves.labels.iter().enumerate().map(|(curve, name)| {
-        let rows = (0..values.len()).filter(|row| curves.of[*row] == curve);
-        let points = rows.filter_map(|row| {
-            let point = [over_values[row]?, values[row]?];
-            Some((point, errors.get(row).copied().flatten().unwrap_or(0.0)))
-        });
-        let mut points: Vec<([f64; 2], f64)> = points.collect();
-        // Points of shards and of several threads come in any order.
-        points.sort_by(|(one, _), (other, _)| one[0].total_cmp(&other[0]));
-        let (points, errors) = points.into_iter().unzip();
-        let marker = Marker::filled(SHAPES[curve % SHAPES.len()]);
-        Series {
-            label: Some(name.clone()).filter(|name| !name.is_empty()),
-            line: Some(Line::thin(Dash::Solid)),
-            errors,
-            ..Series::markers(points, marker, COLOURS[curve % COLOURS.len()])
-        }
-    });
-    let series = series.filter(|series| !series.points.is_empty());
-    let series: Vec<Series> = series.collect();
-    let ends = series
-        .iter()
-        .flat_map(|one| one.points.iter().zip(&one.errors));
-    let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
-    let y = Axis::linear(label, around(ends));
-    let points = series.iter().flat_map(|one| &one.points);
-    let places = sorted(points.map(|point| point[0]));
-    let [first, last] = ends_of(&places);
-    let is_wide = first > 0.0 && last / first >= WIDE;
-    let x = if !is_arithmetic(&places) && (is_geometric(&places) || is_wide) {
-        Axis::decades(labelled(over.name), places.iter().copied())
-    } else {
-        Axis::linear(labelled(over.name), [first, last])
-    };
-    Ok(Figure::single(Chart::new(x, y, series)))
+/// A quantity, row by row.
+struct Drawn<'a> {
+    label: &'a str,
+    values: Vec<Option<f64>>,
+    errors: Vec<Option<f64>>,
+    /// The same by Persson's theory, where it is known.
+    theory: Vec<Option<f64>>,
 }
+
+impl Drawn<'_> {
+    /// What was computed over these numbers in these rows, and what theory says there.
+    fn series(&self, rows: &[(f64, usize)]) -> [Series; 2] {
+        let of = |values: &[Option<f64>]| -> Vec<([f64; 2], f64)> {
+            let value = |row: usize| values.get(row).copied().flatten();
+            let error = |row: usize| self.errors.get(row).copied().flatten();
+            let points = rows.iter().filter_map(|&(x, row)| {
+                let point = [x, value(row)?];
+                Some((point, error(row).unwrap_or(0.0)))
+            });
+            points.collect()
+        };
+        let line = |dash| Line::thin(dash);
+        let (points, errors) = of(&self.values).into_iter().unzip();
+        let computed = Series {
+            marker: Some(Marker::filled(Shape::Circle)),
+            errors,
+            ..Series::line(points, line(Dash::Solid), Colour::Blue)
+        };
+        let theory = of(&self.theory).into_iter().map(|(point, _)| point);
+        let theory = Series::line(theory.collect(), line(Dash::Dashed), Colour::Blue);
+        [computed, theory]
+    }
+}
+
+fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
+    let numbers = over.numbers();
+    let has_theory = drawn.theory.iter().any(Option::is_some);
+    let mut series = Vec::new();
+    for (curve, name) in curves.labels.iter().enumerate() {
+        let rows = (0..numbers.len()).filter(|row| curves.of[*row] == curve);
+        let rows = rows.filter_map(|row| Some((numbers[row]?, row)));
+        let mut rows: Vec<(f64, usize)> = rows.collect();
+        // Points of shards and of several threads come in any order.
+        rows.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let [mut computed, mut theory] = drawn.series(&rows);
+        computed.colour = COLOURS[curve % COLOURS.len()];
+        theory.colour = computed.colour;
+        computed.marker = Some(Marker::filled(SHAPES[curve % SHAPES.len()]));
+        computed.label = match &name[..] {
+            "" => has_theory.then(|| "computed".to_owned()),
+            name => Some(name.to_owned()),
+        };
+        theory.label = (curve == 0).then(|| "Persson's theory".to_owned());
+        let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
+        series.extend([computed, theory].into_iter().filter(is_seen));
+    }
+    let ends = series.iter().flat_map(|one| {
+        let errors = one.errors.iter().chain(std::iter::repeat(&0.0));
+        one.points.iter().zip(errors)
+    });
+    let ends = ends.flat_map(|(point, error)| [point[1] - error, point[1] + error]);
+    let y = Axis::linear(drawn.label, around(ends));
+    let points = series.iter().flat_map(|one| &one.points);
+    let x = axis(over.name, &sorted(points.map(|point| point[0])));
+    Figure::single(Chart::new(x, y, series))
+}
+
+/// An axis with some room at its ends, so that no mark is cut by the frame.
+fn axis(key: &str, places: &[f64]) -> Axis {
+    let [first, last] = ends_of(places);
+    let is_wide = first > 0.0 && last / first >= WIDE;
+    if last >= 2.0 * first && !is_arithmetic(places) && (is_geometric(places) || is_wide) {
+        let room = (last / first).powf(ROOM);
+        return Axis::log10(labelled(key), [first / room, last * room]);
+    }
+    let room = ROOM * (last - first);
+    Axis::linear(labelled(key), [first - room, last + room])
+}
+
+/// Part of an axis.
+const ROOM: f64 = 0.03;
 
 const COLOURS: [Colour; 5] = [
     Colour::Blue,
@@ -248,33 +287,50 @@ const COLOURS: [Colour; 5] = [
 ];
 const SHAPES: [Shape; 3] = [Shape::Circle, Shape::Square, Shape::Diamond];
 
-/// A key with the unit of its quantity, where it has one.
+/// Last parts of keys, with the name, symbol and unit of their quantities.
+const NAMES: [(&str, &str); 18] = [
+    ("velocity", "speed v [m/s]"),
+    ("normal_force", "normal force F [N]"),
+    ("mean_pressure", "mean pressure p [Pa]"),
+    ("indentation_depth", "depth d [m]"),
+    ("radius", "radius R [m]"),
+    ("slope", "slope"),
+    ("curvature", "curvature [1/m]"),
+    ("rms_slope", "rms slope"),
+    ("hurst_exponent", "Hurst exponent H"),
+    ("shortest_wavelength", "shortest wavelength [m]"),
+    ("sliding_distance", "sliding distance s [m]"),
+    ("duration", "duration t [s]"),
+    ("viscosity", "viscosity η [Pa s]"),
+    ("relaxation_time", "relaxation time τ [s]"),
+    ("equilibrium_modulus", "equilibrium modulus G∞ [Pa]"),
+    ("poisson_ratio", "Poisson ratio ν"),
+    ("thickness", "thickness h [m]"),
+    ("temperature", "temperature T [°C]"),
+];
+
+/// What stands at the axis of a key: its quantity, or the key itself where that is not known.
 fn labelled(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
-    let unit = match name {
-        "velocity" => "m/s",
-        "normal_force" => "N",
-        "indentation_depth" | "radius" | "sliding_distance" => "m",
-        "viscosity" => "Pa s",
-        "relaxation_time" | "duration" => "s",
-        "curvature" => "1/m",
-        modulus if modulus.ends_with("modulus") => "Pa",
-        _ => return key.to_owned(),
-    };
-    format!("{key} [{unit}]")
+    let mut names = NAMES.iter();
+    match names.find(|(known, _)| *known == name) {
+        Some((_, label)) => (*label).to_owned(),
+        None if name.ends_with("modulus") => format!("{key} [Pa]"),
+        None => key.to_owned(),
+    }
 }
 
-fn map([one, other]: [&Key<'_>; 2], (label, values): Column<'_>) -> Result<Figure> {
+fn map([one, other]: [&Key<'_>; 2], drawn: &Drawn<'_>) -> Result<Figure> {
     let over = [one, other].map(Key::numbers);
     let places = [0, 1].map(|axis: usize| sorted(over[axis].iter().copied().flatten()));
     let place = |x: f64, y: f64| [x, y].map(f64::to_bits);
     let mut found = HashMap::new();
-    for ((x, y), value) in over[0].iter().zip(&over[1]).zip(values) {
+    for ((x, y), value) in over[0].iter().zip(&over[1]).zip(&drawn.values) {
         if let (Some(x), Some(y), Some(value)) = (x, y, value) {
             found.insert(place(*x, *y), *value);
         }
     }
-    let colours = Axis::linear(label, ends_of(&sorted(found.values().copied())));
+    let colours = Axis::linear(drawn.label, ends_of(&sorted(found.values().copied())));
     let shape = [places[0].len(), places[1].len()];
     let field = Field::new(shape, colours, |column, row| {
         let place = place(places[0][column], places[1][row]);

@@ -92,7 +92,7 @@ fn cells_without_a_value_stay_white_and_neighbours_of_one_colour_merge() {
 
 #[test]
 fn labels_of_the_x_axis_stand_clear_of_each_other() {
-    let time = Axis::linear("time t [s]", [1e10, 1e10 + 3e4]);
+    let time = Axis::linear("time t [h]", [1e10, 1e10 + 3e4]);
     let rise = vec![[1e10, 0.0], [1e10 + 1e4, 0.1]];
     let rise = Series::line(rise, Line::thin(Dash::Solid), Colour::Black);
     let text = svg(Chart::new(time, chart().y, vec![rise]));
