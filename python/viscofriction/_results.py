@@ -151,7 +151,7 @@ class Answer(Compared):
     @property
     def dissipation(self) -> dict[str, Values]:
         """Parts of the friction, 0 to 1, where they are known: ``outside_window`` from frequencies at which the material was not
-        measured, ``below_window`` and ``above_window``."""
+        measured, ``below_window`` and ``above_window``; ``shortest_octave`` from the shortest waves of a rough surface."""
         prefix = "dissipation_"
         names = [name for name in self._columns if name.startswith(prefix)]
         shares = {name.removeprefix(prefix): self._values(name) for name in names}

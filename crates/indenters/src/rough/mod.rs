@@ -90,6 +90,19 @@ impl PeriodicSurface {
         self.waves.iter().map(square).sum::<f64>().sqrt()
     }
 
+    /// Without the waves shorter than twice the shortest, which are its shortest octave; none where no wave is left.
+    #[must_use]
+    pub fn without_shortest_octave(&self) -> Option<Self> {
+        let size = |wave: &Wave| {
+            let [x, y] = self.wave_vector(wave);
+            x.hypot(y)
+        };
+        let waves = || self.waves.iter().filter(|wave| wave.amplitude != 0.0);
+        let largest = waves().map(size).fold(0.0, f64::max);
+        let left = waves().filter(|wave| size(wave) <= 0.5 * largest);
+        Self::new(self.period, left.copied().collect()).ok()
+    }
+
     /// Wave vector of a wave along x and y, \[1/m].
     pub fn wave_vector(&self, wave: &Wave) -> [f64; 2] {
         [0, 1].map(|axis| TAU * f64::from(wave.numbers[axis]) / self.period[axis])

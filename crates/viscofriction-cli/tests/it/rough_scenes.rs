@@ -46,6 +46,9 @@ fn partial_contact_has_two_frictions_within_their_bars() {
     let off = (friction - dissipation).abs();
     let agree = off <= bar_of_friction + bar_of_dissipation;
     assert!(agree, "{friction} and {dissipation}");
+    let warnings = partial["warnings"].to_string();
+    let warns = warnings.contains("depends on the shortest waves that were kept");
+    assert!(warns, "{warnings}");
     let is_reached = bar_of_friction <= 0.1 * friction && bar_of_area < 0.5 * area;
     assert!(is_reached && area < 0.6, "{partial}");
     folder.write("sweep.toml", format!("{SURFACE}mean_pressure = 0.02\n"));
@@ -79,6 +82,45 @@ fn the_way_from_rest_ends_in_the_stationary_state() {
     // The relaxed solid touches more than the one that slides.
     let [more, less] = [&pressed, &stationary].map(|one| number(one, "area_fraction"));
     assert!(more > less, "{pressed}");
+}
+
+/// Of full contact the friction is a sum over waves of q q_x a² G″(q_x v).
+#[test]
+fn the_shortest_octave_has_the_part_of_the_friction_that_goes_without_it() {
+    let folder = Folder::new("rough-cut-off");
+    let velocity = 0.03;
+    // G″ of the solid, whose relaxation takes 1 s.
+    let loss = |frequency: f64| 2.25 * frequency / (1.0 + frequency * frequency);
+    let map = |short: f64| {
+        let height = |x: f64, y: f64| 0.02 * (TAU * x).cos() + short * (TAU * (4.0 * x + y)).cos();
+        let line = |row: usize| {
+            let heights = (0..32).map(|column| height(f64::from(column) / 32.0, row as f64 / 16.0));
+            heights
+                .map(|height| height.to_string())
+                .collect::<Vec<_>>()
+                .join(",")
+        };
+        (0..16).map(line).collect::<Vec<_>>().join("\n")
+    };
+    let table = "file = \"map.csv\", spacing = [0.0625, 0.0625], edges = \"periodic\"";
+    let (_, rest) = SURFACE.split_once('\n').expect("lines");
+    let scene = format!("indenter.height-map = {{ {table} }}\n{rest}mean_pressure = 100.0\n");
+    folder.write("scene.toml", scene);
+    for (short, warns) in [(2e-3, true), (2e-4, false)] {
+        folder.write("map.csv", map(short));
+        let answer = folder.json("scene.toml");
+        let part = |q: [f64; 2], a: f64| q[0].hypot(q[1]) * q[0] * a * a * loss(q[0] * velocity);
+        let long = part([TAU / 2.0, 0.0], 0.02);
+        let short = part([4.0 * TAU / 2.0, TAU], short);
+        let share = number(&answer["dissipation"], "shortest_octave");
+        assert_close("share", share, short / (short + long), 1e-9);
+        let warnings = answer["warnings"].to_string();
+        assert_eq!(warnings.contains("the shortest octave"), warns, "{answer}");
+    }
+    // The shorter wave alone is no cut-off.
+    folder.write("map.csv", map(0.0));
+    let answer = folder.json("scene.toml");
+    assert!(answer.get("dissipation").is_none(), "{answer}");
 }
 
 /// The same two waves, written on two grids.

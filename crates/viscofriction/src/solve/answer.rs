@@ -6,6 +6,7 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 
 use super::body::Body;
 use super::curve::Curve;
+use super::cut_off::WithoutShortestOctave;
 use super::dissipation::Dissipation;
 use super::error::{Result, SolveError};
 use super::half_space::Simple;
@@ -73,6 +74,8 @@ pub struct RoughAnswer {
     pub friction_from_dissipation: Option<Estimate>,
     /// Persson's theory of the same waves in the stationary state on a half space; none elsewhere.
     pub persson: Option<Persson>,
+    /// Where the contact is stationary or at rest, and waves are left.
+    pub without_shortest_octave: Option<WithoutShortestOctave>,
 }
 
 /// Persson's theory of the waves of a surface, exact as a sum.
@@ -332,6 +335,9 @@ impl Serialize for Answer {
         }
         if let Some(persson) = self.rough.and_then(|rough| rough.persson) {
             map.serialize_entry("persson", &persson)?;
+        }
+        if let Some(without) = self.rough.and_then(|rough| rough.without_shortest_octave) {
+            map.serialize_entry("without_shortest_octave", &without)?;
         }
         if let Some(contact) = &self.contact_box {
             map.serialize_entry("contact_box", contact)?;

@@ -10,7 +10,7 @@ use super::body::Body;
 use super::problem::{Motion, Problem};
 use crate::scene::Model;
 
-/// Parts of the dissipated power, 0 to 1, which are those of the friction too; what is not known is none.
+/// Parts of the dissipated power, which are those of the friction too; what is not known is none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Dissipation {
     /// From frequencies at which the material was not measured.
@@ -19,15 +19,18 @@ pub struct Dissipation {
     pub below_window: Option<f64>,
     /// From those above.
     pub above_window: Option<f64>,
+    /// From the shortest octave of the waves of a rough surface: what is missing without them. Below 0 where there is more.
+    pub shortest_octave: Option<f64>,
 }
 
 impl Dissipation {
     /// The parts by their names in JSON, and in CSV after `dissipation_`.
-    pub(super) const fn shares(&self) -> [(&'static str, Option<f64>); 3] {
+    pub(super) const fn shares(&self) -> [(&'static str, Option<f64>); 4] {
         [
             ("outside_window", self.outside_window),
             ("below_window", self.below_window),
             ("above_window", self.above_window),
+            ("shortest_octave", self.shortest_octave),
         ]
     }
 }
@@ -42,10 +45,12 @@ impl Serialize for Dissipation {
 /// The parts of an answer that are known.
 pub(super) fn dissipation(problem: &Problem, answer: &Answer) -> Dissipation {
     let outside = outside_window(problem, answer);
+    let without = answer.rough.and_then(|rough| rough.without_shortest_octave);
     Dissipation {
         outside_window: outside.map(|parts| parts.below + parts.above),
         below_window: outside.map(|parts| parts.below),
         above_window: outside.map(|parts| parts.above),
+        shortest_octave: without.and_then(|without| without.share(answer.friction_coefficient)),
     }
 }
 

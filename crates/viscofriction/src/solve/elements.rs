@@ -15,6 +15,7 @@ use numerics::{ErrorParts, Estimate, Request};
 
 use super::answer::{Answer, ContactBox, Grid, HistoryRow, Persson, RoughAnswer};
 use super::curve::{AREA, Curve, DEPTH, FORCE, OfPoint};
+use super::cut_off::WithoutShortestOctave;
 use super::error::Result;
 use super::half_space::Simple;
 use super::problem::{Motion, Problem};
@@ -103,8 +104,15 @@ pub(crate) fn periodic(problem: &Problem, rough: Rough) -> Result<Answer> {
     let Rough { surface, load, .. } = rough;
     let most = largest_grid(problem);
     let elastomer = problem.elastomer()?;
-    let estimate = steady_periodic(surface, &elastomer, &load, rough.relative_error, most)?;
-    of_periodic(problem, rough, estimate)
+    let solve = |surface: &_, asked| steady_periodic(surface, &elastomer, &load, asked, most);
+    let estimate = solve(surface, rough.relative_error)?;
+    let mut answer = of_periodic(problem, rough, estimate)?;
+    answer.cut_off(WithoutShortestOctave::of(
+        surface,
+        rough.relative_error,
+        solve,
+    ));
+    Ok(answer)
 }
 
 fn of_periodic(
@@ -125,14 +133,15 @@ fn of_periodic(
 pub(crate) fn periodic_pressed(problem: &Problem, rough: Rough, time: f64) -> Result<Answer> {
     let (elastomer, most) = (problem.elastomer()?, largest_grid(problem));
     let pressed = [rough.load.mean_pressure(), time];
-    let estimate = press_periodic(
+    let solve = |surface: &_, asked| press_periodic(surface, &elastomer, pressed, asked, most);
+    let estimate = solve(rough.surface, rough.relative_error)?;
+    let mut answer = of_pressed(problem, rough, estimate);
+    answer.cut_off(WithoutShortestOctave::of(
         rough.surface,
-        &elastomer,
-        pressed,
         rough.relative_error,
-        most,
-    )?;
-    Ok(of_pressed(problem, rough, estimate))
+        solve,
+    ));
+    Ok(answer)
 }
 
 fn of_pressed(
@@ -215,6 +224,7 @@ fn of_rough<S>(
             area_fraction: estimate.area_fraction,
             friction_from_dissipation: estimate.friction_from_dissipation,
             persson: None,
+            without_shortest_octave: None,
         }),
         ..Answer::new(method, Model::HalfSpace, mean_pressure * area)
     }
@@ -247,6 +257,15 @@ fn persson(
 }
 
 impl Answer {
+    /// With what is left of it without the shortest waves.
+    fn cut_off(&mut self, without: Option<WithoutShortestOctave>) {
+        if let (Some(rough), Some(mut without)) = (&mut self.rough, without) {
+            let slides = self.friction_coefficient.is_some();
+            without.friction_coefficient = without.friction_coefficient.filter(|_| slides);
+            rough.without_shortest_octave = Some(without);
+        }
+    }
+
     /// With the pressure on a period, whose elements in contact are the unknowns.
     fn under(mut self, pressure: PressureField) -> Self {
         let elements = pressure.pressure.iter();

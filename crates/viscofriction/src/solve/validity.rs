@@ -46,6 +46,7 @@ pub(super) fn warnings(problem: &Problem, answer: &Answer) -> Vec<String> {
         ));
     }
     warnings.extend(extrapolated(problem, answer));
+    warnings.extend(cut_off(body, answer));
     warnings
 }
 
@@ -64,6 +65,15 @@ fn extrapolated(problem: &Problem, answer: &Answer) -> Option<String> {
             percent(of_window.above_window)
         )
     })
+}
+
+/// That the answer of a rough surface depends on the shortest waves that it has.
+fn cut_off(body: &Body, answer: &Answer) -> Option<String> {
+    let (Body::Periodic(surface), Some(rough)) = (body, answer.rough) else {
+        return None;
+    };
+    let without = rough.without_shortest_octave?;
+    without.warning(answer.friction_coefficient, rough, surface.rms_slope())
 }
 
 /// What a measurement has and no method does, of scenes of this kind.

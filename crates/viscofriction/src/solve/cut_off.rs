@@ -1,0 +1,116 @@
+//! Whether an answer depends on where the waves of a rough surface were cut off.
+
+use bem_halfspace::{BemError, PeriodicEstimate, PeriodicSliding, Reached};
+use indenters::rough::PeriodicSurface;
+use numerics::Estimate;
+use serde::Serialize;
+use serde::ser::{SerializeMap as _, Serializer};
+
+use super::answer::RoughAnswer;
+
+/// Relative change of friction, area and slope by the shortest octave above which they are not converged in the cut-off.
+const MOST: f64 = 0.1;
+/// Least relative error of the answer without the octave: it need only tell whether that matters.
+const RELATIVE_ERROR: f64 = 0.03;
+
+/// The answer without the waves of the shortest octave, those shorter than twice the shortest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WithoutShortestOctave {
+    /// None where nothing slides.
+    pub friction_coefficient: Option<Estimate>,
+    /// Part of the period in contact.
+    pub area_fraction: Estimate,
+    /// Root mean square slope of the surface.
+    pub rms_slope: f64,
+}
+
+impl WithoutShortestOctave {
+    /// Solves to the relative error asked for, or a larger one; none where no wave or no answer is left.
+    pub(super) fn of(
+        surface: &PeriodicSurface,
+        relative_error: f64,
+        solve: impl Fn(&PeriodicSurface, f64) -> Result<PeriodicEstimate<PeriodicSliding>, BemError>,
+    ) -> Option<Self> {
+        let left = surface.without_shortest_octave()?;
+        let found = match solve(&left, relative_error.max(RELATIVE_ERROR)) {
+            Ok(found) => found,
+            Err(BemError::NotReached { reached, .. }) => match *reached {
+                Reached::Periodic(found) => found,
+                _ => return None,
+            },
+            Err(_) => return None,
+        };
+        Some(Self {
+            friction_coefficient: Some(found.friction_coefficient),
+            area_fraction: found.area_fraction,
+            rms_slope: left.rms_slope(),
+        })
+    }
+
+    /// The part of the friction that comes from the shortest octave; below 0 where it takes some away, and none where nothing
+    /// rubs.
+    pub(super) fn share(&self, friction: Option<Estimate>) -> Option<f64> {
+        let (friction, without) = (friction?, self.friction_coefficient?);
+        (friction.value > 0.0).then(|| 1.0 - without.value / friction.value)
+    }
+
+    /// A sentence where friction or area changes by more than bars explain.
+    pub(super) fn warning(
+        &self,
+        friction: Option<Estimate>,
+        rough: RoughAnswer,
+        slope: f64,
+    ) -> Option<String> {
+        let changes = [
+            ("the friction", friction, self.friction_coefficient),
+            (
+                "the area",
+                Some(rough.area_fraction),
+                Some(self.area_fraction),
+            ),
+        ];
+        let known = changes
+            .into_iter()
+            .filter_map(|(name, with, without)| Some((name, with?, without?)));
+        let known: Vec<(&str, Estimate, Estimate)> =
+            known.filter(|(_, with, _)| with.value > 0.0).collect();
+        let matters = |(_, with, without): &(&str, Estimate, Estimate)| {
+            let change = (with.value - without.value).abs();
+            change > MOST * with.value && change > with.error + without.error
+        };
+        if !known.iter().any(matters) {
+            return None;
+        }
+        let changes = known.iter().map(|(name, with, without)| {
+            format!(
+                "{name} would be {:.2} times as large",
+                without.value / with.value
+            )
+        });
+        let changes: Vec<String> = changes.collect();
+        Some(format!(
+            "the answer depends on the shortest waves that were kept: without the shortest octave, which has {:.0} % of the \
+             root mean square slope, {}",
+            100.0 * (1.0 - self.rms_slope / slope),
+            changes.join(" and ")
+        ))
+    }
+}
+
+impl Serialize for WithoutShortestOctave {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        let area = Some(self.area_fraction);
+        for (name, known) in [
+            ("friction_coefficient", self.friction_coefficient),
+            ("area_fraction", area),
+        ] {
+            if let Some(known) = known {
+                map.serialize_entry(name, &known.value)?;
+                map.serialize_entry(&format!("{name}_error"), &known.error)?;
+            }
+        }
+        map.serialize_entry("rms_slope", &self.rms_slope)?;
+        map.end()
+    }
+}
