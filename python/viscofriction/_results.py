@@ -288,12 +288,12 @@ class Answer(Compared):
             loads = ", ".join(self.loads)
             failed = sum(failure is not None for failure in self.failures)
             failures = f", {failed} without an answer" if failed else ""
-            warnings = "".join(f"\n  warning: {text}" for text in self.warnings)
+            warnings = "".join(f"\n{text}" for text in noted(self.warnings))
             return f"<answers of shape {self.shape} over {loads}: {', '.join(known)}{failures}{warnings}>"
         if self._answers[0] is None:
             return f"<no answer: {self.failures[0]}>"
         notes = [f"  not reached: {failure}" for failure in self.failures if failure]
-        notes += [f"  warning: {text}" for text in self.warnings]
+        notes += noted(self.warnings)
         rows = [f"  {name}: {value} {'± ' + error if error else ''} {unit}".rstrip() for name, value, error, unit in self._rows()]
         return "\n".join([f"{self.method}, {self.model}", *rows, *notes])
 
@@ -316,6 +316,12 @@ class Answer(Compared):
         from . import _plotting
 
         return _plotting.plot(self, ax)
+
+
+def noted(warnings: list[str]) -> list[str]:
+    """Lines below a result, the last of which names the page about warnings."""
+    lines = [f"  warning: {text}" for text in warnings]
+    return [*lines, "  about warnings: docs/numbers.md"] if lines else []
 
 
 def plain(values: NDArray[np.float64]) -> list[float | None]:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._arrays import Compared, numbers
-from ._results import QUANTITIES, html_table, rounded, with_unit
+from ._results import QUANTITIES, html_table, noted, rounded, with_unit
 from ._solving import Progress, Scene, read, shown
 
 __all__ = ["Sweep", "sweep"]
@@ -83,7 +83,7 @@ class Sweep(Compared):
     def __repr__(self) -> str:
         failed = sum(failure is not None for failure in self.failures)
         failures = f", {failed} without an answer" if failed else ""
-        warnings = "".join(f"\n  warning: {text}" for text in self.warnings)
+        warnings = "".join(f"\n{text}" for text in noted(self.warnings))
         return f"<{len(self)} points over {', '.join(self.keys)}{failures}{warnings}>"
 
     def _repr_html_(self) -> str:

@@ -29,6 +29,9 @@ pub(crate) fn is_closed_pipe(error: &anyhow::Error) -> bool {
     cause.is_some_and(|cause: &std::io::Error| cause.kind() == ErrorKind::BrokenPipe)
 }
 
+/// What stands below the warnings of a command.
+pub(crate) const ABOUT_WARNINGS: &str = "about warnings: docs/numbers.md";
+
 /// Says a line beside the output; where nobody reads it, nothing is lost.
 pub(crate) fn say(text: &str) {
     writeln!(std::io::stderr(), "{text}").ok();

@@ -17,7 +17,7 @@ use viscofriction::solve::{
 };
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{OutputFolder, markdown, print_line, say};
+use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, say};
 use crate::progress;
 pub(crate) use pictures::{around, arrow};
 
@@ -134,6 +134,9 @@ fn print(problem: &Problem, timed: &Timed<'_>, format: Format) -> Result<()> {
             }
             let mut warnings = answer.warnings.iter();
             warnings.try_for_each(|warning| print_line(&format!("warning: {warning}")))?;
+            if !answer.warnings.is_empty() {
+                print_line(&ABOUT_WARNINGS)?;
+            }
             print_line(&format!("not modelled: {}", answer.not_modelled.join(", ")))
         }
     }

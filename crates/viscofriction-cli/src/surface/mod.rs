@@ -14,7 +14,7 @@ use viscofriction::scene::{Edges, HeightMapTable, HeightsAre, LengthUnit, SceneE
 use viscofriction::solve::warnings_of_heights;
 
 use crate::input::{half_of_free_memory, protect, read_input};
-use crate::output::{OutputFolder, markdown, print_line, print_text, to_csv};
+use crate::output::{ABOUT_WARNINGS, OutputFolder, markdown, print_line, print_text, to_csv};
 
 /// Arguments of the command.
 #[derive(Debug, Args)]
@@ -68,6 +68,9 @@ pub(crate) fn describe(options: &Surface) -> Result<()> {
     let roughness = Roughness::of(&map, options.periodic).map_err(wrong)?;
     for warning in warnings_of_heights(&options.table(), &surface, &map) {
         notes += &format!("warning: {warning}\n");
+    }
+    if notes.contains("warning: ") {
+        notes += &format!("{ABOUT_WARNINGS}\n");
     }
     let rows = rows(&roughness);
     print_text(&format!("{notes}\n{}\n", table(&rows)))?;

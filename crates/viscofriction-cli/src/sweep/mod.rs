@@ -17,7 +17,7 @@ use viscofriction::WrongInput;
 use viscofriction::sweep::{Plan, Row, Shard, Vary, each_once, header};
 
 use crate::input::{half_of_free_memory, read_input, read_scene};
-use crate::output::{print_text, say};
+use crate::output::{ABOUT_WARNINGS, print_text, say};
 use crate::progress;
 pub(crate) use file::RowTable;
 use file::{Existing, SweepFile, checked, line};
@@ -97,8 +97,12 @@ pub(crate) fn sweep(options: &Sweep) -> Result<()> {
 
 /// Says what the points warn of, each once; the column `warnings` has them all.
 fn say_warnings(rows: &[Row]) {
-    for warning in each_once(rows.iter().map(Row::warnings)) {
+    let warnings = each_once(rows.iter().map(Row::warnings));
+    for warning in &warnings {
         say(&format!("warning: {warning}"));
+    }
+    if !warnings.is_empty() {
+        say(ABOUT_WARNINGS);
     }
 }
 

@@ -248,7 +248,7 @@ fn chart(over: &Key, curves: &Curves, drawn: &Drawn) -> Figure {
             "" => has_theory.then(|| "computed".to_owned()),
             name => Some(name.to_owned()),
         };
-        theory.label = (curve == 0).then(|| "Persson's theory".to_owned());
+        theory.label = (curve + 1 == curves.labels.len()).then(|| "Persson's theory".to_owned());
         let is_seen = |one: &Series| one.points.len() > usize::from(one.marker.is_none());
         series.extend([computed, theory].into_iter().filter(is_seen));
     }

@@ -1,6 +1,7 @@
 //! A sweep can be interrupted, taken up again, and divided.
 
 use std::fs;
+use std::path::Path;
 
 use crate::support::{Folder, assert_close, said, table};
 
@@ -209,6 +210,17 @@ fn warnings_are_a_column_and_are_said_once() {
         panic!("{said}");
     };
     assert!(warning.ends_with("(at 2 of 3 points)"), "{warning}");
+    // Below the warnings stands the page that explains them.
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/numbers.md");
+    let page = fs::read_to_string(page).expect("the page");
+    let explained = "the mean slope of the surface in contact is";
+    assert!(
+        warning.contains(explained) && page.contains(explained),
+        "{warning}"
+    );
+    for said in [said, folder.done("run scene.toml").stdout] {
+        assert!(said.contains("about warnings: docs/numbers.md\n"), "{said}");
+    }
     let rows = folder.text("rows.csv");
     let rows: Vec<&str> = rows.lines().collect();
     assert!(rows[0].ends_with(",warnings,failure"), "{}", rows[0]);
