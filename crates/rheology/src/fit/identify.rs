@@ -85,8 +85,9 @@ pub struct Identification {
     pub loss_error: Option<RelativeError>,
 }
 
-/// How far beyond the measured window, as a factor, a time may move.
-const WINDOW_MARGIN: f64 = 10.0;
+/// How far beyond the measured window, as a factor m, a time may move. Beyond the window the loss modulus of a branch is then at most
+/// (m + 1/m)/2 = 1.25 times what it is at the end of the window: a branch far outside would be an invention of its flank.
+const WINDOW_MARGIN: f64 = 2.0;
 const DENSE_PER_DECADE: f64 = 4.0;
 const MAX_BRANCHES: usize = 200;
 

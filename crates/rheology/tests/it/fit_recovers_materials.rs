@@ -168,6 +168,32 @@ fn parsimony_finds_the_number_of_branches() {
 }
 
 /// Tikhonov: the stronger, the smoother and the farther from the data.
+/// Of a rubber that relaxes at all times, with a scatter of 1 %: as far as the times may move, scatter draws branches there, and with
+/// a factor of 10 those far outside double the loss.
+#[test]
+fn no_branch_is_far_outside_of_what_was_measured() {
+    let times: Vec<f64> = (-18..=8).map(|k| 10_f64.powf(0.5 * f64::from(k))).collect();
+    let moduli: Vec<f64> = times.iter().map(|t| 1e5 + 4e3 / t.sqrt()).collect();
+    let rubber = spectrum(1e6, 0.0, &moduli, &times);
+    for seed in 1..=20 {
+        let curve = measured(&rubber, 0..3, |nth, [omega, storage, loss]| {
+            let noise = |k: f64| 1.0 + 0.014 * (k * (nth + 31.0 * f64::from(seed))).sin();
+            [omega, storage * noise(12.9898), loss * noise(78.233)]
+        });
+        let [lowest, highest] = curve.frequencies();
+        assert_close!(lowest => 1.0, within 1e-12);
+        assert_close!(highest => 1e3, within 1e-12);
+        for control in [Control::Branches(5), IdentifyOptions::default().control] {
+            let found = identify(&curve, &solid(control)).unwrap().spectrum;
+            for branch in found.branches() {
+                let time = branch.relaxation_time;
+                let is_near = (0.5e-3 * (1.0 - 1e-9)..=2.0 * (1.0 + 1e-9)).contains(&time);
+                assert!(is_near, "{seed}, {control:?}: {time} s in {found:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn smoothing_trades_closeness_for_smoothness() {
     let curve = oscillation(&named_spectrum("P10"), -6..9);
