@@ -3,13 +3,15 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use serde::{Deserialize, Serialize};
 use strum::IntoEnumIterator as _;
-use viscofriction::Estimate;
 use viscofriction::scene::{Method, Model};
-use viscofriction::solve::{Answer, choose, solve};
+use viscofriction::solve::{Answer, choose, solve_watched};
+use viscofriction::{Estimate, Watch};
 
 use super::relation::{Derived, Relation};
 use super::sample::{Case, methods, sample};
@@ -38,6 +40,8 @@ pub(super) struct Row {
     allowed: Option<f64>,
     /// Deviation over what is allowed.
     pub(super) part: Option<f64>,
+    /// What was computed for it \[s], with one thread.
+    seconds: f64,
     /// Why there is no answer, or what is wrong with it.
     pub(super) message: String,
 }
@@ -50,6 +54,8 @@ pub(super) enum Verdict {
     Differs,
     /// No answer of the scene, or of the other one where it may be refused.
     Refused,
+    /// It takes longer than a search can wait.
+    Unfinished,
     /// An answer that cannot be, or two scenes that are the same one, of which one only is answered.
     Wrong,
 }
@@ -126,7 +132,10 @@ fn about(case: &Case) -> [String; 3] {
 
 fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
     let mut row = Row::of("answer");
-    let answer = match answer(case, folder, None, 1) {
+    let started = Instant::now();
+    let answer = answer(case, folder, None, 1);
+    row.seconds = started.elapsed().as_secs_f64();
+    let answer = match answer {
         Ok(answer) => answer,
         Err(message) => {
             row.verdict = Verdict::refusal(&message);
@@ -149,7 +158,10 @@ fn judged(case: &Case, folder: &Path, random: &mut Random) -> Result<Vec<Row>> {
                     method: other,
                     ..derived
                 };
-                rows.push(compared(relation, &answer, &derived, folder)?);
+                let started = Instant::now();
+                let row = compared(relation, &answer, &derived, folder)?;
+                let seconds = started.elapsed().as_secs_f64();
+                rows.push(Row { seconds, ..row });
             }
         }
     }
@@ -173,6 +185,7 @@ impl Row {
             other_value: None,
             allowed: None,
             part: None,
+            seconds: 0.0,
             message: String::new(),
         }
     }
@@ -183,11 +196,37 @@ impl Verdict {
         let is_wrong = [PANIC, "NaN", "inf "]
             .iter()
             .any(|bad| message.contains(bad));
-        if is_wrong { Self::Wrong } else { Self::Refused }
+        if is_wrong {
+            Self::Wrong
+        } else if message.starts_with(UNFINISHED) {
+            Self::Unfinished
+        } else {
+            Self::Refused
+        }
     }
 }
 
 const PANIC: &str = "panicked: ";
+/// A refinement is ended before the grid that begins later than this.
+const PATIENCE: Duration = Duration::from_secs(10);
+const UNFINISHED: &str = "not finished: ";
+
+/// Ends a refinement that takes too long.
+#[derive(Debug)]
+struct Patience {
+    until: Instant,
+    has_ended: AtomicBool,
+}
+
+impl Watch for Patience {
+    fn allows(&self, _: usize) -> bool {
+        let is_early = Instant::now() < self.until;
+        self.has_ended.fetch_or(!is_early, Ordering::Relaxed);
+        is_early
+    }
+
+    fn done(&self, _: f64) {}
+}
 
 /// The answer, or the sentence that says why there is none.
 fn answer(
@@ -200,13 +239,23 @@ fn answer(
     case.scene.solve.method = method;
     let solved = || {
         let problem = case.problem(folder).map_err(|error| format!("{error:#}"))?;
-        solve(&problem).map_err(|error| error.to_string())
+        let patience = Patience {
+            until: Instant::now() + PATIENCE,
+            has_ended: AtomicBool::new(false),
+        };
+        solve_watched(&problem, &patience).map_err(|error| {
+            let has_ended = patience.has_ended.load(Ordering::Relaxed);
+            format!("{}{error}", if has_ended { UNFINISHED } else { "" })
+        })
     };
     let solved =
         || catch_unwind(AssertUnwindSafe(solved)).unwrap_or_else(|panic| Err(said(&*panic)));
-    // Of scenes that are solved at the same time none takes the threads of another.
+    // Of scenes that are solved at the same time none takes the threads of another; and a worker of the search that waited
+    // for a pool would begin further scenes meanwhile, a thread that is not one of its workers does not.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| error.to_string())?.install(solved)
+    let pool = pool.map_err(|error| error.to_string())?;
+    std::thread::scope(|scope| scope.spawn(|| pool.install(solved)).join())
+        .unwrap_or_else(|panic| Err(said(&*panic)))
 }
 
 fn said(panic: &(dyn Any + Send)) -> String {

@@ -85,7 +85,7 @@ fn relations() -> impl Iterator<Item = (&'static str, bool)> {
 
 /// One line per relation: what was tried, refused, and held.
 fn table(rows: &[Row]) -> comfy_table::Table {
-    let header = "relation|holds|scenes|refused|hold|outside|wrong|worst deviation";
+    let header = "relation|holds|scenes|refused|unfinished|hold|outside|wrong|worst deviation";
     let lines = relations().map(|(relation, is_exact)| {
         let of: Vec<&Row> = rows.iter().filter(|row| row.relation == relation).collect();
         let count = |verdict| of.iter().filter(|row| row.verdict == verdict).count();
@@ -97,6 +97,7 @@ fn table(rows: &[Row]) -> comfy_table::Table {
         };
         let counts = [
             Verdict::Refused,
+            Verdict::Unfinished,
             Verdict::Holds,
             Verdict::Differs,
             Verdict::Wrong,
