@@ -370,7 +370,7 @@ fn compared(relation: Relation, one: &Answer, derived: &Derived, folder: &Path) 
     };
     row.other_method = other.method.name().to_owned();
     for (name, pair) in pairs(relation, one, &other, derived) {
-        let allowed = allowed(relation, &name, &pair, one);
+        let allowed = allowed(relation, &name, &pair, [one, &other]);
         let deviation = match relation {
             Relation::MoreLoad => (pair[0].value - pair[1].value).max(0.0),
             _ => (pair[0].value - pair[1].value).abs(),
@@ -450,13 +450,20 @@ fn places(relation: Relation, times: &[f64]) -> Vec<usize> {
     places
 }
 
-/// By how much a quantity may differ.
-fn allowed(relation: Relation, name: &str, [one, other]: &[Estimate; 2], of: &Answer) -> f64 {
+/// By how much a quantity may differ; under another name a scene may have another method.
+fn allowed(
+    relation: Relation,
+    name: &str,
+    [one, other]: &[Estimate; 2],
+    [of, of_other]: [&Answer; 2],
+) -> f64 {
     let size = one.value.abs().max(other.value.abs());
     let bars = one.error + other.error;
     match relation {
         Relation::OtherThreads => 0.0,
-        _ if relation.is_exact() => ROUNDING * size + ITERATED * bars,
+        _ if relation.is_exact() && of.method == of_other.method => {
+            ROUNDING * size + ITERATED * bars
+        }
         Relation::ThickLayer => bars + THICK * size,
         Relation::OtherControl => {
             // What was found and is now given has an error, which the other quantities inherit.
