@@ -313,14 +313,18 @@ where
         let (found, state) = solve(&grid, &heights, tolerance)?;
         grids.push(found);
         if let Some(bars) = goal.bars(&grids, state) {
-            let known = bars.known(&grids);
-            if known.is_enough(goal.relative_error) {
+            let coarse = &grids[grids.len().saturating_sub(3)];
+            let bars = if coarse.in_contact < FEWEST_IN_CONTACT {
+                bars.unresolved()
+            } else {
+                bars
+            };
+            let known = bars.asked();
+            if known.estimate.is_within(goal.relative_error) {
                 return Ok(bars);
             }
-            if best
-                .as_ref()
-                .is_none_or(|(best, _)| !best.is_better(&known))
-            {
+            let better = |(best, _): &(Known, _)| best.relative_error() <= known.relative_error();
+            if !best.as_ref().is_some_and(better) {
                 best = Some((known, bars));
             }
         }
@@ -329,26 +333,16 @@ where
     }
 }
 
-/// What the relative error is of, and whether enough elements are in contact to believe it.
+/// What the relative error is of.
 #[derive(Clone, Copy)]
 struct Known {
     quantity: &'static str,
     estimate: Estimate,
-    is_resolved: bool,
 }
 
 impl Known {
     fn relative_error(&self) -> f64 {
         self.estimate.error / self.estimate.value.abs()
-    }
-
-    fn is_enough(&self, relative_error: f64) -> bool {
-        self.is_resolved && self.estimate.is_within(relative_error)
-    }
-
-    /// Whether it is better than what is known from a finer grid.
-    fn is_better(&self, finer: &Self) -> bool {
-        self.is_resolved && self.relative_error() <= finer.relative_error()
     }
 
     fn missed(self, relative_error: f64, reached: Reached) -> BemError {
@@ -438,29 +432,30 @@ impl Goal {
 }
 
 impl<S> PeriodicEstimate<S> {
-    fn known(&self, grids: &[Found]) -> Known {
-        let (quantity, estimate) = self.asked();
-        let coarse = &grids[grids.len().saturating_sub(3)];
-        Known {
-            quantity,
-            estimate,
-            is_resolved: coarse.in_contact >= FEWEST_IN_CONTACT,
+    /// With bars that reach to 0, because so few elements touch that which of them do decides the values.
+    fn unresolved(mut self) -> Self {
+        let friction = self.friction_from_dissipation.as_mut();
+        let known = [&mut self.friction_coefficient, &mut self.area_fraction];
+        for known in known.into_iter().chain(friction) {
+            *known = known.widened(known.value.abs());
         }
+        self
     }
 
     /// What the relative error is of.
-    fn asked(&self) -> (&'static str, Estimate) {
+    fn asked(&self) -> Known {
         let first = if self.friction_coefficient.value == 0.0 {
             ("area fraction", self.area_fraction)
         } else {
             ("friction coefficient", self.friction_coefficient)
         };
         let relative = |known: Estimate| known.error / known.value.abs();
-        if relative(self.mean_pressure) > relative(first.1) {
+        let (quantity, estimate) = if relative(self.mean_pressure) > relative(first.1) {
             ("mean pressure [Pa]", self.mean_pressure)
         } else {
             first
-        }
+        };
+        Known { quantity, estimate }
     }
 }
 
