@@ -27,6 +27,7 @@ pub use indenters::Control;
 pub use load::{Load, LoadPoint};
 pub use material::{Branch, MaterialKind, MaterialTable};
 pub use numerics::Accuracy;
+#[cfg(feature = "fit")]
 pub(crate) use shift::KELVIN_AT_ZERO_CELSIUS;
 pub use shift::{Shift, ShiftLaw};
 pub use solve::{Method, Model, Solve};

@@ -375,10 +375,11 @@ fn compared(relation: Relation, one: &Answer, derived: &Derived, folder: &Path) 
             Relation::MoreLoad => (pair[0].value - pair[1].value).max(0.0),
             _ => (pair[0].value - pair[1].value).abs(),
         };
-        let part = if deviation > 0.0 {
-            deviation / allowed
-        } else {
-            0.0
+        // A quantity whose unit is not known here cannot be compared, which is not to be overlooked.
+        let part = match deviation {
+            0.0 => 0.0,
+            _ if deviation.is_nan() => f64::INFINITY,
+            _ => deviation / allowed,
         };
         if row.part.is_none_or(|worst| part > worst) {
             row.part = Some(part.min(f64::MAX));
@@ -402,9 +403,13 @@ fn pairs(
 ) -> Vec<(String, [Estimate; 2])> {
     let of_other = quantities(other);
     let compared = |name: &str| match relation {
+        // Shares of the dissipation have no bars.
+        _ if name.starts_with("dissipation") => relation.is_exact(),
         Relation::MoreLoad => ["normal_force", "indentation_depth", "contact_area"].contains(&name),
         Relation::OtherControl => !name.starts_with(['x', 'y']) && name != "peak_pressure",
         Relation::ThickLayer => !name.starts_with("persson"),
+        // What is at the left is then at the right.
+        Relation::Mirrored => !name.starts_with('y'),
         _ => true,
     };
     let mut pairs = Vec::new();

@@ -28,7 +28,11 @@ pub(super) fn factor(name: &str, is_per_length: bool, powers: [i32; 3]) -> Optio
         | "friction_from_dissipation"
         | "persson_area_fraction"
         | "persson_friction_coefficient"
-        | "persson_friction_coefficient_2006" => 0,
+        | "persson_friction_coefficient_2006"
+        | "dissipation_outside_window"
+        | "dissipation_below_window"
+        | "dissipation_above_window"
+        | "dissipation_shortest_octave" => 0,
         _ => return None,
     };
     Some(2.0_f64.powi(power))
