@@ -176,7 +176,7 @@ fn intervals_hold_the_truth_in_95_of_100_curves_of_any_noise_and_few_are_flagged
         let fitted: Vec<_> = fits.iter().flatten().collect();
         let flagged = each - fitted.iter().filter(|(_, flagged)| !flagged).count();
         // The points before the contact do not always show noise that lasts.
-        let allowed = if noise.correlation > 0.0 { 0.15 } else { 0.02 };
+        let allowed = if noise.correlation > 0.0 { 0.05 } else { 0.02 };
         let is_few = flagged as f64 <= 1.0 + allowed * each as f64;
         assert!(
             is_few,

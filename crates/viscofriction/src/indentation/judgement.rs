@@ -23,9 +23,6 @@ const BASELINE: usize = 10;
 /// Rise of minus twice the logarithm of the likelihood when the points before the contact and all others have to have one
 /// noise, above which they have not: hardly one of 100 curves has more by chance.
 const MISFIT: f64 = 12.0;
-/// How much better than as white noise the points before the contact must be explained by the noise that all need, to show that
-/// it is there: 1 to 4 of 100 curves of lasting noise have less, and white noise hardly ever has more.
-const SHOWN: f64 = 4.0;
 /// Points that one independent point stands for, above which the residuals go up and down together.
 const LASTING: f64 = 4.0;
 /// Residuals that matter, as part of the peak: ten times the error of a power law as a Prony series.
@@ -101,9 +98,10 @@ impl<'a> Judgement<'a> {
         let [alone, without, all] = [0, 1, 2].map(best);
         let variance = all.1.variance();
         let white = Noise::WHITE.likelihood(&before).deviance();
+        // Points before the contact that white noise explains better do not show the noise that the others need.
         let shown = white - all.0.likelihood(&before).deviance_at(variance);
         let rise = all.1.deviance() - alone.1.deviance() - without.1.deviance();
-        self.is_misfit = rise > MISFIT || self.is_misfit && shown < SHOWN;
+        self.is_misfit = rise > MISFIT || self.is_misfit && shown < 0.0;
         self.process = Some(if self.is_misfit {
             (alone.0, alone.1.variance().min(variance))
         } else {

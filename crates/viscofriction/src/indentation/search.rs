@@ -135,13 +135,17 @@ fn linear<'a>(
         let norm = if norm > 0.0 { norm } else { 1.0 };
         row.iter().map(|slope| slope / norm).collect()
     };
-    let residuals = forces.residuals.iter().zip(&measured.counts);
-    let tame = residuals.map(|(one, count)| {
+    // About neighbours, which slow noise moves as well.
+    let tame = |(i, count): (usize, &f64)| {
+        let last = forces.residuals.len() - 1;
+        let near = &forces.residuals[i.saturating_sub(NEAR)..=(i + NEAR).min(last)];
         let most = WILD * residual / count.sqrt();
-        one.clamp(-most, most)
-    });
+        let middle = median(near.to_vec());
+        forces.residuals[i].clamp(middle - most, middle + most)
+    };
+    let tame: Vec<f64> = measured.counts.iter().enumerate().map(tame).collect();
     let mut columns: Vec<Vec<f64>> = forces.rows.into_iter().map(scaled).collect();
-    columns.push(tame.collect());
+    columns.push(tame);
     Some(Linear {
         time: &measured.curve.time,
         counts: &measured.counts,
@@ -228,8 +232,9 @@ fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
 
 /// Residuals beyond this, in units of the noise, count less than their squares (Huber 1964, DOI 10.1214/aoms/1177703732).
 pub(super) const HUBER: f64 = 1.345;
-/// Those beyond this say nothing about how long noise lasts.
+/// Those beyond this say nothing about how long noise lasts: of so many neighbours on each side, off from their median.
 const WILD: f64 = 4.0;
+const NEAR: usize = 12;
 
 /// Squares of residuals in units of a scale; linear beyond a threshold.
 #[derive(Debug, Clone, Copy)]
