@@ -7,7 +7,7 @@ use rheology::{CreepSpectrum, Material as _};
 use crate::bars::{self, ContactEstimate, OnGrid, Resolution, Target, peak_has_limit};
 use crate::plan::GridPlan;
 use crate::slide::stationary::settle;
-use crate::slide::{March, PressureField, StationaryOptions, Transient, slide_over};
+use crate::slide::{March, PressureField, SlideRow, StationaryOptions, Transient, slide_over};
 use crate::{BemError, ContactOptions, Elastomer, GridOptions};
 
 /// Elements along the contact after which a march in time gives up; it takes about a minute.
@@ -177,9 +177,13 @@ impl<'a, M: Elastomer + ?Sized> Problem<'a, M> {
                 estimate.friction_coefficient = Estimate::exact(0.0);
                 estimate.error_parts = ErrorParts::NONE;
             }
-            // On a layer it comes to rest more slowly than the friction, by which the march ends.
-            if self.load.sliding_distance().is_none() && self.creep.fluidity() > 0.0 {
-                estimate.indentation_depth = None;
+            if self.load.sliding_distance().is_none() {
+                let rest = depth_that_is_left(&estimate.finest.rows);
+                let depth = estimate
+                    .indentation_depth
+                    .filter(|_| self.creep.fluidity() <= 0.0);
+                estimate.indentation_depth =
+                    depth.map(|depth| Estimate::new(depth.value, depth.error + rest));
             }
             Ok(estimate)
         })
@@ -299,6 +303,13 @@ fn over_distance(
     let transient = slide_over(march, load, tell)?;
     let friction = transient.last().friction_coefficient;
     Ok((transient, friction, None))
+}
+
+/// Change of the depth over the second half of a march, \[m]: the track behind the body misses what is beyond its beginning,
+/// which is felt in inverse proportion to the distance. So depth comes to rest more slowly than friction, by which a march ends.
+fn depth_that_is_left(rows: &[SlideRow]) -> f64 {
+    let [last, half] = [rows.len(), rows.len().div_ceil(2)].map(|count| &rows[count - 1]);
+    (last.indentation_depth - half.indentation_depth).abs()
 }
 
 /// Distance in which the slowest element forgets, or on which a layer that flows feels a load that comes, \[m].
