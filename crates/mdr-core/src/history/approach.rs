@@ -11,7 +11,7 @@ use rheology::RelaxationSpectrum;
 
 use super::Measured;
 use super::memory::{Late, Memory, Ring, Step};
-use super::path::{ROUNDING, change_of_edge, decayed, mean_exponential};
+use super::path::{ROUNDING, change_of_edge, decay_and_mean};
 use super::radius::{ORDER, Radii};
 
 /// The element at the edge, and what became of the branches since it was touched.
@@ -362,8 +362,8 @@ impl Approach {
         let [mut modulus, mut slope] = [0.0; 2];
         for (k, then) in touched.iter().enumerate() {
             let (rate, glass) = (self.rates[k], self.moduli[k]);
-            let mean = mean_exponential(-rate * step);
-            let then = decayed(rate * step, mean) * then + rise * mean;
+            let [decay, mean] = decay_and_mean(rate * step);
+            let then = decay * then + rise * mean;
             let decay = (-rate * edge.lag).exp();
             let strain = self.now.depth[k] - decay * then;
             (edge.decays[k], edge.strains[k]) = (decay, strain);

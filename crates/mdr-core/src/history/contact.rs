@@ -40,6 +40,8 @@ pub(super) struct Contact<'a> {
     /// Largest radius and depth that were ever in contact.
     widest: [f64; 2],
     pub(super) rule: LobattoRule,
+    /// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided.
+    pub(super) tolerance: f64,
     /// Error of Σ Φ_k by quadrature.
     pub(super) quadrature_error: f64,
     /// Modulus G(t − s) of the element at the edge; none while it is being touched.
@@ -48,6 +50,8 @@ pub(super) struct Contact<'a> {
     turned: Option<Motion>,
 }
 
+/// Tolerance of the quadrature along a path of the depth, of which all else is exact.
+const TO_ROUNDING: f64 = 1e-14;
 /// Nodes of a panel.
 const NODES: usize = 8;
 /// Gaps and loads of the wrong sign, relative to the depth and to the terms of a load, that rounding may leave.
@@ -70,6 +74,7 @@ impl<'a> Contact<'a> {
             edge: nothing,
             widest: [0.0; 2],
             rule: lobatto_rule(NODES),
+            tolerance: TO_ROUNDING,
             quadrature_error: 0.0,
             edge_modulus: None,
             turned: None,

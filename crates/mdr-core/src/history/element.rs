@@ -10,7 +10,7 @@
 use indenters::Axisymmetric;
 use numerics::bracketed_root;
 
-use super::path::{Instant, Mode, Path};
+use super::path::{Instant, Mode, Path, fading};
 
 /// How the edge moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -89,7 +89,8 @@ impl Elements<'_> {
                     })
                 }
                 (Motion::Leaving, State::Touched(touched)) => {
-                    let at = within(leg, |at| self.load(&touched, at));
+                    let before = self.stresses(&touched, leg.from);
+                    let at = within(leg, |at| self.path.load_later(&before, leg.from, at));
                     State::Free(self.release(height, &self.stresses(&touched, at), at))
                 }
                 (_, state) => state,
@@ -107,26 +108,20 @@ impl Elements<'_> {
         both.map(|(held, gained)| held + gained).collect()
     }
 
-    /// w of an element in contact, \[Pa m].
-    fn load(&self, touched: &Touched, at: Instant) -> f64 {
-        self.path.load(&self.stresses(touched, at), at)
-    }
-
     fn release(&self, height: f64, stresses: &[f64], since: Instant) -> Free {
         let path = self.path;
         let displacement = path.depth(since) - height;
-        let amplitude = |mode: &Mode| {
-            let held = (0..path.n_branches()).filter(|k| path.rates[*k] > 0.0);
-            let held = held.map(|k| {
-                let viscous = path.moduli[k] * displacement - stresses[k];
-                viscous / (path.rates[k] - mode.rate)
-            });
-            mode.fluidity * (path.viscosity * displacement + held.sum::<f64>())
+        let viscous = path.moduli.iter().zip(stresses);
+        let viscous = viscous.map(|(modulus, stress)| modulus * displacement - stress);
+        let viscous: Vec<f64> = viscous.collect();
+        let amplitude = |(mode, row): (&Mode, &[f64])| {
+            let held: f64 = row.iter().zip(&viscous).map(|(c, held)| c * held).sum();
+            mode.fluidity * (path.viscosity * displacement + held)
         };
         Free {
             since,
             height,
-            amplitudes: path.modes.iter().map(amplitude).collect(),
+            amplitudes: path.modes().map(amplitude).collect(),
         }
     }
 
@@ -138,23 +133,27 @@ impl Elements<'_> {
     /// y_j e^(−(t − s)/λ_j).
     fn recovering(&self, free: &Free, at: Instant) -> impl Iterator<Item = f64> {
         let lag = self.path.time(at) - self.path.time(free.since);
-        let modes = self.path.modes.iter().zip(&free.amplitudes);
-        modes.map(move |(mode, amplitude)| amplitude * (-mode.rate * lag).exp())
+        let modes = self.path.modes().zip(&free.amplitudes);
+        modes.map(move |((mode, _), amplitude)| amplitude * fading(mode.rate * lag))
     }
 
     /// σ_k = G_k (u − z_k) of a free element; in one mode z is y/(1 − τ_k/λ_j).
     pub(super) fn free_stresses(&self, free: &Free, at: Instant) -> Vec<f64> {
         let path = self.path;
-        let modes: Vec<f64> = self.recovering(free, at).collect();
-        let stress = |k: usize| {
-            let parts = modes.iter().zip(&path.modes);
-            let strain = parts.map(|(y, mode)| match path.rates[k] {
-                0.0 => *y,
-                rate => y * mode.rate / (mode.rate - rate),
-            });
-            path.moduli[k] * strain.sum::<f64>()
-        };
-        (0..path.n_branches()).map(stress).collect()
+        let (mut strains, mut height) = (vec![0.0; path.n_branches()], 0.0);
+        for (y, (mode, row)) in self.recovering(free, at).zip(path.modes()) {
+            height += y;
+            let rate = y * mode.rate;
+            for (strain, coupling) in strains.iter_mut().zip(row) {
+                *strain -= rate * coupling;
+            }
+        }
+        // A lone spring is stretched by all of it.
+        let springs = strains.iter_mut().zip(&path.rates);
+        let springs = springs.filter(|(_, rate)| **rate == 0.0);
+        springs.for_each(|(strain, _)| *strain = height);
+        let stresses = path.moduli.iter().zip(strains);
+        stresses.map(|(modulus, strain)| modulus * strain).collect()
     }
 }
 

@@ -11,7 +11,7 @@ use numerics::{Estimate, NotReached, finite, positive, try_bracketed_root};
 use rheology::{CreepSpectrum, Material};
 
 use super::contact::Contact;
-use super::path::{Path, decayed, mean_exponential};
+use super::path::{Path, decay_and_mean};
 use super::radius::Radii;
 use super::{CurvePoint, Follow};
 use crate::MdrError;
@@ -21,6 +21,9 @@ const MOST_PARTS: usize = 1 << 14;
 
 /// Of depths and radii that follow from a root, relative to them.
 const ROUNDING: f64 = 1e-13;
+
+/// Error of a sum over elements by quadrature, relative to what the depth may be off.
+const QUADRATURE: f64 = 1e-3;
 
 /// A body under a force.
 pub(super) struct Pressed<'a> {
@@ -63,7 +66,8 @@ impl Pressed<'_> {
             let depths = better.iter().map(|point| point.indentation_depth.value);
             let deepest = depths.fold(0.0, f64::max);
             if change <= self.options.relative_error * deepest {
-                let change = change + ROUNDING * deepest;
+                let rounding = ROUNDING + QUADRATURE * self.options.relative_error;
+                let change = change + rounding * deepest;
                 let bars = [change, radius_change];
                 let mut better = self.with_bars(better, &radii, bars);
                 better[..grown.len()].copy_from_slice(&grown);
@@ -152,9 +156,9 @@ impl Pressed<'_> {
             }
             for (value, element) in delayed.iter_mut().zip(creep.elements()) {
                 let x = step / element.retardation_time;
-                let mean = mean_exponential(-x);
+                let [decay, mean] = decay_and_mean(x);
                 let held = before[1] * x * mean + rise * (1.0 - mean);
-                *value = decayed(x, mean) * *value + element.compliance * held;
+                *value = decay * *value + element.compliance * held;
             }
             flown += creep.fluidity() * step * (before[1] + 0.5 * rise);
             let recoverable =
@@ -214,6 +218,7 @@ impl Pressed<'_> {
         let mut path = Path::new(self.material);
         path.push(self.points[0][0], 0.0);
         let mut contact = Contact::new(self.body, path, radii.clone());
+        contact.tolerance = QUADRATURE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
             if let Some(point) = grown.get(index) {

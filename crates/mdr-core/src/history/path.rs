@@ -7,6 +7,7 @@
 //! branch k, with r_k = −G_k q_k(s) where it was never touched before, and the load w = η₀ ḋ + Σ σ_k.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use rheology::Material;
 
@@ -35,7 +36,9 @@ pub(super) struct Path {
     pub(super) rates: Vec<f64>,
     /// Viscosity η₀ of the lone dashpot.
     pub(super) viscosity: f64,
-    pub(super) modes: Vec<Mode>,
+    modes: Vec<Mode>,
+    /// 1/(1/τ_k − 1/λ_j), mode by mode.
+    couplings: Arc<[f64]>,
     /// Times and depths.
     points: Vec<[f64; 2]>,
     /// q_k at the points, branch by branch within a point.
@@ -56,11 +59,18 @@ impl Path {
         });
         let (rate, fluidity) = (0.0, creep.fluidity());
         let flow = (fluidity > 0.0).then_some(Mode { rate, fluidity });
+        let modes: Vec<Mode> = delayed.chain(flow).collect();
+        let coupling = |mode: &Mode, rate: f64| match rate {
+            0.0 => 0.0,
+            rate => (rate - mode.rate).recip(),
+        };
+        let row = |mode| branches.iter().map(move |[_, rate]| coupling(mode, *rate));
         Self {
             moduli: branches.iter().map(|[modulus, _]| *modulus).collect(),
             rates: branches.iter().map(|[_, rate]| *rate).collect(),
             viscosity: relaxation.viscosity(),
-            modes: delayed.chain(flow).collect(),
+            couplings: modes.iter().flat_map(row).collect(),
+            modes,
             points: Vec::new(),
             memory: Vec::new(),
         }
@@ -76,9 +86,9 @@ impl Path {
         let (step, rise) = (time - before[0], depth - before[1]);
         let start = self.memory.len() - self.n_branches();
         for (k, rate) in self.rates.iter().enumerate() {
-            let mean = mean_exponential(-rate * step);
-            let kept = decayed(rate * step, mean) * self.memory[start + k];
-            self.memory.push(kept + rise * mean);
+            let [decay, mean] = decay_and_mean(rate * step);
+            self.memory
+                .push(decay * self.memory[start + k] + rise * mean);
         }
     }
 
@@ -97,6 +107,16 @@ impl Path {
 
     pub(super) fn n_branches(&self) -> usize {
         self.moduli.len()
+    }
+
+    /// The modes with 1/(1/τ_k − 1/λ) of each branch; 0 of a lone spring.
+    pub(super) fn modes(&self) -> impl Iterator<Item = (&Mode, &[f64])> {
+        let n = self.n_branches();
+        let row = move |j: usize| &self.couplings[j * n..(j + 1) * n];
+        self.modes
+            .iter()
+            .enumerate()
+            .map(move |(j, mode)| (mode, row(j)))
     }
 
     /// Modulus of all springs, \[Pa].
@@ -151,8 +171,8 @@ impl Path {
         let step = at.part * self.step(at.segment);
         let rise = at.part * self.rise(at.segment);
         let later = self.rates.iter().zip(here).map(|(rate, before)| {
-            let mean = mean_exponential(-rate * step);
-            decayed(rate * step, mean) * before + rise * mean
+            let [decay, mean] = decay_and_mean(rate * step);
+            decay * before + rise * mean
         });
         Cow::Owned(later.collect())
     }
@@ -160,7 +180,7 @@ impl Path {
     /// What became of the branches from one instant to another.
     pub(super) fn lag(&self, since: Instant, at: Instant) -> Lag {
         let time = self.time(at) - self.time(since);
-        let decays: Vec<f64> = self.rates.iter().map(|rate| (-rate * time).exp()).collect();
+        let decays: Vec<f64> = self.rates.iter().map(|rate| fading(rate * time)).collect();
         let (then, now) = (self.remembered(since), self.remembered(at));
         let gained =
             (0..self.n_branches()).map(|k| self.moduli[k] * (now[k] - decays[k] * then[k]));
@@ -187,6 +207,18 @@ impl Path {
     /// w of an element of these stresses, \[Pa m].
     pub(super) fn load(&self, stresses: &[f64], at: Instant) -> f64 {
         self.viscosity * self.speed(at.segment) + stresses.iter().sum::<f64>()
+    }
+
+    /// w at a later instant of a segment, of an element in contact that has these stresses before, \[Pa m].
+    pub(super) fn load_later(&self, stresses: &[f64], from: Instant, at: Instant) -> f64 {
+        let step = self.time(at) - self.time(from);
+        let rise = self.depth(at) - self.depth(from);
+        let branches = self.rates.iter().zip(&self.moduli).zip(stresses);
+        let later = branches.map(|((rate, modulus), stress)| {
+            let [decay, mean] = decay_and_mean(rate * step);
+            decay * stress + modulus * rise * mean
+        });
+        self.viscosity * self.speed(at.segment) + later.sum::<f64>()
     }
 
     /// Whether an element of these stresses at the edge is pressed on (> 0) or left (< 0), were it to stay in contact.
@@ -232,23 +264,33 @@ pub(super) fn change_of_edge(slope: f64, modulus: f64, scale: f64) -> f64 {
     }
 }
 
-/// (e^x − 1)/x.
+/// e^(−x) at x ≥ 0. The library takes long for numbers that are hardly there.
 #[inline]
-pub(super) fn mean_exponential(x: f64) -> f64 {
-    if x.abs() > SERIES_UP_TO {
-        return (x.exp() - 1.0) / x;
-    }
-    if x.abs() < SHORT_UP_TO {
-        series::<N_SHORT>(x)
-    } else {
-        series::<N_TERMS>(x)
-    }
+pub(super) fn fading(x: f64) -> f64 {
+    if x > LONG_GONE { 0.0 } else { (-x).exp() }
 }
 
-/// e^(−x) at x ≥ 0, where its mean up to x is known; to its own rounding, because it may be what is left of a large force.
+/// e^(−x) at x ≥ 0, to its own rounding because it may be what is left of a large force, and its mean from 0 to x.
+#[inline]
+pub(super) fn decay_and_mean(x: f64) -> [f64; 2] {
+    if x > 1.0 {
+        let decay = fading(x);
+        return [decay, (1.0 - decay) / x];
+    }
+    let mean = if x > SERIES_UP_TO {
+        (1.0 - (-x).exp()) / x
+    } else if x < SHORT_UP_TO {
+        series::<N_SHORT>(-x)
+    } else {
+        series::<N_TERMS>(-x)
+    };
+    [1.0 - x * mean, mean]
+}
+
+/// e^(−x) where its mean up to x is known.
 #[inline]
 pub(super) fn decayed(x: f64, mean: f64) -> f64 {
-    if x > 1.0 { (-x).exp() } else { 1.0 - x * mean }
+    if x > 1.0 { fading(x) } else { 1.0 - x * mean }
 }
 
 /// So many terms; even and odd ones are summed side by side, which does not wait for one chain.
@@ -263,6 +305,8 @@ fn series<const N: usize>(x: f64) -> f64 {
     even + x * odd
 }
 
+/// e^(−x) is less than the smallest number from here on.
+const LONG_GONE: f64 = 745.2;
 /// Up to here the series is as accurate as the exponential, with so many terms.
 const SERIES_UP_TO: f64 = 0.5;
 const N_TERMS: usize = 14;
@@ -296,7 +340,7 @@ pub(super) const RECIPROCALS: [f64; 64] = {
 /// By μ_j = (1 − j μ_(j−1))/z upwards to j ≤ z and downwards from the last one, each where it does not amplify errors.
 pub(super) fn moments(z: f64, moments: &mut [f64]) {
     let last = moments.len() - 1;
-    moments[0] = mean_exponential(-z);
+    moments[0] = decay_and_mean(z)[1];
     let mut order = 1;
     while order <= last && (order as f64) <= z {
         moments[order] = (1.0 - order as f64 * moments[order - 1]) / z;

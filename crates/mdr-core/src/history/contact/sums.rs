@@ -5,9 +5,7 @@ use crate::history::element::{Leg, Motion};
 use crate::history::path::{Instant, Lag, decayed, moments};
 use crate::history::radius::ORDER;
 
-/// Change by dividing a panel of the quadrature, relative to the sums, below which it is not divided, and how often it
-/// may be.
-const PANEL: f64 = 1e-14;
+/// How often a panel of the quadrature may be divided.
 const MAX_DIVISIONS: u32 = 12;
 /// Error of a divided panel over its last change: where the stress jumps inside a panel, as much again is left, in each half.
 const LEFT_OF_CHANGE: f64 = 4.0;
@@ -64,7 +62,7 @@ impl Contact<'_> {
         radii.sort_by(f64::total_cmp);
         radii.dedup();
         let mut sums = vec![0.0; self.path.n_branches()];
-        let tolerance = PANEL * self.path.scale(at) * ring.outer;
+        let tolerance = self.tolerance * self.path.scale(at) * ring.outer;
         let whole = |ends: [f64; 2]| (ends, self.panel(ring, ends, at), 0);
         let panels = radii.windows(2).map(|ends| whole([ends[0], ends[1]]));
         let mut open: Vec<([f64; 2], Vec<f64>, u32)> = panels.collect();
