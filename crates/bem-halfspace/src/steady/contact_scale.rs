@@ -99,7 +99,8 @@ fn length_of_contact(
         (lower, upper) = (0.5 * lower, lower);
     }
     for _ in 0..HALVINGS {
-        let middle = lower.sqrt() * upper.sqrt();
+        // The root of a ratio, so that another unit of length changes no rounding.
+        let middle = lower * (upper / lower).sqrt();
         if too_long(middle)? {
             upper = middle;
         } else {

@@ -107,6 +107,19 @@ pub enum SolveError {
         /// Longest time of the range, \[s].
         longest: f64,
     },
+    /// Long waves under a line contact strain a fractional element for longer than its series creeps.
+    #[error(
+        "up to {part:.2} of the friction of this line contact is of times after the longest one of time_range of the material, \
+         {longest:e} s, and the error asked for is {asked:e}: widen it"
+    )]
+    BeyondTimeRange {
+        /// The part, relative to the friction.
+        part: f64,
+        /// Relative error asked for.
+        asked: f64,
+        /// Longest time of the range, \[s].
+        longest: f64,
+    },
     /// No front of the contact carries the force.
     #[error("no front of the contact was found that carries the normal force {normal_force}")]
     FrontNotFound {

@@ -17,6 +17,19 @@ pub struct Expansion {
     pub relative_error: f64,
     /// Shortest and longest time for which it holds, \[s].
     pub time_range: [f64; 2],
+    /// Exponent of the element.
+    pub exponent: f64,
+    /// Longest relaxation time, up to which it creeps about as the element does, \[s]; infinite where a spring in parallel has
+    /// ended the creep before.
+    pub creeps_until: f64,
+}
+
+impl Expansion {
+    /// The part of the friction of a line contact that waves make which strain the element for longer than its series creeps,
+    /// at most: the power of the wave q is |p̂|² ω J''/q dω ∼ q^−a dq down to q = 0, from the reciprocal of the contact length.
+    pub(super) fn beyond(&self, contact_time: f64) -> f64 {
+        (contact_time / self.creeps_until).powf(1.0 - self.exponent)
+    }
 }
 
 /// The series that stands for a fractional element, which is expanded over a band of frequencies to an error, and for a
@@ -34,9 +47,16 @@ pub(crate) fn expanded(
         series.spectrum.viscosity(),
         series.spectrum.branches().to_vec(),
     )?;
+    // The spring of the series stands for its slower branches.
+    let creeps_until = match series.spectrum.branches().last() {
+        Some(slowest) if modulus < series.spectrum.equilibrium_modulus() => slowest.relaxation_time,
+        _ => f64::INFINITY,
+    };
     let expansion = Expansion {
         relative_error: 2.0 * series.relative_error / (1.0 - exponent),
         time_range,
+        exponent,
+        creeps_until,
     };
     Ok((Prony::new(sum)?, expansion))
 }

@@ -3,8 +3,10 @@
 use numerics::{NotReached, ValueWithError};
 
 use super::answer::Answer;
+use super::body::Body;
 use super::curve::{AREA, DEPTH, FORCE};
 use super::error::{Result, SolveError};
+use super::expansion::Expansion;
 use super::problem::{Motion, Problem};
 use super::validity::mean_slope;
 use crate::scene::{Accuracy, Method, Model};
@@ -52,6 +54,34 @@ impl Problem {
             // Far from a sliding contact the surface sinks with the creep at times that no range holds.
             answer.indentation_depth = None;
         }
+        self.with_long_waves(answer, &expansion)
+    }
+
+    /// The friction of a line contact with the part that is of longer times than the series creeps.
+    fn with_long_waves(&self, mut answer: Answer, expansion: &Expansion) -> Result<Answer> {
+        let (Body::Cylinder(_), Motion::Sliding(load)) = (self.body(), self.motion()) else {
+            return Ok(answer);
+        };
+        let length = answer.contact_box.as_ref();
+        let length = length.map_or(0.0, |contact| contact.x[1] - contact.x[0]);
+        // Waves that are longer than a layer is thick move nothing.
+        if self.thickness() < expansion.creeps_until * load.velocity() {
+            return Ok(answer);
+        }
+        let part = expansion.beyond(length / load.velocity());
+        if let Accuracy::RelativeError(asked) = self.accuracy()
+            && part > asked
+        {
+            let longest = expansion.time_range[1];
+            return Err(SolveError::BeyondTimeRange {
+                part: part.min(1.0),
+                asked,
+                longest,
+            });
+        }
+        answer.friction_coefficient = answer
+            .friction_coefficient
+            .map(|friction| friction.widened(part * friction.value.abs()));
         Ok(answer)
     }
 
@@ -191,6 +221,36 @@ mod tests {
         ];
         let friction = answer.friction_coefficient.map_or(0.0, |mu| mu.value);
         (friction, found.into_iter().flatten().collect())
+    }
+
+    /// Long waves creep without end under a line contact.
+    #[test]
+    fn the_friction_of_a_line_contact_knows_what_is_beyond_the_range() {
+        let answer = |longest: f64, exponent: f64| {
+            let text = format!(
+                "[indenter.cylinder]\nradius = 1.0\n[material.springpot]\ncoefficient = 1e4\nexponent = {exponent}\n\
+                 time_range = [1e-3, {longest:e}]\n[load]\nnormal_force = 50.0\nvelocity = 1.0\n[solve]\n\
+                 relative_error = 0.01"
+            );
+            let scene: Scene = text.parse().expect("a scene");
+            solve(&Problem::try_from(&scene).expect("a problem"))
+        };
+        let friction = |longest, exponent| {
+            let answer = answer(longest, exponent).expect("an answer");
+            answer.friction_coefficient.expect("a friction")
+        };
+        let [short, long] = [1.0, 1e4].map(|longest| friction(longest, 0.5));
+        let missing = (short.value - long.value).abs();
+        let widened = short.error - long.error;
+        assert!(missing > 1e-4 * long.value, "{missing}");
+        assert!(
+            missing < widened && widened < 8.0 * missing,
+            "{missing}, {widened}"
+        );
+        let refused = answer(1.0, 0.9)
+            .expect_err("half of it is beyond")
+            .to_string();
+        assert!(refused.contains("time_range"), "{refused}");
     }
 
     /// A series with an error that is seen changes no answer by more than the bars would have.

@@ -49,6 +49,8 @@ pub(super) struct Derived {
     pub(super) powers: [i32; 3],
     /// The method that is asked; none for that of the scene.
     pub(super) method: Option<Method>,
+    /// By how much the truth of the other scene may differ, relative to that of the first.
+    pub(super) vague: f64,
 }
 
 /// A layer is a half space where it is so many contacts thick.
@@ -91,6 +93,7 @@ impl Relation {
             case: case.clone(),
             powers: [0; 3],
             method: None,
+            vague: 0.0,
         };
         let scene = &mut derived.case.scene;
         match self {

@@ -78,6 +78,20 @@ impl Case {
         self.write_files(folder)?;
         Ok(Problem::new(&self.scene, folder, read)?)
     }
+
+    /// How much softer the material is for waves so many times as long as the contact that slides over it; 1 at rest.
+    pub(super) fn softening(&self, folder: &Path, times: f64) -> Result<f64> {
+        let velocity = self.scene.load.velocity.unwrap_or_default();
+        if velocity <= 0.0 {
+            return Ok(1.0);
+        }
+        let problem = self.problem(folder)?;
+        let compliance = |length: f64| problem.material().creep_compliance(length / velocity);
+        match [times, 1.0].map(|times| compliance(times * self.contact)) {
+            [Ok(long), Ok(short)] => Ok(long / short),
+            _ => Ok(f64::INFINITY),
+        }
+    }
 }
 
 impl Lengths {
