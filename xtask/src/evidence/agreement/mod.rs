@@ -13,6 +13,7 @@ use clap::Args;
 use strum::IntoEnumIterator as _;
 
 use super::Report;
+use crate::meter::median;
 use crate::output::{WrongInput, markdown_table, read_csv, to_csv, write_atomically};
 use crate::tasks::in_parallel;
 use judge::{Row, Verdict, judge};
@@ -72,7 +73,12 @@ pub(super) fn report(options: &Options, out: &Path, quick: bool) -> Result<Repor
         name: "agreement",
         tables: Vec::new(),
         pictures: Vec::new(),
-        summary: format!("{}\n\n{}", table(&rows), contradictions(&rows)),
+        summary: format!(
+            "{}\n\n{}\n\n{}",
+            table(&rows),
+            calibration(&rows),
+            contradictions(&rows)
+        ),
         failure: failure(&rows),
     })
 }
@@ -114,6 +120,46 @@ fn table(rows: &[Row]) -> comfy_table::Table {
             .chain([format!("{worst:.2}")])
             .collect::<Vec<_>>()
     });
+    markdown_table(header.split('|'), lines)
+}
+
+/// Kinds of scenes whose bars are counted apart.
+const KINDS: [(&str, fn(&Row) -> bool); 6] = [
+    ("rough surfaces and height maps", |row| {
+        row.is_of("self-affine height-map")
+    }),
+    ("flat ends that slide on the half space", |row| {
+        row.slides() && row.is_of("flat-punch flat-cone truncated-paraboloid")
+    }),
+    ("sliding at a depth", |row| {
+        row.slides() && row.motion.contains("depth")
+    }),
+    ("layers", |row| row.motion.contains("layer")),
+    ("pressed, and histories", |row| !row.slides()),
+    ("all", |_| true),
+];
+
+/// How far answers by boundary elements are from those to a quarter of the error, over the sum of both bars, by kind of
+/// scene.
+fn calibration(rows: &[Row]) -> comfy_table::Table {
+    let name: &str = Relation::QuarterOfTheError.into();
+    let of = |row: &&Row| {
+        let by_elements = row.method.starts_with("bem");
+        row.relation == name && by_elements && row.part.is_some()
+    };
+    let lines = KINDS.map(|(kind, belongs)| {
+        let parts = rows.iter().filter(of).filter(|row| belongs(row));
+        let parts: Vec<f64> = parts.filter_map(|row| row.part).collect();
+        let held = parts.iter().filter(|part| **part <= 1.0).count();
+        let worst = parts.iter().copied().fold(0.0, f64::max);
+        // Elastic contacts have no friction to differ in.
+        let others: Vec<f64> = parts.iter().copied().filter(|part| *part > 0.0).collect();
+        let middle = (!others.is_empty()).then(|| format!("{:.1}", median(others).recip()));
+        let [compared, held] = [parts.len(), held].map(|count| count.to_string());
+        let [middle, worst] = [middle.unwrap_or_default(), format!("{worst:.2}")];
+        [kind.to_owned(), compared, held, middle, worst]
+    });
+    let header = "boundary elements to a quarter of the error|compared|within the bars|median of bars/deviation|worst";
     markdown_table(header.split('|'), lines)
 }
 

@@ -1,5 +1,8 @@
 //! Relations between two answers that must hold whatever the scene is.
 
+use std::path::Path;
+
+use anyhow::Result;
 use strum::{EnumIter, IntoStaticStr};
 use viscofriction::scene::{
     Branch, Edges, HeightsAre, Indenter, Layer, LoadPoint, MaterialTable, Method, Scene, Term,
@@ -54,7 +57,7 @@ pub(super) struct Derived {
 }
 
 /// A layer is a half space where it is so many contacts thick.
-pub(super) const THICK: f64 = 1e6;
+const THICK: f64 = 1e6;
 /// Factor of the load that is larger.
 const MORE: f64 = 1.5;
 /// Largest power of two of a unit.
@@ -121,7 +124,7 @@ impl Relation {
                 derived.powers = powers;
                 in_other_units(&mut derived.case, powers);
             }
-            Self::OtherName => renamed(scene)?,
+            Self::OtherName => renamed(scene, case.material.as_ref())?,
             Self::SplitBranches => {
                 let MaterialTable::Prony { branches, .. } = &mut scene.material else {
                     return None;
@@ -140,6 +143,21 @@ impl Relation {
             }
         }
         Some(derived)
+    }
+}
+
+/// How much softer the material is for waves as long as a thick layer than for those of the contact that slides over it; 1 at
+/// rest.
+pub(super) fn softening(case: &Case, folder: &Path) -> Result<f64> {
+    let velocity = case.scene.load.velocity.unwrap_or_default();
+    if velocity <= 0.0 {
+        return Ok(1.0);
+    }
+    let problem = case.problem(folder)?;
+    let compliance = |length: f64| problem.material().creep_compliance(length / velocity);
+    match [THICK, 1.0].map(|times| compliance(times * case.contact)) {
+        [Ok(long), Ok(short)] => Ok(long / short),
+        _ => Ok(f64::INFINITY),
     }
 }
 
@@ -195,15 +213,45 @@ fn other_map(case: &mut Case, is_turned: bool) -> Option<()> {
 }
 
 /// The body or the material under another name; none where there is no other one.
-fn renamed(scene: &mut Scene) -> Option<()> {
+fn renamed(scene: &mut Scene, of_file: Option<&MaterialTable>) -> Option<()> {
     let body = other_body(&scene.indenter);
-    let material = other_material(&scene.material);
+    let material = match &scene.material {
+        MaterialTable::File { temperature, .. } => Some(at(of_file?, *temperature)?),
+        material => other_material(material),
+    };
     if body.is_none() && material.is_none() {
         return None;
     }
     scene.indenter = body.unwrap_or_else(|| scene.indenter.clone());
     scene.material = material.unwrap_or_else(|| scene.material.clone());
     Some(())
+}
+
+/// What a file of a material holds, at a temperature.
+fn at(of_file: &MaterialTable, temperature: Option<f64>) -> Option<MaterialTable> {
+    let mut material = of_file.clone();
+    let exponent = match (of_file.shift(), temperature) {
+        (Some(shift), Some(temperature)) => shift.log10_factor(temperature).ok()?,
+        _ => 0.0,
+    };
+    let factor = 10_f64.powf(exponent);
+    if let MaterialTable::Prony {
+        branches,
+        viscosity,
+        valid_frequencies,
+        shift,
+        ..
+    } = &mut material
+    {
+        branches
+            .iter_mut()
+            .for_each(|one| one.relaxation_time *= factor);
+        *viscosity *= factor;
+        let window = valid_frequencies.iter_mut().flatten();
+        window.for_each(|frequency| *frequency /= factor);
+        *shift = None;
+    }
+    Some(material)
 }
 
 fn other_body(indenter: &Indenter) -> Option<Indenter> {

@@ -10,9 +10,10 @@ use strum::IntoEnumIterator as _;
 use viscofriction::npy::to_npy;
 use viscofriction::scene::{
     Branch, Edges, HeightMapTable, HeightsAre, Indenter, IndenterKind, Layer, Load, LoadPoint,
-    MaterialKind, MaterialTable, Method, Model, Scene, SelfAffineSurface, Solve, Term,
+    MaterialKind, MaterialTable, Method, Model, Scene, SelfAffineSurface, Shift, ShiftLaw, Solve,
+    Term,
 };
-use viscofriction::solve::{Body, Problem, body, half_space};
+use viscofriction::solve::{Body, Problem, body, choose, half_space};
 use viscofriction::{Files, WrongInput};
 
 use crate::output::write_atomically;
@@ -46,6 +47,8 @@ const ERRORS: [f64; 4] = [0.1, 0.05, 0.02, 0.01];
 const DECADES: [f64; 8] = [3.0, 3.0, 3.0, 3.0, 3.0, 3.0, 9.0, 40.0];
 /// Files that scenes name.
 const HEIGHTS: [&str; 2] = ["heights.npy", "heights.csv"];
+/// Of materials that know their shift law, \[°C].
+const TEMPERATURES: [f64; 2] = [10.0, 40.0];
 const PROFILE: &str = "profile.csv";
 const MATERIAL: &str = "material.toml";
 
@@ -77,20 +80,6 @@ impl Case {
     pub(super) fn problem(&self, folder: &Path) -> Result<Problem> {
         self.write_files(folder)?;
         Ok(Problem::new(&self.scene, folder, read)?)
-    }
-
-    /// How much softer the material is for waves so many times as long as the contact that slides over it; 1 at rest.
-    pub(super) fn softening(&self, folder: &Path, times: f64) -> Result<f64> {
-        let velocity = self.scene.load.velocity.unwrap_or_default();
-        if velocity <= 0.0 {
-            return Ok(1.0);
-        }
-        let problem = self.problem(folder)?;
-        let compliance = |length: f64| problem.material().creep_compliance(length / velocity);
-        match [times, 1.0].map(|times| compliance(times * self.contact)) {
-            [Ok(long), Ok(short)] => Ok(long / short),
-            _ => Ok(f64::INFINITY),
-        }
     }
 }
 
@@ -160,10 +149,19 @@ pub(super) fn sample(random: &mut Random, folder: &Path) -> Result<Case> {
         contact,
     };
     case.write_files(folder)?;
-    sample.motion(&mut case.scene, folder)?;
+    for _ in 0..MOTIONS {
+        (case.scene.load, case.scene.solve) = (EMPTY, Solve::default());
+        sample.motion(&mut case.scene, folder)?;
+        let problem = case.problem(folder);
+        if problem.is_ok_and(|problem| choose(&problem).is_ok()) {
+            break;
+        }
+    }
     Ok(case)
 }
 
+/// Motions that are drawn for a body until one has a method, or the last one is refused.
+const MOTIONS: usize = 3;
 const EMPTY: Load = Load {
     normal_force: None,
     indentation_depth: None,
@@ -360,10 +358,22 @@ impl Sample<'_> {
                 valid_frequencies: None,
             },
             MaterialKind::File => {
-                self.material = Some(self.prony(poisson_ratio));
+                let mut material = self.prony(poisson_ratio);
+                let law =
+                    ShiftLaw::Wlf([[2.0, 20.0], [40.0, 200.0]].map(|c| self.random.between(c)));
+                let temperature = self.random.between(TEMPERATURES);
+                if let MaterialTable::Prony { shift, .. } = &mut material {
+                    *shift = Some(Shift {
+                        temperature,
+                        temperature_range: TEMPERATURES,
+                        law,
+                    });
+                }
+                self.material = Some(material);
+                let other = self.random.between(TEMPERATURES);
                 MaterialTable::File {
                     path: MATERIAL.into(),
-                    temperature: None,
+                    temperature: self.random.choice(&[None, Some(other)]),
                     poisson_ratio: None,
                     valid_frequencies: None,
                 }
@@ -380,12 +390,17 @@ impl Sample<'_> {
         };
         let branches = (0..count).map(branch).collect();
         let viscosity = self.stress * self.time * self.random.decades(2.0);
+        let lowest = self.random.decades(2.0) / self.contact_time;
+        let window = [
+            lowest,
+            lowest * 10_f64.powf(self.random.between([0.5, 4.0])),
+        ];
         MaterialTable::Prony {
             equilibrium_modulus: self.random.choice(&[self.stress, self.stress, 0.0]),
             viscosity: self.random.choice(&[0.0, 0.0, viscosity]),
             branches,
             poisson_ratio,
-            valid_frequencies: None,
+            valid_frequencies: self.random.choice(&[None, Some(window)]),
             shift: None,
         }
     }

@@ -153,10 +153,13 @@ impl Units {
                 equilibrium_modulus,
                 viscosity,
                 branches,
+                valid_frequencies,
                 ..
             } => {
                 *equilibrium_modulus *= stress;
                 *viscosity *= stress * time;
+                let window = valid_frequencies.iter_mut().flatten();
+                window.for_each(|frequency| *frequency /= time);
                 for branch in branches {
                     branch.modulus *= stress;
                     branch.relaxation_time *= time;
