@@ -123,8 +123,11 @@ fn table(rows: &[Row]) -> comfy_table::Table {
     markdown_table(header.split('|'), lines)
 }
 
+/// Name of a kind of scenes, and whether one belongs to it.
+type Kind = (&'static str, fn(&Row) -> bool);
+
 /// Kinds of scenes whose bars are counted apart.
-const KINDS: [(&str, fn(&Row) -> bool); 6] = [
+const KINDS: [Kind; 6] = [
     ("rough surfaces and height maps", |row| {
         row.is_of("self-affine height-map")
     }),
