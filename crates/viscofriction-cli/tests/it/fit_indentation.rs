@@ -344,6 +344,14 @@ fn curves_that_fit_a_wrong_model_well_are_flagged_or_refused() {
             &cone.curve(600, 0.003, 3),
             "a cone taken for a sphere",
         );
+        let in_micrometres = Case {
+            body: Box::new(Sphere::new(5.0).expect("a sphere")),
+            ..sphere(&case.truth[..case.truth.len() - 3])
+        };
+        let fit = in_micrometres.fit(&case.curve(600, 0.003, 3));
+        let flags = fit.expect("a fit").flags;
+        let is_blunt = flags.iter().any(|flag| matches!(flag, Flag::Blunt(_)));
+        assert!(is_blunt, "a radius in another unit: {flags:?}");
     }
 }
 

@@ -50,6 +50,9 @@ pub enum Flag {
         /// How many points one independent point stands for.
         correlated: f64,
     },
+    /// A body that is so blunt is rather one in another unit.
+    #[error("the contact is {0:.0e} times as wide as deep: is the radius of the body in metres?")]
+    Blunt(f64),
     /// The body presses again, perhaps on a surface that has not recovered.
     #[error("the body presses again, where the force of the fit need not be exact")]
     PressedAgain,

@@ -8,9 +8,10 @@ use std::ops::Range;
 
 use super::IndentationCurve;
 use super::checks::{SIGNIFICANT, presses_again};
-use super::depth::median;
+use super::depth::{ends, median};
 use super::flag::Flag;
 use super::intervals::Statistics;
+use super::model::Model;
 use super::noise::{Likelihood, Noise};
 use super::search::Found;
 use super::start::{FEWEST, Start, free_points};
@@ -30,6 +31,9 @@ const MISFIT_OF_PEAK: f64 = 1e-3;
 /// And in units of what the error of a smoothed depth explains, beside half of the variance before the contact, which few
 /// points know.
 const MISFIT_OF_PATH: f64 = 5.0;
+
+/// Width of a contact over its depth, above which no body is meant: a sphere has R/d = 10⁵.
+const BLUNT: f64 = 300.0;
 
 /// What the points without contact say.
 pub(super) struct Judgement<'a> {
@@ -133,6 +137,7 @@ impl<'a> Judgement<'a> {
             self.drift(&self.before)
                 .or_else(|| self.drift(&self.behind)),
         );
+        flags.extend(blunt(self.found));
         if presses_again(self.found.model.curve) {
             flags.push(Flag::PressedAgain);
         }
@@ -174,6 +179,17 @@ impl<'a> Judgement<'a> {
         let least = (SIGNIFICANT * (variance / weight).sqrt()).max(DOUBTFUL * self.begin.peak);
         (mean.abs() > least).then_some(Flag::Drift(mean))
     }
+}
+
+/// Whether a curved body is far too large for the depth.
+fn blunt(found: &Found) -> Option<Flag> {
+    let Model { body, curve, .. } = &found.model;
+    let depth = ends(&curve.depth)[1] - found.parameters[found.model.contact_point()];
+    let is_curved = body.profile_exponent().is_finite();
+    let radius = indenters::contact_radius(*body, depth)
+        .ok()
+        .filter(|_| is_curved)?;
+    (radius > BLUNT * depth).then_some(Flag::Blunt(radius / depth))
 }
 
 /// How far the force falls below what it is before the contact: on the way in, or else on the way back, where that is more.
