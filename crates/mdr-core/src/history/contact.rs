@@ -239,7 +239,7 @@ impl<'a> Contact<'a> {
     }
 
     /// Height of the body over an element that is not in contact.
-    fn gap(&self, radius: f64, at: Instant) -> f64 {
+    pub(super) fn gap(&self, radius: f64, at: Instant) -> f64 {
         let radius = radius.max(self.radius().next_up());
         match self.elements().follow(radius, &self.legs) {
             State::Free(free) => self.elements().gap(&free, at),

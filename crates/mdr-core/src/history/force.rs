@@ -250,8 +250,12 @@ fn press(
     let excess = |depth: f64| {
         let mut trial = contact.clone();
         trial.follow(time, depth)?;
-        let (excess, has_contact) = (trial.load()[0] - needed, trial.radius() > 0.0);
-        Ok::<f64, MdrError>(if has_contact { excess } else { -largest })
+        if trial.radius() > 0.0 {
+            return Ok(trial.load()[0] - needed);
+        }
+        // Without a jump where the contact ends, at which a root would only be halved.
+        let clearance = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
+        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest))
     };
     let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)

@@ -1,6 +1,6 @@
 //! The stresses of all elements in contact, summed.
 
-use super::Contact;
+use super::{Contact, TO_ROUNDING};
 use crate::history::element::{Leg, Motion};
 use crate::history::path::{Instant, Lag, decayed, moments};
 use crate::history::radius::ORDER;
@@ -56,7 +56,9 @@ impl Contact<'_> {
     /// ∫ σ_k dx over a ring of elements that were touched again.
     fn ring_sums(&mut self, ring: &Leg, at: Instant) -> Vec<f64> {
         let mut radii = vec![ring.inner, ring.outer];
-        let inside = |radius: &f64| *radius > ring.inner && *radius < ring.outer;
+        // Kinks that are small do not matter where the sums need not be exact.
+        let is_exact = self.tolerance <= TO_ROUNDING;
+        let inside = |radius: &f64| is_exact && *radius > ring.inner && *radius < ring.outer;
         let known = self.legs[..ring.before].iter();
         radii.extend(known.flat_map(|leg| [leg.inner, leg.outer]).filter(inside));
         radii.sort_by(f64::total_cmp);
