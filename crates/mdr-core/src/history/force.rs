@@ -253,9 +253,9 @@ fn press(
         if trial.radius() > 0.0 {
             return Ok(trial.load()[0] - needed);
         }
-        // Without a jump where the contact ends, at which a root would only be halved.
+        // Continuous, lest the interval of the root is only halved, but for what keeps a body that carries nothing in touch.
         let clearance = trial.gap(f64::MIN_POSITIVE, trial.path.end()).max(0.0);
-        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest))
+        Ok::<f64, MdrError>(-needed - largest * (clearance / deepest + ROUNDING))
     };
     let depth = try_bracketed_root(excess, [-deepest, deepest])?.unwrap_or(deepest);
     contact.follow(time, depth)
