@@ -161,6 +161,17 @@ pub(super) fn softening(case: &Case, folder: &Path) -> Result<f64> {
     }
 }
 
+/// Whether another unit rounds the numbers of a scene, which may move an element over the edge of the contact.
+pub(super) const fn has_powers(scene: &Scene) -> bool {
+    use MaterialTable::{FractionalMaxwell, Springpot};
+    let material = matches!(scene.material, Springpot { .. } | FractionalMaxwell { .. });
+    material
+        || matches!(
+            scene.indenter,
+            Indenter::Power { .. } | Indenter::Superposition { .. }
+        )
+}
+
 fn is_periodic(indenter: &Indenter) -> bool {
     match indenter {
         Indenter::SelfAffine(_) => true,
