@@ -68,6 +68,7 @@ impl MeasuredCurve {
                 quantity,
                 at: last,
                 value,
+                size: value.max(LEAST_PART * magnitude),
                 weight: magnitude.recip(),
             };
             let [storage, loss] = [point.storage, point.loss];
@@ -95,6 +96,7 @@ impl MeasuredCurve {
                 quantity: Quantity::Relaxation,
                 at: last,
                 value: modulus,
+                size: modulus,
                 weight: modulus.recip(),
             });
         }

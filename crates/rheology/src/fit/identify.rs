@@ -113,11 +113,12 @@ pub(super) fn series_of(
     curve: &MeasuredCurve,
     options: &IdentifyOptions,
 ) -> Result<Identification, RheologyError> {
-    let problem = Problem {
-        rows: &curve.rows,
+    let mut problem = Problem {
+        rows: curve.rows.clone(),
         window: curve.time_window,
         ending: options.ending,
     };
+    problem.weigh()?;
     let series = match options.control {
         Control::Branches(n_branches) => problem.refined(legal(n_branches)?)?,
         Control::Parsimony { tolerance } => problem.fewest(positive("tolerance", tolerance)?)?,
@@ -126,16 +127,50 @@ pub(super) fn series_of(
             problem.solved(times, not_negative("weight", weight)?)?
         }
     };
+    problem.rows.clone_from(&curve.rows);
     problem.assessed(&series)
 }
 
-struct Problem<'a> {
-    rows: &'a [Row],
+/// Part of |G*| below which the errors of a modulus count relative to this part.
+const OWN: f64 = 0.1;
+/// Times by which G' may be off more for the sake of G'', before they are taken for moduli that contradict each other.
+const CONTRADICTS: f64 = 3.0;
+
+struct Problem {
+    rows: Vec<Row>,
     window: [f64; 2],
     ending: Ending,
 }
 
-impl Problem<'_> {
+impl Problem {
+    /// Divides G' and G'' by their own sizes instead of |G*|, unless they contradict each other: then G'', which is mostly the
+    /// smaller one, would spoil G'.
+    fn weigh(&mut self) -> Result<(), RheologyError> {
+        let before = self.storage_error()?;
+        let by_magnitude = self.rows.clone();
+        for row in &mut self.rows {
+            row.weight = row.value.max(OWN / row.weight).recip();
+        }
+        if self.storage_error()? > CONTRADICTS * before {
+            self.rows = by_magnitude;
+        }
+        Ok(())
+    }
+
+    /// What many branches leave of G'.
+    fn storage_error(&self) -> Result<f64, RheologyError> {
+        let series = self.solved(self.spaced(self.dense()), 0.0)?;
+        let error = self.error_of(&series, Quantity::Storage);
+        Ok(error.map_or(0.0, |error| error.rms))
+    }
+
+    /// Four branches per decade of the window.
+    fn dense(&self) -> usize {
+        let decades = (self.window[1] / self.window[0]).log10();
+        let inner = (1..MAX_BRANCHES).take_while(|&k| k as f64 <= DENSE_PER_DECADE * decades);
+        2 + inner.count()
+    }
+
     /// Times equally spaced in the logarithm, from end to end of the measured window.
     fn spaced(&self, n_branches: usize) -> Vec<f64> {
         let [shortest, longest] = self.window;
@@ -181,23 +216,21 @@ impl Problem<'_> {
         let [shortest, longest] = self.window;
         let window = [shortest / WINDOW_MARGIN, longest * WINDOW_MARGIN];
         let start = self.solved(self.spaced(n_branches), 0.0)?;
-        let moved = refine(self.rows, start.revived(), window);
+        let moved = refine(&self.rows, start.revived(), window);
         let times = moved.branches.iter().map(|branch| branch.relaxation_time);
         let end = self.solved(times.collect(), 0.0)?;
-        let better = end.squares(self.rows) < start.squares(self.rows);
+        let better = end.squares(&self.rows) < start.squares(&self.rows);
         Ok(if better { end } else { start })
     }
 
     /// The fewest branches that are nearly as good as many.
     fn fewest(&self, tolerance: f64) -> Result<Series, RheologyError> {
-        let decades = (self.window[1] / self.window[0]).log10();
-        let inner = (1..MAX_BRANCHES).take_while(|&k| k as f64 <= DENSE_PER_DECADE * decades);
-        let dense = 2 + inner.count();
+        let dense = self.dense();
         let best = self.solved(self.spaced(dense), 0.0)?;
-        let allowed = (1.0 + tolerance).powi(2) * best.squares(self.rows);
+        let allowed = (1.0 + tolerance).powi(2) * best.squares(&self.rows);
         for n_branches in 1..dense {
             let series = self.refined(n_branches)?;
-            if series.squares(self.rows) <= allowed {
+            if series.squares(&self.rows) <= allowed {
                 return Ok(series);
             }
         }
@@ -220,7 +253,7 @@ impl Problem<'_> {
     /// Of a modulus by itself.
     fn error_of(&self, series: &Series, quantity: Quantity) -> Option<RelativeError> {
         let rows = self.rows.iter().filter(|row| row.quantity == quantity);
-        let errors = rows.map(|row| (series.value(row) - row.value).abs() / row.size());
+        let errors = rows.map(|row| (series.value(row) - row.value).abs() / row.size);
         let errors: Vec<f64> = errors.collect();
         let squares: f64 = errors.iter().map(|error| error * error).sum();
         let of_all = |n: usize| RelativeError {

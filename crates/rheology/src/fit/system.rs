@@ -3,8 +3,7 @@
 //! ```text
 //! G'(ω) = G_∞ + Σ G_k Ω²/(1 + Ω²)    G''(ω) = Σ G_k Ω/(1 + Ω²)    G(t) = G_∞ + Σ G_k e^(−t/τ_k)
 //! ```
-//! Every row is divided by the magnitude of the measured modulus at its frequency or time, so that the sum of squares is
-//! that of relative errors of the complex modulus.
+//! Every row is divided by the size of its number, so that the sum of squares is that of relative errors.
 
 use crate::complex::debye;
 
@@ -24,7 +23,9 @@ pub(super) struct Row {
     /// ω or t.
     pub(super) at: f64,
     pub(super) value: f64,
-    /// Inverse of the magnitude of the modulus.
+    /// What errors of this number by itself are relative to.
+    pub(super) size: f64,
+    /// Of its error in the squares; inverse of the magnitude of the modulus until more is known.
     pub(super) weight: f64,
 }
 
@@ -32,11 +33,6 @@ pub(super) struct Row {
 pub(super) const LEAST_PART: f64 = 1e-3;
 
 impl Row {
-    /// What errors of this modulus by itself are relative to.
-    pub(super) fn size(&self) -> f64 {
-        self.value.max(LEAST_PART / self.weight)
-    }
-
     /// What a spring of unit modulus contributes.
     pub(super) const fn spring(&self) -> f64 {
         match self.quantity {
