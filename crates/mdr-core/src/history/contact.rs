@@ -56,6 +56,8 @@ const TO_ROUNDING: f64 = 1e-14;
 const NODES: usize = 8;
 /// Gaps and loads of the wrong sign, relative to the depth and to the terms of a load, that rounding may leave.
 pub(super) const WRONG_SIGN: f64 = 1e-10;
+/// Part of the depth by which a body that touches is lifted off.
+const LIFT: f64 = 1e-12;
 /// Part of a radius that rounding may leave.
 const LEFT: f64 = 1e-10;
 
@@ -132,6 +134,18 @@ impl<'a> Contact<'a> {
         while at.part < 1.0 {
             at = self.move_on(at)?;
         }
+        Ok(())
+    }
+
+    /// The body is not pressed and rises with the centre of the surface, which recovers freely.
+    pub(super) fn rise(&mut self, time: f64) -> Result<(), MdrError> {
+        let [now, depth] = self.path.last();
+        if !self.rings.is_empty() {
+            self.follow(now, depth - LIFT * self.widest[1])?;
+        }
+        self.path.push(time, depth);
+        let centre = depth + self.gap(f64::MIN_POSITIVE, self.path.end());
+        self.path.end_at(centre);
         Ok(())
     }
 

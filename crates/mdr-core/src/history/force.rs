@@ -220,9 +220,15 @@ impl Pressed<'_> {
         let mut contact = Contact::new(self.body, path, radii.clone());
         contact.tolerance = QUADRATURE * self.options.relative_error;
         let mut curve = Vec::with_capacity(self.points.len());
+        // A flat end keeps its disc.
+        let lifts = self.body.profile_exponent().is_finite();
+        let mut pressed = true;
         for (index, ([time, force], is_asked)) in points.into_iter().enumerate() {
+            let was_pressed = std::mem::replace(&mut pressed, force > 0.0 || !lifts);
             if let Some(point) = grown.get(index) {
                 contact.follow(time, point.indentation_depth.value)?;
+            } else if !pressed && !was_pressed {
+                contact.rise(time)?;
             } else if time > contact.path.last()[0] || contact.path.viscosity == 0.0 {
                 let needed = [force, largest].map(|force| force / factor);
                 press(&mut contact, time, needed, radii.deepest())?;

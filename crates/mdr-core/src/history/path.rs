@@ -92,6 +92,14 @@ impl Path {
         }
     }
 
+    /// Puts the last point at another depth.
+    pub(super) fn end_at(&mut self, depth: f64) {
+        self.memory.truncate(self.memory.len() - self.n_branches());
+        if let Some([time, _]) = self.points.pop() {
+            self.push(time, depth);
+        }
+    }
+
     /// Time and depth of the last point.
     pub(super) fn last(&self) -> [f64; 2] {
         self.points[self.points.len() - 1]

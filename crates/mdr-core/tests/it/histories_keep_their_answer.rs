@@ -95,6 +95,7 @@ fn points_in_between_change_nothing() {
     ];
     // Where the contact is pressed on again, only a flat end is fast.
     let falling = numbers("0 0.01, 0.3 0.02, 1.5 0.005, 2 0");
+    let resting = numbers("0 0, 1 0.02, 1.5 0, 2.5 0, 3 0.01, 3 0, 4 0");
     let again = [
         "0 0, 1 0.02, 1.5 0.005, 2.5 0.005",
         "0 0.01, 1 0.02, 2 0.002, 2.5 0.03",
@@ -116,6 +117,9 @@ fn points_in_between_change_nothing() {
             assert_same(body, material, &numbers(knots), false);
         }
         assert_same(body, material, &falling, true);
+    }
+    for material in &materials {
+        assert_same(&*paraboloid, material, &resting, true);
     }
     for (knots, material) in again
         .iter()
