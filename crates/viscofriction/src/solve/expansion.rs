@@ -26,7 +26,7 @@ pub struct Expansion {
 
 impl Expansion {
     /// The part of the friction of a line contact that waves make which strain the element for longer than its series creeps,
-    /// at most: the power of the wave q is |p̂|² ω J''/q dω ∼ q^−a dq down to q = 0, from the reciprocal of the contact length.
+    /// at most: the power of the waves in dq is |p̂|² ω J''(ω)/q dq ∼ q^−a dq from q = 0 to the reciprocal of the contact length.
     pub(super) fn beyond(&self, contact_time: f64) -> f64 {
         (contact_time / self.creeps_until).powf(1.0 - self.exponent)
     }
