@@ -1,19 +1,19 @@
 //! How far the parameters of a fit are known.
 //!
 //! ```text
-//! covariance = κ (JᵀJ)⁻¹ Jᵀ V J (JᵀJ)⁻¹,   κ = n/(n − p) mean ψ²/(mean ψ')²     (Huber & Ronchetti 2009, Sect. 7.6)
-//! profile:  least Σρ with one parameter held − least Σρ = 3.84 v n/(n − p) mean ψ²/mean ψ'
+//! covariance = (JᵀJ)⁻¹ Jᵀ V J (JᵀJ)⁻¹
+//! profile:     least Σr² with one parameter held − least Σr² = 3.84 v Σr²/(n − p)
 //! ```
-//! with the loss ρ, ψ = ρ'/2, the covariance V of the points, which is the mean over all noises that are likely, in units of the
-//! variance of a point, and v, by how much the variance of the parameter is larger than if they were independent. The error of
-//! a smoothed depth is added to both.
+//! with the residuals r, of wild points those of their neighbours, the covariance V of the points, which is the mean over all
+//! noises that are likely, and v, by how much the variance of the parameter is larger than if they were independent. The error
+//! of a smoothed depth is added to both.
 
 use numerics::Estimate;
 use numerics::least_squares::{inverse, minimise};
 
 use super::model::{Forces, Kind, Model};
 use super::noise::{Linear, Noise, RIDGE, correlated_points, normal_matrix};
-use super::search::{Found, HUBER};
+use super::search::Found;
 use super::{Finding, IndentationCurve};
 use crate::mdr_core::MdrError;
 
@@ -42,32 +42,29 @@ impl Statistics {
     pub(super) fn of(found: &Found) -> Result<Self, MdrError> {
         let forces = found.model.forces(&found.parameters)?;
         let n = found.parameters.len();
-        let loss = &found.loss;
-        let residuals = loss.weighed(&forces.residuals).into_iter();
-        let psi: Vec<f64> = residuals.map(|one| one.clamp(-HUBER, HUBER)).collect();
-        let n_points = psi.len() as f64;
-        let square = psi.iter().map(|psi| psi * psi).sum::<f64>() / (n_points - n as f64);
-        let curvature = psi.iter().filter(|psi| psi.abs() < HUBER).count() as f64 / n_points;
-        let rows: Vec<Vec<f64>> = forces.rows.iter().map(|row| loss.weighed(row)).collect();
+        let squares = &found.squares;
+        let known = squares.weighed(&squares.known(&forces.residuals));
+        let sum: f64 = known.iter().map(|one| one * one).sum();
+        let variance = sum / (known.len() - n) as f64;
+        let rows: Vec<Vec<f64>> = forces.rows.iter().map(|row| squares.weighed(row)).collect();
         let mut matrix = normal_matrix(&rows);
         (0..n).for_each(|k| matrix[k * (n + 1)] *= RIDGE);
         let inverse = inverse(&matrix, n).unwrap_or_else(|| vec![f64::INFINITY; n * n]);
-        let factor = square / (curvature * curvature);
         let lasting = product(&inverse, &product(&middle(found, &rows), &inverse, n), n);
         let (path_error, of_path) = of_path(found, &forces, &rows, &inverse)?;
         let pairs = lasting.iter().zip(of_path);
-        let covariance: Vec<f64> = pairs.map(|(entry, path)| factor * entry + path).collect();
+        let covariance: Vec<f64> = pairs.map(|(entry, path)| variance * entry + path).collect();
         let rise = |k: usize| {
             let diagonal = k * (n + 1);
             let ratio = covariance[diagonal] / inverse[diagonal];
-            let ratio = if ratio.is_finite() { ratio } else { factor };
-            NORMAL * NORMAL * curvature * ratio
+            let ratio = if ratio.is_finite() { ratio } else { variance };
+            NORMAL * NORMAL * ratio
         };
         Ok(Self {
             n,
             rises: (0..n).map(rise).collect(),
             covariance,
-            correlated_points: correlated_points(&psi),
+            correlated_points: correlated_points(&known),
             path_error,
             forces,
         })
@@ -245,7 +242,7 @@ fn of_path(
         let forces: Vec<f64> = pairs.map(|(other, own)| (own - other) / shift).collect();
         let effect = times(
             inverse,
-            &times(&rows.concat(), &found.loss.weighed(&forces)),
+            &times(&rows.concat(), &found.squares.weighed(&forces)),
         );
         slopes
             .iter_mut()

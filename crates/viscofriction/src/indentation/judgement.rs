@@ -121,7 +121,7 @@ impl<'a> Judgement<'a> {
         let mut flags = Vec::new();
         let noise = self
             .process
-            .map_or(self.found.loss.scale, |(_, variance)| variance.sqrt());
+            .map_or(self.found.squares.scale, |(_, variance)| variance.sqrt());
         // A dip is the difference of two forces.
         let least = (SQRT_2 * SIGNIFICANT * noise).max(DOUBTFUL * self.begin.peak);
         match dip(self.found.model.curve, self.begin).filter(|(dip, _)| *dip > least) {
@@ -153,7 +153,7 @@ impl<'a> Judgement<'a> {
         let is_large = square.sqrt() > MISFIT_OF_PEAK * self.begin.peak
             && square > 0.5 * noise * noise + path * path;
         (self.is_misfit && is_large).then_some(Flag::Misfit {
-            residual: self.found.loss.scale,
+            residual: self.found.squares.scale,
             correlated: self.statistics.correlated_points,
         })
     }

@@ -198,7 +198,7 @@ pub fn fit_indentation(
         correlation: statistics.correlation(),
         material,
         noise: judgement.noise,
-        residual: found.loss.scale,
+        residual: found.squares.scale,
         correlated_points: statistics.correlated_points,
         points: points.collect(),
         flags,

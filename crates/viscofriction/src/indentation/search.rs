@@ -1,4 +1,4 @@
-//! The parameters of least squares, from several starts on few points to all points with the loss.
+//! The parameters of least squares, from several starts on few points to all points but wild ones.
 
 use indenters::Axisymmetric;
 use numerics::least_squares::{Linearised, Range, minimise};
@@ -23,7 +23,7 @@ pub(super) struct Found<'a> {
     pub(super) model: Model<'a>,
     pub(super) measured: &'a Measured,
     pub(super) parameters: Vec<f64>,
-    pub(super) loss: Loss<'a>,
+    pub(super) squares: Squares<'a>,
     /// The model about them.
     pub(super) linear: Linear<'a>,
     /// Kinds of noise with their probabilities, the most likely one first.
@@ -73,7 +73,7 @@ pub(super) fn search<'a>(
     })
 }
 
-/// The best of several starts on few points, and from there with all points: with squares, and then with Huber's loss.
+/// The best of several starts on few points, and from there with all points: and then without wild points.
 fn fit<'a>(
     model: Model<'a>,
     measured: &'a Measured,
@@ -87,47 +87,39 @@ fn fit<'a>(
     };
     let peak = begin.peak.abs();
     let ones = vec![1.0; few.time.len()];
-    let mut loss = Loss {
-        counts: &measured.counts,
-        threshold: f64::INFINITY,
-        scale: peak,
-    };
-    let coarsely = Loss {
-        counts: &ones,
-        ..loss
-    };
-    let descend = |model: &Model, loss: &Loss, start, sufficient: f64| {
-        let sum = |parameters: &[f64]| loss.linearised(model, parameters);
+    let coarsely = Squares::new(&ones, peak);
+    let mut squares = Squares::new(&measured.counts, peak);
+    let descend = |model: &Model, squares: &Squares, start, sufficient: f64| {
+        let sum = |parameters: &[f64]| squares.linearised(model, parameters);
         minimise(sum, start, &ranges, sufficient)
     };
     let starts = starts(&model, begin).into_iter();
     let found = starts.filter_map(|start| descend(&coarse, &coarsely, start, 1e-3));
     let best = found.min_by(|one, other| one.linearised.sum.total_cmp(&other.linearised.sum))?;
-    let found = descend(&model, &loss, best.parameters, 1e-4)?;
+    let found = descend(&model, &squares, best.parameters, 1e-4)?;
     let mut parameters = in_order(model.kind, found.parameters);
-    loss.threshold = HUBER;
     for sufficient in [1e-3, 1e-6] {
-        loss.scale = loss.spread(&model, &parameters)?.max(1e-12 * peak);
-        parameters = descend(&model, &loss, parameters, sufficient)?.parameters;
+        squares.judge(&model, &parameters, 1e-12 * peak)?;
+        parameters = descend(&model, &squares, parameters, sufficient)?.parameters;
     }
-    let linear = linear(&model, measured, &parameters, loss.scale)?;
+    let linear = linear(&model, measured, &parameters, &squares)?;
     Some(Found {
         noises: Noise::likely(&linear),
         linear,
         model,
         measured,
         parameters,
-        loss,
+        squares,
         ranges,
     })
 }
 
-/// The model about its parameters, with residuals that are not wild.
+/// The model about its parameters.
 fn linear<'a>(
     model: &Model<'a>,
     measured: &'a Measured,
     parameters: &[f64],
-    residual: f64,
+    squares: &Squares,
 ) -> Option<Linear<'a>> {
     let forces = model.forces(parameters).ok()?;
     let scaled = |row: Vec<f64>| {
@@ -135,17 +127,8 @@ fn linear<'a>(
         let norm = if norm > 0.0 { norm } else { 1.0 };
         row.iter().map(|slope| slope / norm).collect()
     };
-    // About neighbours, which slow noise moves as well.
-    let tame = |(i, count): (usize, &f64)| {
-        let last = forces.residuals.len() - 1;
-        let near = &forces.residuals[i.saturating_sub(NEAR)..=(i + NEAR).min(last)];
-        let most = WILD * residual / count.sqrt();
-        let middle = median(near.to_vec());
-        forces.residuals[i].clamp(middle - most, middle + most)
-    };
-    let tame: Vec<f64> = measured.counts.iter().enumerate().map(tame).collect();
     let mut columns: Vec<Vec<f64>> = forces.rows.into_iter().map(scaled).collect();
-    columns.push(tame);
+    columns.push(squares.known(&forces.residuals));
     Some(Linear {
         time: &measured.curve.time,
         counts: &measured.counts,
@@ -165,9 +148,9 @@ impl Found<'_> {
         deviance + self.model.n_parameters() as f64 * n.ln()
     }
 
-    /// The sum of the loss, with its model.
+    /// The sum of the squares, with its model.
     pub(super) fn linearised(&self, parameters: &[f64]) -> Option<Linearised> {
-        self.loss.linearised(&self.model, parameters)
+        self.squares.linearised(&self.model, parameters)
     }
 }
 
@@ -230,28 +213,59 @@ fn in_order(kind: Kind, parameters: Vec<f64>) -> Vec<f64> {
     [&parameters[..1], &branches, &parameters[2 * n + 1..]].concat()
 }
 
-/// Residuals beyond this, in units of the noise, count less than their squares (Huber 1964, DOI 10.1214/aoms/1177703732).
-pub(super) const HUBER: f64 = 1.345;
-/// Those beyond this say nothing about how long noise lasts: of so many neighbours on each side, off from their median.
+/// Points whose residual is off from the median of so many neighbours on each side by more than this, in standard deviations of
+/// the residuals about it, say nothing: they count as that median (Hampel 1974, DOI 10.1080/01621459.1974.10482962).
 const WILD: f64 = 4.0;
 const NEAR: usize = 12;
+/// Standard deviation of a normal distribution over its median deviation.
+const BY_MEDIAN: f64 = 1.4826;
 
-/// Squares of residuals in units of a scale; linear beyond a threshold.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Loss<'a> {
+/// Squares of residuals, without those of wild points, in units of a scale.
+pub(super) struct Squares<'a> {
     counts: &'a [f64],
-    threshold: f64,
+    /// How far each point is off, if it is wild, \[N].
+    off: Vec<f64>,
     /// Standard deviation of a measured point, \[N].
     pub(super) scale: f64,
 }
 
-impl Loss<'_> {
-    /// Standard deviation of a measured point by the median of the residuals.
-    fn spread(&self, model: &Model, parameters: &[f64]) -> Option<f64> {
+impl<'a> Squares<'a> {
+    /// With no wild points.
+    fn new(counts: &'a [f64], scale: f64) -> Self {
+        Self {
+            counts,
+            off: vec![0.0; counts.len()],
+            scale,
+        }
+    }
+
+    /// Finds the scale, which is at least so large, and the wild points: off from neighbours that slow noise moves as well.
+    fn judge(&mut self, model: &Model, parameters: &[f64], least: f64) -> Option<()> {
         let residuals = model.forces(parameters).ok()?.residuals;
-        let pairs = residuals.iter().zip(self.counts);
-        let sizes = pairs.map(|(residual, count)| residual.abs() * count.sqrt());
-        Some(1.4826 * median(sizes.collect()))
+        let last = residuals.len() - 1;
+        let near = |i: usize| i.saturating_sub(NEAR)..=(i + NEAR).min(last);
+        let beside = |i: usize| residuals[i] - median(residuals[near(i)].to_vec());
+        let beside: Vec<f64> = (0..=last).map(beside).collect();
+        let sizes = |values: &[f64]| -> Vec<f64> {
+            let pairs = values.iter().zip(self.counts);
+            pairs.map(|(value, n)| value.abs() * n.sqrt()).collect()
+        };
+        self.scale = (BY_MEDIAN * median(sizes(&residuals))).max(least);
+        let sizes = sizes(&beside);
+        // Noise that grows with the force is not wild where it is large.
+        let usual = |i: usize| (BY_MEDIAN * median(sizes[near(i)].to_vec())).max(self.scale);
+        let off = (0..=last).map(|i| {
+            let is_wild = sizes[i] > WILD * usual(i);
+            if is_wild { beside[i] } else { 0.0 }
+        });
+        self.off = off.collect();
+        Some(())
+    }
+
+    /// Residuals, and of wild points those of their neighbours.
+    pub(super) fn known(&self, residuals: &[f64]) -> Vec<f64> {
+        let pairs = residuals.iter().zip(&self.off);
+        pairs.map(|(residual, off)| residual - off).collect()
     }
 
     /// In units of the standard deviation of each point.
@@ -264,23 +278,14 @@ impl Loss<'_> {
 
     fn linearised(&self, model: &Model, parameters: &[f64]) -> Option<Linearised> {
         let forces = model.forces(parameters).ok()?;
-        let residuals = self.weighed(&forces.residuals);
-        let weight = |residual: &f64| (self.threshold / residual.abs()).min(1.0).sqrt();
-        let weights: Vec<f64> = residuals.iter().map(weight).collect();
-        let columns = forces.rows.iter().chain([&forces.residuals]);
-        let columns = columns.map(|column| {
-            let pairs = self.weighed(column).into_iter().zip(&weights);
-            pairs.map(|(value, weight)| value * weight).collect()
-        });
-        let products = normal_matrix(&columns.collect::<Vec<_>>());
-        let loss = |residual: &f64| {
-            let inside = residual.abs().min(self.threshold);
-            inside * (2.0 * residual.abs() - inside)
-        };
+        let known = self.known(&forces.residuals);
+        let columns = forces.rows.iter().chain([&known]);
+        let columns: Vec<Vec<f64>> = columns.map(|column| self.weighed(column)).collect();
+        let products = normal_matrix(&columns);
         let n = forces.rows.len();
         let entries = |row: usize| products[row * (n + 1)..][..n].to_vec();
         Some(Linearised {
-            sum: residuals.iter().map(loss).sum(),
+            sum: products[n * (n + 1) + n],
             matrix: (0..n).flat_map(entries).collect(),
             descent: entries(n),
         })
