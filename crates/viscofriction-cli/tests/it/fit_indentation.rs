@@ -383,6 +383,10 @@ fn a_curve_of_1e5_points_is_fitted_by_means_of_neighbours() {
     let deepest = fit.points.iter().map(|point| point[1]).fold(0.0, f64::max);
     assert_close("the end of the approach", deepest, 1.5e-6, 1e-5);
     assert_eq!(fit.flags, [], "flags");
+    let mut bent = curve.clone();
+    let (what, distort) = DISTORTIONS[1];
+    distort(&mut bent, peak(&curve.force));
+    assert_ne!(case.fit(&bent).expect("a fit").flags, [], "{what}");
 }
 
 #[test]

@@ -26,8 +26,8 @@ const BASELINE: usize = 10;
 const MISFIT: f64 = 12.0;
 /// Points that one independent point stands for, above which the residuals go up and down together.
 const LASTING: f64 = 4.0;
-/// Residuals that matter, as part of the peak: ten times the error of a power law as a Prony series.
-const MISFIT_OF_PEAK: f64 = 1e-3;
+/// Residuals that matter, as part of the peak: three times the error of a power law as a Prony series.
+const MISFIT_OF_PEAK: f64 = 3e-4;
 /// And in units of what the error of a smoothed depth explains, beside half of the variance before the contact, which few
 /// points know.
 const MISFIT_OF_PATH: f64 = 5.0;
@@ -146,12 +146,15 @@ impl<'a> Judgement<'a> {
 
     fn misfit(&self) -> Option<Flag> {
         let residuals = &self.statistics.forces.residuals;
-        let squares: f64 = residuals.iter().map(|one| one * one).sum();
-        let square = squares / residuals.len() as f64;
+        let squares = residuals.iter().map(|one| one * one);
+        let square = squares.sum::<f64>() / residuals.len() as f64;
+        // The noise of a mean is that of a point over the root of their number.
+        let counts = self.found.measured.counts.iter();
+        let part = counts.map(|count| count.recip()).sum::<f64>() / residuals.len() as f64;
         let noise = self.noise.unwrap_or_default();
         let path = MISFIT_OF_PATH * self.statistics.path_error;
         let is_large = square.sqrt() > MISFIT_OF_PEAK * self.begin.peak
-            && square > 0.5 * noise * noise + path * path;
+            && square > 0.5 * part * noise * noise + path * path;
         (self.is_misfit && is_large).then_some(Flag::Misfit {
             residual: self.found.squares.scale,
             correlated: self.statistics.correlated_points,
